@@ -1,0 +1,34 @@
+# Flags that every target of the project is built with. Nothing is set globally.
+include_guard(GLOBAL)
+
+# Warnings, sanitizers and include paths.
+function(tspace_configure_target target)
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+    target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow)
+    if(TSPACE_DEVELOPER)
+        target_compile_options(${target} PRIVATE -Werror)
+    endif()
+    if(TSPACE_SANITIZE)
+        target_compile_options(${target} PRIVATE -fsanitize=${TSPACE_SANITIZE} -fno-omit-frame-pointer
+                                                 -fno-sanitize-recover=all)
+        target_link_options(${target} PUBLIC -fsanitize=${TSPACE_SANITIZE})
+    endif()
+endfunction()
+
+# The core promises the same bits everywhere: no contraction to FMA, no relaxed arithmetic. errno of sqrt is never read.
+function(tspace_configure_core target)
+    target_compile_options(${target} PRIVATE -ffp-contract=off -fno-fast-math -fno-math-errno -fno-trapping-math)
+endfunction()
+
+# A second library from the core's sources with other optimisation flags, to prove that the bits do not change.
+function(tspace_core_variant target)
+    get_target_property(sources tspace SOURCES)
+    add_library(${target} STATIC EXCLUDE_FROM_ALL ${sources})
+    tspace_configure_target(${target})
+    tspace_configure_core(${target})
+    target_compile_options(${target} PRIVATE ${ARGN})
+    target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}/include")
+    target_link_libraries(${target} PUBLIC Threads::Threads)
+endfunction()

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Conventions of formats and engines: what the sign of a tangent means and which side of a face is out.
+#pragma once
+
+#include <cstdint>
+
+namespace tspace {
+
+/// Where v = 0 lies in the texture.
+enum class VAxis : std::uint32_t {
+    up = 0,   ///< v = 0 is the bottom row of the image (OpenGL, Blender, Unity)
+    down = 1  ///< v = 0 is the top row of the image (glTF, DirectX, Unreal, Godot)
+};
+
+/// What a large green value in a normal map means.
+enum class Green : std::uint32_t {
+    up = 0,   ///< towards the top row of the image ("OpenGL", +Y)
+    down = 1  ///< towards the bottom row ("DirectX", -Y)
+};
+
+/// Whether the stored sign is the one of `B = sign * cross(N, T)` or its negative.
+enum class StoredSign : std::uint32_t { asIs = 0, negated = 1 };
+
+enum class Handedness : std::uint32_t { right = 0, left = 1 };
+
+/// Order of a face's vertices as seen from outside.
+enum class Winding : std::uint32_t { counterClockwise = 0, clockwise = 1 };
+
+/// The default is the plain mathematical reading (and OpenGL's): B points along growing v, B = sign * cross(N, T),
+/// faces are counter-clockwise in a right-handed system. `mikktspace` under it gives the reference's sign.
+///
+/// T always points along growing u. The image's green axis decides where B must point, and so the stored sign:
+///     sign = uv_orientation * (v_axis down ? -1 : 1) * (green down ? -1 : 1) * (stored_sign negated ? -1 : 1)
+/// where uv_orientation is +1 when cross(dP/du, dP/dv) points along N. Handedness and winding act on generated
+/// normals only (see `normalFactor`): numerically B = sign * cross(N, T) holds in either handedness.
+struct Convention {
+    VAxis v_axis = VAxis::up;
+    Green green = Green::up;
+    StoredSign stored_sign = StoredSign::asIs;
+    Handedness handedness = Handedness::right;
+    Winding winding = Winding::counterClockwise;
+
+    friend bool operator==(const Convention&, const Convention&) = default;
+};
+
+/// +1 or -1: what the raw sign (the one of dP/dv over the UVs as given) is multiplied with before it is stored.
+inline constexpr float signFactor(const Convention& c) {
+    const bool flip = (c.v_axis == VAxis::down) != (c.green == Green::down);
+    return flip != (c.stored_sign == StoredSign::negated) ? -1.0f : 1.0f;
+}
+
+/// +1 or -1: what cross(P1-P0, P2-P0) is multiplied with to point outside.
+inline constexpr float normalFactor(const Convention& c) {
+    return (c.handedness == Handedness::left) != (c.winding == Winding::clockwise) ? -1.0f : 1.0f;
+}
+
+/// Named presets. `docs/conventions.md` says where each one comes from.
+namespace conventions {
+inline constexpr Convention opengl{};
+/// glTF 2.0: v down, green up; so w is the negative of the raw UV orientation.
+inline constexpr Convention gltf{.v_axis = VAxis::down};
+inline constexpr Convention directx{.v_axis = VAxis::down, .green = Green::down, .handedness = Handedness::left,
+                                    .winding = Winding::clockwise};
+inline constexpr Convention unreal{.v_axis = VAxis::down, .green = Green::down, .handedness = Handedness::left};
+inline constexpr Convention unity{.handedness = Handedness::left, .winding = Winding::clockwise};
+inline constexpr Convention blender{};
+inline constexpr Convention godot{.v_axis = VAxis::down, .winding = Winding::clockwise};
+}  // namespace conventions
+
+/// Finds a preset by its name in lower case ("gltf", "opengl", "directx", "unreal", "unity", "blender", "godot").
+/// Returns null for any other name.
+const Convention* findConvention(const char* name);
+
+}  // namespace tspace

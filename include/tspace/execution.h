@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Where work runs and where its memory comes from. Neither changes a single bit of any result.
+#pragma once
+
+#include <cstddef>
+
+namespace tspace {
+
+/// The caller's job system. `run` must call task(context, i) exactly once for each i in [0, task_count), on any
+/// threads and in any order, and return when all are done. Tasks never call back into `run`, never throw.
+struct Executor {
+    void (*run)(void* user, std::size_t task_count, void (*task)(void* context, std::size_t task_index),
+                void* context) = nullptr;
+    void* user = nullptr;
+    unsigned concurrency = 1;  ///< how many tasks can run at the same time; work is cut to fit
+};
+
+/// The caller's memory. `allocate` returns memory of that alignment (a power of two, at most 64) or null, which
+/// makes the call fail with ErrorCode::outOfMemory. Called from the calling thread only.
+struct Allocator {
+    void* (*allocate)(void* user, std::size_t bytes, std::size_t alignment) = nullptr;
+    void (*release)(void* user, void* memory, std::size_t bytes, std::size_t alignment) = nullptr;
+    void* user = nullptr;
+};
+
+/// Passed by value inside option structs. What it points to must outlive the call (and a plan made with it).
+struct Execution {
+    unsigned thread_count = 0;             ///< 0: as many as there are cores; 1: the calling thread only
+    const Executor* executor = nullptr;    ///< null: std::thread, started and joined within the call
+    const Allocator* allocator = nullptr;  ///< null: operator new; only for scratch memory and plans
+};
+
+}  // namespace tspace

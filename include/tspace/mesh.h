@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// The mesh as tspace sees it: spans over the caller's arrays. Nothing is copied or owned.
+//
+// Words: a *face* is a triangle, quad or n-gon; a *corner* is one (face, local vertex) pair, numbered face after
+// face; a *vertex* is one entry of the vertex arrays.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "tspace/result.h"
+#include "tspace/span.h"
+
+namespace tspace {
+
+enum class IndexType : std::uint32_t { none = 0, u8 = 1, u16 = 2, u32 = 4 };
+
+/// Tightly packed indices, one per corner. With IndexType::none, corner c uses vertex c.
+struct IndexView {
+    const void* data = nullptr;
+    std::size_t count = 0;
+    IndexType type = IndexType::none;
+
+    constexpr IndexView() = default;
+    constexpr IndexView(const void* d, std::size_t n, IndexType t) : data(d), count(n), type(t) {}
+    constexpr IndexView(std::span<const std::uint8_t> s) : IndexView(s.data(), s.size(), IndexType::u8) {}
+    constexpr IndexView(std::span<const std::uint16_t> s) : IndexView(s.data(), s.size(), IndexType::u16) {}
+    constexpr IndexView(std::span<const std::uint32_t> s) : IndexView(s.data(), s.size(), IndexType::u32) {}
+
+    /// The vertex of corner c. Not checked.
+    [[nodiscard]] std::uint32_t operator[](std::size_t c) const {
+        switch (type) {
+            case IndexType::u8: return static_cast<const std::uint8_t*>(data)[c];
+            case IndexType::u16: return static_cast<const std::uint16_t*>(data)[c];
+            case IndexType::u32: return static_cast<const std::uint32_t*>(data)[c];
+            case IndexType::none: break;
+        }
+        return static_cast<std::uint32_t>(c);
+    }
+};
+
+/// A mesh. Only positions are always needed; each function says what else it uses.
+struct MeshView {
+    StridedSpan<const Vec3> positions = {};  ///< one per vertex
+    StridedSpan<const Vec3> normals = {};    ///< one per vertex, used as given (never normalised), or empty
+    StridedSpan<const Vec2> uvs = {};        ///< one per vertex, or empty
+    IndexView indices = {};                  ///< one per corner, or type none: every corner has its own vertex
+    /// Corners of each face. Empty: all faces have `face_size` corners. Faces of 0, 1 or 2 corners are allowed
+    /// and ignored: nothing is computed for them.
+    std::span<const std::uint32_t> face_sizes = {};
+    std::uint32_t face_size = 3;  ///< corners of every face when face_sizes is empty; at least 1
+
+    [[nodiscard]] std::size_t vertexCount() const { return positions.count; }
+    [[nodiscard]] std::size_t cornerCount() const {
+        return indices.type == IndexType::none ? positions.count : indices.count;
+    }
+    [[nodiscard]] std::size_t faceCount() const {
+        if (!face_sizes.empty()) return face_sizes.size();
+        return face_size == 0 ? 0 : cornerCount() / face_size;
+    }
+};
+
+/// Most corners (and so vertices and indices) that one mesh may have: corner ids are 32 bit with room for marks.
+inline constexpr std::size_t kMaxCorners = 0x7fffffff;
+
+/// Checks everything that later code relies on: pointers against counts, equal lengths of vertex arrays, strides,
+/// alignment, every index in range, face sizes that add up to the corners (or a corner count that is a multiple
+/// of `face_size`), sizes within kMaxCorners. Does not look at the values of floats: those may be anything.
+///
+/// Every function that takes a MeshView calls this first; call it yourself only to get the error early.
+/// Reads every index once; no allocation but for an error's message. Thread-safe.
+/// Errors: nullData, countMismatch, indexOutOfRange, strideTooSmall, misaligned, tooLarge, invalidOption.
+Result<Done> validate(const MeshView& mesh);
+
+}  // namespace tspace

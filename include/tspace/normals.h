@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Normals of faces, averaged at vertices: one result per corner, so that hard edges can be split afterwards.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tspace/convention.h"
+#include "tspace/execution.h"
+#include "tspace/mesh.h"
+
+namespace tspace {
+
+/// How much a face counts in the mean at one of its corners. e1, e2 are the edges at the corner, a the angle between.
+enum class NormalWeighting : std::uint32_t {
+    flat = 0,       ///< no averaging: each corner gets its face's unit normal (what glTF asks for when normals are missing)
+    uniform = 1,    ///< 1: mean of unit face normals (Gouraud 1971)
+    area = 2,       ///< |e1 x e2|: large faces count more
+    angle = 3,      ///< a: independent of tessellation (Thuermer & Wuethrich 1998)
+    angleArea = 4,  ///< a * area
+    max = 5,        ///< sin(a) / (|e1| |e2|): exact on a sphere (Max 1999)
+};
+
+struct NormalOptions {
+    NormalWeighting weighting = NormalWeighting::angle;
+    /// Degrees, 0..180. Two faces that share an edge are smoothed over it only when their normals differ by no more
+    /// than this. 180: never hard (except by smoothing groups).
+    float crease_angle_deg = 180.0f;
+    /// One number per face, or empty. Faces smooth together only when their numbers are equal and not 0 (OBJ `s`),
+    /// or, with `smoothing_groups_are_masks`, when they have a bit in common (3ds Max).
+    std::span<const std::uint32_t> smoothing_groups = {};
+    bool smoothing_groups_are_masks = false;
+    /// true: vertices at the same position are one point (so UV seams stay smooth); false: only equal indices are.
+    bool weld_positions = true;
+    Convention convention = {};  ///< handedness and winding say which side is out
+    Execution execution = {};
+};
+
+/// What was met. Broken input is counted here and never makes the call fail.
+struct NormalReport {
+    std::uint64_t face_count = 0;             ///< faces with at least 3 corners
+    std::uint64_t degenerate_face_count = 0;  ///< faces without a normal (zero area or not finite)
+    std::uint64_t fallback_corner_count = 0;  ///< corners whose mean vanished: they got a substitute, see below
+};
+
+/// Computes one unit normal per corner of the mesh.
+///
+/// Face normal: Newell's sum over the polygon (for a triangle: cross(P1-P0, P2-P0)), times normalFactor(convention).
+/// Vertex normal: the weighted mean of the unit face normals of all faces that are connected to the corner's face
+/// around the vertex over smooth edges; weights as in NormalWeighting, in double precision, summed in face order.
+/// A corner whose mean vanishes takes its own face normal; if that is degenerate, the mean of the other faces at
+/// the vertex; if there is none, (0, 0, 1). So every result is finite and unit.
+/// Corners of faces with fewer than 3 corners get (0, 0, 0).
+///
+/// mesh      positions and indices; UVs and normals are not looked at
+/// out       one per corner (count == mesh.cornerCount()); must not overlap the inputs
+/// Errors: those of validate(); countMismatch (out, smoothing_groups), invalidOption, outOfMemory.
+/// O(corners), about 40 bytes per corner of scratch memory. Thread-safe; same bits for any thread count.
+Result<NormalReport> generateNormals(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out);
+
+}  // namespace tspace

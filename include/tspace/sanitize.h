@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Mends what is broken in tangents and leaves every other bit alone.
+#pragma once
+
+#include <cstdint>
+
+#include "tspace/execution.h"
+#include "tspace/mesh.h"
+
+namespace tspace {
+
+struct SanitizeOptions {
+    /// Also make every sound tangent unit and orthogonal to N. Off by default: the result then no longer matches a
+    /// bake made with the method's own tangents (quantised normals are not unit, so the reference's tangents can be
+    /// off by up to a degree there).
+    bool orthogonalize_all = false;
+    Execution execution = {};
+};
+
+/// Corners mended, by cause (the first that applies, in this order) and by cure.
+struct SanitizeReport {
+    std::uint64_t not_finite_count = 0;   ///< NaN or infinity in the tangent
+    std::uint64_t zero_count = 0;         ///< length 0 (or too small to be normalised)
+    std::uint64_t not_unit_count = 0;     ///< length off by more than 5e-4 (the glTF validator's tolerance)
+    std::uint64_t parallel_count = 0;     ///< within 1 degree of +N or -N: no frame can be built
+    std::uint64_t bad_sign_count = 0;     ///< sign not exactly +1 or -1
+    std::uint64_t mixed_sign_count = 0;   ///< sign changed because the face's corners disagreed
+    std::uint64_t orthogonalized_count = 0;  ///< sound ones changed by orthogonalize_all
+
+    std::uint64_t normalized_count = 0;     ///< cure: own direction, made unit and orthogonal to N
+    std::uint64_t from_neighbor_count = 0;  ///< cure: direction taken from a sound corner of the same face or position
+    std::uint64_t from_basis_count = 0;     ///< cure: basis from N alone (Duff et al. 2017)
+
+    std::uint64_t bad_normal_count = 0;  ///< corners whose N is zero or not finite: a unit tangent is all that can be promised
+
+    /// All corners that were written.
+    [[nodiscard]] std::uint64_t mendedCount() const {
+        return not_finite_count + zero_count + not_unit_count + parallel_count + bad_sign_count + mixed_sign_count +
+               orthogonalized_count;
+    }
+};
+
+/// Mends tangents in place. A tangent is broken when it is not finite, zero, not unit (beyond 5e-4), within 1 degree
+/// of +-N, when its sign is not +-1, or when the signs inside its face differ. What is written is unit and
+/// orthogonal to the corner's N (normalised) within 1e-6, with sign +1 or -1. Sound tangents keep every bit.
+///
+/// Cures, in this order: the tangent's own direction, when it has one that is not parallel to N; the tangent of the
+/// first sound corner of the same face; of the first sound corner at the same position (in corner order); a basis
+/// from N. Signs inside a face: the majority of the sound corners decides; on a tie, the first sound corner.
+/// The result does not depend on how vertices are indexed, so mending a split mesh again changes nothing.
+///
+/// mesh        positions and normals; UVs are not looked at
+/// tangents    one per corner, read and written; corners of faces with fewer than 3 corners are left alone
+/// Errors: those of validate(); missingAttribute (normals), countMismatch, nullData, outOfMemory.
+/// O(corners). Thread-safe; same bits for any thread count.
+Result<SanitizeReport> sanitizeTangents(const MeshView& mesh, StridedSpan<Vec4> tangents,
+                                        const SanitizeOptions& options = {});
+
+}  // namespace tspace

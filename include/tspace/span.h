@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// A caller-owned array whose elements lie a fixed number of bytes apart (interleaved vertex buffers).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "tspace/vec.h"
+
+namespace tspace {
+
+/// `count` elements of T, the first at `data`, each `stride_bytes` after the one before. Owns nothing.
+/// `data` may be null only when `count` is 0. Functions that take a span check at their border that the
+/// stride is at least sizeof(T) (when there are two or more elements) and a multiple of alignof(T).
+template <class T>
+struct StridedSpan {
+    T* data = nullptr;
+    std::size_t count = 0;
+    std::size_t stride_bytes = sizeof(T);
+
+    constexpr StridedSpan() = default;
+    constexpr StridedSpan(T* first, std::size_t n, std::size_t stride = sizeof(T))
+        : data(first), count(n), stride_bytes(stride) {}
+    constexpr StridedSpan(std::span<T> s) : data(s.data()), count(s.size()) {}
+    /// Any contiguous container of T (std::vector, std::array); implicit, as for std::span.
+    template <class Container>
+        requires std::is_constructible_v<std::span<T>, Container&>
+    constexpr StridedSpan(Container& c) : StridedSpan(std::span<T>(c)) {}
+    /// A mutable span is usable where a const one is asked for.
+    template <class U>
+        requires(std::is_same_v<const U, T> && !std::is_const_v<U>)
+    constexpr StridedSpan(const StridedSpan<U>& s) : data(s.data), count(s.count), stride_bytes(s.stride_bytes) {}
+
+    [[nodiscard]] constexpr bool empty() const { return count == 0; }
+
+    /// Element `i`, 0 <= i < count. Not checked.
+    T& operator[](std::size_t i) const {
+        using Byte = std::conditional_t<std::is_const_v<T>, const std::byte, std::byte>;
+        return *reinterpret_cast<T*>(reinterpret_cast<Byte*>(data) + i * stride_bytes);
+    }
+};
+
+/// Views an array of floats as vectors: `count` vectors, `stride_bytes` apart (default: tightly packed).
+inline StridedSpan<const Vec2> vec2Span(const float* data, std::size_t count, std::size_t stride_bytes = sizeof(Vec2)) {
+    return {reinterpret_cast<const Vec2*>(data), count, stride_bytes};
+}
+inline StridedSpan<const Vec3> vec3Span(const float* data, std::size_t count, std::size_t stride_bytes = sizeof(Vec3)) {
+    return {reinterpret_cast<const Vec3*>(data), count, stride_bytes};
+}
+inline StridedSpan<Vec3> vec3Span(float* data, std::size_t count, std::size_t stride_bytes = sizeof(Vec3)) {
+    return {reinterpret_cast<Vec3*>(data), count, stride_bytes};
+}
+inline StridedSpan<const Vec4> vec4Span(const float* data, std::size_t count, std::size_t stride_bytes = sizeof(Vec4)) {
+    return {reinterpret_cast<const Vec4*>(data), count, stride_bytes};
+}
+inline StridedSpan<Vec4> vec4Span(float* data, std::size_t count, std::size_t stride_bytes = sizeof(Vec4)) {
+    return {reinterpret_cast<Vec4*>(data), count, stride_bytes};
+}
+
+}  // namespace tspace

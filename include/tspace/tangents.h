@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Tangents: what tspace is for. One result per corner; `split.h` turns them into an indexed mesh.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "tspace/convention.h"
+#include "tspace/execution.h"
+#include "tspace/mesh.h"
+
+namespace tspace {
+
+/// How tangents are computed. `docs/methods/` has a page for each.
+enum class Method : std::uint32_t {
+    /// Bit for bit the result of the MikkTSpace reference implementation (Mikkelsen 2008), for triangles and quads.
+    mikktspace = 0,
+    /// Sum of the unnormalised dP/du and dP/dv of the faces at a vertex index, Gram-Schmidt against N, sign from the
+    /// bitangent (Lengyel 2001). Never splits: all corners of one vertex index get one tangent.
+    lengyel = 1,
+    /// Weighted mean of unit face tangents in the groups of `mikktspace` with corrected pairing. The weight of a
+    /// face at a corner is 1, the corner angle, or the face's area.
+    uniform = 2,
+    angle = 3,
+    area = 4,
+    /// The face's own dP/du at each of its corners, made orthogonal to that corner's N.
+    flat = 5,
+    /// No UVs: an orthonormal basis from N alone (Duff et al. 2017). No such basis is continuous over a closed surface.
+    basis = 6,
+};
+
+/// How `mikktspace` finds neighbouring faces.
+enum class Pairing : std::uint32_t {
+    reference = 0,  ///< with the reference's defect: the last bucket of its edge list is not sorted
+    corrected = 1,  ///< without it: grouping no longer depends on the order of faces
+};
+
+/// What happens to faces with more than 4 corners, which the MikkTSpace reference ignores.
+enum class Ngons : std::uint32_t {
+    triangulate = 0,  ///< cut by the rule of triangulate.h; results come back per corner of the n-gon
+    skip = 1,         ///< as the reference: nothing is computed, outputs are 0
+};
+
+struct TangentOptions {
+    Method method = Method::mikktspace;
+    /// Degrees, 0..360; `mikktspace` only. Faces of one group whose tangents (or bitangents) differ by this or more
+    /// are not averaged. 180 is the reference's default and what every baker uses.
+    float angular_threshold_deg = 180.0f;
+    Pairing pairing = Pairing::reference;  ///< `mikktspace` only
+    Ngons ngons = Ngons::triangulate;
+    Convention convention = {};  ///< decides the stored sign; the default stores the raw one, as the reference does
+    Execution execution = {};
+};
+
+/// What was met, counted. Broken input never makes a call fail.
+struct TangentReport {
+    std::uint64_t triangle_count = 0;             ///< triangles computed with, after cutting quads and n-gons
+    std::uint64_t degenerate_triangle_count = 0;  ///< two corners at the same position
+    std::uint64_t degenerate_uv_count = 0;        ///< triangles without UV area: they take their neighbours' frame
+    std::uint64_t mirrored_count = 0;             ///< triangles with negative UV area
+    std::uint64_t skipped_face_count = 0;         ///< faces for which nothing was computed
+    std::uint64_t group_count = 0;                ///< groups: sets of corners that share one tangent
+    std::uint64_t default_corner_count = 0;       ///< corners that no face gives a tangent: they hold the method's default
+    std::uint64_t not_finite_count = 0;           ///< corners whose tangent has a NaN or infinity
+    /// `mikktspace` with Pairing::reference: the input drives the reference's own sort into quadratic time, so the
+    /// corrected pairing was used for the last bucket. Only crafted inputs do this.
+    bool reference_order_abandoned = false;
+};
+
+/// Where results go: one entry per corner. Only `tangents` is required; empty spans are not written.
+struct TangentOutput {
+    /// xyz: unit tangent; w: sign (+1 or -1), `B = w * cross(N, T)` in the chosen convention.
+    StridedSpan<Vec4> tangents = {};
+    /// Unit direction of dP/dv (times signFactor(convention)), averaged like the tangent; in general not
+    /// cross(N, T). For methods that have none (`basis`): sign * cross(N, T).
+    StridedSpan<Vec3> bitangents = {};
+    StridedSpan<float> magnitudes_s = {};  ///< mean length of dP/du; 1 for methods without
+    StridedSpan<float> magnitudes_t = {};  ///< mean length of dP/dv; 1 for methods without
+};
+
+/// The shape of a mesh at one moment: what changes while a mesh deforms. Counts and meaning as in MeshView.
+struct Pose {
+    StridedSpan<const Vec3> positions = {};
+    StridedSpan<const Vec3> normals = {};
+};
+
+/// Everything about a mesh that does not change while it deforms: welding, neighbours, groups, splits, UVs.
+/// Owns its memory and keeps no pointer into the mesh it was made from. Immutable, so many threads may evaluate
+/// one plan at the same time. If it was made with an Allocator, that must outlive it.
+class TangentPlan {
+  public:
+    TangentPlan(TangentPlan&&) noexcept;
+    TangentPlan& operator=(TangentPlan&&) noexcept;
+    ~TangentPlan();
+
+    [[nodiscard]] std::size_t vertexCount() const;
+    [[nodiscard]] std::size_t cornerCount() const;
+    [[nodiscard]] Method method() const;
+    /// Bytes held by the plan.
+    [[nodiscard]] std::size_t memoryBytes() const;
+
+    struct State;  ///< private
+    explicit TangentPlan(std::unique_ptr<State> state);
+    [[nodiscard]] const State& state() const { return *state_; }
+
+  private:
+    std::unique_ptr<State> state_;
+};
+
+/// Tangents for a mesh in one call: planTangents, then evaluateTangents on the mesh's own pose.
+///
+/// mesh      positions; normals (all methods); UVs (all methods but `basis`)
+/// out       spans of mesh.cornerCount() entries; must not overlap the inputs or each other
+/// Corners of faces with fewer than 3 corners (and of n-gons with Ngons::skip) get 0 in every output.
+/// Errors: those of validate(); missingAttribute, countMismatch (outputs), nullData, invalidOption, outOfMemory.
+/// Linear in the number of corners whatever the input (fans, books, collapsed faces). Thread-safe.
+/// Same bits for any thread count and SIMD target.
+Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out);
+
+/// Makes the plan: welds equal vertices (position, normal and UV all equal), finds neighbours, groups and splits.
+/// Inputs, errors and complexity as generateTangents.
+Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& options);
+
+/// Computes frames for a pose with the plan's groups and splits. On the pose the plan was made from the result is
+/// bit for bit that of generateTangents. `execution` replaces the plan's.
+/// Errors: planMismatch when counts differ from the plan's, and those of span checks.
+Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose, const TangentOutput& out,
+                                       const Execution& execution = {});
+
+}  // namespace tspace

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// What every public function does first and last: check the caller's spans, and let no exception out.
+#pragma once
+
+#include <new>
+#include <string>
+#include <type_traits>
+
+#include "core/memory.h"
+#include "tspace/mesh.h"
+#include "tspace/result.h"
+
+namespace tspace {
+
+/// Runs `body`, which returns a Result, and turns running out of memory (and any defect of our own) into an Error.
+template <class Body>
+auto atBorder(Body&& body) -> std::invoke_result_t<Body> {
+    try {
+        return body();
+    } catch (const OutOfMemory&) {
+        return Error{ErrorCode::outOfMemory, "out of memory"};
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::outOfMemory, "out of memory"};
+    } catch (...) {
+        return Error{ErrorCode::internal, "internal error: an exception reached the library's border"};
+    }
+}
+
+/// Checks pointer, stride, alignment and length of one span. `name` is how messages call it. With `count` ==
+/// kNoElement any length is right. Returns an Error with code ok when all is well.
+Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, std::size_t element_bytes,
+                std::size_t expected_count, const char* name);
+
+template <class T>
+Error checkSpan(const StridedSpan<T>& span, std::size_t expected_count, const char* name) {
+    return checkSpan(span.data, span.count, span.stride_bytes, sizeof(T), expected_count, name);
+}
+
+}  // namespace tspace

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Scratch memory from the caller's allocator. Running out is the one failure inside the core: it is thrown as
+// OutOfMemory and turned into an Error by atBorder (border.h), so no exception leaves the library.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <type_traits>
+#include <utility>
+
+#include "tspace/execution.h"
+
+namespace tspace {
+
+struct OutOfMemory {};
+
+inline constexpr std::size_t kMemoryAlignment = 64;  // a cache line, and the widest SIMD register
+
+inline void* allocateBytes(const Allocator* allocator, std::size_t bytes) {
+    if (bytes == 0) return nullptr;
+    void* memory = allocator != nullptr
+                       ? allocator->allocate(allocator->user, bytes, kMemoryAlignment)
+                       : ::operator new(bytes, std::align_val_t(kMemoryAlignment), std::nothrow);
+    if (memory == nullptr) throw OutOfMemory{};
+    return memory;
+}
+
+inline void releaseBytes(const Allocator* allocator, void* memory, std::size_t bytes) noexcept {
+    if (memory == nullptr) return;
+    if (allocator != nullptr) {
+        allocator->release(allocator->user, memory, bytes, kMemoryAlignment);
+    } else {
+        ::operator delete(memory, std::align_val_t(kMemoryAlignment));
+    }
+}
+
+/// An array of plain values of fixed size, not initialised unless asked for. Move-only. The allocator must outlive it.
+template <class T>
+class Buffer {
+    static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+    static_assert(alignof(T) <= kMemoryAlignment);
+
+  public:
+    Buffer() = default;
+    Buffer(const Allocator* allocator, std::size_t count) : allocator_(allocator), count_(count) {
+        if (count > std::numeric_limits<std::size_t>::max() / sizeof(T)) throw OutOfMemory{};
+        data_ = static_cast<T*>(allocateBytes(allocator, count * sizeof(T)));
+    }
+    Buffer(const Allocator* allocator, std::size_t count, T value) : Buffer(allocator, count) {
+        for (std::size_t i = 0; i < count; ++i) data_[i] = value;
+    }
+    Buffer(Buffer&& other) noexcept
+        : allocator_(other.allocator_), data_(std::exchange(other.data_, nullptr)), count_(std::exchange(other.count_, 0)) {}
+    Buffer& operator=(Buffer&& other) noexcept {
+        std::swap(allocator_, other.allocator_);
+        std::swap(data_, other.data_);
+        std::swap(count_, other.count_);
+        return *this;
+    }
+    ~Buffer() { releaseBytes(allocator_, data_, count_ * sizeof(T)); }
+
+    [[nodiscard]] T* data() { return data_; }
+    [[nodiscard]] const T* data() const { return data_; }
+    [[nodiscard]] std::size_t size() const { return count_; }
+    [[nodiscard]] bool empty() const { return count_ == 0; }
+    T& operator[](std::size_t i) { return data_[i]; }
+    const T& operator[](std::size_t i) const { return data_[i]; }
+    T* begin() { return data_; }
+    T* end() { return data_ + count_; }
+    const T* begin() const { return data_; }
+    const T* end() const { return data_ + count_; }
+
+  private:
+    const Allocator* allocator_ = nullptr;
+    T* data_ = nullptr;
+    std::size_t count_ = 0;
+};
+
+}  // namespace tspace

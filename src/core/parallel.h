@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The one place that knows about threads. Work is cut into tasks whose results do not depend on who runs them, so
+// every caller gets the same bits for any thread count.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+
+#include "tspace/execution.h"
+
+namespace tspace {
+
+/// Runs loops for the duration of one public call. Threads are started on the first loop that is large enough and
+/// joined when this object goes. Not thread-safe itself: one owner, loops one after the other.
+class Parallel {
+  public:
+    explicit Parallel(const Execution& execution);
+    ~Parallel();
+    Parallel(const Parallel&) = delete;
+    Parallel& operator=(const Parallel&) = delete;
+
+    /// How many tasks can run at the same time; 1 means serial.
+    [[nodiscard]] unsigned width() const { return width_; }
+
+    /// body(begin, end) over disjoint ranges that cover [0, count). Ranges hold at least `grain` items (but for the
+    /// last), so that small loops stay on the calling thread. The body must not throw.
+    template <class Body>
+    void forRanges(std::size_t count, std::size_t grain, Body&& body) {
+        if (count == 0) return;
+        const std::size_t most = std::max<std::size_t>(1, count / std::max<std::size_t>(1, grain));
+        const std::size_t tasks = width_ == 1 ? 1 : std::min<std::size_t>(most, std::size_t{width_} * 8);
+        forTasks(tasks, [&](std::size_t task) {
+            body(count * task / tasks, count * (task + 1) / tasks);
+        });
+    }
+
+    /// body(task) once for each task in [0, count). The body must not throw.
+    template <class Body>
+    void forTasks(std::size_t count, Body&& body) {
+        if (count <= 1 || width_ == 1) {
+            for (std::size_t task = 0; task < count; ++task) body(task);
+            return;
+        }
+        using Type = std::remove_reference_t<Body>;
+        run(count, [](void* context, std::size_t task) { (*static_cast<Type*>(context))(task); },
+            const_cast<void*>(static_cast<const void*>(&body)));
+    }
+
+  private:
+    class Pool;
+    void run(std::size_t count, void (*task)(void*, std::size_t), void* context);
+
+    unsigned width_ = 1;
+    const Executor* executor_ = nullptr;
+    std::unique_ptr<Pool> pool_;
+};
+
+}  // namespace tspace

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Names of what can be done to a primitive.
+#include "tspace/asset.h"
+
+namespace tspace {
+
+const char* actionName(PrimitiveAction action) {
+    switch (action) {
+        case PrimitiveAction::generated: return "generated";
+        case PrimitiveAction::replaced: return "replaced";
+        case PrimitiveAction::unchanged: return "unchanged";
+        case PrimitiveAction::kept: return "kept";
+        case PrimitiveAction::notNeeded: return "notNeeded";
+        case PrimitiveAction::notTriangles: return "notTriangles";
+        case PrimitiveAction::impossible: return "impossible";
+    }
+    return "unknown";
+}
+
+}  // namespace tspace
