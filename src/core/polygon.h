@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cutting one polygon into triangles: the rule that triangulate.h states, shared by every part that cuts faces.
+// Cutting one polygon into triangles: the rule that triangulate.h states, shared by every part that cuts
+// faces.
 #pragma once
 
 #include <cstdint>
@@ -9,19 +10,35 @@
 
 namespace tspace {
 
-/// True when the quad is cut along 1-3, false for 0-2 (also when a comparison meets a NaN). `uvs` may be null.
-/// MikkTSpace's rule: the shorter diagonal in UV space; if equal, 1-3 only when strictly shorter in space.
+/// True when the quad is cut along 1-3, false for 0-2 (also when a comparison meets a NaN). `uvs` may be
+/// null. MikkTSpace's rule: the shorter diagonal in UV space; if equal, 1-3 only when strictly shorter in
+/// space.
 bool quadCutsAlong13(const Vec3 positions[4], const Vec2* uvs);
 
-/// Memory that cutPolygon reuses from call to call.
-struct PolygonScratch {
-    std::vector<std::uint32_t> previous, next;
-    std::vector<std::uint64_t> heap;
-    std::vector<double> plane;
+/// A vertex that could be cut off, in the order in which vertices are.
+struct PolygonEar {
+    bool blocked = false;      ///< not an ear: cut only when no ear is left
+    double length2_space = 0;  ///< squared length of the diagonal that cuts the vertex off
+    double length2_uv = 0;
+    std::uint32_t ends[2] = {};  ///< of the diagonal, the lesser first; as the caller numbers them
+    std::uint32_t vertex = 0;    ///< in canonical order
+    std::uint32_t version = 0;   ///< stale when it is not the vertex's newest
 };
 
-/// Cuts a polygon of `count` >= 3 vertices into count - 2 triangles: writes 3 * (count - 2) local vertex numbers, winding
-/// kept. `uvs` may be null. Quads by quadCutsAlong13: 0-2 gives (0,1,2),(0,2,3); 1-3 gives (0,1,3),(1,2,3).
+/// Memory that cutPolygon reuses from call to call. Vertices in it are numbered in canonical order: from a
+/// start that geometry alone decides.
+struct PolygonScratch {
+    std::vector<std::uint32_t> previous, next;
+    std::vector<std::uint32_t> version;
+    std::vector<std::uint32_t> reflex;  ///< vertices that may lie in an ear: those that are not convex
+    std::vector<std::uint8_t> is_reflex;
+    std::vector<double> plane;  ///< x, y per vertex in the plane of Newell's normal
+    std::vector<PolygonEar> heap;
+};
+
+/// Cuts a polygon of `count` >= 3 vertices into count - 2 triangles: writes 3 * (count - 2) local vertex
+/// numbers, winding kept. `uvs` may be null. Quads by quadCutsAlong13: 0-2 gives (0,1,2),(0,2,3); 1-3 gives
+/// (0,1,3),(1,2,3).
 void cutPolygon(const Vec3* positions, const Vec2* uvs, std::uint32_t count, std::uint32_t* triangles,
                 PolygonScratch& scratch);
 
