@@ -36,4 +36,7 @@ Error checkSpan(const StridedSpan<T>& span, std::size_t expected_count, const ch
     return checkSpan(span.data, span.count, span.stride_bytes, sizeof(T), expected_count, name);
 }
 
+/// Checks that there are indices and that each is below `vertex_count`. Error as checkSpan.
+Error checkIndices(const IndexView& indices, std::size_t vertex_count);
+
 }  // namespace tspace

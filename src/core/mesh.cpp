@@ -13,37 +13,13 @@ namespace {
 
 Error fine() { return {ErrorCode::ok, {}}; }
 
-Error checkIndices(const IndexView& indices, std::size_t vertex_count) {
-    if (indices.type == IndexType::none) {
-        if (indices.count != 0) {
-            return {ErrorCode::invalidOption, "indices have a count but IndexType::none"};
-        }
-        return fine();
-    }
-    const auto bytes = static_cast<std::size_t>(indices.type);
-    if (bytes != 1 && bytes != 2 && bytes != 4) {
-        return {ErrorCode::invalidOption, "unknown index type " + std::to_string(bytes)};
-    }
-    if (Error e = checkSpan(indices.data, indices.count, bytes, bytes, kNoElement, "indices"); e.code != ErrorCode::ok) {
-        return e;
-    }
-    for (std::size_t c = 0; c < indices.count; ++c) {
-        if (indices[c] >= vertex_count) {
-            return {ErrorCode::indexOutOfRange,
-                    "index " + std::to_string(indices[c]) + " of corner " + std::to_string(c) + " is not below the " +
-                        std::to_string(vertex_count) + " vertices",
-                    c};
-        }
-    }
-    return fine();
-}
-
 Error checkFaces(const MeshView& mesh) {
     const std::size_t corners = mesh.cornerCount();
     if (mesh.face_sizes.empty()) {
         if (mesh.face_size == 0) return {ErrorCode::invalidOption, "face_size is 0"};
         if (corners % mesh.face_size != 0) {
-            return {ErrorCode::countMismatch, std::to_string(corners) + " corners are not a whole number of faces of " +
+            return {ErrorCode::countMismatch, std::to_string(corners) +
+                                                  " corners are not a whole number of faces of " +
                                                   std::to_string(mesh.face_size)};
         }
         return fine();
@@ -59,8 +35,8 @@ Error checkFaces(const MeshView& mesh) {
         }
     }
     if (sum != corners) {
-        return {ErrorCode::countMismatch, "face sizes add up to " + std::to_string(sum) + " corners, but there are " +
-                                              std::to_string(corners)};
+        return {ErrorCode::countMismatch, "face sizes add up to " + std::to_string(sum) +
+                                              " corners, but there are " + std::to_string(corners)};
     }
     return fine();
 }
@@ -87,21 +63,51 @@ Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, s
                 std::size_t expected_count, const char* name) {
     const std::string what = name;
     if (expected_count != kNoElement && count != expected_count) {
-        return {ErrorCode::countMismatch,
-                what + " has " + std::to_string(count) + " entries, " + std::to_string(expected_count) + " are needed"};
+        return {ErrorCode::countMismatch, what + " has " + std::to_string(count) + " entries, " +
+                                              std::to_string(expected_count) + " are needed"};
     }
     if (count == 0) return fine();
-    if (data == nullptr) return {ErrorCode::nullData, what + " is null but has a count of " + std::to_string(count)};
+    if (data == nullptr)
+        return {ErrorCode::nullData, what + " is null but has a count of " + std::to_string(count)};
     if (count > 1 && stride_bytes < element_bytes) {
         return {ErrorCode::strideTooSmall, what + " has a stride of " + std::to_string(stride_bytes) +
-                                               " bytes, but its elements take " + std::to_string(element_bytes)};
+                                               " bytes, but its elements take " +
+                                               std::to_string(element_bytes)};
     }
-    const std::size_t alignment = element_bytes % 4 == 0 ? 4 : element_bytes;  // floats, u32; or u16, u8 indices
-    if (reinterpret_cast<std::uintptr_t>(data) % alignment != 0 || (count > 1 && stride_bytes % alignment != 0)) {
+    const std::size_t alignment =
+        element_bytes % 4 == 0 ? 4 : element_bytes;  // floats, u32; or u16, u8 indices
+    if (reinterpret_cast<std::uintptr_t>(data) % alignment != 0 ||
+        (count > 1 && stride_bytes % alignment != 0)) {
         return {ErrorCode::misaligned, what + " is not aligned to " + std::to_string(alignment) + " bytes"};
     }
     if (count > 1 && (count - 1) > (std::numeric_limits<std::size_t>::max() - element_bytes) / stride_bytes) {
         return {ErrorCode::tooLarge, what + " with its stride does not fit the address space"};
+    }
+    return fine();
+}
+
+Error checkIndices(const IndexView& indices, std::size_t vertex_count) {
+    if (indices.type == IndexType::none) {
+        if (indices.count != 0) {
+            return {ErrorCode::invalidOption, "indices have a count but IndexType::none"};
+        }
+        return fine();
+    }
+    const auto bytes = static_cast<std::size_t>(indices.type);
+    if (bytes != 1 && bytes != 2 && bytes != 4) {
+        return {ErrorCode::invalidOption, "unknown index type " + std::to_string(bytes)};
+    }
+    if (Error e = checkSpan(indices.data, indices.count, bytes, bytes, kNoElement, "indices");
+        e.code != ErrorCode::ok) {
+        return e;
+    }
+    for (std::size_t c = 0; c < indices.count; ++c) {
+        if (indices[c] >= vertex_count) {
+            return {ErrorCode::indexOutOfRange,
+                    "index " + std::to_string(indices[c]) + " of corner " + std::to_string(c) +
+                        " is not below the " + std::to_string(vertex_count) + " vertices",
+                    c};
+        }
     }
     return fine();
 }

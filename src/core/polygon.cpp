@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/basis.h"
 #include "core/vec_math.h"
 
 namespace tspace {
@@ -129,21 +130,12 @@ class Cutter {
         return size > 0 ? (1 / size) * sum : DVec3{};
     }
 
-    /// Coordinates in the plane of the normal, in which the polygon runs counter-clockwise. The two axes are
-    /// those of Duff et al. 2017: exact for a normal along an axis. Without a normal every coordinate is a
-    /// zero or a NaN, and nothing is an ear.
+    /// Coordinates in the plane of the normal, in which the polygon runs counter-clockwise. Without a normal
+    /// every coordinate is a zero or a NaN, and nothing is an ear.
     void projectToPlane() {
         scratch_.plane.resize(2 * std::size_t{count_});
         const DVec3 n = unitNormal();
-        DVec3 x_axis;
-        DVec3 y_axis;
-        if (dot(n, n) > 0) {
-            const double s = std::copysign(1.0, n.z);
-            const double a = -1 / (s + n.z);
-            const double b = n.x * n.y * a;
-            x_axis = {1 + s * n.x * n.x * a, s * b, -s * n.x};
-            y_axis = {b, s + n.y * n.y * a, -n.y};
-        }
+        const auto [x_axis, y_axis] = dot(n, n) > 0 ? planeAxes(n) : PlaneAxes{};
         const DVec3 origin = toDouble(position(0));
         double extent = 0;
         for (std::uint32_t v = 0; v < count_; ++v) {

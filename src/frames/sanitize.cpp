@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: MIT
+// Mends broken tangents: finds the broken corners, looks for sound ones at their positions, then writes face
+// by face. Based on: Gram-Schmidt; Duff et al. 2017 where only the normal is left.
+#include "tspace/sanitize.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cfloat>
+#include <cmath>
+
+#include "core/basis.h"
+#include "core/border.h"
+#include "core/face_walk.h"
+#include "core/hash.h"
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "core/vec_math.h"
+
+namespace tspace {
+
+namespace {
+
+/// The glTF validator's tolerance for the length of a tangent.
+constexpr double kUnitTolerance = 5e-4;
+/// sin(1 degree)
+constexpr double kParallelSine = 0.017452406437283512;
+/// Sound tangents this close to unit and orthogonal are left alone by orthogonalize_all. Rounding to float
+/// leaves less than 1.5e-7, so what was written once is not written again.
+constexpr double kOrthogonalTolerance = 5e-7;
+
+constexpr std::size_t kFacesPerTask = 4096;
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+enum class Cause : std::uint8_t {
+    sound,
+    notFinite,
+    zero,
+    notUnit,
+    parallel,
+    badSign,
+    mixedSign,
+    notOrthogonal
+};
+constexpr std::size_t kCauseCount = 8;
+enum class Cure : std::uint8_t { own, neighbor, basis };
+
+/// What is counted. Added up from all tasks; sums of integers do not depend on their order.
+struct Counts {
+    std::array<std::uint64_t, kCauseCount> by_cause{};
+    std::array<std::uint64_t, 3> by_cure{};
+    std::uint64_t bad_normals = 0;
+    std::uint64_t seekers = 0;
+
+    void count(Cause cause, Cure cure) {
+        ++by_cause[static_cast<std::size_t>(cause)];
+        ++by_cure[static_cast<std::size_t>(cure)];
+    }
+};
+
+class SharedCounts {
+  public:
+    void add(const Counts& counts) {
+        for (std::size_t i = 0; i < kCauseCount; ++i) by_cause_[i] += counts.by_cause[i];
+        for (std::size_t i = 0; i < 3; ++i) by_cure_[i] += counts.by_cure[i];
+        bad_normals_ += counts.bad_normals;
+        seekers_ += counts.seekers;
+    }
+
+    [[nodiscard]] std::uint64_t seekers() const { return seekers_; }
+
+    [[nodiscard]] SanitizeReport report() const {
+        const auto of = [&](Cause cause) { return by_cause_[static_cast<std::size_t>(cause)].load(); };
+        const auto by = [&](Cure cure) { return by_cure_[static_cast<std::size_t>(cure)].load(); };
+        SanitizeReport report;
+        report.not_finite_count = of(Cause::notFinite);
+        report.zero_count = of(Cause::zero);
+        report.not_unit_count = of(Cause::notUnit);
+        report.parallel_count = of(Cause::parallel);
+        report.bad_sign_count = of(Cause::badSign);
+        report.mixed_sign_count = of(Cause::mixedSign);
+        report.orthogonalized_count = of(Cause::notOrthogonal);
+        report.normalized_count = by(Cure::own);
+        report.from_neighbor_count = by(Cure::neighbor);
+        report.from_basis_count = by(Cure::basis);
+        report.bad_normal_count = bad_normals_;
+        return report;
+    }
+
+  private:
+    std::array<std::atomic<std::uint64_t>, kCauseCount> by_cause_{};
+    std::array<std::atomic<std::uint64_t>, 3> by_cure_{};
+    std::atomic<std::uint64_t> bad_normals_ = 0;
+    std::atomic<std::uint64_t> seekers_ = 0;
+};
+
+bool isSign(float w) { return w == 1.0f || w == -1.0f; }
+
+/// N normalised; zero when it has no direction.
+DVec3 unitNormal(const Vec3& normal) {
+    if (!isFinite(normal)) return {};
+    const DVec3 n = toDouble(normal);
+    const double size = length(n);
+    return size > 0 ? (1 / size) * n : DVec3{};
+}
+
+bool isZero(const DVec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
+/// True when a tangent can be made from this direction at a corner with this unit normal (zero: none).
+bool isUsable(const Vec3& direction, const DVec3& n) {
+    if (!isFinite(direction)) return false;
+    const DVec3 t = toDouble(direction);
+    const double size = length(t);
+    return size >= double{FLT_MIN} && length(cross(n, t)) >= (isZero(n) ? 0.0 : kParallelSine * size);
+}
+
+Cause causeOf(const Vec4& tangent, const DVec3& n) {
+    if (!isFinite(xyz(tangent))) return Cause::notFinite;
+    const double size = length(toDouble(xyz(tangent)));
+    if (size < double{FLT_MIN}) return Cause::zero;
+    if (std::abs(size - 1) > kUnitTolerance) return Cause::notUnit;
+    if (!isUsable(xyz(tangent), n)) return Cause::parallel;
+    return isSign(tangent.w) ? Cause::sound : Cause::badSign;
+}
+
+/// The usable direction made unit and orthogonal to n. Orthogonalised twice: near n the first pass cancels
+/// digits.
+Vec3 orthonormal(const Vec3& direction, const DVec3& n) {
+    DVec3 t = toDouble(direction);
+    for (int pass = 0; pass < 2; ++pass) {
+        t = (1 / length(t)) * t;
+        t = t - dot(n, t) * n;
+    }
+    return toFloat((1 / length(t)) * t);
+}
+
+Vec3 fromBasis(const DVec3& n) { return toFloat(planeAxes(isZero(n) ? DVec3{0, 0, 1} : n).x); }
+
+bool isOrthonormal(const Vec3& tangent, const DVec3& n) {
+    const DVec3 t = toDouble(tangent);
+    return std::abs(length(t) - 1) <= kOrthogonalTolerance && std::abs(dot(n, t)) <= kOrthogonalTolerance;
+}
+
+/// The first sound tangent at each of the positions that were asked for.
+class SoundPositions {
+  public:
+    SoundPositions(const Allocator* allocator, std::size_t most_positions)
+        : slots_(allocator, slotCount(most_positions), Slot{}) {}
+
+    void ask(const Vec3& position, std::uint32_t corner) {
+        Slot& slot = slots_[slotOf(position)];
+        if (slot.corner != kNone) return;
+        slot.position = position;
+        slot.corner = corner;
+    }
+
+    void offer(const Vec3& position, const Vec4& tangent) {
+        Slot& slot = slots_[slotOf(position)];
+        if (slot.corner == kNone || slot.is_filled) return;
+        slot.tangent = tangent;
+        slot.is_filled = true;
+    }
+
+    /// Null when there is none.
+    [[nodiscard]] const Vec4* find(const Vec3& position) const {
+        if (slots_.empty()) return nullptr;
+        const Slot& slot = slots_[slotOf(position)];
+        return slot.is_filled ? &slot.tangent : nullptr;
+    }
+
+  private:
+    struct Slot {
+        Vec3 position;
+        std::uint32_t corner = kNone;
+        Vec4 tangent;
+        bool is_filled = false;
+    };
+
+    static std::size_t slotCount(std::size_t most_positions) {
+        std::size_t count = most_positions == 0 ? 0 : 16;
+        while (count < 2 * most_positions) count *= 2;
+        return count;
+    }
+
+    /// Where the position is, or would be. A NaN equals nothing and so is never asked for.
+    [[nodiscard]] std::size_t slotOf(const Vec3& position) const {
+        const std::size_t mask = slots_.size() - 1;
+        std::size_t slot = hashPosition(position) & mask;
+        while (slots_[slot].corner != kNone && !(slots_[slot].position == position)) slot = (slot + 1) & mask;
+        return slot;
+    }
+
+    Buffer<Slot> slots_;
+};
+
+bool equalsItself(const Vec3& v) { return v == v; }
+
+class Sanitizer {
+  public:
+    Sanitizer(const MeshView& mesh, StridedSpan<Vec4> tangents, const SanitizeOptions& options)
+        : mesh_(mesh),
+          tangents_(tangents),
+          options_(options),
+          parallel_(options.execution),
+          causes_(options.execution.allocator, mesh.cornerCount(), Cause::sound),
+          seeks_(options.execution.allocator, mesh.cornerCount(), std::uint8_t{0}) {
+        cutIntoTasks();
+    }
+
+    SanitizeReport run() {
+        forEachFaceInTasks(
+            [this](std::size_t first, std::uint32_t size, Counts& counts) { detect(first, size, counts); });
+        SoundPositions positions(options_.execution.allocator, counts_.seekers());
+        if (counts_.seekers() != 0) lookAtPositions(positions);
+        forEachFaceInTasks([&](std::size_t first, std::uint32_t size, Counts& counts) {
+            mend(first, size, positions, counts);
+        });
+        return counts_.report();
+    }
+
+  private:
+    struct Task {
+        std::size_t first_face, first_corner;
+    };
+
+    void cutIntoTasks() {
+        const std::size_t faces = mesh_.faceCount();
+        tasks_ = Buffer<Task>(options_.execution.allocator, (faces + kFacesPerTask - 1) / kFacesPerTask);
+        forEachFace(mesh_, [&](std::size_t face, std::size_t first, std::uint32_t) {
+            if (face % kFacesPerTask == 0) tasks_[face / kFacesPerTask] = {face, first};
+        });
+    }
+
+    /// body(first_corner, corner_count, counts) for each face with a corner to mend; faces are independent.
+    template <class Body>
+    void forEachFaceInTasks(Body&& body) {
+        parallel_.forTasks(tasks_.size(), [&](std::size_t task) {
+            Counts counts;
+            const std::size_t end = std::min(tasks_[task].first_face + kFacesPerTask, mesh_.faceCount());
+            std::size_t first = tasks_[task].first_corner;
+            for (std::size_t face = tasks_[task].first_face; face < end; ++face) {
+                const std::uint32_t size = faceSize(mesh_, face);
+                if (size >= 3) body(first, size, counts);
+                first += size;
+            }
+            counts_.add(counts);
+        });
+    }
+
+    [[nodiscard]] DVec3 normalAt(std::size_t corner) const {
+        return unitNormal(mesh_.normals[mesh_.indices[corner]]);
+    }
+    [[nodiscard]] const Vec3& positionAt(std::size_t corner) const {
+        return mesh_.positions[mesh_.indices[corner]];
+    }
+
+    /// The face's first sound corner, or `first + size`.
+    [[nodiscard]] std::size_t firstSound(std::size_t first, std::uint32_t size) const {
+        std::size_t c = first;
+        while (c < first + size && causes_[c] != Cause::sound) ++c;
+        return c;
+    }
+
+    /// Finds causes, and the corners whose cure may lie at their position.
+    void detect(std::size_t first, std::uint32_t size, Counts& counts) {
+        bool all_sound = true;
+        for (std::size_t c = first; c < first + size; ++c) {
+            const DVec3 n = normalAt(c);
+            if (isZero(n)) ++counts.bad_normals;
+            causes_[c] = causeOf(tangents_[c], n);
+            all_sound = all_sound && causes_[c] == Cause::sound;
+        }
+        if (all_sound) return;
+        const std::size_t sound = firstSound(first, size);
+        for (std::size_t c = first; c < first + size; ++c) {
+            if (causes_[c] == Cause::sound) continue;
+            const DVec3 n = normalAt(c);
+            const bool has_own = isUsable(xyz(tangents_[c]), n);
+            const bool has_neighbor = sound < first + size && isUsable(xyz(tangents_[sound]), n);
+            const bool needs_sign = sound == first + size && !isSign(tangents_[c].w);
+            if ((has_own || has_neighbor) && !needs_sign) continue;
+            if (!equalsItself(positionAt(c))) continue;
+            seeks_[c] = 1;
+            ++counts.seekers;
+        }
+    }
+
+    void lookAtPositions(SoundPositions& positions) const {
+        for (std::size_t c = 0; c < seeks_.size(); ++c) {
+            if (seeks_[c] != 0) positions.ask(positionAt(c), static_cast<std::uint32_t>(c));
+        }
+        forEachFace(mesh_, [&](std::size_t, std::size_t first, std::uint32_t size) {
+            if (size < 3) return;
+            for (std::size_t c = first; c < first + size; ++c) {
+                if (causes_[c] == Cause::sound && equalsItself(positionAt(c))) {
+                    positions.offer(positionAt(c), tangents_[c]);
+                }
+            }
+        });
+    }
+
+    /// What the sound corners say; without any, what the broken ones with a sign say; without any, what the
+    /// first sound corner at one of the face's positions says; else +1.
+    [[nodiscard]] float signOf(std::size_t first, std::uint32_t size, const SoundPositions& positions) const {
+        for (const bool only_sound : {true, false}) {
+            std::int64_t sum = 0;
+            float first_sign = 0;
+            for (std::size_t c = first; c < first + size; ++c) {
+                const float w = tangents_[c].w;
+                if (only_sound ? causes_[c] != Cause::sound : !isSign(w)) continue;
+                sum += w > 0 ? 1 : -1;
+                if (first_sign == 0) first_sign = w;
+            }
+            if (first_sign != 0) return sum == 0 ? first_sign : (sum > 0 ? 1.0f : -1.0f);
+        }
+        for (std::size_t c = first; c < first + size; ++c) {
+            if (seeks_[c] == 0) continue;
+            if (const Vec4* sound = positions.find(positionAt(c))) return sound->w;
+        }
+        return 1.0f;
+    }
+
+    void mend(std::size_t first, std::uint32_t size, const SoundPositions& positions, Counts& counts) {
+        const float sign = signOf(first, size, positions);
+        const std::size_t sound = firstSound(first, size);
+        const Vec4 neighbor = sound < first + size ? tangents_[sound] : Vec4{};
+        for (std::size_t c = first; c < first + size; ++c) {
+            Cause cause = causes_[c];
+            if (cause == Cause::sound && tangents_[c].w != sign) cause = Cause::mixedSign;
+            if (cause == Cause::sound && !options_.orthogonalize_all) continue;
+            const DVec3 n = normalAt(c);
+            if (cause == Cause::sound) {
+                if (isOrthonormal(xyz(tangents_[c]), n)) continue;
+                cause = Cause::notOrthogonal;
+            }
+            const auto [tangent, cure] = mended(c, n, neighbor, positions);
+            tangents_[c] = {tangent.x, tangent.y, tangent.z, sign};
+            counts.count(cause, cure);
+        }
+    }
+
+    [[nodiscard]] std::pair<Vec3, Cure> mended(std::size_t corner, const DVec3& n, const Vec4& neighbor,
+                                               const SoundPositions& positions) const {
+        if (isUsable(xyz(tangents_[corner]), n)) return {orthonormal(xyz(tangents_[corner]), n), Cure::own};
+        if (isUsable(xyz(neighbor), n)) return {orthonormal(xyz(neighbor), n), Cure::neighbor};
+        const Vec4* sound = seeks_[corner] != 0 ? positions.find(positionAt(corner)) : nullptr;
+        if (sound != nullptr && isUsable(xyz(*sound), n))
+            return {orthonormal(xyz(*sound), n), Cure::neighbor};
+        return {fromBasis(n), Cure::basis};
+    }
+
+    const MeshView& mesh_;
+    StridedSpan<Vec4> tangents_;
+    const SanitizeOptions& options_;
+    Parallel parallel_;
+    Buffer<Cause> causes_;
+    Buffer<std::uint8_t> seeks_;
+    Buffer<Task> tasks_;
+    SharedCounts counts_;
+};
+
+Error check(const MeshView& mesh, const StridedSpan<Vec4>& tangents) {
+    if (Result<Done> valid = validate(mesh); !valid) return std::move(valid).error();
+    if (mesh.normals.empty() && mesh.vertexCount() != 0) {
+        return {ErrorCode::missingAttribute, "sanitize needs normals, and the mesh has none"};
+    }
+    return checkSpan(tangents, mesh.cornerCount(), "tangents");
+}
+
+}  // namespace
+
+Result<SanitizeReport> sanitizeTangents(const MeshView& mesh, StridedSpan<Vec4> tangents,
+                                        const SanitizeOptions& options) {
+    return atBorder([&]() -> Result<SanitizeReport> {
+        if (Error e = check(mesh, tangents); e.code != ErrorCode::ok) return e;
+        return Sanitizer(mesh, tangents, options).run();
+    });
+}
+
+}  // namespace tspace
