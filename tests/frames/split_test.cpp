@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "tspace/split.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace tspace {
+namespace {
+
+using Indices = std::vector<std::uint32_t>;
+
+CornerAttribute floats(const std::vector<float>& values, float tolerance = 0.0f,
+                       std::uint32_t components = 1) {
+    return {values.data(), components * sizeof(float), components, tolerance};
+}
+
+SplitResult split(const Indices& indices, std::size_t vertex_count, std::vector<CornerAttribute> attributes) {
+    Result<SplitResult> result = splitVertices(IndexView(std::span<const std::uint32_t>(indices)),
+                                               vertex_count, indices.size(), attributes);
+    EXPECT_TRUE(result.ok());
+    return *std::move(result);
+}
+
+bool sameBits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+/// The rule of split.h, word for word, in quadratic time.
+SplitResult splitSlowly(const Indices& indices, std::size_t vertex_count,
+                        std::span<const CornerAttribute> attributes) {
+    const auto equal = [&](std::size_t a, std::size_t b) {
+        for (const CornerAttribute& attribute : attributes) {
+            for (std::uint32_t k = 0; k < attribute.component_count; ++k) {
+                const float x = attribute.data[a * attribute.stride_bytes / sizeof(float) + k];
+                const float y = attribute.data[b * attribute.stride_bytes / sizeof(float) + k];
+                if (sameBits(x, y)) continue;
+                if (attribute.tolerance == 0) return false;
+                if (!(std::abs(double{x} - double{y}) <= attribute.tolerance)) return false;
+            }
+        }
+        return true;
+    };
+    SplitResult result;
+    result.source_corners.assign(vertex_count, kNoCorner);
+    for (std::uint32_t v = 0; v < vertex_count; ++v) result.source_vertices.push_back(v);
+    for (std::uint32_t c = 0; c < indices.size(); ++c) {
+        const std::uint32_t v = indices[c];
+        if (result.source_corners[v] == kNoCorner) result.source_corners[v] = c;
+        std::uint32_t found = 0;
+        while (found < result.vertexCount() &&
+               (result.source_vertices[found] != v || !equal(c, result.source_corners[found]))) {
+            ++found;
+        }
+        if (found == result.vertexCount()) {
+            result.source_vertices.push_back(v);
+            result.source_corners.push_back(c);
+        }
+        result.indices.push_back(found);
+    }
+    return result;
+}
+
+bool equalResults(const SplitResult& a, const SplitResult& b) {
+    return a.indices == b.indices && a.source_vertices == b.source_vertices &&
+           a.source_corners == b.source_corners;
+}
+
+TEST(Split, KeepsTheFirstCornerAtTheOldVertexAndAppendsCopies) {
+    const SplitResult result = split({0, 1, 1, 0, 1}, 3, {floats({5, 6, 7, 5, 7})});
+    EXPECT_EQ(result.indices, (Indices{0, 1, 3, 0, 3}));
+    EXPECT_EQ(result.source_vertices, (Indices{0, 1, 2, 1}));
+    EXPECT_EQ(result.source_corners, (Indices{0, 1, kNoCorner, 2}));
+}
+
+TEST(Split, ChangesNothingWithoutAttributes) {
+    const SplitResult result = split({0, 1, 1, 0}, 2, {});
+    EXPECT_EQ(result.indices, (Indices{0, 1, 1, 0}));
+    EXPECT_EQ(result.vertexCount(), 2u);
+}
+
+TEST(Split, TakesCornersForVerticesWithoutIndices) {
+    const std::vector<float> values{1, 2, 3};
+    const std::vector<CornerAttribute> attributes{floats(values)};
+    const Result<SplitResult> result = splitVertices(IndexView{}, 4, 3, attributes);
+    ASSERT_TRUE(result.ok());
+    EXPECT_EQ(result->indices, (Indices{0, 1, 2}));
+    EXPECT_EQ(result->source_corners, (Indices{0, 1, 2, kNoCorner}));
+}
+
+TEST(Split, TellsZerosAndNansApartByTheirBits) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(split({0, 0, 0}, 1, {floats({0.0f, -0.0f, 0.0f})}).indices, (Indices{0, 1, 0}));
+    EXPECT_EQ(split({0, 0, 0, 0}, 1, {floats({nan, nan, -nan, nan})}).indices, (Indices{0, 0, 1, 0}));
+    EXPECT_EQ(split({0, 0, 0, 0}, 1, {floats({nan, nan, 1, nan}, 0.5f)}).indices, (Indices{0, 0, 1, 0}));
+}
+
+TEST(Split, MergesNoiseWithinTheToleranceOnly) {
+    const std::vector<float> values{1.0f, 1.0f + 1e-6f, 1.0f - 1e-6f, 1.001f, -0.0f, 0.0f, 1.0005f};
+    EXPECT_EQ(split({0, 0, 0, 0, 0, 0, 0}, 1, {floats(values, 1e-5f)}).indices,
+              (Indices{0, 0, 0, 1, 2, 2, 3}));
+}
+
+TEST(Split, ComparesWithTheCornerThatGotTheVertexSoThatChainsDoNotCreep) {
+    EXPECT_EQ(split({0, 0, 0, 0}, 1, {floats({0.0f, 0.75f, 1.5f, 0.8f}, 1.0f)}).indices,
+              (Indices{0, 0, 1, 0}));
+}
+
+TEST(Split, SplitsWhereAnyOfSeveralAttributesDisagrees) {
+    EXPECT_EQ(split({0, 0, 0}, 1, {floats({1, 1, 2}), floats({5, 6, 5})}).indices, (Indices{0, 1, 2}));
+}
+
+TEST(Split, RefusesWhatItCannotRead) {
+    const Indices indices{0, 1, 2};
+    const std::vector<float> values{1, 2, 3};
+    const auto code = [&](std::size_t vertices, std::size_t corners, CornerAttribute attribute) {
+        const std::vector<CornerAttribute> attributes{attribute};
+        const auto result =
+            splitVertices(IndexView(std::span<const std::uint32_t>(indices)), vertices, corners, attributes);
+        return result.ok() ? ErrorCode::ok : result.error().code;
+    };
+    EXPECT_EQ(code(3, 3, floats(values)), ErrorCode::ok);
+    EXPECT_EQ(code(2, 3, floats(values)), ErrorCode::indexOutOfRange);
+    EXPECT_EQ(code(3, 2, floats(values)), ErrorCode::countMismatch);
+    EXPECT_EQ(code(3, 3, {nullptr, 4, 1, 0}), ErrorCode::nullData);
+    EXPECT_EQ(code(3, 3, {values.data(), 4, 2, 0}), ErrorCode::strideTooSmall);
+    EXPECT_EQ(code(3, 3, {values.data(), 4, 0, 0}), ErrorCode::invalidOption);
+    EXPECT_EQ(code(3, 3, {values.data(), 4, 17, 0}), ErrorCode::invalidOption);
+    EXPECT_EQ(code(3, 3, {values.data(), 4, 1, -1}), ErrorCode::invalidOption);
+    EXPECT_EQ(code(3, 3, {values.data(), 4, 1, std::nanf("")}), ErrorCode::invalidOption);
+    EXPECT_EQ(code(kMaxCorners + 1, 3, floats(values)), ErrorCode::tooLarge);
+    EXPECT_EQ(splitVertices(IndexView{}, 2, 3, {}).error().code, ErrorCode::indexOutOfRange);
+}
+
+struct RandomCorners {
+    Indices indices;
+    std::size_t vertex_count;
+    std::vector<std::vector<float>> values;
+    std::vector<CornerAttribute> attributes;
+};
+
+/// Few vertices and few values, so that vertices have from one to many variants.
+RandomCorners anyCorners() {
+    RandomCorners r;
+    r.vertex_count = *rc::gen::inRange<std::size_t>(1, 6);
+    const auto corners = *rc::gen::inRange<std::size_t>(0, 200);
+    const auto last = static_cast<std::uint32_t>(r.vertex_count);
+    r.indices = *rc::gen::container<Indices>(corners, rc::gen::inRange<std::uint32_t>(0, last));
+    const auto count = *rc::gen::inRange<std::size_t>(0, 4);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto components = *rc::gen::inRange<std::size_t>(1, 4);
+        const int steps = *rc::gen::inRange(1, 12);
+        r.values.push_back(*rc::gen::container<std::vector<float>>(
+            components * corners, rc::gen::map(rc::gen::inRange(-steps, steps + 1), [](int k) {
+                return k == 11 ? std::nanf("") : (k == -11 ? HUGE_VALF : 0.1f * static_cast<float>(k));
+            })));
+        const float tolerance = *rc::gen::element(0.0f, 1e-3f, 0.1f, 0.15f, 0.31f);
+        r.attributes.push_back(floats(r.values.back(), tolerance, static_cast<std::uint32_t>(components)));
+        if (corners == 0) r.attributes.back().data = nullptr;
+    }
+    return r;
+}
+
+RC_GTEST_PROP(Split, FollowsItsRule, ()) {
+    const RandomCorners r = anyCorners();
+    const SplitResult result = split(r.indices, r.vertex_count, r.attributes);
+    RC_ASSERT(equalResults(result, splitSlowly(r.indices, r.vertex_count, r.attributes)));
+}
+
+RC_GTEST_PROP(Split, GivesBackTheCornersBitForBitWhenReindexed, ()) {
+    RandomCorners r = anyCorners();
+    for (CornerAttribute& attribute : r.attributes) attribute.tolerance = 0;
+    const SplitResult result = split(r.indices, r.vertex_count, r.attributes);
+    for (std::size_t v = 0; v < r.vertex_count; ++v) RC_ASSERT(result.source_vertices[v] == v);
+    for (std::size_t c = 0; c < r.indices.size(); ++c) {
+        const std::uint32_t vertex = result.indices[c];
+        RC_ASSERT(result.source_vertices[vertex] == r.indices[c]);
+        for (const CornerAttribute& attribute : r.attributes) {
+            const std::size_t n = attribute.component_count;
+            RC_ASSERT(std::memcmp(attribute.data + n * c, attribute.data + n * result.source_corners[vertex],
+                                  n * sizeof(float)) == 0);
+        }
+    }
+}
+
+RC_GTEST_PROP(Split, FindsNothingLeftToSplitInItsResult, ()) {
+    RandomCorners r = anyCorners();
+    for (CornerAttribute& attribute : r.attributes) attribute.tolerance = 0;
+    const SplitResult once = split(r.indices, r.vertex_count, r.attributes);
+    const SplitResult twice = split(once.indices, once.vertexCount(), r.attributes);
+    RC_ASSERT(twice.indices == once.indices);
+    RC_ASSERT(twice.vertexCount() == once.vertexCount());
+}
+
+/// In quadratic time each of these would take minutes and meet the test's time limit.
+TEST(SplitTime, StaysLinearWhenOneVertexHasManyVariants) {
+    const std::size_t count = 400000;
+    const Indices indices(count, 0);
+    std::vector<float> frames(7 * count, 0.0f);
+    for (std::size_t c = 0; c < count; ++c) {
+        const double a = 0.61803398875 * static_cast<double>(c);
+        const double z = 2 * (static_cast<double>(c) + 0.5) / static_cast<double>(count) - 1;
+        const double r = std::sqrt(1 - z * z);
+        frames[7 * c] = static_cast<float>(r * std::cos(6.2831853 * a));
+        frames[7 * c + 1] = static_cast<float>(r * std::sin(6.2831853 * a));
+        frames[7 * c + 2] = static_cast<float>(z);
+        frames[7 * c + 3] = 1;
+        frames[7 * c + 6] = static_cast<float>(c);
+    }
+    for (const float tolerance : {0.0f, 1e-5f, 1e-2f}) {
+        const std::vector<CornerAttribute> all{{frames.data(), 28, 4, tolerance},
+                                               {frames.data() + 4, 28, 3, tolerance}};
+        EXPECT_EQ(split(indices, 1, all).vertexCount(), count);
+    }
+    // Variants that differ in the direction only, as dense as a tolerance allows.
+    const std::vector<CornerAttribute> directions{{frames.data(), 28, 4, 1e-2f}};
+    const SplitResult merged = split(indices, 1, directions);
+    EXPECT_GT(merged.vertexCount(), 10000u);
+    EXPECT_LT(merged.vertexCount(), 150000u);
+}
+
+}  // namespace
+}  // namespace tspace
