@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+// Normals, tangents, sanitize and split for all primitives of one vertex pool.
+#include <algorithm>
+#include <utility>
+
+#include "core/border.h"
+#include "generate/primitive.h"
+#include "tspace/frame.h"
+#include "tspace/triangulate.h"
+
+namespace tspace {
+
+namespace {
+
+constexpr std::uint32_t kNoSlot = 0xffffffffu;
+
+std::span<const std::uint32_t> spanOf(const std::vector<std::uint32_t>& values) { return values; }
+
+/// One primitive as a mesh of its own: a pool is often shared by many primitives that each use a small part
+/// of it, and what the methods do per vertex should cost in proportion to that part.
+struct LocalMesh {
+    std::vector<Vec3> positions, normals;
+    std::vector<Vec2> uvs;
+    std::vector<std::uint32_t> indices;
+    std::span<const std::uint32_t> face_sizes;
+
+    [[nodiscard]] MeshView view() const {
+        MeshView mesh;
+        mesh.positions = positions;
+        mesh.normals = normals;
+        mesh.uvs = uvs;
+        mesh.indices = IndexView(spanOf(indices));
+        mesh.face_sizes = face_sizes;
+        return mesh;
+    }
+};
+
+MeshView viewInPool(const VertexPool& pool, const PrimitiveGeometry& primitive) {
+    MeshView mesh;
+    mesh.positions = pool.positions;
+    mesh.normals = pool.normals;
+    mesh.uvs = pool.uvs;
+    mesh.indices = IndexView(spanOf(primitive.indices));
+    mesh.face_sizes = primitive.face_sizes;
+    return mesh;
+}
+
+template <class T>
+std::vector<T> gather(const std::vector<T>& values, const std::vector<std::uint32_t>& sources) {
+    std::vector<T> result;
+    if (values.empty()) return result;
+    result.reserve(sources.size());
+    for (const std::uint32_t source : sources) result.push_back(values[source]);
+    return result;
+}
+
+class FrameComputer {
+  public:
+    FrameComputer(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,
+                  const GenerateOptions& options, std::span<PrimitiveReport> reports)
+        : pool_(pool),
+          primitives_(primitives),
+          options_(options),
+          reports_(reports),
+          generates_normals_(pool.normals.empty()),
+          generates_tangents_(options.tangents.method == Method::basis || !pool.uvs.empty()),
+          local_of_vertex_(pool.positions.size(), kNoSlot) {}
+
+    Result<PoolFrames> compute() {
+        for (std::size_t p = 0; p < primitives_.size(); ++p) {
+            if (Result<Done> done = computePrimitive(primitives_[p], reports_[p]); !done) {
+                return std::move(done).error();
+            }
+        }
+        return splitPool();
+    }
+
+  private:
+    /// Frames and triangles of one primitive, appended to what the split works on.
+    Result<Done> computePrimitive(const PrimitiveGeometry& primitive, PrimitiveReport& report) {
+        if (Result<Done> valid = validate(viewInPool(pool_, primitive)); !valid) return valid;
+        if (primitive.indices.empty()) {
+            triangles_.emplace_back();
+            return Done{};
+        }
+        LocalMesh mesh = localMesh(primitive);
+        std::vector<Vec3> normals;
+        if (generates_normals_) {
+            if (Result<Done> done = computeNormals(primitive, mesh, normals, report); !done) return done;
+        }
+        std::vector<Vec4> tangents;
+        if (generates_tangents_) {
+            if (Result<Done> done = computeTangents(mesh, tangents, report); !done) return done;
+        }
+        return append(primitive, mesh, normals, tangents, report);
+    }
+
+    /// The used part of the pool, vertices in order of first use.
+    LocalMesh localMesh(const PrimitiveGeometry& primitive) {
+        std::vector<std::uint32_t> sources;
+        LocalMesh mesh;
+        mesh.indices.reserve(primitive.indices.size());
+        for (const std::uint32_t vertex : primitive.indices) {
+            std::uint32_t& local = local_of_vertex_[vertex];
+            if (local == kNoSlot) {
+                local = static_cast<std::uint32_t>(sources.size());
+                sources.push_back(vertex);
+            }
+            mesh.indices.push_back(local);
+        }
+        for (const std::uint32_t vertex : sources) local_of_vertex_[vertex] = kNoSlot;
+        mesh.positions = gather(pool_.positions, sources);
+        mesh.normals = gather(pool_.normals, sources);
+        mesh.uvs = gather(pool_.uvs, sources);
+        mesh.face_sizes = primitive.face_sizes;
+        return mesh;
+    }
+
+    /// Normals per corner, and in the mesh one per vertex: vertices with several normals are split first, so
+    /// that a method that works per vertex sees the mesh that will be written.
+    Result<Done> computeNormals(const PrimitiveGeometry& primitive, LocalMesh& mesh,
+                                std::vector<Vec3>& normals, PrimitiveReport& report) const {
+        NormalOptions options = options_.normals;
+        options.smoothing_groups = primitive.smoothing_groups;
+        normals.resize(mesh.indices.size());
+        Result<NormalReport> made = generateNormals(mesh.view(), options, normals);
+        if (!made) return std::move(made).error();
+        report.normals = *made;
+        report.normals_generated = true;
+
+        const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec3>(normals));
+        Result<SplitResult> split =
+            splitVertices(mesh.view().indices, mesh.positions.size(), mesh.indices.size(), {&attribute, 1});
+        if (!split) return std::move(split).error();
+        mesh.positions = gather(mesh.positions, split->source_vertices);
+        mesh.uvs = gather(mesh.uvs, split->source_vertices);
+        mesh.normals = gather(normals, split->source_corners);
+        mesh.indices = std::move(split->indices);
+        return Done{};
+    }
+
+    Result<Done> computeTangents(const LocalMesh& mesh, std::vector<Vec4>& tangents,
+                                 PrimitiveReport& report) const {
+        tangents.resize(mesh.indices.size());
+        Result<TangentReport> made = generateTangents(mesh.view(), options_.tangents, {.tangents = tangents});
+        if (!made) return std::move(made).error();
+        report.tangents = *made;
+        if (!options_.sanitize) return Done{};
+        Result<SanitizeReport> mended = sanitizeTangents(mesh.view(), tangents, options_.sanitize_options);
+        if (!mended) return std::move(mended).error();
+        report.sanitize = *mended;
+        return Done{};
+    }
+
+    /// Corners of faces with fewer than 3 corners stay out: they have no frame and must not claim a vertex.
+    Result<Done> append(const PrimitiveGeometry& primitive, const LocalMesh& mesh,
+                        const std::vector<Vec3>& normals, const std::vector<Vec4>& tangents,
+                        PrimitiveReport& report) {
+        Result<Triangulation> triangles = triangulate(mesh.view());
+        if (!triangles) return std::move(triangles).error();
+        report.triangle_count = triangles->faces.size();
+        std::vector<std::uint32_t> slot_of_corner(primitive.indices.size(), kNoSlot);
+        std::size_t first = 0;
+        const std::size_t face_count = mesh.view().faceCount();
+        for (std::size_t face = 0; face < face_count; ++face) {
+            const std::size_t size = mesh.face_sizes.empty() ? 3 : mesh.face_sizes[face];
+            for (std::size_t c = first; size >= 3 && c < first + size; ++c) {
+                slot_of_corner[c] = static_cast<std::uint32_t>(indices_.size());
+                indices_.push_back(primitive.indices[c]);
+                if (generates_normals_) normals_.push_back(normals[c]);
+                if (generates_tangents_) tangents_.push_back(tangents[c]);
+            }
+            first += size;
+        }
+        if (indices_.size() > kMaxCorners) {
+            return Error{ErrorCode::tooLarge,
+                         "the primitives that share these vertices have more than 2^31-1 corners"};
+        }
+        for (std::uint32_t& corner : triangles->corners) corner = slot_of_corner[corner];
+        triangles_.push_back(std::move(triangles->corners));
+        return Done{};
+    }
+
+    Result<PoolFrames> splitPool() {
+        std::vector<CornerAttribute> attributes;
+        if (!normals_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec3>(normals_)));
+        if (!tangents_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec4>(tangents_)));
+        Result<SplitResult> split =
+            splitVertices(IndexView(spanOf(indices_)), pool_.positions.size(), indices_.size(), attributes);
+        if (!split) return std::move(split).error();
+
+        PoolFrames frames;
+        frames.normals_generated = generates_normals_;
+        frames.indices = std::move(triangles_);
+        for (std::vector<std::uint32_t>& corners : frames.indices) {
+            for (std::uint32_t& corner : corners) corner = split->indices[corner];
+        }
+        if (generates_normals_) writeNormals(*split, frames);
+        if (generates_tangents_) writeTangents(*split, frames);
+        for (PrimitiveReport& report : reports_) {
+            report.vertices_before = pool_.positions.size();
+            report.vertices_after = split->vertexCount();
+        }
+        frames.source_vertices = std::move(split->source_vertices);
+        return frames;
+    }
+
+    void writeNormals(const SplitResult& split, PoolFrames& frames) const {
+        frames.normals.reserve(split.vertexCount());
+        for (const std::uint32_t corner : split.source_corners) {
+            frames.normals.push_back(corner == kNoCorner ? Vec3{0, 0, 1} : normals_[corner]);
+        }
+    }
+
+    void writeTangents(const SplitResult& split, PoolFrames& frames) const {
+        const float unused_sign = signFactor(options_.tangents.convention);
+        frames.tangents.reserve(split.vertexCount());
+        for (std::size_t v = 0; v < split.vertexCount(); ++v) {
+            if (const std::uint32_t corner = split.source_corners[v]; corner != kNoCorner) {
+                frames.tangents.push_back(tangents_[corner]);
+                continue;
+            }
+            const Vec3 normal = generates_normals_ ? Vec3{0, 0, 1} : pool_.normals[split.source_vertices[v]];
+            const Vec3 t = orthonormalize({.tangent = {}, .bitangent = {}, .normal = normal}).tangent;
+            frames.tangents.push_back({t.x, t.y, t.z, unused_sign});
+        }
+    }
+
+    const VertexPool& pool_;
+    std::span<const PrimitiveGeometry> primitives_;
+    const GenerateOptions& options_;
+    std::span<PrimitiveReport> reports_;
+    bool generates_normals_;
+    bool generates_tangents_;
+    std::vector<std::uint32_t> local_of_vertex_;
+
+    // All corners of all primitives, what was computed for them, and per primitive the triangles of these
+    // corners.
+    std::vector<std::uint32_t> indices_;
+    std::vector<Vec3> normals_;
+    std::vector<Vec4> tangents_;
+    std::vector<std::vector<std::uint32_t>> triangles_;
+};
+
+Error checkPool(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,
+                std::span<const PrimitiveReport> reports) {
+    const std::size_t count = pool.positions.size();
+    if (count > kMaxCorners) return {ErrorCode::tooLarge, "more than 2^31-1 vertices"};
+    if (reports.size() != primitives.size()) {
+        return {ErrorCode::countMismatch, std::to_string(primitives.size()) + " primitives but " +
+                                              std::to_string(reports.size()) + " reports"};
+    }
+    if (!pool.normals.empty() && pool.normals.size() != count) {
+        return {ErrorCode::countMismatch, "the pool's normals and positions differ in number"};
+    }
+    if (!pool.uvs.empty() && pool.uvs.size() != count) {
+        return {ErrorCode::countMismatch, "the pool's UVs and positions differ in number"};
+    }
+    return {ErrorCode::ok, {}};
+}
+
+}  // namespace
+
+Result<PoolFrames> computeFrames(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,
+                                 const GenerateOptions& options, std::span<PrimitiveReport> reports) {
+    return atBorder([&]() -> Result<PoolFrames> {
+        if (Error e = checkPool(pool, primitives, reports); e.code != ErrorCode::ok) return e;
+        return FrameComputer(pool, primitives, options, reports).compute();
+    });
+}
+
+}  // namespace tspace
