@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "generate/primitive.h"
+
+namespace tspace {
+namespace {
+
+using Indices = std::vector<std::uint32_t>;
+
+template <class T>
+bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+struct Run {
+    PoolFrames frames;
+    std::vector<PrimitiveReport> reports;
+};
+
+Run run(const VertexPool& pool, const std::vector<PrimitiveGeometry>& primitives,
+        const GenerateOptions& options) {
+    std::vector<PrimitiveReport> reports(primitives.size());
+    Result<PoolFrames> frames = computeFrames(pool, primitives, options, reports);
+    EXPECT_TRUE(frames.ok()) << (frames.ok() ? "" : frames.error().message);
+    return {frames.ok() ? *std::move(frames) : PoolFrames{}, std::move(reports)};
+}
+
+/// What a reader would see in the written file.
+VertexPool rebuilt(const VertexPool& pool, const PoolFrames& frames) {
+    VertexPool result;
+    result.normals = frames.normals;
+    for (const std::uint32_t source : frames.source_vertices) {
+        result.positions.push_back(pool.positions[source]);
+        if (!frames.normals_generated) result.normals.push_back(pool.normals[source]);
+        if (!pool.uvs.empty()) result.uvs.push_back(pool.uvs[source]);
+    }
+    return result;
+}
+
+std::vector<PrimitiveGeometry> rebuilt(const PoolFrames& frames) {
+    std::vector<PrimitiveGeometry> result;
+    for (const Indices& indices : frames.indices) result.push_back({.indices = indices});
+    return result;
+}
+
+GenerateOptions withMethod(Method method) {
+    GenerateOptions options;
+    options.tangents.method = method;
+    return options;
+}
+
+/// A square of two triangles, UVs straight.
+VertexPool square() {
+    return {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
+            .normals = {4, Vec3{0, 0, 1}},
+            .uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
+}
+
+float anyNumber() {
+    return *rc::gen::element(0.0f, -0.0f, 1.0f, -1.0f, 0.5f, 2.0f, 0.25f, -0.75f, 3.0f, 1e20f, 1e-30f,
+                             std::nanf(""));
+}
+
+/// Small numbers nearly always, so that neighbours, mirrored UVs, degenerate faces and collapsed UVs all
+/// occur.
+float someNumber() {
+    return *rc::gen::inRange(0, 60) == 0 ? anyNumber() : static_cast<float>(*rc::gen::inRange(-2, 3));
+}
+
+VertexPool anyPool() {
+    VertexPool pool;
+    const auto count = *rc::gen::inRange<std::size_t>(1, 14);
+    const bool has_normals = *rc::gen::arbitrary<bool>();
+    for (std::size_t v = 0; v < count; ++v) {
+        pool.positions.push_back({someNumber(), someNumber(), someNumber()});
+        pool.uvs.push_back({someNumber(), someNumber()});
+        if (has_normals) pool.normals.push_back({someNumber(), someNumber(), someNumber()});
+    }
+    return pool;
+}
+
+std::vector<PrimitiveGeometry> anyTriangles(const VertexPool& pool) {
+    std::vector<PrimitiveGeometry> primitives(*rc::gen::inRange<std::size_t>(1, 4));
+    const auto vertices = static_cast<std::uint32_t>(pool.positions.size());
+    for (PrimitiveGeometry& primitive : primitives) {
+        const auto faces = *rc::gen::inRange<std::size_t>(0, 20);
+        primitive.indices =
+            *rc::gen::container<Indices>(3 * faces, rc::gen::inRange<std::uint32_t>(0, vertices));
+    }
+    return primitives;
+}
+
+GenerateOptions anyOptions() {
+    GenerateOptions options = withMethod(*rc::gen::element(Method::mikktspace, Method::uniform, Method::angle,
+                                                           Method::area, Method::flat, Method::basis));
+    options.normals.weighting =
+        *rc::gen::element(NormalWeighting::flat, NormalWeighting::angle, NormalWeighting::area);
+    options.normals.crease_angle_deg = *rc::gen::element(180.0f, 30.0f);
+    options.tangents.pairing = *rc::gen::element(Pairing::reference, Pairing::corrected);
+    options.sanitize = *rc::gen::inRange(0, 4) != 0;
+    return options;
+}
+
+RC_GTEST_PROP(ComputeFrames, ReproducesItselfOnItsOwnOutput, ()) {
+    const VertexPool pool = anyPool();
+    const std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
+    const GenerateOptions options = anyOptions();
+    const Run first = run(pool, primitives, options);
+    const VertexPool written = rebuilt(pool, first.frames);
+    const Run second = run(written, rebuilt(first.frames), options);
+    RC_ASSERT(!second.frames.wasSplit(written.positions.size()));
+    RC_ASSERT(second.frames.indices == first.frames.indices);
+    RC_ASSERT(sameBits(second.frames.tangents, first.frames.tangents));
+}
+
+RC_GTEST_PROP(ComputeFrames, WritesOnlyUnitTangentsWithOneSignPerFace, ()) {
+    const VertexPool pool = anyPool();
+    GenerateOptions options = anyOptions();
+    options.tangents.method = *rc::gen::element(options.tangents.method, Method::lengyel);
+    options.sanitize = true;
+    const Run result = run(pool, anyTriangles(pool), options);
+    for (const Vec4& t : result.frames.tangents) {
+        const double length = std::sqrt(double{t.x} * t.x + double{t.y} * t.y + double{t.z} * t.z);
+        RC_ASSERT(std::abs(length - 1) <= 5e-4);
+        RC_ASSERT(t.w == 1.0f || t.w == -1.0f);
+    }
+    for (const Indices& corners : result.frames.indices) {
+        for (std::size_t c = 0; c < corners.size(); ++c) {
+            RC_ASSERT(result.frames.tangents[corners[c]].w == result.frames.tangents[corners[c - c % 3]].w);
+        }
+    }
+}
+
+RC_GTEST_PROP(ComputeFrames, KeepsEveryCornerAtItsVertexAndCopiesBehind, ()) {
+    const VertexPool pool = anyPool();
+    const std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
+    const Run result = run(pool, primitives, anyOptions());
+    for (std::size_t v = 0; v < pool.positions.size(); ++v) RC_ASSERT(result.frames.source_vertices[v] == v);
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+        Indices sources;
+        for (const std::uint32_t v : result.frames.indices[p])
+            sources.push_back(result.frames.source_vertices[v]);
+        RC_ASSERT(sources == primitives[p].indices);
+        RC_ASSERT(result.reports[p].triangle_count == primitives[p].indices.size() / 3);
+        RC_ASSERT(result.reports[p].vertices_before == pool.positions.size());
+        RC_ASSERT(result.reports[p].vertices_after == result.frames.source_vertices.size());
+    }
+}
+
+RC_GTEST_PROP(ComputeFrames, ComputesEachPrimitiveAsAMeshOfItsOwn, ()) {
+    const VertexPool pool = anyPool();
+    const std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
+    const GenerateOptions options = anyOptions();
+    const Run together = run(pool, primitives, options);
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+        const Run alone = run(pool, {primitives[p]}, options);
+        for (std::size_t c = 0; c < primitives[p].indices.size(); ++c) {
+            const Vec4& a = together.frames.tangents[together.frames.indices[p][c]];
+            const Vec4& b = alone.frames.tangents[alone.frames.indices[0][c]];
+            RC_ASSERT(std::memcmp(&a, &b, sizeof a) == 0);
+        }
+    }
+}
+
+TEST(ComputeFrames, StoresTheSignOfTheConvention) {
+    const std::vector<PrimitiveGeometry> primitives{{.indices = {0, 1, 2, 2, 1, 3}}};
+    for (const Method method : {Method::mikktspace, Method::lengyel, Method::flat, Method::angle}) {
+        const Run result = run(square(), primitives, withMethod(method));
+        EXPECT_FALSE(result.frames.wasSplit(4));
+        EXPECT_EQ(result.frames.indices[0], (Indices{0, 1, 2, 2, 1, 3}));
+        // V runs up in the pool's numbers; glTF reads them as running down.
+        for (const Vec4& t : result.frames.tangents) EXPECT_EQ(t, (Vec4{1, 0, 0, -1}));
+    }
+}
+
+TEST(ComputeFrames, SplitsTheVerticesOfAMirroredSeam) {
+    VertexPool pool = square();
+    pool.positions.push_back({2, 0, 0});
+    pool.normals.push_back({0, 0, 1});
+    pool.uvs.push_back({0, 0});
+    const Run result = run(pool, {{.indices = {0, 1, 2, 2, 1, 3, 1, 4, 3}}}, {});
+    EXPECT_EQ(result.frames.source_vertices, (Indices{0, 1, 2, 3, 4, 1, 3}));
+    EXPECT_EQ(result.frames.indices[0], (Indices{0, 1, 2, 2, 1, 3, 5, 4, 6}));
+    EXPECT_EQ(result.frames.tangents[1], (Vec4{1, 0, 0, -1}));
+    EXPECT_EQ(result.frames.tangents[5], (Vec4{-1, 0, 0, 1}));
+}
+
+TEST(ComputeFrames, GivesVerticesThatNoCornerUsesAFrame) {
+    VertexPool pool = square();
+    for (const Vec3& normal : {Vec3{0, 5, 0}, Vec3{0, 0, 0}, Vec3{std::nanf(""), 0, 1}}) {
+        pool.positions.push_back({});
+        pool.normals.push_back(normal);
+        pool.uvs.push_back({});
+    }
+    const Run result = run(pool, {{.indices = {0, 1, 2}}}, {});
+    ASSERT_EQ(result.frames.tangents.size(), 7u);
+    for (const Vec4& t : result.frames.tangents) {
+        EXPECT_NEAR(std::hypot(t.x, t.y, t.z), 1.0f, 1e-6f);
+        EXPECT_EQ(t.w, -1.0f);
+    }
+    EXPECT_NEAR(result.frames.tangents[4].y, 0.0f, 1e-6f);
+}
+
+TEST(ComputeFrames, GeneratesNormalsEvenWithoutUvs) {
+    VertexPool pool = square();
+    pool.normals.clear();
+    pool.uvs.clear();
+    pool.positions[3].z = 1;
+    const Run result = run(pool, {{.indices = {0, 1, 2, 2, 1, 3}}}, {});
+    EXPECT_TRUE(result.frames.normals_generated);
+    EXPECT_TRUE(result.reports[0].normals_generated);
+    EXPECT_TRUE(result.frames.tangents.empty());
+    EXPECT_EQ(result.frames.source_vertices, (Indices{0, 1, 2, 3, 2, 1}));
+    EXPECT_EQ(result.frames.normals.size(), 6u);
+    EXPECT_EQ(result.frames.normals[0], (Vec3{0, 0, 1}));
+    EXPECT_EQ(run(pool, {{.indices = {0, 1, 2}}}, withMethod(Method::basis)).frames.tangents.size(), 4u);
+}
+
+TEST(ComputeFrames, TakesSmoothingGroupsFromThePrimitive) {
+    VertexPool pool = square();
+    pool.normals.clear();
+    pool.positions[3].z = 1;
+    GenerateOptions options;
+    options.normals.weighting = NormalWeighting::angle;
+    PrimitiveGeometry primitive{.indices = {0, 1, 2, 2, 1, 3}, .smoothing_groups = {1, 1}};
+    const auto distinctNormals = [&] {
+        const Run result = run(pool, {primitive}, options);
+        const Indices& corners = result.frames.indices[0];
+        return result.frames.normals[corners[1]] != result.frames.normals[corners[4]];
+    };
+    EXPECT_FALSE(distinctNormals());
+    primitive.smoothing_groups = {1, 2};
+    EXPECT_TRUE(distinctNormals());
+}
+
+TEST(ComputeFrames, CutsPolygonsAndLeavesFacesWithoutAreaOut) {
+    VertexPool pool;
+    for (int k = 0; k < 6; ++k) {
+        const float x = std::cos(1.0471976f * static_cast<float>(k));
+        const float y = std::sin(1.0471976f * static_cast<float>(k));
+        pool.positions.push_back({x, y, 0});
+        pool.uvs.push_back({x, y});
+    }
+    const PrimitiveGeometry primitive{.indices = {5, 4, 0, 1, 2, 3, 4, 5, 0, 2, 1, 3},
+                                      .face_sizes = {2, 6, 1, 3}};
+    const Run result = run(pool, {primitive}, {});
+    const Indices& corners = result.frames.indices[0];
+    ASSERT_EQ(corners.size(), 15u);
+    EXPECT_EQ(result.reports[0].triangle_count, 5u);
+    Indices last;
+    for (std::size_t c = 12; c < 15; ++c) last.push_back(result.frames.source_vertices[corners[c]]);
+    EXPECT_EQ(last, (Indices{2, 1, 3}));
+    for (const Vec4& t : result.frames.tangents) EXPECT_NEAR(std::hypot(t.x, t.y, t.z), 1.0f, 5e-4f);
+    // The hexagon faces up and the triangle, which runs the other way round, down; they share no corner.
+    for (std::size_t c = 0; c < 15; ++c)
+        EXPECT_EQ(result.frames.normals[corners[c]].z, c < 12 ? 1.0f : -1.0f);
+}
+
+TEST(ComputeFrames, AcceptsPoolsAndPrimitivesWithNothingInThem) {
+    EXPECT_TRUE(run({}, {}, {}).frames.source_vertices.empty());
+    EXPECT_TRUE(run({}, {{}}, {}).frames.indices[0].empty());
+    const Run unused = run(square(), {{}, {.indices = {0, 1}, .face_sizes = {2, 0}}}, {});
+    EXPECT_EQ(unused.frames.tangents.size(), 4u);
+    EXPECT_TRUE(unused.frames.indices[1].empty());
+}
+
+TEST(ComputeFrames, RefusesIndicesAndCountsThatDoNotFit) {
+    const auto code = [](const VertexPool& pool, const PrimitiveGeometry& primitive) {
+        std::vector<PrimitiveReport> reports(1);
+        return computeFrames(pool, {&primitive, 1}, {}, reports).error().code;
+    };
+    EXPECT_EQ(code(square(), {.indices = {0, 1, 4}}), ErrorCode::indexOutOfRange);
+    EXPECT_EQ(code(square(), {.indices = {0, 1}}), ErrorCode::countMismatch);
+    VertexPool pool = square();
+    pool.uvs.pop_back();
+    EXPECT_EQ(code(pool, {.indices = {0, 1, 2}}), ErrorCode::countMismatch);
+}
+
+/// Computing over the whole pool for each primitive would meet the test's time limit.
+TEST(ComputeFramesTime, StaysLinearWhenManyPrimitivesShareALargePool) {
+    VertexPool pool;
+    std::vector<PrimitiveGeometry> primitives;
+    for (std::uint32_t p = 0; p < 30000; ++p) {
+        primitives.push_back({.indices = {3 * p, 3 * p + 1, 3 * p + 2}});
+        for (const Vec2& uv : {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}}) {
+            pool.positions.push_back({uv.x, uv.y, static_cast<float>(p)});
+            pool.normals.push_back({0, 0, 1});
+            pool.uvs.push_back(uv);
+        }
+    }
+    GenerateOptions options;
+    options.tangents.execution.thread_count = 1;
+    options.sanitize_options.execution.thread_count = 1;
+    EXPECT_FALSE(run(pool, primitives, options).frames.wasSplit(pool.positions.size()));
+}
+
+}  // namespace
+}  // namespace tspace
