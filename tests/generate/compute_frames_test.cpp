@@ -19,13 +19,13 @@ bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-struct Run {
+struct Outcome {
     PoolFrames frames;
     std::vector<PrimitiveReport> reports;
 };
 
-Run run(const VertexPool& pool, const std::vector<PrimitiveGeometry>& primitives,
-        const GenerateOptions& options) {
+Outcome compute(const VertexPool& pool, const std::vector<PrimitiveGeometry>& primitives,
+                const GenerateOptions& options) {
     std::vector<PrimitiveReport> reports(primitives.size());
     Result<PoolFrames> frames = computeFrames(pool, primitives, options, reports);
     EXPECT_TRUE(frames.ok()) << (frames.ok() ? "" : frames.error().message);
@@ -112,9 +112,9 @@ RC_GTEST_PROP(ComputeFrames, ReproducesItselfOnItsOwnOutput, ()) {
     const VertexPool pool = anyPool();
     const std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
     const GenerateOptions options = anyOptions();
-    const Run first = run(pool, primitives, options);
+    const Outcome first = compute(pool, primitives, options);
     const VertexPool written = rebuilt(pool, first.frames);
-    const Run second = run(written, rebuilt(first.frames), options);
+    const Outcome second = compute(written, rebuilt(first.frames), options);
     RC_ASSERT(!second.frames.wasSplit(written.positions.size()));
     RC_ASSERT(second.frames.indices == first.frames.indices);
     RC_ASSERT(sameBits(second.frames.tangents, first.frames.tangents));
@@ -125,7 +125,7 @@ RC_GTEST_PROP(ComputeFrames, WritesOnlyUnitTangentsWithOneSignPerFace, ()) {
     GenerateOptions options = anyOptions();
     options.tangents.method = *rc::gen::element(options.tangents.method, Method::lengyel);
     options.sanitize = true;
-    const Run result = run(pool, anyTriangles(pool), options);
+    const Outcome result = compute(pool, anyTriangles(pool), options);
     for (const Vec4& t : result.frames.tangents) {
         const double length = std::sqrt(double{t.x} * t.x + double{t.y} * t.y + double{t.z} * t.z);
         RC_ASSERT(std::abs(length - 1) <= 5e-4);
@@ -141,7 +141,7 @@ RC_GTEST_PROP(ComputeFrames, WritesOnlyUnitTangentsWithOneSignPerFace, ()) {
 RC_GTEST_PROP(ComputeFrames, KeepsEveryCornerAtItsVertexAndCopiesBehind, ()) {
     const VertexPool pool = anyPool();
     const std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
-    const Run result = run(pool, primitives, anyOptions());
+    const Outcome result = compute(pool, primitives, anyOptions());
     for (std::size_t v = 0; v < pool.positions.size(); ++v) RC_ASSERT(result.frames.source_vertices[v] == v);
     for (std::size_t p = 0; p < primitives.size(); ++p) {
         Indices sources;
@@ -158,9 +158,9 @@ RC_GTEST_PROP(ComputeFrames, ComputesEachPrimitiveAsAMeshOfItsOwn, ()) {
     const VertexPool pool = anyPool();
     const std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
     const GenerateOptions options = anyOptions();
-    const Run together = run(pool, primitives, options);
+    const Outcome together = compute(pool, primitives, options);
     for (std::size_t p = 0; p < primitives.size(); ++p) {
-        const Run alone = run(pool, {primitives[p]}, options);
+        const Outcome alone = compute(pool, {primitives[p]}, options);
         for (std::size_t c = 0; c < primitives[p].indices.size(); ++c) {
             const Vec4& a = together.frames.tangents[together.frames.indices[p][c]];
             const Vec4& b = alone.frames.tangents[alone.frames.indices[0][c]];
@@ -172,7 +172,7 @@ RC_GTEST_PROP(ComputeFrames, ComputesEachPrimitiveAsAMeshOfItsOwn, ()) {
 TEST(ComputeFrames, StoresTheSignOfTheConvention) {
     const std::vector<PrimitiveGeometry> primitives{{.indices = {0, 1, 2, 2, 1, 3}}};
     for (const Method method : {Method::mikktspace, Method::lengyel, Method::flat, Method::angle}) {
-        const Run result = run(square(), primitives, withMethod(method));
+        const Outcome result = compute(square(), primitives, withMethod(method));
         EXPECT_FALSE(result.frames.wasSplit(4));
         EXPECT_EQ(result.frames.indices[0], (Indices{0, 1, 2, 2, 1, 3}));
         // V runs up in the pool's numbers; glTF reads them as running down.
@@ -185,7 +185,7 @@ TEST(ComputeFrames, SplitsTheVerticesOfAMirroredSeam) {
     pool.positions.push_back({2, 0, 0});
     pool.normals.push_back({0, 0, 1});
     pool.uvs.push_back({0, 0});
-    const Run result = run(pool, {{.indices = {0, 1, 2, 2, 1, 3, 1, 4, 3}}}, {});
+    const Outcome result = compute(pool, {{.indices = {0, 1, 2, 2, 1, 3, 1, 4, 3}}}, {});
     EXPECT_EQ(result.frames.source_vertices, (Indices{0, 1, 2, 3, 4, 1, 3}));
     EXPECT_EQ(result.frames.indices[0], (Indices{0, 1, 2, 2, 1, 3, 5, 4, 6}));
     EXPECT_EQ(result.frames.tangents[1], (Vec4{1, 0, 0, -1}));
@@ -199,7 +199,7 @@ TEST(ComputeFrames, GivesVerticesThatNoCornerUsesAFrame) {
         pool.normals.push_back(normal);
         pool.uvs.push_back({});
     }
-    const Run result = run(pool, {{.indices = {0, 1, 2}}}, {});
+    const Outcome result = compute(pool, {{.indices = {0, 1, 2}}}, {});
     ASSERT_EQ(result.frames.tangents.size(), 7u);
     for (const Vec4& t : result.frames.tangents) {
         EXPECT_NEAR(std::hypot(t.x, t.y, t.z), 1.0f, 1e-6f);
@@ -213,14 +213,14 @@ TEST(ComputeFrames, GeneratesNormalsEvenWithoutUvs) {
     pool.normals.clear();
     pool.uvs.clear();
     pool.positions[3].z = 1;
-    const Run result = run(pool, {{.indices = {0, 1, 2, 2, 1, 3}}}, {});
+    const Outcome result = compute(pool, {{.indices = {0, 1, 2, 2, 1, 3}}}, {});
     EXPECT_TRUE(result.frames.normals_generated);
     EXPECT_TRUE(result.reports[0].normals_generated);
     EXPECT_TRUE(result.frames.tangents.empty());
     EXPECT_EQ(result.frames.source_vertices, (Indices{0, 1, 2, 3, 2, 1}));
     EXPECT_EQ(result.frames.normals.size(), 6u);
     EXPECT_EQ(result.frames.normals[0], (Vec3{0, 0, 1}));
-    EXPECT_EQ(run(pool, {{.indices = {0, 1, 2}}}, withMethod(Method::basis)).frames.tangents.size(), 4u);
+    EXPECT_EQ(compute(pool, {{.indices = {0, 1, 2}}}, withMethod(Method::basis)).frames.tangents.size(), 4u);
 }
 
 TEST(ComputeFrames, TakesSmoothingGroupsFromThePrimitive) {
@@ -231,7 +231,7 @@ TEST(ComputeFrames, TakesSmoothingGroupsFromThePrimitive) {
     options.normals.weighting = NormalWeighting::angle;
     PrimitiveGeometry primitive{.indices = {0, 1, 2, 2, 1, 3}, .smoothing_groups = {1, 1}};
     const auto distinctNormals = [&] {
-        const Run result = run(pool, {primitive}, options);
+        const Outcome result = compute(pool, {primitive}, options);
         const Indices& corners = result.frames.indices[0];
         return result.frames.normals[corners[1]] != result.frames.normals[corners[4]];
     };
@@ -250,7 +250,7 @@ TEST(ComputeFrames, CutsPolygonsAndLeavesFacesWithoutAreaOut) {
     }
     const PrimitiveGeometry primitive{.indices = {5, 4, 0, 1, 2, 3, 4, 5, 0, 2, 1, 3},
                                       .face_sizes = {2, 6, 1, 3}};
-    const Run result = run(pool, {primitive}, {});
+    const Outcome result = compute(pool, {primitive}, {});
     const Indices& corners = result.frames.indices[0];
     ASSERT_EQ(corners.size(), 15u);
     EXPECT_EQ(result.reports[0].triangle_count, 5u);
@@ -264,9 +264,9 @@ TEST(ComputeFrames, CutsPolygonsAndLeavesFacesWithoutAreaOut) {
 }
 
 TEST(ComputeFrames, AcceptsPoolsAndPrimitivesWithNothingInThem) {
-    EXPECT_TRUE(run({}, {}, {}).frames.source_vertices.empty());
-    EXPECT_TRUE(run({}, {{}}, {}).frames.indices[0].empty());
-    const Run unused = run(square(), {{}, {.indices = {0, 1}, .face_sizes = {2, 0}}}, {});
+    EXPECT_TRUE(compute({}, {}, {}).frames.source_vertices.empty());
+    EXPECT_TRUE(compute({}, {{}}, {}).frames.indices[0].empty());
+    const Outcome unused = compute(square(), {{}, {.indices = {0, 1}, .face_sizes = {2, 0}}}, {});
     EXPECT_EQ(unused.frames.tangents.size(), 4u);
     EXPECT_TRUE(unused.frames.indices[1].empty());
 }
@@ -298,7 +298,7 @@ TEST(ComputeFramesTime, StaysLinearWhenManyPrimitivesShareALargePool) {
     GenerateOptions options;
     options.tangents.execution.thread_count = 1;
     options.sanitize_options.execution.thread_count = 1;
-    EXPECT_FALSE(run(pool, primitives, options).frames.wasSplit(pool.positions.size()));
+    EXPECT_FALSE(compute(pool, primitives, options).frames.wasSplit(pool.positions.size()));
 }
 
 }  // namespace
