@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cfloat>
 #include <cmath>
+#include <utility>
 
 #include "core/basis.h"
 #include "core/border.h"
@@ -231,7 +232,7 @@ class Sanitizer {
         });
     }
 
-    /// body(first_corner, corner_count, counts) for each face with a corner to mend; faces are independent.
+    /// body(first_corner, corner_count, counts) for each face with at least 3 corners; faces are independent.
     template <class Body>
     void forEachFaceInTasks(Body&& body) {
         parallel_.forTasks(tasks_.size(), [&](std::size_t task) {

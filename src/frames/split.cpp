@@ -19,9 +19,11 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr std::uint32_t kScannedVariants = 8;
 
 /// Cells are wider than the tolerance by more than the rounding of x / width, so that two values that are
-/// equal within the tolerance never lie two cells apart. (Where that rounding is larger, beyond 2^32 cells
-/// from 0, floats lie further apart than the tolerance and only equal values match.)
+/// equal within the tolerance never lie two cells apart.
 constexpr double kCellMargin = 1.0 + 1.0 / (1 << 20);
+
+/// Further than this many cells from 0, floats lie more than 100 tolerances apart: only equal values match.
+constexpr double kMostCells = 4294967296.0;
 
 /// An open-addressing table from (node, key) to a number.
 class NodeTable {
@@ -161,15 +163,21 @@ class Splitter {
         return hash;
     }
 
-    static double cellOf(float value, float tolerance) {
-        return std::floor(double{value} / (double{tolerance} * kCellMargin));
-    }
+    /// Where a component lies on its line. A value far out, or not finite, has a key of its own that no cell
+    /// has.
+    struct Cell {
+        std::uint64_t key;
+        bool has_neighbors;
+    };
 
-    static std::uint64_t cellKey(double cell) { return std::bit_cast<std::uint64_t>(cell + 0.0); }
-
-    /// A value that is not finite has a cell of its own, whose key no finite cell has.
-    static std::uint64_t lonelyKey(float value) {
-        return 0x7ff8000000000000u | std::bit_cast<std::uint32_t>(value);
+    static Cell cellOf(float value, float tolerance) {
+        const double cells = double{value} / (double{tolerance} * kCellMargin);
+        if (!(std::abs(cells) < kMostCells)) {
+            return {0x7ff8000000000000u | std::bit_cast<std::uint32_t>(value), false};
+        }
+        const auto towards_zero = static_cast<std::int64_t>(cells);
+        const std::int64_t floor = towards_zero - (static_cast<double>(towards_zero) > cells ? 1 : 0);
+        return {static_cast<std::uint64_t>(floor), true};
     }
 
     /// body(component, tolerance) for each component of the tolerant attributes.
@@ -188,8 +196,7 @@ class Splitter {
         forEachTolerant(corner, [&](float component, float tolerance) {
             if (*value == kNone) *value = ++node_count_;
             const std::uint32_t node = *value;
-            value = &edges_.at(node, std::isfinite(component) ? cellKey(cellOf(component, tolerance))
-                                                              : lonelyKey(component));
+            value = &edges_.at(node, cellOf(component, tolerance).key);
         });
         next_[variant] = *value;
         *value = variant;
@@ -219,11 +226,11 @@ class Splitter {
         const auto visit = [&](std::uint64_t key) {
             if (const std::uint32_t value = edges_.find(node, key); value != kNone) further_.push_back(value);
         };
-        if (!std::isfinite(component)) return visit(lonelyKey(component));
-        const double cell = cellOf(component, tolerance);
-        visit(cellKey(cell));
-        if (cell - 1 != cell) visit(cellKey(cell - 1));
-        if (cell + 1 != cell) visit(cellKey(cell + 1));
+        const Cell cell = cellOf(component, tolerance);
+        visit(cell.key);
+        if (!cell.has_neighbors) return;
+        visit(cell.key - 1);
+        visit(cell.key + 1);
     }
 
     std::span<const CornerAttribute> attributes_;

@@ -41,7 +41,10 @@ struct PoolFrames {
 
 /// Runs normals (if missing), tangents per primitive, sanitize, and one split over all primitives of the pool.
 /// Vertices that no corner uses get a frame from their normal, so that every tangent written is unit.
-/// `reports` has one entry per primitive; its normals, tangents, sanitize and count fields are filled.
+/// `reports` has one entry per primitive; its normals, tangents, sanitize and count fields are filled (vertices are
+/// those of the pool).
+/// Run again on its own output it gives the same bits and splits nothing. Exceptions: polygons, which were cut, and
+/// `lengyel` where sanitize made corners of one vertex differ, because that method sums over vertex indices.
 Result<PoolFrames> computeFrames(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,
                                  const GenerateOptions& options, std::span<PrimitiveReport> reports);
 

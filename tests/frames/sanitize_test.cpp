@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <new>
 #include <vector>
 
 #include "tspace/split.h"
@@ -319,6 +320,41 @@ TEST(Sanitize, GivesTheSameBitsForAnyThreadCount) {
         EXPECT_TRUE(sameBits(parallel.tangents, serial.tangents));
         EXPECT_EQ(report.mendedCount(), expected.mendedCount());
         EXPECT_EQ(report.from_neighbor_count, expected.from_neighbor_count);
+    }
+}
+
+TEST(Sanitize, ReportsThatMemoryRanOutAndGivesAllOfItBack) {
+    struct Memory {
+        int left = 0;
+        int held = 0;
+    };
+    Scene scene = twoTriangles();
+    scene.tangents[0] = scene.tangents[1] = scene.tangents[2] = {};
+    for (int allowed = 0;; ++allowed) {
+        Memory memory{.left = allowed};
+        const Allocator allocator{
+            .allocate = [](void* user, std::size_t bytes, std::size_t alignment) -> void* {
+                auto* m = static_cast<Memory*>(user);
+                if (m->left-- == 0) return nullptr;
+                ++m->held;
+                return ::operator new(bytes, std::align_val_t(alignment));
+            },
+            .release =
+                [](void* user, void* data, std::size_t, std::size_t alignment) {
+                    --static_cast<Memory*>(user)->held;
+                    ::operator delete(data, std::align_val_t(alignment));
+                },
+            .user = &memory};
+        std::vector<Vec4> tangents = scene.tangents;
+        const auto result =
+            sanitizeTangents(scene.view(), tangents, {.execution = {.allocator = &allocator}});
+        EXPECT_EQ(memory.held, 0);
+        if (result.ok()) {
+            EXPECT_GT(allowed, 2);
+            break;
+        }
+        EXPECT_EQ(result.error().code, ErrorCode::outOfMemory);
+        EXPECT_TRUE(sameBits(tangents, scene.tangents));
     }
 }
 

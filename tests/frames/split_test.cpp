@@ -135,6 +135,18 @@ TEST(Split, RefusesWhatItCannotRead) {
     EXPECT_EQ(splitVertices(IndexView{}, 2, 3, {}).error().code, ErrorCode::indexOutOfRange);
 }
 
+TEST(Split, FindsTheEarliestOfManyVariantsFarFromZeroToo) {
+    const float tolerance = 1e-3f;
+    std::vector<float> values;
+    for (int k = 0; k < 40; ++k) values.push_back((k % 2 == 0 ? 1.0f : -1.0f) * std::ldexp(1.0f, k));
+    for (int k = 0; k < 40; ++k)
+        values.push_back(values[static_cast<std::size_t>(k)] * (k < 10 ? 1.0f + 1e-7f : 1.0f));
+    const Indices indices(80, 0);
+    const SplitResult result = split(indices, 1, {floats(values, tolerance)});
+    EXPECT_EQ(result.vertexCount(), 40u);
+    for (std::size_t k = 0; k < 40; ++k) EXPECT_EQ(result.indices[k], result.indices[k + 40]);
+}
+
 struct RandomCorners {
     Indices indices;
     std::size_t vertex_count;
