@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "core/unit.h"
 #include "core/uv_frame.h"
 #include "core/vec_math.h"
 
@@ -16,14 +17,6 @@ namespace {
 // Below this sine two directions given in floats (relative error 6e-8) no longer say anything about each
 // other.
 constexpr double kParallelSine = 1e-6;
-
-/// Scales v to length 1; false, and v unchanged, when its length is zero or not finite.
-bool normalize(DVec3& v) {
-    const double l = length(v);
-    if (!(l > 0) || !std::isfinite(l)) return false;
-    v = (1 / l) * v;
-    return true;
-}
 
 Vec3 unitOr(DVec3 v, const Vec3& substitute) { return normalize(v) ? toFloat(v) : substitute; }
 

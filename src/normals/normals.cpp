@@ -9,6 +9,7 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "core/sum_ranges.h"
+#include "core/unit.h"
 #include "normals/smoothing.h"
 #include "normals/topology.h"
 #include "normals/weighting.h"
@@ -40,7 +41,7 @@ Error checkOptions(const MeshView& mesh, const NormalOptions& options, const Str
 /// A weighted sum of unit normals.
 struct Mean {
     DVec3 sum;
-    double weights = 0;
+    double weights = 0;  ///< 0: nothing was added, and the quotient below is not a number
 
     void add(double weight, const DVec3& normal) {
         sum = sum + weight * normal;
@@ -48,9 +49,9 @@ struct Mean {
     }
     /// Writes the unit mean; false when it vanishes.
     bool write(Vec3& out) const {
-        const double l = length(sum);
-        if (!(l > kVanished * weights)) return false;
-        out = toFloat((1 / l) * sum);
+        DVec3 unit = sum;
+        if (!(length((1 / weights) * sum) > kVanished) || !normalize(unit)) return false;
+        out = toFloat(unit);
         return true;
     }
 };

@@ -2,6 +2,7 @@
 // Tangents without UVs: an orthonormal basis from the normal alone.
 // Based on: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
 #include "core/sum_ranges.h"
+#include "core/unit.h"
 #include "tangents/indexed_methods.h"
 #include "tspace/frame.h"
 
@@ -12,10 +13,9 @@ namespace {
 constexpr std::size_t kGrain = 2048;
 
 CornerFrame basisFrame(const Vec3& normal, float sign_factor) {
-    const DVec3 n = toDouble(normal);
-    const double l = length(n);
-    const bool has_direction = l > 0 && std::isfinite(l);
-    const Frame frame = basisFromNormal(has_direction ? toFloat((1 / l) * n) : Vec3{0, 0, 1});
+    DVec3 n = toDouble(normal);
+    const bool has_direction = normalize(n);
+    const Frame frame = basisFromNormal(has_direction ? toFloat(n) : Vec3{0, 0, 1});
     const Vec3& t = frame.tangent;
     return {{t.x, t.y, t.z, sign_factor}, sign_factor * frame.bitangent, 1, 1, !has_direction};
 }

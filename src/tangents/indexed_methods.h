@@ -22,8 +22,9 @@ struct Derivatives {
 };
 
 /// Gram-Schmidt against N as given: T' = unit(T - N (N.T)), sign = dot(cross(N, T'), B) < 0 ? -1 : 1;
-/// bitangent = unit(B). Where T' has no length or is not finite: (1, 0, 0), sign 1, bitangent (0, 1, 0),
-/// magnitudes 1. Sign and bitangent are multiplied with `sign_factor`. Never gives a NaN.
+/// bitangent = unit(B), or that of sign * cross(N, T') where B is zero. Where T' has no length or is not
+/// finite: (1, 0, 0), sign 1, bitangent (0, 1, 0), magnitudes 1. Sign and bitangent are multiplied with
+/// `sign_factor`. Never gives a NaN.
 CornerFrame makeCornerFrame(const Derivatives& derivatives, const Vec3& normal, float sign_factor);
 
 /// Writes the outputs that are asked for.

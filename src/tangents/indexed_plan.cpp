@@ -10,6 +10,7 @@
 #include "core/face_walk.h"
 #include "core/polygon.h"
 #include "core/sum_ranges.h"
+#include "core/unit.h"
 #include "core/uv_frame.h"
 #include "tangents/indexed_methods.h"
 
@@ -175,24 +176,26 @@ TangentReport evaluateIndexed(const IndexedPlan& plan, const Pose& pose, const T
 CornerFrame makeCornerFrame(const Derivatives& d, const Vec3& normal, float sign_factor) {
     const CornerFrame fallback{{1, 0, 0, sign_factor}, {0, sign_factor, 0}, 1, 1, true};
     const DVec3 n = toDouble(normal);
-    const DVec3 projected = d.s - dot(n, d.s) * n;
-    const double projected_length = length(projected);
-    if (!(projected_length > 0) || !std::isfinite(projected_length)) return fallback;
+    DVec3 t = d.s - dot(n, d.s) * n;
+    if (!normalize(t)) return fallback;
 
-    const DVec3 t = (1 / projected_length) * projected;
     const float sign = (dot(cross(n, t), d.t) < 0 ? -1.0f : 1.0f) * sign_factor;
-    const double t_length = length(d.t);
-    const DVec3 b =
-        t_length > 0 && std::isfinite(t_length) ? (sign_factor / t_length) * d.t : sign * cross(n, t);
+    DVec3 b = d.t;
+    float b_sign = sign_factor;
+    if (!normalize(b)) {
+        b = cross(n, t);
+        b_sign = sign;
+        if (!normalize(b)) b = {0, 1, 0};
+    }
     const Vec3 tangent = toFloat(t);
     // A mean of floats can be longer than the largest float only by its rounding.
     const auto magnitude = [](double l) {
         return static_cast<float>(std::min(l, double{std::numeric_limits<float>::max()}));
     };
     return {{tangent.x, tangent.y, tangent.z, sign},
-            toFloat(b),
+            toFloat(b_sign * b),
             magnitude(length(d.s)),
-            magnitude(t_length),
+            magnitude(length(d.t)),
             false};
 }
 

@@ -26,13 +26,17 @@ struct Outputs {
 
 Outputs tangentsOf(const MeshView& mesh, const TangentOptions& options) {
     const std::size_t corners = mesh.cornerCount();
-    Outputs out{std::vector<Vec4>(corners, Vec4{9, 9, 9, 9}), std::vector<Vec3>(corners, Vec3{9, 9, 9}),
-                std::vector<float>(corners, 9.0f), std::vector<float>(corners, 9.0f), {}};
+    Outputs out{std::vector<Vec4>(corners, Vec4{9, 9, 9, 9}),
+                std::vector<Vec3>(corners, Vec3{9, 9, 9}),
+                std::vector<float>(corners, 9.0f),
+                std::vector<float>(corners, 9.0f),
+                {}};
     Parallel parallel(options.execution);
     const IndexedPlan plan = planIndexed(mesh, options, parallel);
     EXPECT_GT(plan.memoryBytes(), 4 * corners);
     out.report = evaluateIndexed(plan, {mesh.positions, mesh.normals},
-                                 {out.tangents, out.bitangents, out.magnitudes_s, out.magnitudes_t}, nullptr, parallel);
+                                 {out.tangents, out.bitangents, out.magnitudes_s, out.magnitudes_t}, nullptr,
+                                 parallel);
     return out;
 }
 
@@ -152,11 +156,13 @@ TEST(Defaults, StandWhereNoFaceGivesATangent) {
 TEST(Conventions, MultiplySignAndBitangentOnly) {
     for (const Method method : {Method::lengyel, Method::flat, Method::basis}) {
         const Outputs raw = tangentsOf(mirroredSquare().view(), {.method = method});
-        const Outputs gltf = tangentsOf(mirroredSquare().view(), {.method = method, .convention = conventions::gltf});
+        const Outputs gltf =
+            tangentsOf(mirroredSquare().view(), {.method = method, .convention = conventions::gltf});
         for (std::size_t c = 0; c < 6; ++c) {
             EXPECT_EQ(xyz(gltf.tangents[c]), xyz(raw.tangents[c]));
             EXPECT_EQ(gltf.tangents[c].w, -raw.tangents[c].w);
-            EXPECT_EQ(gltf.bitangents[c], (Vec3{-raw.bitangents[c].x, -raw.bitangents[c].y, -raw.bitangents[c].z}));
+            EXPECT_EQ(gltf.bitangents[c],
+                      (Vec3{-raw.bitangents[c].x, -raw.bitangents[c].y, -raw.bitangents[c].z}));
             EXPECT_EQ(gltf.magnitudes_t[c], raw.magnitudes_t[c]);
         }
     }
@@ -222,7 +228,8 @@ TEST(Plan, EvaluatesAnotherPoseWithItsOwnUvs) {
     for (const Method method : {Method::lengyel, Method::flat, Method::basis}) {
         const IndexedPlan plan = planIndexed(rest.view(), {.method = method}, parallel);
         std::vector<Vec4> tangents(6);
-        evaluateIndexed(plan, {bent.view().positions, bent.view().normals}, {.tangents = tangents}, nullptr, parallel);
+        evaluateIndexed(plan, {bent.view().positions, bent.view().normals}, {.tangents = tangents}, nullptr,
+                        parallel);
         EXPECT_EQ(tangents, tangentsOf(bent.view(), {.method = method}).tangents);
     }
 }
@@ -244,10 +251,10 @@ TEST(Plan, RunsOutOfMemoryByItsOwnExceptionOnly) {
     for (bool done = false; !done; ++failures) {
         budget = failures;
         try {
-            const IndexedPlan plan =
-                planIndexed(mesh.view(), {.method = Method::lengyel, .execution = {.allocator = &allocator}}, parallel);
-            evaluateIndexed(plan, {mesh.view().positions, mesh.view().normals}, {.tangents = tangents}, &allocator,
-                            parallel);
+            const IndexedPlan plan = planIndexed(
+                mesh.view(), {.method = Method::lengyel, .execution = {.allocator = &allocator}}, parallel);
+            evaluateIndexed(plan, {mesh.view().positions, mesh.view().normals}, {.tangents = tangents},
+                            &allocator, parallel);
             done = true;
         } catch (const OutOfMemory&) {
             ASSERT_LT(failures, 20);
@@ -269,15 +276,22 @@ TEST(Threads, DoNotChangeABit) {
     for (int f = 0; f < 30'000; ++f) {
         const auto vertex = [&] { return static_cast<std::uint32_t>(random() % 9000); };
         const std::uint32_t a = vertex(), b = vertex(), c = vertex();
-        if (f % 3 == 0) mesh.addFace({a, b, c, vertex()});
-        else mesh.addFace({a, b, c});
+        if (f % 3 == 0)
+            mesh.addFace({a, b, c, vertex()});
+        else
+            mesh.addFace({a, b, c});
     }
     for (const Method method : {Method::lengyel, Method::flat, Method::basis}) {
         const Outputs one = tangentsOf(mesh.view(), {.method = method, .execution = {.thread_count = 1}});
         for (const unsigned threads : {2u, 3u, 8u}) {
-            const Outputs many = tangentsOf(mesh.view(), {.method = method, .execution = {.thread_count = threads}});
-            EXPECT_EQ(std::memcmp(one.tangents.data(), many.tangents.data(), one.tangents.size() * sizeof(Vec4)), 0);
-            EXPECT_EQ(std::memcmp(one.bitangents.data(), many.bitangents.data(), one.bitangents.size() * sizeof(Vec3)), 0);
+            const Outputs many =
+                tangentsOf(mesh.view(), {.method = method, .execution = {.thread_count = threads}});
+            EXPECT_EQ(
+                std::memcmp(one.tangents.data(), many.tangents.data(), one.tangents.size() * sizeof(Vec4)),
+                0);
+            EXPECT_EQ(std::memcmp(one.bitangents.data(), many.bitangents.data(),
+                                  one.bitangents.size() * sizeof(Vec3)),
+                      0);
             EXPECT_EQ(one.magnitudes_s, many.magnitudes_s);
             EXPECT_EQ(one.magnitudes_t, many.magnitudes_t);
             EXPECT_EQ(one.report.mirrored_count, many.report.mirrored_count);
