@@ -48,8 +48,7 @@ bool reject(DVec3& v, const DVec3& unit) {
 DFrame orthonormal(const Frame& frame) {
     DFrame f = toDouble(frame);
     if (!normalize(f.normal)) f.normal = {0, 0, 1};
-    // Twice: what rounding leaves of the part along N after a steep cut goes with the second one.
-    if (!reject(f.tangent, f.normal) || !reject(f.tangent, f.normal)) f.tangent = basis(f.normal).tangent;
+    if (!reject(f.tangent, f.normal)) f.tangent = basis(f.normal).tangent;
     // In three dimensions only one direction is orthogonal to both; B decides which way along it.
     const DVec3 side = cross(f.normal, f.tangent);
     const double along = dot(f.bitangent, side);
