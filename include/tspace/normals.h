@@ -12,11 +12,12 @@
 
 namespace tspace {
 
-/// How much a face counts in the mean at one of its corners. e1, e2 are the edges at the corner, a the angle between.
+/// How much a face counts in the mean at one of its corners. e1, e2 are the edges at the corner, a the interior
+/// angle between them (above 180 degrees where a polygon is reflex).
 enum class NormalWeighting : std::uint32_t {
     flat = 0,       ///< no averaging: each corner gets its face's unit normal (what glTF asks for when normals are missing)
     uniform = 1,    ///< 1: mean of unit face normals (Gouraud 1971)
-    area = 2,       ///< |e1 x e2|: large faces count more
+    area = 2,       ///< the face's area (|e1 x e2| / 2 for a triangle): large faces count more
     angle = 3,      ///< a: independent of tessellation (Thuermer & Wuethrich 1998)
     angleArea = 4,  ///< a * area
     max = 5,        ///< sin(a) / (|e1| |e2|): exact on a sphere (Max 1999)
@@ -25,10 +26,12 @@ enum class NormalWeighting : std::uint32_t {
 struct NormalOptions {
     NormalWeighting weighting = NormalWeighting::angle;
     /// Degrees, 0..180. Two faces that share an edge are smoothed over it only when their normals differ by no more
-    /// than this. 180: never hard (except by smoothing groups).
+    /// than this (and 1e-6 rad for rounding). 180: never hard (except by smoothing groups); then all faces at a point
+    /// are smoothed together, also those that share no edge. `flat` looks at neither.
     float crease_angle_deg = 180.0f;
     /// One number per face, or empty. Faces smooth together only when their numbers are equal and not 0 (OBJ `s`),
-    /// or, with `smoothing_groups_are_masks`, when they have a bit in common (3ds Max).
+    /// or, with `smoothing_groups_are_masks`, when they have a bit in common (3ds Max). Connections pass on: where A is
+    /// smooth with B and B with C around a point, all three share one normal.
     std::span<const std::uint32_t> smoothing_groups = {};
     bool smoothing_groups_are_masks = false;
     /// true: vertices at the same position are one point (so UV seams stay smooth); false: only equal indices are.
@@ -49,8 +52,8 @@ struct NormalReport {
 /// Face normal: Newell's sum over the polygon (for a triangle: cross(P1-P0, P2-P0)), times normalFactor(convention).
 /// Vertex normal: the weighted mean of the unit face normals of all faces that are connected to the corner's face
 /// around the vertex over smooth edges; weights as in NormalWeighting, in double precision, summed in face order.
-/// A corner whose mean vanishes takes its own face normal; if that is degenerate, the mean of the other faces at
-/// the vertex; if there is none, (0, 0, 1). So every result is finite and unit.
+/// A corner whose mean vanishes (is below 1e-10 of the weights) takes its own face normal; if that is degenerate, the
+/// mean of the other faces at the vertex; if there is none, (0, 0, 1). So every result is finite and unit.
 /// Corners of faces with fewer than 3 corners get (0, 0, 0).
 ///
 /// mesh      positions and indices; UVs and normals are not looked at

@@ -16,6 +16,7 @@ struct IndexedPlan {
     Buffer<std::uint32_t> corner_vertices;  ///< one per corner of the mesh
     Buffer<std::uint32_t> triangles;        ///< three corners of the mesh per triangle, after cutting faces; face order
     Buffer<std::uint8_t> corner_used;       ///< one per corner: 1 when it belongs to a triangle; else outputs are 0
+    Buffer<std::uint32_t> face_begins;      ///< flat only: first corner of each face, and one past the last
     Buffer<Vec2> uvs;                       ///< one per vertex; empty for basis
     TangentReport report;                   ///< what can be counted without a pose
 

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// A mesh that owns its arrays, and a few shapes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tspace/mesh.h"
+
+namespace tspace::test {
+
+struct SimpleMesh {
+    std::vector<Vec3> positions = {};
+    std::vector<Vec3> normals = {};
+    std::vector<Vec2> uvs = {};
+    std::vector<std::uint32_t> indices = {};
+    std::vector<std::uint32_t> face_sizes = {};
+
+    void addFace(std::initializer_list<std::uint32_t> vertices) {
+        indices.insert(indices.end(), vertices);
+        face_sizes.push_back(static_cast<std::uint32_t>(vertices.size()));
+    }
+    [[nodiscard]] MeshView view() const {
+        MeshView mesh;
+        mesh.positions = positions;
+        mesh.normals = normals;
+        mesh.uvs = uvs;
+        mesh.indices = IndexView(std::span<const std::uint32_t>(indices));
+        mesh.face_sizes = face_sizes;
+        if (face_sizes.empty()) mesh.face_size = 3;
+        return mesh;
+    }
+};
+
+/// The cube [-1, 1]^3: vertex i has bit 0, 1, 2 of i as its x, y, z. Counter-clockwise from outside.
+inline constexpr std::array<std::array<std::uint32_t, 4>, 6> kCubeFaces{
+    {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+inline constexpr std::array<Vec3, 6> kCubeNormals{
+    {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
+
+inline std::vector<Vec3> cubePositions() {
+    std::vector<Vec3> positions;
+    for (unsigned i = 0; i < 8; ++i) {
+        positions.push_back(
+            {(i & 1) != 0 ? 1.0f : -1.0f, (i & 2) != 0 ? 1.0f : -1.0f, (i & 4) != 0 ? 1.0f : -1.0f});
+    }
+    return positions;
+}
+
+/// Six quads.
+inline SimpleMesh quadCube() {
+    SimpleMesh cube;
+    cube.positions = cubePositions();
+    for (const auto& f : kCubeFaces) cube.addFace({f[0], f[1], f[2], f[3]});
+    return cube;
+}
+
+/// Twelve triangles; bit f of `diagonals` chooses how face f is cut.
+inline SimpleMesh triangleCube(unsigned diagonals) {
+    SimpleMesh cube;
+    cube.positions = cubePositions();
+    for (std::size_t f = 0; f < kCubeFaces.size(); ++f) {
+        const auto& q = kCubeFaces[f];
+        const std::size_t s = diagonals >> f & 1;
+        cube.addFace({q[s], q[s + 1], q[s + 2]});
+        cube.addFace({q[s], q[s + 2], q[(s + 3) % 4]});
+    }
+    return cube;
+}
+
+}  // namespace tspace::test
