@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// validate.mjs VALIDATOR PAIRS: for each "input TAB output" in the file PAIRS, the output may have no error or warning
+// of the Khronos validator that the input does not have. With "-" as input it may have none at all.
+//
+// A finding is its code and, where it is about an accessor, what that accessor is used for: "NORMAL
+// ACCESSOR_VECTOR3_NON_UNIT". How often it occurs does not matter: splitting a vertex repeats what was wrong with it.
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import path from "node:path";
+
+const WARNING = 1; // the validator's severities: 0 error, 1 warning, 2 information, 3 hint
+
+const [validatorFolder, pairsFile] = process.argv.slice(2);
+const validator = createRequire(import.meta.url)(path.resolve(validatorFolder));
+
+function readJson(bytes) {
+    const isGlb = bytes.toString("latin1", 0, 4) === "glTF";
+    return JSON.parse(isGlb ? bytes.subarray(20, 20 + bytes.readUInt32LE(12)) : bytes);
+}
+
+/// Uses of each accessor: index -> set of "POSITION", "target NORMAL", "indices", ...
+function accessorUses(gltf) {
+    const uses = new Map();
+    const add = (accessor, use) => uses.set(accessor, (uses.get(accessor) ?? new Set()).add(use));
+    for (const primitive of (gltf.meshes ?? []).flatMap((mesh) => mesh.primitives ?? [])) {
+        if (primitive.indices !== undefined) add(primitive.indices, "indices");
+        for (const [name, accessor] of Object.entries(primitive.attributes ?? {})) add(accessor, name);
+        for (const target of primitive.targets ?? [])
+            for (const [name, accessor] of Object.entries(target)) add(accessor, `target ${name}`);
+    }
+    return uses;
+}
+
+async function findings(file) {
+    const bytes = readFileSync(file);
+    const report = await validator.validateBytes(new Uint8Array(bytes), {
+        uri: path.basename(file),
+        maxIssues: 0, // no limit
+        externalResourceFunction: async (uri) =>
+            new Uint8Array(readFileSync(path.join(path.dirname(file), decodeURIComponent(uri)))),
+    });
+    const serious = report.issues.messages.filter((message) => message.severity <= WARNING);
+    if (serious.length === 0) return new Map();
+    const uses = accessorUses(readJson(bytes));
+    const found = new Map();
+    for (const { code, message, pointer = "" } of serious) {
+        const accessor = /^\/accessors\/(\d+)/.exec(pointer);
+        for (const use of (accessor && uses.get(Number(accessor[1]))) ?? [""])
+            found.set(`${use} ${code}`.trim(), `${pointer}: ${message}`);
+    }
+    return found;
+}
+
+const pairs = readFileSync(pairsFile, "utf8").split("\n").filter(Boolean).map((line) => line.split("\t"));
+let failures = 0;
+for (const [input, output] of pairs) {
+    const found = await findings(output);
+    if (found.size === 0) continue;
+    const before = input === "-" ? new Map() : await findings(input);
+    for (const [key, example] of found) {
+        if (before.has(key)) continue;
+        ++failures;
+        console.log(`FAILED ${output}: ${key}, which the input does not have: ${example}`);
+    }
+}
+console.log(`${pairs.length} outputs validated, ${failures} new kinds of errors and warnings`);
+if (pairs.length === 0) process.exit(77);
+process.exit(failures === 0 ? 0 : 1);
