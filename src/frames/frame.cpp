@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "core/basis.h"
 #include "core/unit.h"
 #include "core/uv_frame.h"
 #include "core/vec_math.h"
@@ -29,10 +30,8 @@ DFrame toDouble(const Frame& f) { return {toDouble(f.tangent), toDouble(f.bitang
 double determinant(const DFrame& f) { return dot(cross(f.tangent, f.bitangent), f.normal); }
 
 DFrame basis(const DVec3& n) {
-    const double sign = n.z < 0 ? -1.0 : 1.0;
-    const double a = -1 / (sign + n.z);
-    const double b = n.x * n.y * a;
-    return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
+    const PlaneAxes axes = planeAxes(n);
+    return {axes.x, axes.y, n};
 }
 
 /// v without its part along `unit`; false when what is left is too short to be a direction.
