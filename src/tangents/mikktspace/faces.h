@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Step 1: cutting faces into triangles.
+#pragma once
+
+#include "core/memory.h"
+#include "tspace/tangents.h"
+
+namespace tspace::mikk {
+
+/// All triangles, degenerate ones too, in face order.
+struct TriangleList {
+    std::size_t count = 0;
+    Buffer<std::uint32_t> corners;  ///< three corners of the mesh per triangle; empty: 3t, 3t+1, 3t+2
+    Buffer<std::uint32_t> faces;    ///< one per triangle; empty: triangle t is face t
+    Buffer<std::uint32_t> skipped_corners;
+    std::uint64_t skipped_face_count = 0;
+
+    [[nodiscard]] std::uint32_t corner(std::size_t i) const {
+        return corners.empty() ? static_cast<std::uint32_t>(i) : corners[i];
+    }
+    [[nodiscard]] std::uint32_t face(std::size_t t) const {
+        return faces.empty() ? static_cast<std::uint32_t>(t) : faces[t];
+    }
+};
+
+TriangleList cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator);
+
+}  // namespace tspace::mikk

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Vector arithmetic on blocks of corners, one array per component, in loops that the compiler turns into
+// SIMD. Each lane does what vector_rules.h does, so the bits are those of the scalar code.
+#pragma once
+
+#include <cfloat>
+#include <cmath>
+#include <cstddef>
+
+#include "core/acos.h"
+#include "core/vec_math.h"
+
+namespace tspace::mikk {
+
+inline constexpr std::size_t kBlock =
+    128;  // corners; a block's arrays take 10 KB and stay in the first cache
+inline constexpr std::size_t kLaneGroup =
+    16;  // loops run over whole groups, so that no remainder loop is needed
+
+struct Lanes3 {
+    alignas(64) float x[kBlock] = {};
+    alignas(64) float y[kBlock] = {};
+    alignas(64) float z[kBlock] = {};
+
+    void set(std::size_t i, const Vec3& v) {
+        x[i] = v.x;
+        y[i] = v.y;
+        z[i] = v.z;
+    }
+    [[nodiscard]] Vec3 get(std::size_t i) const { return {x[i], y[i], z[i]}; }
+};
+
+inline std::size_t wholeGroups(std::size_t count) {
+    return (count + kLaneGroup - 1) / kLaneGroup * kLaneGroup;
+}
+
+/// v[i] = flatten(n[i], v[i]) for the first `count` lanes (and the rest of the last group).
+inline void flattenLanes(const Lanes3& n, Lanes3& v, std::size_t count) {
+    const std::size_t end = wholeGroups(count);
+    for (std::size_t i = 0; i < end; ++i) {
+        const float along = n.x[i] * v.x[i] + n.y[i] * v.y[i] + n.z[i] * v.z[i];
+        const float x = v.x[i] - along * n.x[i], y = v.y[i] - along * n.y[i], z = v.z[i] - along * n.z[i];
+        const float scale = 1.0f / std::sqrt(x * x + y * y + z * z);
+        const bool sound = (std::fabs(x) > FLT_MIN) | (std::fabs(y) > FLT_MIN) | (std::fabs(z) > FLT_MIN);
+        v.x[i] = sound ? scale * x : x;
+        v.y[i] = sound ? scale * y : y;
+        v.z[i] = sound ? scale * z : z;
+    }
+}
+
+/// The cosine between unit vectors, kept in [-1, 1]; NaN stays.
+inline float cosineOf(float c) { return c > 1.0f ? 1.0f : c < -1.0f ? -1.0f : c; }
+
+inline void angleLanes(const Lanes3& a, const Lanes3& b, float* angle, std::size_t count) {
+    const std::size_t end = wholeGroups(count);
+    for (std::size_t i = 0; i < end; ++i) {
+        angle[i] = arcCosine(cosineOf(a.x[i] * b.x[i] + a.y[i] * b.y[i] + a.z[i] * b.z[i]));
+    }
+}
+
+}  // namespace tspace::mikk

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// The plan of the grouping methods: the steps in their order, one file each.
+#include <algorithm>
+
+#include "tangents/mikktspace/corner_lists.h"
+#include "tangents/mikktspace/faces.h"
+#include "tangents/mikktspace/grouped_plan.h"
+#include "tangents/mikktspace/groups.h"
+#include "tangents/mikktspace/growing.h"
+#include "tangents/mikktspace/slot_writes.h"
+#include "tangents/mikktspace/splits.h"
+#include "tangents/mikktspace/tail_order.h"
+#include "tangents/mikktspace/triangle_pass.h"
+#include "tangents/mikktspace/weld.h"
+
+namespace tspace::mikk {
+
+namespace {
+
+constexpr std::size_t kGrain = 4096;  // nodes
+
+void readNodes(const MeshView& mesh, const Nodes& nodes, GroupedPlan& plan, PoseData& pose,
+               const Allocator* allocator, Parallel& parallel) {
+    plan.node_count = nodes.count;
+    plan.node_vertex = Buffer<std::uint32_t>(allocator, nodes.count);
+    plan.node_uv = Buffer<Vec2>(allocator, nodes.count);
+    pose.positions = Buffer<Vec3>(allocator, nodes.count);
+    parallel.forRanges(nodes.count, kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) {
+            const std::uint32_t vertex = mesh.indices[nodes.corner[n]];
+            plan.node_vertex[n] = vertex;
+            plan.node_uv[n] = mesh.uvs[vertex];
+            pose.positions[n] = mesh.positions[vertex];
+        }
+    });
+}
+
+/// Corners of degenerate triangles take the result of the first good corner of their node.
+void resolveNodeCopies(GroupedPlan& plan, TrianglePass& pass) {
+    for (const NodeCopy& copy : pass.node_copies) {
+        const std::uint32_t begin = plan.node_begin[copy.node];
+        const bool has_corner = begin < plan.node_begin[copy.node + 1];
+        pass.copies.push({copy.to, has_corner ? plan.slot(plan.list[begin]) : kNone});
+    }
+}
+
+}  // namespace
+
+GroupedPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Parallel& parallel,
+                        PoseData& pose) {
+    const Allocator* allocator = options.execution.allocator;
+    const bool is_mikktspace = options.method == Method::mikktspace;
+    GroupedPlan plan;
+    plan.method = options.method;
+    plan.sign_factor = signFactor(options.convention);
+    plan.vertex_count = mesh.vertexCount();
+    plan.corner_count = mesh.cornerCount();
+
+    TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
+    plan.skipped_corners = std::move(triangles.skipped_corners);
+    plan.report.triangle_count = triangles.count;
+    plan.report.skipped_face_count = triangles.skipped_face_count;
+    Nodes nodes = weld(mesh, triangles, allocator, parallel);
+    readNodes(mesh, nodes, plan, pose, allocator, parallel);
+    TrianglePass pass = passTriangles(mesh, triangles, nodes, plan, pose, allocator, parallel);
+    listCorners(plan, allocator);
+    TailPairs tail;
+    if (is_mikktspace && options.pairing == Pairing::reference) {
+        tail = findTailPairs(mesh, triangles, nodes, plan, allocator, parallel);
+        plan.report.reference_order_abandoned = tail.abandoned;
+    }
+    resolveNodeCopies(plan, pass);
+    formGroups(plan, tail, allocator, parallel);
+    if (is_mikktspace) {
+        const Pose own{mesh.positions, mesh.normals};
+        findSplits(plan, thresholdCosine(options.angular_threshold_deg), own, pose, pass.faces, allocator,
+                   parallel);
+    }
+    planSlotWrites(plan, pass, allocator);
+    return plan;
+}
+
+std::size_t GroupedPlan::memoryBytes() const {
+    const auto bytes = [](const auto& buffer) { return buffer.size() * sizeof(*buffer.data()); };
+    return sizeof(*this) + bytes(nodes) + bytes(slots) + bytes(flags) + bytes(node_vertex) + bytes(node_uv) +
+           bytes(node_begin) + bytes(list) + bytes(split_groups) + bytes(split_rows) + bytes(split_leaders) +
+           bytes(conflicts) + bytes(conflict_order) + bytes(default_corners) + bytes(skipped_corners) +
+           bytes(copies);
+}
+
+}  // namespace tspace::mikk

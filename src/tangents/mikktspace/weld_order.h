@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Which corner of a node the reference keeps as its representative. It depends on the order in which the
+// reference's spatial search happens to leave corners, so that order is reproduced where somebody needs to
+// know.
+#pragma once
+
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "tangents/mikktspace/faces.h"
+#include "tangents/mikktspace/weld.h"
+
+namespace tspace::mikk {
+
+/// Sets nodes.corner to the representative for each node with wanted[node] != 0 (all nodes when `wanted` is
+/// null). `not_welded` may be null; else it has one zero byte per corner of the mesh, which becomes 1 where
+/// the reference gives up welding (positions that are not finite, or so large that a sum of two overflows).
+/// Linear in the corners of those cells (of 2048) that hold wanted nodes, times the halvings of a float
+/// interval.
+void findRepresentatives(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
+                         const std::uint8_t* wanted, std::uint8_t* not_welded, const Allocator* allocator,
+                         Parallel& parallel);
+
+}  // namespace tspace::mikk

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// The public entry points: checks, and the choice between the plans that group faces and those that do not.
+#include "tspace/tangents.h"
+
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "core/border.h"
+#include "core/parallel.h"
+#include "tangents/indexed_plan.h"
+#include "tangents/mikktspace/grouped_plan.h"
+
+namespace tspace {
+
+struct TangentPlan::State {
+    std::variant<IndexedPlan, mikk::GroupedPlan> plan;
+    Method method = Method::mikktspace;
+    std::size_t vertex_count = 0;
+    std::size_t corner_count = 0;
+};
+
+namespace {
+
+bool isGrouped(Method method) {
+    return method == Method::mikktspace || method == Method::uniform || method == Method::angle ||
+           method == Method::area;
+}
+
+Error checkOptions(const TangentOptions& options) {
+    if (options.method > Method::basis) {
+        return {ErrorCode::invalidOption,
+                "unknown method " + std::to_string(static_cast<unsigned>(options.method))};
+    }
+    if (options.pairing > Pairing::corrected) return {ErrorCode::invalidOption, "unknown pairing"};
+    if (options.ngons > Ngons::skip) return {ErrorCode::invalidOption, "unknown treatment of n-gons"};
+    return {ErrorCode::ok, {}};
+}
+
+Error checkInput(const MeshView& mesh, const TangentOptions& options) {
+    if (Error e = checkOptions(options); e.code != ErrorCode::ok) return e;
+    if (const Result<Done> valid = validate(mesh); !valid) return valid.error();
+    if (mesh.vertexCount() == 0) return {ErrorCode::ok, {}};
+    if (mesh.normals.empty())
+        return {ErrorCode::missingAttribute, "tangents need normals, and the mesh has none"};
+    if (mesh.uvs.empty() && options.method != Method::basis) {
+        return {ErrorCode::missingAttribute, "this method needs UVs, and the mesh has none"};
+    }
+    if (isGrouped(options.method) && 3 * mikk::countTriangles(mesh, options.ngons) > mikk::kMaxTricorners) {
+        return {ErrorCode::tooLarge, "more than 715827882 triangles"};
+    }
+    return {ErrorCode::ok, {}};
+}
+
+Error checkOutput(const TangentOutput& out, std::size_t corner_count) {
+    if (Error e = checkSpan(out.tangents, corner_count, "tangents"); e.code != ErrorCode::ok) return e;
+    const auto optional = [&](const auto& span, const char* name) {
+        return span.empty() ? Error{ErrorCode::ok, {}} : checkSpan(span, corner_count, name);
+    };
+    if (Error e = optional(out.bitangents, "bitangents"); e.code != ErrorCode::ok) return e;
+    if (Error e = optional(out.magnitudes_s, "magnitudes_s"); e.code != ErrorCode::ok) return e;
+    return optional(out.magnitudes_t, "magnitudes_t");
+}
+
+Error checkPose(const Pose& pose, std::size_t vertex_count) {
+    if (pose.positions.count != vertex_count || pose.normals.count != vertex_count) {
+        return {ErrorCode::planMismatch, "the pose has " + std::to_string(pose.positions.count) +
+                                             " positions and " + std::to_string(pose.normals.count) +
+                                             " normals, the plan needs " + std::to_string(vertex_count)};
+    }
+    if (Error e = checkSpan(pose.positions, vertex_count, "positions"); e.code != ErrorCode::ok) return e;
+    return checkSpan(pose.normals, vertex_count, "normals");
+}
+
+}  // namespace
+
+TangentPlan::TangentPlan(std::unique_ptr<State> state) : state_(std::move(state)) {}
+TangentPlan::TangentPlan(TangentPlan&&) noexcept = default;
+TangentPlan& TangentPlan::operator=(TangentPlan&&) noexcept = default;
+TangentPlan::~TangentPlan() = default;
+
+std::size_t TangentPlan::vertexCount() const { return state_->vertex_count; }
+std::size_t TangentPlan::cornerCount() const { return state_->corner_count; }
+Method TangentPlan::method() const { return state_->method; }
+std::size_t TangentPlan::memoryBytes() const {
+    return std::visit([](const auto& plan) { return plan.memoryBytes(); }, state_->plan);
+}
+
+Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options,
+                                       const TangentOutput& out) {
+    return atBorder([&]() -> Result<TangentReport> {
+        if (Error e = checkInput(mesh, options); e.code != ErrorCode::ok) return e;
+        if (Error e = checkOutput(out, mesh.cornerCount()); e.code != ErrorCode::ok) return e;
+        Parallel parallel(options.execution);
+        const Allocator* allocator = options.execution.allocator;
+        const Pose pose{mesh.positions, mesh.normals};
+        if (!isGrouped(options.method)) {
+            return evaluateIndexed(planIndexed(mesh, options, parallel), pose, out, allocator, parallel);
+        }
+        mikk::PoseData data;
+        const mikk::GroupedPlan plan = mikk::planGrouped(mesh, options, parallel, data);
+        return mikk::evaluateGrouped(plan, pose, data, out, allocator, parallel);
+    });
+}
+
+Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& options) {
+    return atBorder([&]() -> Result<TangentPlan> {
+        if (Error e = checkInput(mesh, options); e.code != ErrorCode::ok) return e;
+        Parallel parallel(options.execution);
+        auto state = std::make_unique<TangentPlan::State>();
+        state->method = options.method;
+        state->vertex_count = mesh.vertexCount();
+        state->corner_count = mesh.cornerCount();
+        if (isGrouped(options.method)) {
+            mikk::PoseData unused;
+            state->plan = mikk::planGrouped(mesh, options, parallel, unused);
+        } else {
+            state->plan = planIndexed(mesh, options, parallel);
+        }
+        return TangentPlan(std::move(state));
+    });
+}
+
+Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose, const TangentOutput& out,
+                                       const Execution& execution) {
+    return atBorder([&]() -> Result<TangentReport> {
+        const TangentPlan::State& state = plan.state();
+        if (Error e = checkPose(pose, state.vertex_count); e.code != ErrorCode::ok) return e;
+        if (Error e = checkOutput(out, state.corner_count); e.code != ErrorCode::ok) {
+            if (e.code == ErrorCode::countMismatch) e.code = ErrorCode::planMismatch;
+            return e;
+        }
+        Parallel parallel(execution);
+        const Allocator* allocator = execution.allocator;
+        if (const auto* indexed = std::get_if<IndexedPlan>(&state.plan)) {
+            return evaluateIndexed(*indexed, pose, out, allocator, parallel);
+        }
+        const auto& grouped = *std::get_if<mikk::GroupedPlan>(&state.plan);
+        const mikk::PoseData data = mikk::readPose(grouped, pose, allocator, parallel);
+        return mikk::evaluateGrouped(grouped, pose, data, out, allocator, parallel);
+    });
+}
+
+}  // namespace tspace

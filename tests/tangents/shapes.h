@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+// Meshes for tests: regular ones, and the ones that make careless implementations slow or wrong.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "tspace/tangents.h"
+
+namespace tspace::test {
+
+struct Shape {
+    std::vector<Vec3> positions, normals;
+    std::vector<Vec2> uvs;
+    std::vector<std::uint32_t> indices;
+    std::vector<std::uint32_t> face_sizes;  ///< empty: triangles
+
+    std::uint32_t vertex(const Vec3& p, const Vec3& n, const Vec2& uv) {
+        positions.push_back(p);
+        normals.push_back(n);
+        uvs.push_back(uv);
+        return static_cast<std::uint32_t>(positions.size() - 1);
+    }
+    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        indices.insert(indices.end(), {a, b, c});
+    }
+    void face(const std::vector<std::uint32_t>& corners) {
+        indices.insert(indices.end(), corners.begin(), corners.end());
+        face_sizes.push_back(static_cast<std::uint32_t>(corners.size()));
+    }
+    [[nodiscard]] std::size_t cornerCount() const { return indices.size(); }
+    [[nodiscard]] MeshView view() const {
+        MeshView mesh;
+        mesh.positions = positions;
+        mesh.normals = normals;
+        mesh.uvs = uvs;
+        mesh.indices = IndexView(std::span<const std::uint32_t>(indices));
+        mesh.face_sizes = face_sizes;
+        return mesh;
+    }
+};
+
+inline constexpr Vec3 kUp{0, 0, 1};
+
+/// A wavy sheet of 2 * side * side triangles.
+inline Shape grid(std::uint32_t side) {
+    Shape shape;
+    for (std::uint32_t y = 0; y <= side; ++y) {
+        for (std::uint32_t x = 0; x <= side; ++x) {
+            const auto fx = static_cast<float>(x), fy = static_cast<float>(y), n = static_cast<float>(side);
+            shape.vertex({fx, fy, std::sin(fx * 0.3f) * std::cos(fy * 0.2f)}, kUp, {fx / n, fy / n});
+        }
+    }
+    for (std::uint32_t y = 0; y < side; ++y) {
+        for (std::uint32_t x = 0; x < side; ++x) {
+            const std::uint32_t a = y * (side + 1) + x, b = a + 1, c = b + side + 1, d = a + side + 1;
+            shape.triangle(a, b, c);
+            shape.triangle(a, c, d);
+        }
+    }
+    return shape;
+}
+
+inline Shape gridOf(std::size_t triangles) {
+    return grid(static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles) / 2)));
+}
+
+inline void shuffleTriangles(Shape& shape, std::uint32_t seed) {
+    std::mt19937 random(seed);
+    for (std::size_t i = shape.indices.size() / 3; i-- > 1;) {
+        const std::size_t j = random() % (i + 1);
+        for (std::size_t k = 0; k < 3; ++k) std::swap(shape.indices[3 * i + k], shape.indices[3 * j + k]);
+    }
+}
+
+/// All triangles share one vertex; the UVs are the positions seen from above.
+inline Shape fan(std::size_t triangles) {
+    Shape shape;
+    const std::uint32_t apex = shape.vertex({0, 0, 0.5f}, kUp, {0.5f, 0.5f});
+    for (std::size_t i = 0; i < triangles; ++i) {
+        const double a = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(triangles);
+        const auto x = static_cast<float>(std::cos(a)), y = static_cast<float>(std::sin(a));
+        shape.vertex({x, y, 0}, kUp, {0.5f + 0.5f * x, 0.5f + 0.5f * y});
+    }
+    for (std::size_t i = 0; i < triangles; ++i) {
+        const auto n = static_cast<std::uint32_t>(triangles);
+        shape.triangle(apex, 1 + static_cast<std::uint32_t>(i), 1 + (static_cast<std::uint32_t>(i) + 1) % n);
+    }
+    return shape;
+}
+
+/// A fan whose UVs unroll the rim: tangents at the apex point in all directions.
+inline Shape unrolledFan(std::size_t triangles) {
+    Shape shape = fan(triangles);
+    for (std::size_t i = 0; i < triangles; ++i) {
+        shape.uvs[i + 1] = {static_cast<float>(i) / static_cast<float>(triangles), 0};
+    }
+    shape.uvs[0] = {0.5f, 1};
+    shape.indices.resize(shape.indices.size() - 3);
+    return shape;
+}
+
+/// A cone with a UV of its own for each face at the apex: as many nodes at one position.
+inline Shape cone(std::size_t triangles) {
+    Shape shape = fan(triangles);
+    for (std::size_t i = 0; i < triangles; ++i) {
+        shape.indices[3 * i] =
+            shape.vertex({0, 0, 0.5f}, kUp, {static_cast<float>(i) / static_cast<float>(triangles), 1});
+    }
+    return shape;
+}
+
+/// Every triangle is a point at the same place, with UVs of its own.
+inline Shape collapsed(std::size_t triangles) {
+    Shape shape;
+    for (std::size_t i = 0; i < triangles; ++i) {
+        const float u = static_cast<float>(i);
+        const std::uint32_t a = shape.vertex({1, 2, 3}, kUp, {u, 0});
+        shape.vertex({1, 2, 3}, kUp, {u, 1});
+        shape.vertex({1, 2, 3}, kUp, {u + 1, 0});
+        shape.triangle(a, a + 1, a + 2);
+    }
+    return shape;
+}
+
+/// All triangles share one edge; every other one runs along it the other way when `mixed`.
+inline Shape book(std::size_t pages, bool mixed) {
+    Shape shape;
+    const std::uint32_t a = shape.vertex({0, 0, 0}, {0, 1, 0}, {0, 0}),
+                        b = shape.vertex({0, 0, 1}, {0, 1, 0}, {0, 1});
+    for (std::size_t i = 0; i < pages; ++i) {
+        const double angle = 1.5 * static_cast<double>(i) / static_cast<double>(pages);
+        const auto x = static_cast<float>(std::cos(angle)), y = static_cast<float>(std::sin(angle));
+        const std::uint32_t c = shape.vertex({x, y, 0.5f}, {0, 1, 0}, {1, 0.5f});
+        if (mixed && i % 2 == 1) {
+            shape.triangle(b, a, c);
+        } else {
+            shape.triangle(a, b, c);
+        }
+    }
+    return shape;
+}
+
+/// A sheet in which every triangle has its own vertices, at the same positions but with other normals.
+inline Shape duplicatesWithOtherNormals(std::size_t triangles) {
+    Shape shape;
+    for (std::size_t i = 0; i < triangles; ++i) {
+        const double tilt = static_cast<double>(i) * 1e-5;
+        const Vec3 n{static_cast<float>(std::sin(tilt)), 0, static_cast<float>(std::cos(tilt))};
+        const std::uint32_t a = shape.vertex({0, 0, 0}, n, {0, 0});
+        shape.vertex({1, 0, 0}, n, {1, 0});
+        shape.vertex({0, 1, 0}, n, {0, 1});
+        shape.triangle(a, a + 1, a + 2);
+    }
+    return shape;
+}
+
+/// Every hundredth triangle has two corners at one place.
+inline Shape someDegenerate(std::size_t triangles) {
+    Shape shape = gridOf(triangles);
+    for (std::size_t t = 50; t < shape.indices.size() / 3; t += 100)
+        shape.indices[3 * t + 1] = shape.indices[3 * t];
+    return shape;
+}
+
+/// Neighbouring squares have UVs of opposite orientation.
+inline Shape checkerboard(std::size_t triangles) {
+    Shape shape = gridOf(triangles);
+    const auto side = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(shape.positions.size())));
+    for (std::uint32_t y = 0; y < side; ++y) {
+        for (std::uint32_t x = 0; x < side; ++x) {
+            shape.uvs[y * side + x] = {static_cast<float>(x % 2), static_cast<float>(y % 2)};
+        }
+    }
+    return shape;
+}
+
+/// A sheet with NaN and infinity strewn in.
+inline Shape notFinite(std::size_t triangles) {
+    Shape shape = gridOf(triangles);
+    for (std::size_t v = 7; v < shape.positions.size(); v += 97) {
+        shape.positions[v].y = std::numeric_limits<float>::quiet_NaN();
+        if (v + 3 < shape.positions.size()) shape.uvs[v + 3].x = std::numeric_limits<float>::infinity();
+    }
+    return shape;
+}
+
+/// Triangles with all UVs equal beside sound ones.
+inline Shape someWithoutUvArea(std::size_t triangles) {
+    Shape shape = gridOf(triangles);
+    for (std::size_t v = 0; v < shape.uvs.size(); ++v) {
+        if (v / 16 % 2 == 0) shape.uvs[v] = {0.5f, 0.5f};
+    }
+    return shape;
+}
+
+struct Outputs {
+    std::vector<Vec4> tangents;
+    std::vector<Vec3> bitangents;
+    std::vector<float> magnitudes_s, magnitudes_t;
+    TangentReport report;
+
+    explicit Outputs(std::size_t corners)
+        : tangents(corners, Vec4{9, 9, 9, 9}),
+          bitangents(corners, Vec3{9, 9, 9}),
+          magnitudes_s(corners, 9.0f),
+          magnitudes_t(corners, 9.0f) {}
+    [[nodiscard]] TangentOutput view() { return {tangents, bitangents, magnitudes_s, magnitudes_t}; }
+};
+
+}  // namespace tspace::test
