@@ -42,11 +42,6 @@ bool decide(PrimitiveReport& report, const Primitive& primitive, const TangentNe
     if (hasUsableTangents(primitive) && !options.overwrite) {
         return leave(PrimitiveAction::kept, "it has tangents, and overwriting was not asked for");
     }
-    if (primitive.has_draco) {
-        failFile(ErrorCode::unsupportedFile,
-                 "the primitive is compressed by KHR_draco_mesh_compression, which is not supported yet",
-                 primitive.place() + "/extensions/KHR_draco_mesh_compression");
-    }
     if (!primitive.find("POSITION")) return leave(PrimitiveAction::impossible, "it has no positions");
     if (primitive.triangleCount() == 0) return leave(PrimitiveAction::impossible, "it has no triangle");
     if (options.tangents.method != Method::basis) {
@@ -55,6 +50,11 @@ bool decide(PrimitiveReport& report, const Primitive& primitive, const TangentNe
                          "it has no " + uvName(need.uv_set) + " for the tangents to follow");
         }
         report.uv_set = static_cast<std::int32_t>(need.uv_set);
+    }
+    if (primitive.has_draco) {
+        failFile(ErrorCode::unsupportedFile,
+                 "the primitive is compressed by KHR_draco_mesh_compression, which is not supported yet",
+                 primitive.place() + "/extensions/KHR_draco_mesh_compression");
     }
     report.reason =
         need.needed() ? "its material needs tangents for " + need.needed_by : "all primitives were asked for";
