@@ -153,7 +153,7 @@ void applySparse(const Document& document, const Accessor& accessor, Bytes& elem
         const std::uint32_t at = unsignedAt(indices + i * bytesOf(sparse.index_type), sparse.index_type);
         if (at >= accessor.count) {
             failAt("the sparse index " + std::to_string(at) + " is out of range",
-                   join(accessor.place(), "sparse/indices"));
+                   accessor.place() + "/sparse/indices");
         }
         std::memcpy(elements.data() + at * accessor.element_bytes, values + i * accessor.element_bytes,
                     accessor.element_bytes);

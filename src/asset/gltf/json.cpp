@@ -106,7 +106,11 @@ JsonStyle styleOf(std::string_view text) {
 }
 
 std::optional<std::size_t> wholeNumber(const Json& value) {
-    if (value.is_number_unsigned()) return value.get<std::uint64_t>();
+    if (value.is_number_integer()) {
+        // Parsed numbers are unsigned; those that this program wrote may be signed.
+        if (!value.is_number_unsigned() && value.get<std::int64_t>() < 0) return {};
+        return value.get<std::uint64_t>();
+    }
     if (!value.is_number_float()) return {};
     // 5.0 is a whole number too; beyond 2^53 a double cannot say which one.
     const double number = value.get<double>();

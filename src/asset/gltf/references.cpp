@@ -17,9 +17,9 @@ constexpr std::size_t kCutAlignment = 8;
 /// Wrong types are passed over here: what this program reads itself was checked before, the rest is not its
 /// own.
 void count(std::vector<std::size_t>& uses, const Json* value) {
-    if (value == nullptr || !value->is_number_unsigned()) return;
-    const auto index = value->get<std::size_t>();
-    if (index < uses.size()) ++uses[index];
+    if (value == nullptr || !value->is_number() || !(value->get<double>() >= 0)) return;
+    const double index = value->get<double>();
+    if (index < static_cast<double>(uses.size())) ++uses[static_cast<std::size_t>(index)];
 }
 
 void countMembers(std::vector<std::size_t>& uses, const Json* object) {
