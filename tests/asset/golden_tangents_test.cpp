@@ -70,7 +70,7 @@ TEST_P(ShippedTangents, AgreeWithOursOnEveryCorner) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shared, ShippedTangents, testing::ValuesIn(kFiles),
-                         [](const auto& info) { return test::testName(info.param.name); });
+                         [](const auto& file) { return test::testName(file.param.name); });
 
 }  // namespace
 }  // namespace tspace

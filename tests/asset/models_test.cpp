@@ -87,7 +87,7 @@ TEST_P(Models, StayAsTheyAreWithoutOverwriteWhereNothingIsMissing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shared, Models, testing::ValuesIn(test::modelFiles("models")),
-                         [](const auto& info) { return test::testName(info.param); });
+                         [](const auto& file) { return test::testName(file.param); });
 
 class BadFiles : public testing::TestWithParam<std::string> {};
 
