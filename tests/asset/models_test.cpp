@@ -114,8 +114,8 @@ TEST_P(BadFiles, EndWithAnErrorOrASoundFile) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shared, BadFiles, testing::ValuesIn(test::modelFiles("bad")), [](const auto& info) {
-    return std::to_string(info.index) + "_" + test::testName(info.param);
+INSTANTIATE_TEST_SUITE_P(Shared, BadFiles, testing::ValuesIn(test::modelFiles("bad")), [](const auto& file) {
+    return std::to_string(file.index) + "_" + test::testName(file.param);
 });
 
 }  // namespace
