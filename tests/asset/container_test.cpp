@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// GLB chunks and the JSON in them: what is accepted, and that every defect has its own message.
+#include <gtest/gtest.h>
+
+#include "asset/gltf/glb.h"
+#include "asset/gltf/json.h"
+#include "gltf_builder.h"
+
+namespace tspace::gltf {
+namespace {
+
+using test::errorOf;
+using test::GltfBuilder;
+using test::toBytes;
+
+Bytes smallGlb() {
+    GltfBuilder builder;
+    builder.addFloats({1, 2, 3}, 3);
+    return builder.glb({{0x12345678, {1, 2, 3, 4}}});
+}
+
+TEST(Glb, ReadsBackWhatItFrames) {
+    const Bytes file = smallGlb();
+    ASSERT_TRUE(isGlb(file));
+    const GlbChunks chunks = readGlb(file);
+    ASSERT_TRUE(chunks.bin.has_value());
+    EXPECT_EQ(chunks.bin->size(), 12u);
+    ASSERT_EQ(chunks.extra.size(), 1u);
+    EXPECT_EQ(chunks.extra[0].type, 0x12345678u);
+    EXPECT_EQ(chunks.extra[0].bytes, (Bytes{1, 2, 3, 4}));
+    EXPECT_EQ(file.size() % 4, 0u);
+}
+
+TEST(Glb, RefusesEveryTruncation) {
+    const Bytes file = smallGlb();
+    for (std::size_t length = 0; length < file.size(); ++length) {
+        const Bytes cut(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(length));
+        EXPECT_EQ(errorOf([&] { readGlb(cut); }).code, ErrorCode::invalidFile) << length;
+        const Error error = errorOf([&] { parseDocument(cut, "cut.glb", {}); });
+        EXPECT_EQ(error.code, ErrorCode::invalidFile) << length;
+        EXPECT_FALSE(error.message.empty());
+    }
+}
+
+TEST(Glb, RefusesWrongLengthsAndOrder) {
+    Bytes longer = smallGlb();
+    longer.push_back(0);
+    EXPECT_EQ(errorOf([&] { readGlb(longer); }).place, "byte 8");
+    Bytes huge_chunk = smallGlb();
+    huge_chunk[12] = huge_chunk[13] = huge_chunk[14] = huge_chunk[15] = 0xff;
+    EXPECT_EQ(errorOf([&] { readGlb(huge_chunk); }).place, "byte 12");
+    Bytes not_json = smallGlb();
+    not_json[16] = 'X';
+    EXPECT_EQ(errorOf([&] { readGlb(not_json); }).message, "the first GLB chunk is not JSON");
+    Bytes version = smallGlb();
+    version[4] = 1;
+    EXPECT_EQ(errorOf([&] { readGlb(version); }).code, ErrorCode::unsupportedFile);
+}
+
+TEST(Glb, RefusesToGrowBeyond4GiB) {
+    EXPECT_EQ(errorOf([] { frameGlb("{}", std::size_t{0xffffffff}, {}); }).code, ErrorCode::cannotWrite);
+}
+
+TEST(JsonText, KeepsOrderAndUnknownMembers) {
+    const std::string text =
+        R"({"z":1,"a":[true,null,-0.0,0.10000000149011612,12345678901234567890],"":{"x":"\u00e9"}})";
+    const ParsedJson parsed = parseJson(toBytes(text));
+    EXPECT_EQ(writeJson(parsed.root, parsed.style),
+              "{\"z\":1,\"a\":[true,null,-0.0,0.10000000149011612,"
+              "12345678901234567890],\"\":{\"x\":\"\u00e9\"}}");
+}
+
+TEST(JsonText, KeepsItsLayout) {
+    for (const std::string text :
+         {"{\n  \"a\": [\n    1\n  ]\n}\n", "{\n\t\"a\": {\n\t\t\"b\": 1\n\t}\n}", "{\"a\":1}"}) {
+        const ParsedJson parsed = parseJson(toBytes(text));
+        EXPECT_EQ(writeJson(parsed.root, parsed.style), text);
+    }
+}
+
+TEST(JsonText, RefusesDeepNestingWithoutRecursion) {
+    const std::string deep(2000000, '[');
+    EXPECT_NE(errorOf([&] { parseJson(toBytes(deep)); }).message.find("nested"), std::string::npos);
+    std::string objects;
+    for (int i = 0; i < 100000; ++i) objects += "{\"a\":";
+    EXPECT_NE(errorOf([&] { parseJson(toBytes(objects)); }).message.find("nested"), std::string::npos);
+}
+
+TEST(JsonText, ReadsWideObjectsInLinearTime) {
+    std::string wide = "{\"asset\":{\"version\":\"2.0\"},\"extras\":{";
+    for (int i = 0; i < 300000; ++i) wide += "\"key" + std::to_string(i) + "\":0,";
+    wide += "\"last\":0}}";
+    const ParsedJson parsed = parseJson(toBytes(wide));
+    EXPECT_EQ(parsed.root["extras"].size(), 300001u);
+}
+
+TEST(JsonText, SaysWhatIsWrong) {
+    const auto message = [](const std::string& text) {
+        return errorOf([&] { parseJson(toBytes(text)); }).message;
+    };
+    EXPECT_EQ(message("{\"a\":1e400}"), "the JSON has a number that is too large");
+    EXPECT_EQ(message("{\"a\":NaN}"), "the JSON has a syntax error");
+    EXPECT_EQ(message("{\"a\":1,\"a\":2}"), "the JSON has the member 'a' twice in one object");
+    EXPECT_EQ(message("[1]"), "the JSON is not an object");
+    EXPECT_EQ(message(""), "the JSON has a syntax error");
+    EXPECT_EQ(message("{\"a\":\"\xff\"}"), "the JSON has a syntax error");
+}
+
+TEST(Document, RefusesWrongTypesAtTheirPlace) {
+    const struct {
+        const char* text;
+        const char* place;
+    } cases[] = {
+        {R"({})", ""},
+        {R"({"asset":5})", "/asset"},
+        {R"({"asset":{"version":2}})", "/asset/version"},
+        {R"({"asset":{"version":"2.0"},"accessors":{}})", "/accessors"},
+        {R"({"asset":{"version":"2.0"},"accessors":[1]})", "/accessors/0"},
+        {R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":-1}]})", "/buffers/0/byteLength"},
+        {R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":7}]})", "/buffers/0/uri"},
+        {R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"data:,abc"}]})",
+         "/buffers/0/byteLength"},
+        {R"({"asset":{"version":"2.0"},"bufferViews":[{"buffer":0,"byteLength":4}]})",
+         "/bufferViews/0/buffer"},
+        {R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":3,"uri":"data:,abc"}],
+             "bufferViews":[{"buffer":0,"byteOffset":18446744073709551615,"byteLength":2}]})",
+         "/bufferViews/0"},
+        {R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5126,"type":"VEC3","count":1e10}]})",
+         "/accessors/0/count"},
+        {R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5124,"type":"VEC3","count":1}]})",
+         "/accessors/0/componentType"},
+        {R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5126,"type":"VEC5","count":1}]})",
+         "/accessors/0/type"},
+    };
+    for (const auto& test : cases) {
+        const Error error = errorOf([&] { parseDocument(toBytes(test.text), "model.gltf", {}); });
+        EXPECT_NE(error.code, ErrorCode::ok) << test.text;
+        EXPECT_NE(error.code, ErrorCode::internal) << test.text;
+        EXPECT_EQ(error.place, test.place) << test.text;
+        EXPECT_EQ(error.message.find('\n'), std::string::npos);
+    }
+}
+
+TEST(Document, NamesRequiredExtensions) {
+    const auto check = [](const char* name) {
+        const std::string text =
+            std::string(R"({"asset":{"version":"2.0"},"extensionsRequired":[")") + name + "\"]}";
+        return checkRequiredExtensions(parseDocument(toBytes(text), "model.gltf", {}));
+    };
+    for (const char* name :
+         {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+        const Error error = errorOf([&] { check(name); });
+        EXPECT_EQ(error.code, ErrorCode::unsupportedFile);
+        EXPECT_NE(error.message.find("not supported yet"), std::string::npos);
+    }
+    EXPECT_TRUE(check("KHR_mesh_quantization").empty());
+    EXPECT_EQ(check("VENDOR_unknown").size(), 1u);
+}
+
+}  // namespace
+}  // namespace tspace::gltf

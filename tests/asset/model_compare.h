@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Compares a model before and after generate: everything but the allowed edits must be the same.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "asset/gltf/document.h"
+#include "tspace/asset.h"
+
+namespace tspace::test {
+
+/// What differs and should not; empty when all is well. `report` says which primitives were computed.
+/// Compares the JSON with its order of members, every accessor of an untouched primitive by its bytes, every
+/// attribute and morph target of a changed primitive corner by corner, and every image by its bytes.
+std::vector<std::string> differences(const gltf::Document& before, const gltf::Document& after,
+                                     const GenerateReport& report);
+
+}  // namespace tspace::test
