@@ -30,6 +30,9 @@ struct GenerateOptions {
     TangentOptions tangents{.convention = conventions::gltf};
     /// For primitives without normals. The default is what glTF asks of a client.
     NormalOptions normals{.weighting = NormalWeighting::flat};
+    /// OBJ files with `s` lines: missing normals follow those groups with angle weights (faces in group 0 are flat).
+    /// false, or a file without `s` lines: `normals` alone decides.
+    bool use_smoothing_groups = true;
     bool sanitize = true;
     SanitizeOptions sanitize_options = {};
     FileOptions file = {};
