@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Temporary files beside their targets, renamed together at the end.
+#include "asset/atomic_output.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "asset/file_error.h"
+
+namespace tspace {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+[[noreturn]] void failWrite(const fs::path& target, const std::string& why) {
+    failFile(ErrorCode::cannotWrite, "cannot write '" + target.string() + "': " + why);
+}
+
+/// A name beside `target` that no other run uses; `kind` tells the temporary file from the set-aside old one.
+fs::path besideName(const fs::path& target, const char* kind) {
+    fs::path name = target;
+    name += std::string(".").append(std::to_string(::getpid())).append(kind);
+    return name;
+}
+
+}  // namespace
+
+AtomicOutput::~AtomicOutput() {
+    if (committed_) return;
+    std::error_code ignored;
+    for (const File& file : files_) fs::remove(file.temporary, ignored);
+    // Only empty folders go: remove() fails on others.
+    for (auto folder = created_folders_.rbegin(); folder != created_folders_.rend(); ++folder)
+        fs::remove(*folder, ignored);
+}
+
+void AtomicOutput::add(const fs::path& requested,
+                       std::initializer_list<std::span<const std::uint8_t>> pieces) {
+    // A link keeps being a link: what it points at is replaced.
+    std::error_code error;
+    const fs::path target = fs::is_symlink(requested, error) ? fs::weakly_canonical(requested) : requested;
+    if (fs::is_directory(target, error)) failWrite(target, "it is a folder");
+    std::vector<fs::path> missing;
+    for (fs::path folder = folderOf(target); !folder.empty() && !fs::exists(folder, error);
+         folder = folder.parent_path()) {
+        missing.push_back(folder);
+    }
+    for (auto folder = missing.rbegin(); folder != missing.rend(); ++folder) {
+        if (fs::create_directory(*folder, error)) created_folders_.push_back(*folder);
+        if (error) failWrite(target, "cannot make its folder: " + error.message());
+    }
+    const fs::path temporary = besideName(target, ".tmp");
+    std::unique_ptr<std::FILE, CloseFile> file(std::fopen(temporary.c_str(), "wb"));
+    if (!file) failWrite(target, std::strerror(errno));
+    files_.push_back({temporary, target});
+    for (const auto& piece : pieces) {
+        if (!piece.empty() && std::fwrite(piece.data(), 1, piece.size(), file.get()) != piece.size()) {
+            failWrite(target, std::strerror(errno));
+        }
+        byte_count_ += piece.size();
+    }
+    if (std::fclose(file.release()) != 0) failWrite(target, std::strerror(errno));
+    const fs::file_status old = fs::status(target, error);
+    if (fs::exists(old)) fs::permissions(temporary, old.permissions(), error);
+}
+
+void AtomicOutput::commit() {
+    // Old files are set aside first, so that a failure half-way can be taken back.
+    struct Aside {
+        fs::path old_name, new_name;
+        bool renamed = false;
+    };
+    std::vector<Aside> aside(files_.size());
+    std::error_code error, ignored;
+    std::size_t done = 0;
+    for (std::size_t i = files_.size(); i-- > 0 && !error; ++done) {
+        const File& file = files_[i];
+        if (files_.size() > 1 && fs::exists(file.target, ignored)) {
+            aside[i] = {file.target, besideName(file.target, ".old"), false};
+            fs::create_hard_link(aside[i].old_name, aside[i].new_name, ignored);
+            aside[i].renamed = !ignored;
+        }
+        fs::rename(file.temporary, file.target, error);
+    }
+    if (error) {
+        const std::size_t failed = files_.size() - done;
+        for (std::size_t i = failed; i < files_.size(); ++i) {
+            if (aside[i].renamed) {
+                fs::rename(aside[i].new_name, aside[i].old_name, ignored);
+            } else if (i != failed) {
+                fs::remove(files_[i].target, ignored);
+            }
+        }
+        failWrite(files_[failed].target, error.message());
+    }
+    for (const Aside& old : aside) {
+        if (old.renamed) fs::remove(old.new_name, ignored);
+    }
+    committed_ = true;
+}
+
+std::vector<std::string> AtomicOutput::files() const {
+    std::vector<std::string> names;
+    for (const File& file : files_) names.push_back(file.target.string());
+    return names;
+}
+
+}  // namespace tspace

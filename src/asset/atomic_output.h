@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Several output files that appear together or not at all: each is written beside its target under a
+// temporary name, and all are renamed at the end.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "asset/file_io.h"
+
+namespace tspace {
+
+/// Collects files, then commit() puts them in place. Without commit() the destructor removes every temporary
+/// file. All functions fail with cannotWrite by throwing FileError.
+class AtomicOutput {
+  public:
+    AtomicOutput() = default;
+    ~AtomicOutput();
+    AtomicOutput(const AtomicOutput&) = delete;
+    AtomicOutput& operator=(const AtomicOutput&) = delete;
+
+    /// Writes `pieces` one after the other to a temporary file beside `target`. Missing folders are created.
+    void add(const std::filesystem::path& target,
+             std::initializer_list<std::span<const std::uint8_t>> pieces);
+    void add(const std::filesystem::path& target, std::span<const std::uint8_t> bytes) {
+        add(target, {bytes});
+    }
+
+    /// Renames all temporary files to their targets, the last one added first kept for the end. When a rename
+    /// fails, the files renamed before it are put back as they were.
+    void commit();
+
+    /// Targets in the order they were added, and the bytes of all of them.
+    [[nodiscard]] std::vector<std::string> files() const;
+    [[nodiscard]] std::uint64_t byteCount() const { return byte_count_; }
+
+  private:
+    struct File {
+        std::filesystem::path temporary;
+        std::filesystem::path target;
+    };
+    std::vector<File> files_;
+    std::vector<std::filesystem::path> created_folders_;
+    std::uint64_t byte_count_ = 0;
+    bool committed_ = false;
+};
+
+}  // namespace tspace

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// How the file readers give up: deep inside a parser an error is thrown as FileError, and the public function
+// that started the work turns it into a Result. No exception leaves the library.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "core/border.h"
+#include "tspace/result.h"
+
+namespace tspace {
+
+/// Thrown inside the asset layer only; caught by atFileBorder.
+struct FileError {
+    Error error;
+};
+
+/// `message` is one sentence without a line break; `place` a JSON pointer, line or byte offset.
+[[noreturn]] inline void failFile(ErrorCode code, std::string message, std::string place = {}) {
+    throw FileError{Error{code, std::move(message), kNoElement, std::move(place)}};
+}
+
+/// The value of a Result, or its error thrown as FileError.
+template <class T>
+T valueOrThrow(Result<T> result) {
+    if (!result) throw FileError{std::move(result).error()};
+    return *std::move(result);
+}
+
+/// Runs `body`, which returns a Result and may throw FileError.
+template <class Body>
+auto atFileBorder(Body&& body) -> std::invoke_result_t<Body> {
+    return atBorder([&]() -> std::invoke_result_t<Body> {
+        try {
+            return body();
+        } catch (const FileError& failure) {
+            return failure.error;
+        } catch (const std::filesystem::filesystem_error& failure) {
+            return Error{ErrorCode::cannotRead,
+                         "cannot look up '" + failure.path1().string() + "': " + failure.code().message()};
+        }
+    });
+}
+
+}  // namespace tspace

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Reading whole files, and questions about paths.
+#include "asset/file_io.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "asset/file_error.h"
+
+namespace tspace {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+}  // namespace
+
+Bytes readFile(const fs::path& path, const std::string& place) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (!fs::exists(status))
+        failFile(ErrorCode::cannotRead, "the file '" + path.string() + "' does not exist", place);
+    // Pipes and devices could block or never end.
+    if (!fs::is_regular_file(status)) {
+        failFile(ErrorCode::cannotRead, "'" + path.string() + "' is not a regular file", place);
+    }
+    const std::uintmax_t size = fs::file_size(path, error);
+    const std::unique_ptr<std::FILE, CloseFile> file(error ? nullptr : std::fopen(path.c_str(), "rb"));
+    if (!file) failFile(ErrorCode::cannotRead, "cannot open the file '" + path.string() + "'", place);
+    Bytes bytes(static_cast<std::size_t>(size));
+    if (!bytes.empty() && std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) {
+        failFile(ErrorCode::cannotRead, "cannot read all of the file '" + path.string() + "'", place);
+    }
+    return bytes;
+}
+
+fs::path folderOf(const fs::path& file) {
+    const fs::path folder = file.parent_path();
+    return folder.empty() ? fs::path(".") : folder;
+}
+
+bool isSameFile(const fs::path& a, const fs::path& b) {
+    std::error_code error;
+    if (fs::equivalent(a, b, error) && !error) return true;
+    if (fs::exists(a, error) || fs::exists(b, error)) return false;
+    return fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
+}
+
+std::string lowerExtension(const fs::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return extension;
+}
+
+}  // namespace tspace

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: MIT
+// Checking and decoding of accessors (glTF 2.0 specification, section 3.6.2; KHR_mesh_quantization).
+#include "asset/gltf/accessor.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "asset/file_error.h"
+#include "tspace/mesh.h"
+
+namespace tspace::gltf {
+
+namespace {
+
+/// An accessor without a buffer view is all zeros and costs its file nothing, so its size needs a limit of
+/// its own.
+constexpr std::size_t kMaxZeroBytes = std::size_t{256} << 20;
+
+[[noreturn]] void failAt(std::string message, std::string place) {
+    failFile(ErrorCode::invalidFile, std::move(message), std::move(place));
+}
+
+ComponentType readComponentType(const Json& object, const std::string& place) {
+    const std::size_t value = readSize(object, "componentType", place);
+    switch (value) {
+        case 5120:
+        case 5121:
+        case 5122:
+        case 5123:
+        case 5125:
+        case 5126:
+            return static_cast<ComponentType>(value);
+        default:
+            failAt("the component type " + std::to_string(value) + " does not exist",
+                   join(place, "componentType"));
+    }
+}
+
+struct Shape {
+    const char* name;
+    std::size_t columns, rows;
+};
+constexpr std::array<Shape, 7> kShapes = {{{"SCALAR", 1, 1},
+                                           {"VEC2", 1, 2},
+                                           {"VEC3", 1, 3},
+                                           {"VEC4", 1, 4},
+                                           {"MAT2", 2, 2},
+                                           {"MAT3", 3, 3},
+                                           {"MAT4", 4, 4}}};
+
+void setShape(Accessor& accessor, const Json& object, const std::string& place) {
+    const std::string name = readString(object, "type", place);
+    for (const Shape& shape : kShapes) {
+        if (name != shape.name) continue;
+        accessor.type = name;
+        accessor.component_count = shape.columns * shape.rows;
+        const std::size_t column = shape.rows * bytesOf(accessor.component);
+        // Columns of matrices start at multiples of 4 bytes.
+        accessor.element_bytes = shape.columns == 1 ? column : (column + 3) / 4 * 4 * shape.columns;
+        return;
+    }
+    failAt(name.empty() ? "the member 'type' is missing"
+                        : "the accessor type " + quoted(name) + " does not exist",
+           join(place, "type"));
+}
+
+/// `count` elements of `element_bytes`, `stride` apart, from `offset` must lie inside the view. No sum can
+/// overflow.
+void checkRange(const BufferView& view, std::size_t offset, std::size_t count, std::size_t stride,
+                std::size_t element_bytes, const std::string& place) {
+    if (count == 0) return;
+    const bool fits = offset <= view.byte_count && element_bytes <= view.byte_count - offset &&
+                      count - 1 <= (view.byte_count - offset - element_bytes) / stride;
+    if (!fits) {
+        failAt("the accessor's " + std::to_string(count) + " elements reach beyond its buffer view of " +
+                   std::to_string(view.byte_count) + " bytes",
+               place);
+    }
+}
+
+std::size_t viewIndex(const Document& document, const Json& object, const std::string& place) {
+    const auto index =
+        readIndex(object, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
+    if (!index) failAt("the member 'bufferView' is missing", place);
+    return *index;
+}
+
+SparsePart readSparse(const Document& document, const Json& object, const Accessor& accessor,
+                      const std::string& place) {
+    SparsePart sparse;
+    sparse.count = readSize(object, "count", place);
+    if (sparse.count > accessor.count)
+        failAt("there are more sparse elements than elements", join(place, "count"));
+    const Json* indices = readObject(object, "indices", place);
+    const Json* values = readObject(object, "values", place);
+    if (indices == nullptr || values == nullptr) failAt("sparse 'indices' or 'values' are missing", place);
+    const std::string index_place = join(place, "indices"), value_place = join(place, "values");
+    sparse.index_type = readComponentType(*indices, index_place);
+    const bool is_unsigned = sparse.index_type == ComponentType::u8 ||
+                             sparse.index_type == ComponentType::u16 ||
+                             sparse.index_type == ComponentType::u32;
+    if (!is_unsigned)
+        failAt("sparse indices must be unsigned whole numbers", join(index_place, "componentType"));
+    sparse.index_view = viewIndex(document, *indices, index_place);
+    sparse.index_offset = readSize(*indices, "byteOffset", index_place, 0);
+    sparse.value_view = viewIndex(document, *values, value_place);
+    sparse.value_offset = readSize(*values, "byteOffset", value_place, 0);
+    const std::size_t index_bytes = bytesOf(sparse.index_type);
+    checkRange(readBufferView(document, sparse.index_view), sparse.index_offset, sparse.count, index_bytes,
+               index_bytes, index_place);
+    checkRange(readBufferView(document, sparse.value_view), sparse.value_offset, sparse.count,
+               accessor.element_bytes, accessor.element_bytes, value_place);
+    return sparse;
+}
+
+/// The bytes of a view. Its range was checked against the declared length, which the data has unless it is
+/// absent.
+const std::uint8_t* viewBytes(const Document& document, std::size_t index) {
+    const BufferView view = readBufferView(document, index);
+    const Buffer& buffer = document.buffers[view.buffer];
+    if (buffer.source == BufferSource::absent && view.byte_count > 0) {
+        failFile(
+            ErrorCode::unsupportedFile,
+            view.compressed
+                ? "the buffer view is meshopt-compressed and has no plain data; this is not supported yet"
+                : "the buffer view lies in a buffer without data",
+            join("/bufferViews", index));
+    }
+    return buffer.bytes.data() + view.begin;
+}
+
+std::uint32_t unsignedAt(const std::uint8_t* bytes, ComponentType type) {
+    switch (type) {
+        case ComponentType::u8:
+            return bytes[0];
+        case ComponentType::u16:
+            return static_cast<std::uint32_t>(bytes[0] | bytes[1] << 8);
+        default:
+            break;
+    }
+    std::uint32_t value;
+    std::memcpy(&value, bytes, 4);
+    return value;
+}
+
+void applySparse(const Document& document, const Accessor& accessor, Bytes& elements) {
+    const SparsePart& sparse = *accessor.sparse;
+    if (sparse.count == 0) return;
+    const std::uint8_t* indices = viewBytes(document, sparse.index_view) + sparse.index_offset;
+    const std::uint8_t* values = viewBytes(document, sparse.value_view) + sparse.value_offset;
+    for (std::size_t i = 0; i < sparse.count; ++i) {
+        const std::uint32_t at = unsignedAt(indices + i * bytesOf(sparse.index_type), sparse.index_type);
+        if (at >= accessor.count) {
+            failAt("the sparse index " + std::to_string(at) + " is out of range",
+                   join(accessor.place(), "sparse/indices"));
+        }
+        std::memcpy(elements.data() + at * accessor.element_bytes, values + i * accessor.element_bytes,
+                    accessor.element_bytes);
+    }
+}
+
+template <class Component>
+Component load(const std::uint8_t* bytes) {
+    Component value;
+    std::memcpy(&value, bytes, sizeof(Component));
+    return value;
+}
+
+/// f = max(c / 127, -1) and its like, in float as the specification writes it; not normalised: the value
+/// itself.
+float componentAt(const std::uint8_t* bytes, ComponentType type, bool normalized) {
+    switch (type) {
+        case ComponentType::i8: {
+            const auto value = static_cast<float>(load<std::int8_t>(bytes));
+            return normalized ? std::max(value / 127.0f, -1.0f) : value;
+        }
+        case ComponentType::u8: {
+            const auto value = static_cast<float>(bytes[0]);
+            return normalized ? value / 255.0f : value;
+        }
+        case ComponentType::i16: {
+            const auto value = static_cast<float>(load<std::int16_t>(bytes));
+            return normalized ? std::max(value / 32767.0f, -1.0f) : value;
+        }
+        case ComponentType::u16: {
+            const auto value = static_cast<float>(load<std::uint16_t>(bytes));
+            return normalized ? value / 65535.0f : value;
+        }
+        case ComponentType::u32:
+            return static_cast<float>(load<std::uint32_t>(bytes));
+        case ComponentType::f32:
+            break;
+    }
+    return load<float>(bytes);
+}
+
+template <class Vec>
+std::vector<Vec> decodeVec(const Document& document, const Accessor& accessor, const std::string& place) {
+    constexpr std::size_t components = sizeof(Vec) / sizeof(float);
+    if (accessor.component_count != components || accessor.type[0] != 'V') {
+        failAt("the accessor is " + formatName(accessor) + ", but the attribute needs " +
+                   std::to_string(components) + " components",
+               place);
+    }
+    const Bytes elements = copyElements(document, accessor);
+    std::vector<Vec> result(accessor.count);
+    if (result.empty()) return result;
+    if (accessor.component == ComponentType::f32) {
+        std::memcpy(static_cast<void*>(result.data()), elements.data(), elements.size());
+        return result;
+    }
+    const std::size_t bytes = bytesOf(accessor.component);
+    auto* out = reinterpret_cast<float*>(result.data());
+    for (std::size_t i = 0; i < accessor.count * components; ++i) {
+        out[i] = componentAt(elements.data() + i * bytes, accessor.component, accessor.normalized);
+    }
+    return result;
+}
+
+}  // namespace
+
+std::size_t bytesOf(ComponentType type) {
+    switch (type) {
+        case ComponentType::i8:
+        case ComponentType::u8:
+            return 1;
+        case ComponentType::i16:
+        case ComponentType::u16:
+            return 2;
+        default:
+            return 4;
+    }
+}
+
+BufferView readBufferView(const Document& document, std::size_t index) {
+    const std::string place = join("/bufferViews", index);
+    const Json& object = rootArray(document, "bufferViews")[index];
+    BufferView view;
+    const auto buffer = readIndex(object, "buffer", place, document.buffers.size(), "buffer");
+    if (!buffer) failAt("the member 'buffer' is missing", place);
+    view.buffer = *buffer;
+    view.begin = readSize(object, "byteOffset", place, 0);
+    view.byte_count = readSize(object, "byteLength", place);
+    view.stride = readSize(object, "byteStride", place, 0);
+    view.compressed = findExtension(object, "EXT_meshopt_compression") != nullptr ||
+                      findExtension(object, "KHR_meshopt_compression") != nullptr;
+    const Buffer& data = document.buffers[view.buffer];
+    const std::size_t limit =
+        data.source == BufferSource::absent
+            ? readSize(rootArray(document, "buffers")[view.buffer], "byteLength", "/buffers")
+            : data.bytes.size();
+    if (view.begin > limit || view.byte_count > limit - view.begin) {
+        failAt("the buffer view reaches beyond its buffer of " + std::to_string(limit) + " bytes", place);
+    }
+    return view;
+}
+
+Accessor readAccessor(const Document& document, std::size_t index) {
+    const std::string place = join("/accessors", index);
+    const Json& object = rootArray(document, "accessors")[index];
+    Accessor accessor;
+    accessor.index = index;
+    accessor.component = readComponentType(object, place);
+    setShape(accessor, object, place);
+    accessor.normalized = readBool(object, "normalized", place, false);
+    accessor.count = readSize(object, "count", place);
+    accessor.view =
+        readIndex(object, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
+    accessor.byte_offset = readSize(object, "byteOffset", place, 0);
+    accessor.stride = accessor.element_bytes;
+    if (accessor.count > kMaxCorners) {
+        failFile(ErrorCode::unsupportedFile,
+                 "the accessor has " + std::to_string(accessor.count) + " elements; at most " +
+                     std::to_string(kMaxCorners) + " are supported",
+                 join(place, "count"));
+    }
+    if (accessor.view) {
+        const BufferView view = readBufferView(document, *accessor.view);
+        if (view.stride != 0) accessor.stride = view.stride;
+        if (accessor.stride < accessor.element_bytes) {
+            failAt("elements of " + std::to_string(accessor.element_bytes) +
+                       " bytes overlap at a stride of " + std::to_string(accessor.stride),
+                   join(join("/bufferViews", *accessor.view), "byteStride"));
+        }
+        checkRange(view, accessor.byte_offset, accessor.count, accessor.stride, accessor.element_bytes,
+                   place);
+    }
+    if (const Json* sparse = readObject(object, "sparse", place)) {
+        accessor.sparse = readSparse(document, *sparse, accessor, join(place, "sparse"));
+    }
+    return accessor;
+}
+
+Bytes copyElements(const Document& document, const Accessor& accessor) {
+    if (!accessor.view && accessor.count > kMaxZeroBytes / accessor.element_bytes) {
+        failFile(ErrorCode::unsupportedFile,
+                 "an accessor without data claims " + std::to_string(accessor.count) + " elements",
+                 join(accessor.place(), "count"));
+    }
+    const std::uint8_t* source = nullptr;
+    if (accessor.view && accessor.count > 0)
+        source = viewBytes(document, *accessor.view) + accessor.byte_offset;
+    Bytes elements(accessor.count * accessor.element_bytes);
+    if (source != nullptr && accessor.stride == accessor.element_bytes) {
+        std::memcpy(elements.data(), source, elements.size());
+    } else if (source != nullptr) {
+        for (std::size_t i = 0; i < accessor.count; ++i) {
+            std::memcpy(elements.data() + i * accessor.element_bytes, source + i * accessor.stride,
+                        accessor.element_bytes);
+        }
+    }
+    if (accessor.sparse) applySparse(document, accessor, elements);
+    return elements;
+}
+
+std::vector<Vec2> decodeVec2(const Document& document, const Accessor& accessor, const std::string& place) {
+    return decodeVec<Vec2>(document, accessor, place);
+}
+std::vector<Vec3> decodeVec3(const Document& document, const Accessor& accessor, const std::string& place) {
+    return decodeVec<Vec3>(document, accessor, place);
+}
+std::vector<Vec4> decodeVec4(const Document& document, const Accessor& accessor, const std::string& place) {
+    return decodeVec<Vec4>(document, accessor, place);
+}
+
+std::vector<std::uint32_t> decodeIndices(const Document& document, const Accessor& accessor,
+                                         std::size_t vertex_count, const std::string& place) {
+    const bool is_unsigned = accessor.component == ComponentType::u8 ||
+                             accessor.component == ComponentType::u16 ||
+                             accessor.component == ComponentType::u32;
+    if (!is_unsigned || accessor.component_count != 1 || accessor.normalized) {
+        failAt("indices must be unsigned scalars, not " + formatName(accessor), place);
+    }
+    const Bytes elements = copyElements(document, accessor);
+    std::vector<std::uint32_t> indices(accessor.count);
+    const std::size_t bytes = bytesOf(accessor.component);
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        indices[i] = unsignedAt(elements.data() + i * bytes, accessor.component);
+        if (indices[i] >= vertex_count) {
+            failAt("index " + std::to_string(i) + " is " + std::to_string(indices[i]) +
+                       ", but the primitive has " + std::to_string(vertex_count) + " vertices",
+                   place);
+        }
+    }
+    return indices;
+}
+
+std::string formatName(const Accessor& accessor) {
+    std::string name;
+    switch (accessor.component) {
+        case ComponentType::i8:
+            name = accessor.normalized ? "snorm8" : "int8";
+            break;
+        case ComponentType::u8:
+            name = accessor.normalized ? "unorm8" : "uint8";
+            break;
+        case ComponentType::i16:
+            name = accessor.normalized ? "snorm16" : "int16";
+            break;
+        case ComponentType::u16:
+            name = accessor.normalized ? "unorm16" : "uint16";
+            break;
+        case ComponentType::u32:
+            name = accessor.normalized ? "unorm32" : "uint32";
+            break;
+        case ComponentType::f32:
+            name = "float";
+            break;
+    }
+    if (accessor.component_count == 1) return name;
+    // "snorm16x3", but "float3".
+    return name + (accessor.component == ComponentType::f32 ? "" : "x") +
+           std::to_string(accessor.component_count);
+}
+
+}  // namespace tspace::gltf

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Accessors: typed views of the bytes of a buffer. Everything is checked before anything is allocated or
+// read.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "asset/gltf/document.h"
+#include "tspace/vec.h"
+
+namespace tspace::gltf {
+
+enum class ComponentType : std::uint32_t {
+    i8 = 5120,
+    u8 = 5121,
+    i16 = 5122,
+    u16 = 5123,
+    u32 = 5125,
+    f32 = 5126
+};
+
+/// 1, 2 or 4.
+std::size_t bytesOf(ComponentType type);
+
+/// A range of a buffer, already checked against the buffer's declared length.
+struct BufferView {
+    std::size_t buffer = 0;
+    std::size_t begin = 0;
+    std::size_t byte_count = 0;
+    std::size_t stride = 0;   ///< 0: tightly packed
+    bool compressed = false;  ///< has a meshopt extension; the range is its fallback
+};
+BufferView readBufferView(const Document& document, std::size_t index);
+
+struct SparsePart {
+    std::size_t count = 0;
+    ComponentType index_type = ComponentType::u32;
+    std::size_t index_view = 0, index_offset = 0;
+    std::size_t value_view = 0, value_offset = 0;
+};
+
+struct Accessor {
+    std::size_t index = 0;
+    ComponentType component = ComponentType::f32;
+    std::string type = {};            ///< "SCALAR", "VEC3", ...
+    std::size_t component_count = 1;  ///< 1 for SCALAR, 9 for MAT3
+    std::size_t element_bytes = 4;    ///< with the padding of small matrix columns
+    bool normalized = false;
+    std::size_t count = 0;
+    std::optional<std::size_t> view = {};  ///< absent: all zero (before `sparse`)
+    std::size_t byte_offset = 0;           ///< in the view
+    std::size_t stride = 0;                ///< from element to element; never 0
+    std::optional<SparsePart> sparse = {};
+
+    [[nodiscard]] std::string place() const { return "/accessors/" + std::to_string(index); }
+    [[nodiscard]] bool isFloatVec(std::size_t components) const {
+        return component == ComponentType::f32 && component_count == components && !normalized &&
+               type[0] == 'V';
+    }
+};
+
+/// Reads and checks entry `index` of /accessors. Fails with invalidFile; unsupportedFile beyond kMaxCorners
+/// elements.
+Accessor readAccessor(const Document& document, std::size_t index);
+
+/// All elements, tightly packed (element_bytes each), sparse values put in. Fails where a buffer has no data.
+Bytes copyElements(const Document& document, const Accessor& accessor);
+
+/// Elements as floats: normalised integers by the rule of the specification, others by value.
+/// Fails with invalidFile at `place` when the accessor has another number of components.
+std::vector<Vec2> decodeVec2(const Document& document, const Accessor& accessor, const std::string& place);
+std::vector<Vec3> decodeVec3(const Document& document, const Accessor& accessor, const std::string& place);
+std::vector<Vec4> decodeVec4(const Document& document, const Accessor& accessor, const std::string& place);
+
+/// u8, u16 or u32 scalars. Each must be smaller than `vertex_count`, which also excludes primitive restart
+/// values.
+std::vector<std::uint32_t> decodeIndices(const Document& document, const Accessor& accessor,
+                                         std::size_t vertex_count, const std::string& place);
+
+/// "float3", "snorm16x3", "uint8": for people.
+std::string formatName(const Accessor& accessor);
+
+}  // namespace tspace::gltf

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// Loading a glTF file and the bytes that it needs.
+#include "asset/gltf/document.h"
+
+#include <algorithm>
+#include <array>
+
+#include "asset/file_error.h"
+#include "asset/gltf/accessor.h"
+#include "asset/uri.h"
+
+namespace tspace::gltf {
+
+namespace {
+
+/// Extensions whose geometry is not in plain accessors.
+constexpr std::array<const char*, 3> kCompression = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
+                                                     "KHR_meshopt_compression"};
+
+/// Required extensions that do not change how geometry is read.
+constexpr std::array<const char*, 28> kHarmless = {"KHR_mesh_quantization",
+                                                   "KHR_texture_transform",
+                                                   "KHR_texture_basisu",
+                                                   "EXT_texture_webp",
+                                                   "EXT_texture_avif",
+                                                   "MSFT_texture_dds",
+                                                   "KHR_materials_variants",
+                                                   "KHR_materials_unlit",
+                                                   "KHR_materials_clearcoat",
+                                                   "KHR_materials_anisotropy",
+                                                   "KHR_materials_pbrSpecularGlossiness",
+                                                   "KHR_materials_sheen",
+                                                   "KHR_materials_transmission",
+                                                   "KHR_materials_volume",
+                                                   "KHR_materials_ior",
+                                                   "KHR_materials_specular",
+                                                   "KHR_materials_iridescence",
+                                                   "KHR_materials_emissive_strength",
+                                                   "KHR_materials_dispersion",
+                                                   "KHR_materials_diffuse_transmission",
+                                                   "KHR_lights_punctual",
+                                                   "KHR_animation_pointer",
+                                                   "KHR_node_visibility",
+                                                   "KHR_xmp_json_ld",
+                                                   "EXT_mesh_gpu_instancing",
+                                                   "EXT_lights_image_based",
+                                                   "KHR_node_hoverability",
+                                                   "KHR_interactivity"};
+
+/// Once, so that later code may take every entry of these arrays for an object, and finding an array is
+/// cheap.
+void checkRoot(const Json& root) {
+    // Looking up a member is a linear search, done for every accessor.
+    constexpr std::size_t kMaxRootMembers = 1000;
+    if (root.size() > kMaxRootMembers)
+        failFile(ErrorCode::invalidFile, "the root has more than 1000 members", "");
+    for (const char* name : {"accessors", "bufferViews", "buffers", "images", "materials", "meshes", "nodes",
+                             "skins", "animations"}) {
+        readArray(root, name, "");
+    }
+}
+
+void checkVersion(const Json& root) {
+    const Json* asset = readObject(root, "asset", "");
+    if (asset == nullptr)
+        failFile(ErrorCode::invalidFile, "the member 'asset' is missing: this is not a glTF 2.0 file", "");
+    for (const char* key : {"version", "minVersion"}) {
+        const std::string version =
+            readString(*asset, key, "/asset", std::string(key) == "version" ? "" : "2.0");
+        if (version.empty())
+            failFile(ErrorCode::invalidFile, "the glTF version is missing", "/asset/version");
+        const bool readable = std::string(key) == "version" ? version.substr(0, 2) == "2." : version == "2.0";
+        if (!readable) {
+            failFile(ErrorCode::unsupportedFile,
+                     "the file needs glTF version " + quoted(version) + ", not 2.0", join("/asset", key));
+        }
+    }
+}
+
+bool isFallbackBuffer(const Json& buffer) {
+    return findExtension(buffer, "EXT_meshopt_compression") != nullptr ||
+           findExtension(buffer, "KHR_meshopt_compression") != nullptr;
+}
+
+Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, const GlbChunks* glb) {
+    const std::string place = join("/buffers", index);
+    const std::size_t length = readSize(entry, "byteLength", place);
+    Buffer buffer;
+    const Json* uri = findMember(entry, "uri");
+    if (uri == nullptr) {
+        if (index != 0 || glb == nullptr || !glb->bin) {
+            if (document.container == Container::glb && index == 0 && !isFallbackBuffer(entry) &&
+                length > 0) {
+                failFile(ErrorCode::invalidFile, "the buffer is in the BIN chunk, but the file has none",
+                         place);
+            }
+            return buffer;
+        }
+        if (length > glb->bin->size()) {
+            failFile(ErrorCode::invalidFile,
+                     "the buffer says " + std::to_string(length) + " bytes, but the BIN chunk has " +
+                         std::to_string(glb->bin->size()),
+                     join(place, "byteLength"));
+        }
+        buffer.source = BufferSource::bin;
+        buffer.bytes.assign(glb->bin->begin(), glb->bin->begin() + static_cast<std::ptrdiff_t>(length));
+        return buffer;
+    }
+    if (!uri->is_string()) failFile(ErrorCode::invalidFile, "'uri' is not a string", join(place, "uri"));
+    const auto& text = uri->get_ref<const std::string&>();
+    if (uriKind(text) == UriKind::data) {
+        buffer.source = BufferSource::dataUri;
+        buffer.bytes = decodeDataUri(text, join(place, "uri")).bytes;
+    } else {
+        buffer.source = BufferSource::file;
+        buffer.path = resolveUri(document.folder, text, document.options.allow_external, join(place, "uri"));
+        buffer.bytes = readFile(buffer.path, join(place, "uri"));
+        document.input_bytes += buffer.bytes.size();
+    }
+    if (length > buffer.bytes.size()) {
+        failFile(ErrorCode::invalidFile,
+                 "the buffer says " + std::to_string(length) + " bytes, but its data has " +
+                     std::to_string(buffer.bytes.size()),
+                 join(place, "byteLength"));
+    }
+    buffer.bytes.resize(length);
+    return buffer;
+}
+
+/// Images are not read here, but a URI that leads out is refused for every file that a model names.
+void checkImageUris(const Document& document) {
+    const Json& images = rootArray(document, "images");
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        const std::string place = join("/images", i);
+        const std::string uri = readString(images[i], "uri", place);
+        if (uri.empty() || uriKind(uri) == UriKind::data) continue;
+        // With allow_external a web address is nobody's file: it stays as it is.
+        if (uriKind(uri) == UriKind::otherScheme && document.options.allow_external) continue;
+        resolveUri(document.folder, uri, document.options.allow_external, join(place, "uri"));
+    }
+}
+
+void checkViewsAndAccessors(const Document& document) {
+    const std::size_t view_count = rootArray(document, "bufferViews").size();
+    for (std::size_t i = 0; i < view_count; ++i) readBufferView(document, i);
+    const std::size_t accessor_count = rootArray(document, "accessors").size();
+    for (std::size_t i = 0; i < accessor_count; ++i) readAccessor(document, i);
+}
+
+}  // namespace
+
+const Json& rootArray(const Document& document, const char* name) {
+    return readArray(document.json, name, "");
+}
+
+Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, const FileOptions& options) {
+    Document document;
+    document.path = path;
+    document.folder = folderOf(path);
+    document.options = options;
+    document.file_bytes = std::move(file_bytes);
+    document.input_bytes = document.file_bytes.size();
+    document.container = isGlb(document.file_bytes) ? Container::glb : Container::gltf;
+    GlbChunks glb;
+    std::span<const std::uint8_t> text = document.file_bytes;
+    if (document.container == Container::glb) {
+        glb = readGlb(document.file_bytes);
+        text = glb.json;
+        document.extra_chunks = std::move(glb.extra);
+    }
+    ParsedJson parsed = parseJson(text);
+    document.json = std::move(parsed.root);
+    document.style = parsed.style;
+    checkRoot(document.json);
+    checkVersion(document.json);
+    const Json& buffers = rootArray(document, "buffers");
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
+        document.buffers.push_back(
+            loadBuffer(document, buffers[i], i, document.container == Container::glb ? &glb : nullptr));
+    }
+    checkImageUris(document);
+    checkViewsAndAccessors(document);
+    return document;
+}
+
+Document loadDocument(const std::filesystem::path& path, const FileOptions& options) {
+    return parseDocument(readFile(path), path, options);
+}
+
+std::vector<std::string> checkRequiredExtensions(const Document& document) {
+    std::vector<std::string> warnings;
+    const Json& required = readArray(document.json, "extensionsRequired", "", false);
+    for (std::size_t i = 0; i < required.size(); ++i) {
+        const std::string place = join("/extensionsRequired", i);
+        if (!required[i].is_string())
+            failFile(ErrorCode::invalidFile, "the name of an extension is not a string", place);
+        const auto& name = required[i].get_ref<const std::string&>();
+        if (std::find(kCompression.begin(), kCompression.end(), name) != kCompression.end()) {
+            failFile(ErrorCode::unsupportedFile, "the required extension " + name + " is not supported yet",
+                     place);
+        }
+        if (std::find(kHarmless.begin(), kHarmless.end(), name) == kHarmless.end()) {
+            warnings.push_back("the file requires the extension " + quoted(name) +
+                               ", which tspace does not know; its data is kept as it is");
+        }
+    }
+    return warnings;
+}
+
+}  // namespace tspace::gltf

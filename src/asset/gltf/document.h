@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// A glTF file in memory: its JSON, the bytes of its buffers, and how it was stored. Functions throw
+// FileError.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "asset/file_io.h"
+#include "asset/gltf/glb.h"
+#include "asset/gltf/json.h"
+#include "tspace/asset.h"
+
+namespace tspace::gltf {
+
+enum class Container { glb, gltf };
+
+/// Where the bytes of a buffer came from.
+enum class BufferSource {
+    bin,  ///< the BIN chunk
+    dataUri,
+    file,
+    absent,  ///< none: the fallback buffer of a compression extension
+};
+
+struct Buffer {
+    BufferSource source = BufferSource::absent;
+    Bytes bytes = {};                 ///< exactly `byteLength` of them, unless absent
+    std::filesystem::path path = {};  ///< the file, for BufferSource::file
+    bool edited = false;              ///< the bytes differ from those that were read
+};
+
+struct Document {
+    std::filesystem::path path = {};
+    std::filesystem::path folder = {};
+    Container container = Container::gltf;
+    Bytes file_bytes = {};  ///< the model file as it was read
+    Json json = {};
+    JsonStyle style = {};
+    std::vector<Buffer> buffers = {};  ///< one per entry of /buffers
+    std::vector<ExtraChunk> extra_chunks = {};
+    std::uint64_t input_bytes = 0;  ///< the model file and its buffer files
+    FileOptions options = {};
+};
+
+/// Reads a .glb or .gltf (told apart by content) and its buffers. Checks asset.version, buffers, buffer views
+/// and accessors (types, ranges), and that no URI of a buffer or image leads out of the folder. Images are
+/// not read.
+Document loadDocument(const std::filesystem::path& path, const FileOptions& options);
+
+/// The same from bytes in memory; `path` says where relative URIs start.
+Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, const FileOptions& options);
+
+/// Fails with unsupportedFile when a required extension hides the geometry (Draco, meshopt). Returns one
+/// warning for each other required extension that this program does not know; their data survives untouched.
+std::vector<std::string> checkRequiredExtensions(const Document& document);
+
+/// Array of the root ("meshes", "accessors"); empty when absent.
+const Json& rootArray(const Document& document, const char* name);
+
+}  // namespace tspace::gltf

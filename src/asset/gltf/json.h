@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// The JSON of a glTF file as a DOM that keeps the order of members and everything unknown, with checked
+// access.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace tspace::gltf {
+
+using Json = nlohmann::ordered_json;
+
+/// How the text was laid out, so that an edited file looks like the one that was read.
+struct JsonStyle {
+    int indent = -1;  ///< characters per level; -1: all on one line
+    char indent_char = ' ';
+    bool final_newline = false;
+};
+
+struct ParsedJson {
+    Json root;
+    JsonStyle style;
+};
+
+/// Objects and arrays may be nested this deep. Deeper files are refused, so no later step can run out of
+/// stack.
+inline constexpr std::size_t kMaxJsonDepth = 256;
+
+/// Fails with invalidFile: syntax, numbers that no double can hold, repeated members, nesting.
+ParsedJson parseJson(std::span<const std::uint8_t> text);
+
+std::string writeJson(const Json& root, const JsonStyle& style);
+
+// Access. `place` is the JSON pointer of `object`. All fail with invalidFile at the member's own pointer when
+// the type is wrong.
+
+/// Null when `object` is not an object or has no such member.
+const Json* findMember(const Json& object, const char* key);
+
+/// A whole number that is not negative; absent: `fallback`, or a failure when there is none.
+std::size_t readSize(const Json& object, const char* key, const std::string& place,
+                     std::optional<std::size_t> fallback = {});
+
+/// An index into an array of `limit` entries, or nothing when absent. `what` names an entry ("accessor").
+std::optional<std::size_t> readIndex(const Json& object, const char* key, const std::string& place,
+                                     std::size_t limit, const char* what);
+
+/// The same for a value that is already at hand.
+std::size_t toIndex(const Json& value, const std::string& place, std::size_t limit, const char* what);
+
+double readNumber(const Json& object, const char* key, const std::string& place, double fallback);
+std::string readString(const Json& object, const char* key, const std::string& place,
+                       const std::string& fallback = {});
+bool readBool(const Json& object, const char* key, const std::string& place, bool fallback);
+
+/// An array member; an empty array when absent. Every entry of it is an object where `of_objects`.
+const Json& readArray(const Json& object, const char* key, const std::string& place, bool of_objects = true);
+
+/// An object member, or null when absent.
+const Json* readObject(const Json& object, const char* key, const std::string& place);
+
+/// object.extensions.<name>, or null.
+const Json* findExtension(const Json& object, const char* name);
+
+/// A JSON pointer one step further. Escapes ~ and /.
+std::string join(const std::string& place, const std::string& key);
+std::string join(const std::string& place, std::size_t index);
+
+/// A key or text from a file, fit to stand inside a one-line message.
+std::string quoted(const std::string& text);
+
+}  // namespace tspace::gltf

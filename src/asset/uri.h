@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// URIs as model files use them: data URIs, and paths relative to the model's folder, which are the only ones
+// that are followed unless the caller allows more.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "asset/file_io.h"
+
+namespace tspace {
+
+enum class UriKind { data, path, otherScheme };
+
+UriKind uriKind(std::string_view uri);
+
+struct DataUri {
+    std::string mime_type = {};
+    Bytes bytes = {};
+};
+
+/// Decodes a data URI, base64 or percent-encoded. Fails with invalidFile at `place`.
+DataUri decodeDataUri(std::string_view uri, const std::string& place);
+
+std::string encodeDataUri(std::string_view mime_type, const Bytes& bytes);
+
+/// %41 -> A. A percent sign that starts no valid escape stays as it is, because file names contain them.
+std::string percentDecode(std::string_view text);
+
+/// Escapes what may not stand in the path of a URI.
+std::string percentEncode(std::string_view path);
+
+/// The file that `uri` names. Fails with forbiddenPath when it is absolute, has a scheme, a backslash or a
+/// `..`, or when a symbolic link leads out of `folder`; `allow_external` lifts all of these but the scheme.
+std::filesystem::path resolveUri(const std::filesystem::path& folder, std::string_view uri,
+                                 bool allow_external, const std::string& place);
+
+}  // namespace tspace
