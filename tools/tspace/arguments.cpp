@@ -171,10 +171,10 @@ void addTangentOptions(CLI::App* command, GenerateArguments& arguments, RawGener
         ->default_str("180")
         ->group(group);
     command
-        ->add_option(
-            "--convention", raw.convention,
-            "What the stored sign means: gltf, opengl, directx, unreal, unity, blender or godot. Only glTF "
-            "readers that know of it should get another one than gltf.")
+        ->add_option("--convention", raw.convention,
+                     "Whose sign is stored: gltf, opengl, directx, unreal, unity, blender or godot. "
+                     "Positions, UVs and "
+                     "normals stay as they are. Any other than gltf is only for readers that expect it.")
         ->type_name("NAME")
         ->check(conventionName())
         ->default_str("gltf")

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // tspace generate: file after file, one bad file does not stop the others.
 #include <chrono>
-#include <filesystem>
 
 #include "commands.h"
 #include "console.h"
@@ -10,47 +9,14 @@
 namespace tspace::tool {
 namespace {
 
-namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The folders of an output, made when they are not there and taken away again when nothing was put into
-/// them.
-class OutputFolder {
-  public:
-    explicit OutputFolder(const fs::path& folder) {
-        std::error_code ignored;
-        for (fs::path path = folder; !path.empty() && !fs::exists(path, ignored); path = path.parent_path()) {
-            made_.push_back(path);
-        }
-        if (!made_.empty()) fs::create_directories(folder, failed_);
-    }
-    ~OutputFolder() {
-        std::error_code ignored;
-        for (const fs::path& path : made_)
-            fs::remove(path, ignored);  // fails, as it should, when something is in it
-    }
-    OutputFolder(const OutputFolder&) = delete;
-    OutputFolder& operator=(const OutputFolder&) = delete;
-
-    [[nodiscard]] const std::error_code& failed() const { return failed_; }
-
-  private:
-    std::vector<fs::path> made_ = {};  // innermost first
-    std::error_code failed_ = {};
-};
-
 Result<GenerateReport> generateOne(const Job& job, const GenerateArguments& arguments) {
     if (job.error.code != ErrorCode::ok) return job.error;
-    const OutputFolder folder(fs::path(job.output).parent_path());
-    if (folder.failed()) {
-        return Error{ErrorCode::cannotWrite,
-                     "cannot make the folder of the output: " + folder.failed().message(), kNoElement,
-                     fs::path(job.output).parent_path().string()};
-    }
     ProgressLine progress(job.input, !arguments.quiet);
     GenerateOptions options = arguments.options;
     options.progress = [&progress](const char* what, std::uint64_t done, std::uint64_t total) {

@@ -22,7 +22,7 @@ bool isModelFile(const std::string& path);
 /// Every input file, and the model files of every input folder and below in the order of their names.
 std::vector<Job> inputJobs(const std::vector<std::string>& inputs);
 
-/// The same with outputs. Folders made for outputs are created when a job starts, not here. An Error of code
+/// The same with outputs. Makes no folder: that happens when there is something to write. An Error of code
 /// invalidOption says what is wrong with the command line.
 Result<std::vector<Job>> generateJobs(const GenerateArguments& arguments);
 
