@@ -28,7 +28,10 @@ struct Buffer {
     BufferSource source = BufferSource::absent;
     Bytes bytes = {};                 ///< exactly `byteLength` of them, unless absent
     std::filesystem::path path = {};  ///< the file, for BufferSource::file
-    bool edited = false;              ///< the bytes differ from those that were read
+    /// The output stores these bytes itself (BIN, data URI, a file named after the output), so they may be
+    /// edited. Other files belong to the input and are never changed.
+    bool own = false;
+    bool edited = false;  ///< the bytes differ from those that were read
 };
 
 struct Document {

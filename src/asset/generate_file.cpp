@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// generateFile: finds out what the input is and hands it to its reader.
+#include "asset/file_io.h"
+#include "asset/gltf/generate_gltf.h"
+#include "asset/obj/obj.h"
+#include "tspace/asset.h"
+
+namespace tspace {
+
+Result<GenerateReport> generateFile(const std::string& input, const std::string& output,
+                                    const GenerateOptions& options) {
+    // An OBJ file has no magic word, so only its name tells it; everything else is read as glTF and refused
+    // there.
+    if (lowerExtension(input) == ".obj") return generateObj(input, output, options);
+    return gltf::generateGltf(input, output, options);
+}
+
+}  // namespace tspace

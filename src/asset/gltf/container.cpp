@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: MIT
+// Conversion between .glb and .gltf: joining buffers, taking in images, naming files.
+#include "asset/gltf/container.h"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <string_view>
+
+#include "asset/file_error.h"
+#include "asset/uri.h"
+
+namespace tspace::gltf {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kJoinAlignment = 8;  // more than glTF's 4: data of extensions may want 8
+constexpr const char* kNewBufferEnding = ".tspace.bin";
+
+std::string mimeTypeOf(const Bytes& bytes, const std::string& declared) {
+    const std::string_view head(reinterpret_cast<const char*>(bytes.data()),
+                                std::min<std::size_t>(bytes.size(), 16));
+    if (head.substr(0, 8) == "\x89PNG\r\n\x1a\n") return "image/png";
+    if (head.substr(0, 3) == "\xff\xd8\xff") return "image/jpeg";
+    if (head.substr(0, 4) == "RIFF" && head.size() >= 12 && head.substr(8, 4) == "WEBP") return "image/webp";
+    if (head.substr(0, 7) == std::string_view("\xabKTX 20")) return "image/ktx2";
+    if (head.substr(0, 4) == "DDS ") return "image/vnd-ms.dds";
+    if (head.size() >= 12 && head.substr(4, 8) == "ftypavif") return "image/avif";
+    return declared;
+}
+
+/// The bytes and media type behind an image's URI, or nothing (with a warning) when they cannot be had.
+std::optional<DataUri> loadImage(const Document& document, const std::string& uri,
+                                 const std::string& declared, const std::string& place,
+                                 std::vector<std::string>& warnings) {
+    DataUri image;
+    if (uriKind(uri) == UriKind::data) {
+        image = decodeDataUri(uri, join(place, "uri"));
+        if (!declared.empty()) image.mime_type = declared;
+    } else if (uriKind(uri) == UriKind::otherScheme) {
+        warnings.push_back("the image " + quoted(uri) + " is not a file and stays outside of the GLB");
+        return {};
+    } else {
+        const fs::path path =
+            resolveUri(document.folder, uri, document.options.allow_external, join(place, "uri"));
+        std::error_code error;
+        if (!fs::exists(path, error)) {
+            warnings.push_back("the image " + quoted(uri) + " does not exist; its URI is kept");
+            return {};
+        }
+        image.bytes = readFile(path, join(place, "uri"));
+        image.mime_type = declared;
+    }
+    image.mime_type = mimeTypeOf(image.bytes, image.mime_type);
+    if (image.bytes.empty() || image.mime_type.empty()) {
+        warnings.push_back("the image " + quoted(uri.substr(0, 60)) +
+                           " has no known type and stays outside of the GLB");
+        return {};
+    }
+    return image;
+}
+
+/// BIN is buffer 0; makes an empty one where the document has no buffer.
+Buffer& binBuffer(Document& document) {
+    if (document.buffers.empty()) {
+        document.json["buffers"] = Json::array({Json{{"byteLength", 0}}});
+        document.buffers.emplace_back();
+        document.buffers[0].source = BufferSource::bin;
+        document.buffers[0].own = true;
+    }
+    return document.buffers[0];
+}
+
+std::size_t appendAligned(Buffer& buffer, const Bytes& bytes, std::size_t alignment) {
+    buffer.bytes.resize((buffer.bytes.size() + alignment - 1) / alignment * alignment);
+    const std::size_t begin = buffer.bytes.size();
+    buffer.bytes.insert(buffer.bytes.end(), bytes.begin(), bytes.end());
+    buffer.edited = true;
+    return begin;
+}
+
+struct Moved {
+    std::size_t buffer = 0, offset = 0;
+};
+
+/// Points `object` (a view, or the compression extension of one) at the joined buffer.
+void moveReference(Json& object, const std::vector<Moved>& moved) {
+    const Moved& to = moved[readSize(object, "buffer", "")];
+    const std::size_t offset = readSize(object, "byteOffset", "", 0);
+    object["buffer"] = to.buffer;
+    if (to.offset != 0) object["byteOffset"] = offset + to.offset;
+}
+
+/// All buffers that have data become one, the first; those without data stay behind it.
+void joinBuffers(Document& document) {
+    if (document.buffers.empty()) return;
+    Json old_entries = document.json["buffers"];
+    std::vector<Buffer> old = std::move(document.buffers);
+    std::vector<Moved> moved(old.size());
+    document.buffers.assign(1, {});
+    Buffer& bin = document.buffers[0];
+    bin.source = BufferSource::bin;
+    bin.own = true;
+    Json entries = Json::array();
+    for (std::size_t i = 0; i < old.size(); ++i) {
+        if (old[i].source == BufferSource::absent) continue;
+        if (entries.empty()) entries.push_back(old_entries[i]);
+        moved[i] = {0, appendAligned(bin, old[i].bytes, kJoinAlignment)};
+        old[i].bytes = {};
+    }
+    if (entries.empty()) entries.push_back(Json::object());
+    entries[0].erase("uri");
+    entries[0]["byteLength"] = bin.bytes.size();
+    for (std::size_t i = 0; i < old.size(); ++i) {
+        if (old[i].source != BufferSource::absent) continue;
+        moved[i] = {entries.size(), 0};
+        entries.push_back(old_entries[i]);
+    }
+    document.buffers.resize(entries.size());
+    document.json["buffers"] = std::move(entries);
+    if (!document.json.contains("bufferViews")) return;
+    for (std::size_t i = 0; i < document.json["bufferViews"].size(); ++i) {
+        Json& view = document.json["bufferViews"][i];
+        moveReference(view, moved);
+        for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+            if (findExtension(view, name) == nullptr) continue;
+            Json& extension = view["extensions"][name];
+            readIndex(extension, "buffer", join("/bufferViews", i) + "/extensions/" + name, moved.size(),
+                      "buffer");
+            moveReference(extension, moved);
+        }
+    }
+}
+
+/// Replaces "uri" by "bufferView" and "mimeType" at the same place among the members.
+void embedImages(Document& document, std::vector<std::string>& warnings) {
+    for (std::size_t i = 0; i < rootArray(document, "images").size(); ++i) {
+        const std::string place = join("/images", i);
+        const Json& old = rootArray(document, "images")[i];
+        const std::string uri = readString(old, "uri", place);
+        if (uri.empty()) continue;
+        const auto image = loadImage(document, uri, readString(old, "mimeType", place), place, warnings);
+        if (!image) continue;
+        Json& views = document.json["bufferViews"];
+        if (views.is_null()) views = Json::array();
+        Buffer& bin = binBuffer(document);
+        const std::size_t begin = appendAligned(bin, image->bytes, 4);
+        views.push_back(Json{{"buffer", 0}, {"byteOffset", begin}, {"byteLength", image->bytes.size()}});
+        document.json["buffers"][0]["byteLength"] = bin.bytes.size();
+        Json entry = Json::object();
+        for (const auto& [key, value] : document.json["images"][i].items()) {
+            if (key == "uri") {
+                entry["bufferView"] = views.size() - 1;
+                entry["mimeType"] = image->mime_type;
+            } else if (key != "mimeType") {
+                entry[key] = value;
+            }
+        }
+        document.json["images"][i] = std::move(entry);
+    }
+}
+
+/// Copies one file that the model names to the same relative place in the output's folder.
+void copyNamedFile(const Document& document, const OutputTarget& target, const std::string& uri,
+                   const std::string& place, AtomicOutput& output, std::vector<std::string>& warnings) {
+    if (uri.empty() || uriKind(uri) != UriKind::path) return;
+    const fs::path from = resolveUri(document.folder, uri, document.options.allow_external, place);
+    const fs::path relative = fs::path(percentDecode(uri)).lexically_normal();
+    if (relative.is_absolute() || *relative.begin() == "..") {
+        warnings.push_back("the file " + quoted(uri) +
+                           " lies outside of the model's folder and was not copied");
+        return;
+    }
+    std::error_code error;
+    if (!fs::exists(from, error)) {
+        warnings.push_back("the file " + quoted(uri) + " does not exist and was not copied");
+        return;
+    }
+    const fs::path to = folderOf(target.path) / relative;
+    const std::vector<std::string> planned = output.files();
+    if (std::find(planned.begin(), planned.end(), to.string()) != planned.end()) return;
+    if (fs::exists(to, error)) {
+        if (isSameFile(from, to)) return;
+        if (readFile(from, place) == readFile(to, place)) return;
+        failFile(ErrorCode::cannotWrite,
+                 "the model needs the file " + quoted(uri) + " beside it, but '" + to.string() +
+                     "' exists already and is another one",
+                 place);
+    }
+    output.add(to, readFile(from, place));
+}
+
+void copyNamedFiles(const Document& document, const OutputTarget& target, AtomicOutput& output,
+                    std::vector<std::string>& warnings) {
+    if (target.same_folder) return;
+    const Json& buffers = rootArray(document, "buffers");
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
+        if (document.buffers[i].own || document.buffers[i].source != BufferSource::file) continue;
+        copyNamedFile(document, target, readString(buffers[i], "uri", ""), join("/buffers", i), output,
+                      warnings);
+    }
+    const Json& images = rootArray(document, "images");
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        copyNamedFile(document, target, readString(images[i], "uri", ""), join("/images", i), output,
+                      warnings);
+    }
+}
+
+bool namesFile(const Json& list, const std::string& name) {
+    return std::any_of(list.begin(), list.end(), [&](const Json& entry) {
+        const Json* uri = findMember(entry, "uri");
+        return uri != nullptr && uri->is_string() && percentDecode(uri->get<std::string>()) == name;
+    });
+}
+
+std::span<const std::uint8_t> bytesOf(const std::string& text) {
+    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+}  // namespace
+
+OutputTarget outputTarget(const Document& document, const fs::path& path) {
+    OutputTarget target;
+    target.path = path;
+    const std::string extension = lowerExtension(path);
+    if (extension != ".glb" && extension != ".gltf") {
+        failFile(ErrorCode::unsupportedFile, "the output '" + path.string() + "' is neither .glb nor .gltf");
+    }
+    target.container = extension == ".glb" ? Container::glb : Container::gltf;
+    target.in_place = isSameFile(document.path, path);
+    target.same_folder = isSameFile(document.folder, folderOf(path));
+    return target;
+}
+
+std::string freeFileName(const Document& document, const OutputTarget& target, const std::string& ending) {
+    const std::string stem = target.path.stem().string();
+    const std::size_t dot = ending.rfind('.');
+    std::string name = stem + ending;
+    const auto taken = [&] {
+        return namesFile(rootArray(document, "buffers"), name) ||
+               namesFile(rootArray(document, "images"), name);
+    };
+    for (int number = 2; taken(); ++number) {
+        name = stem + ending.substr(0, dot) + "-" + std::to_string(number) + ending.substr(dot);
+    }
+    return name;
+}
+
+void convertContainer(Document& document, const OutputTarget& target, bool will_edit,
+                      std::vector<std::string>& warnings) {
+    if (target.container == Container::glb) {
+        const bool has_bin = document.buffers.empty() || document.buffers[0].source == BufferSource::bin;
+        if (document.container == Container::gltf || (!has_bin && will_edit)) joinBuffers(document);
+        if (document.container == Container::gltf) embedImages(document, warnings);
+        document.container = Container::glb;
+        if (!document.buffers.empty() && document.buffers[0].source == BufferSource::bin)
+            document.buffers[0].own = true;
+        return;
+    }
+    const bool from_glb = document.container == Container::glb;
+    document.container = Container::gltf;
+    if (from_glb && !document.extra_chunks.empty()) {
+        warnings.push_back("the GLB has chunks that .gltf cannot hold; they were left out");
+        document.extra_chunks.clear();
+    }
+    const std::string own_name = target.path.stem().string() + kNewBufferEnding;
+    for (std::size_t i = 0; i < document.buffers.size(); ++i) {
+        Buffer& buffer = document.buffers[i];
+        Json& entry = document.json["buffers"][i];
+        if (buffer.source == BufferSource::bin) {
+            buffer.source = BufferSource::file;
+            buffer.path = freeFileName(document, target, ".bin");
+            buffer.own = buffer.edited = true;
+            entry["uri"] = percentEncode(buffer.path.string());
+        } else if (buffer.source == BufferSource::dataUri) {
+            buffer.own = true;
+        } else if (buffer.source == BufferSource::file && (target.in_place || !target.same_folder) &&
+                   percentDecode(entry["uri"].get_ref<const std::string&>()) == own_name) {
+            // An earlier run made this file for a model of this name.
+            buffer.own = true;
+            buffer.path = own_name;
+        }
+    }
+}
+
+void writeDocument(Document& document, const OutputTarget& target, AtomicOutput& output,
+                   std::vector<std::string>& warnings) {
+    if (target.container == Container::glb) {
+        const std::string text = writeJson(document.json, document.style);
+        const bool has_bin = !document.buffers.empty() && document.buffers[0].source == BufferSource::bin;
+        const GlbFrame frame =
+            frameGlb(text, has_bin ? std::optional(document.buffers[0].bytes.size()) : std::nullopt,
+                     document.extra_chunks);
+        const std::span<const std::uint8_t> bin =
+            has_bin ? std::span<const std::uint8_t>(document.buffers[0].bytes)
+                    : std::span<const std::uint8_t>();
+        output.add(target.path, {frame.head, bin, frame.tail});
+    } else {
+        for (std::size_t i = 0; i < document.buffers.size(); ++i) {
+            const Buffer& buffer = document.buffers[i];
+            if (buffer.source != BufferSource::dataUri || !buffer.edited) continue;
+            Json& uri = document.json["buffers"][i]["uri"];
+            const auto& old = uri.get_ref<const std::string&>();
+            const std::string mime = old.substr(5, old.find_first_of(";,") - 5);
+            uri = encodeDataUri(mime.empty() ? "application/octet-stream" : mime, buffer.bytes);
+        }
+        output.add(target.path, bytesOf(writeJson(document.json, document.style)));
+        for (const Buffer& buffer : document.buffers) {
+            if (buffer.source == BufferSource::file && buffer.own && (buffer.edited || !target.in_place)) {
+                output.add(folderOf(target.path) / buffer.path, buffer.bytes);
+            }
+        }
+    }
+    copyNamedFiles(document, target, output, warnings);
+}
+
+void writeUnchanged(const Document& document, const OutputTarget& target, AtomicOutput& output,
+                    std::vector<std::string>& warnings) {
+    if (target.in_place) return;
+    output.add(target.path, document.file_bytes);
+    for (const Buffer& buffer : document.buffers) {
+        if (buffer.source == BufferSource::file && buffer.own && !target.same_folder) {
+            output.add(folderOf(target.path) / buffer.path, buffer.bytes);
+        }
+    }
+    copyNamedFiles(document, target, output, warnings);
+}
+
+}  // namespace tspace::gltf

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Changing how a document is stored (.glb or .gltf), and writing it out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "asset/atomic_output.h"
+#include "asset/gltf/document.h"
+
+namespace tspace::gltf {
+
+/// Where the document goes.
+struct OutputTarget {
+    std::filesystem::path path = {};
+    Container container = Container::glb;
+    bool in_place = false;     ///< the output is the input
+    bool same_folder = false;  ///< files that the model names need not be copied
+};
+
+/// Decides by extension; fails with unsupportedFile for any other than .glb and .gltf.
+OutputTarget outputTarget(const Document& document, const std::filesystem::path& path);
+
+/// Prepares the document for its output: .gltf to .glb joins all buffers in BIN and takes the images in; .glb
+/// to .gltf gives BIN a file name. Marks the buffers that the output owns. `will_edit`: new data is to be
+/// expected.
+void convertContainer(Document& document, const OutputTarget& target, bool will_edit,
+                      std::vector<std::string>& warnings);
+
+/// Name for a buffer file of the output that no URI of the document has: "<stem><ending>".
+std::string freeFileName(const Document& document, const OutputTarget& target, const std::string& ending);
+
+/// Writes model, own buffers, and copies of the other files it names when the folder is another one.
+void writeDocument(Document& document, const OutputTarget& target, AtomicOutput& output,
+                   std::vector<std::string>& warnings);
+
+/// Writes the input's own bytes, with copies of the files it names as above.
+void writeUnchanged(const Document& document, const OutputTarget& target, AtomicOutput& output,
+                    std::vector<std::string>& warnings);
+
+}  // namespace tspace::gltf

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// What to do with each primitive of a glTF file, and which primitives are computed together.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "asset/gltf/document.h"
+#include "asset/gltf/primitive_reader.h"
+#include "tspace/asset.h"
+
+namespace tspace::gltf {
+
+/// Primitives that draw the same triangles of one pool: computed once.
+struct PoolGeometry {
+    std::vector<std::size_t> primitives = {};  ///< numbers into the list of primitives; never empty
+};
+
+/// Primitives over the same attribute accessors and morph targets whose tangents follow the same UV set.
+struct Pool {
+    std::vector<PoolGeometry> geometries = {};
+    std::vector<std::size_t> primitives = {};  ///< all of them, in file order
+    bool uses_uvs = true;
+    std::size_t uv_set = 0;
+    bool has_normals = false;
+    bool has_tangents = false;  ///< there are tangents with normals; others do not count
+    std::size_t corner_count = 0;
+};
+
+struct GeneratePlan {
+    std::vector<Pool> pools = {};
+    std::vector<PrimitiveReport> reports = {};  ///< one per primitive; final for those in no pool
+};
+
+/// Fails with unsupportedFile when a primitive that would change is Draco-compressed.
+GeneratePlan planGenerate(const Document& document, std::span<const Primitive> primitives,
+                          const GenerateOptions& options);
+
+}  // namespace tspace::gltf
