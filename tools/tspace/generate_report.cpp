@@ -72,7 +72,6 @@ struct Totals {
     std::uint64_t normals_generated = 0;
     std::uint64_t degenerate_uv_count = 0;
     std::uint64_t degenerate_triangle_count = 0;
-    std::uint64_t mirrored_count = 0;
     SanitizeReport sanitize = {};
     bool reference_order_abandoned = false;
 };
@@ -89,7 +88,6 @@ Totals totalsOf(const GenerateReport& report) {
         totals.vertices_after += primitive.vertices_after;
         totals.degenerate_uv_count += primitive.tangents.degenerate_uv_count;
         totals.degenerate_triangle_count += primitive.tangents.degenerate_triangle_count;
-        totals.mirrored_count += primitive.tangents.mirrored_count;
         totals.reference_order_abandoned |= primitive.tangents.reference_order_abandoned;
         for (const NamedCount& cause : kCauses)
             totals.sanitize.*cause.count += primitive.sanitize.*cause.count;
@@ -126,7 +124,6 @@ std::string inputFaultsText(const Totals& totals) {
     };
     add(totals.degenerate_uv_count, "without UV area");
     add(totals.degenerate_triangle_count, "with two corners at one place");
-    add(totals.mirrored_count, "with mirrored UVs");
     return text;
 }
 
@@ -224,7 +221,7 @@ Json primitiveJson(const PrimitiveReport& primitive) {
          {{"triangles", tangents.triangle_count},
           {"degenerateTriangles", tangents.degenerate_triangle_count},
           {"degenerateUvTriangles", tangents.degenerate_uv_count},
-          {"mirroredTriangles", tangents.mirrored_count},
+          {"negativeUvTriangles", tangents.mirrored_count},
           {"skippedFaces", tangents.skipped_face_count},
           {"groups", tangents.group_count},
           {"defaultCorners", tangents.default_corner_count},

@@ -233,24 +233,23 @@ void checkIndices(Model& model) {
 
 void addWarnings(const Build& build, Model& model) {
     const LineNotes& notes = *build.notes;
-    const auto warn = [&model](bool applies, std::string text) {
-        if (applies) model.warnings.push_back(std::move(text));
+    const auto warn = [&model](const std::string& text) { model.warnings.push_back(text); };
+    const auto warnCount = [&](std::uint64_t count, const char* text) {
+        if (count != 0) warn(text + (": " + std::to_string(count)));
     };
-    warn(notes.unreadable_number_count != 0,
-         std::to_string(notes.unreadable_number_count) +
-             " numbers cannot be read and were taken as 0, the first in line " +
+    if (notes.unreadable_number_count != 0) {
+        warn("numbers that cannot be read and were taken as 0: " +
+             std::to_string(notes.unreadable_number_count) + ", the first in line " +
              std::to_string(notes.unreadable_number_line));
-    warn(build.bad_position_count != 0,
-         std::to_string(build.bad_position_count) + " positions are not finite and were moved to the origin");
-    warn(build.bad_uv_count != 0,
-         std::to_string(build.bad_uv_count) + " texture coordinates are not finite and were set to 0");
-    warn(build.bad_normal_count != 0, std::to_string(build.bad_normal_count) +
-                                          " normals are zero or not finite; faces with them get new normals");
-    warn(build.small_face_count != 0,
-         std::to_string(build.small_face_count) + " faces with fewer than 3 corners were left out");
-    warn(notes.has_vertex_colors, "vertex colours are not carried over");
-    warn(notes.has_lines_or_points, "lines and points are not carried over");
-    warn(notes.has_free_form, "free-form curves and surfaces are not carried over");
+    }
+    warnCount(build.bad_position_count, "positions that are not finite and were moved to the origin");
+    warnCount(build.bad_uv_count, "texture coordinates that are not finite and were set to 0");
+    warnCount(build.bad_normal_count,
+              "normals that are zero or not finite; the faces that use them get new ones");
+    warnCount(build.small_face_count, "faces with fewer than 3 corners, left out");
+    if (notes.has_vertex_colors) warn("vertex colours are not carried over");
+    if (notes.has_lines_or_points) warn("lines and points are not carried over");
+    if (notes.has_free_form) warn("free-form curves and surfaces are not carried over");
 }
 
 /// Puts what the MTL files say into the materials that faces use.
