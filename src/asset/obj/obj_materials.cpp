@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "asset/file_error.h"
@@ -43,11 +44,29 @@ float roughnessOf(const tinyobj::material_t& source) {
     return inUnitRange(std::sqrt(std::sqrt(2.0f / (source.shininess + 2.0f))), 1);
 }
 
-Material toMaterial(const tinyobj::material_t& source, const fs::path& folder) {
+/// Names of the materials that state Kd: the parser gives black to the others, which nobody means.
+std::set<std::string> materialsWithDiffuse(const std::string& text) {
+    std::set<std::string> names;
+    std::string name;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string keyword;
+        words >> keyword;
+        if (keyword == "newmtl") {
+            name = line.substr(std::min(line.find(keyword) + keyword.size() + 1, line.size()));
+            name.erase(name.find_last_not_of(" \t") + 1);
+        }
+        if (keyword == "Kd") names.insert(name);
+    }
+    return names;
+}
+
+Material toMaterial(const tinyobj::material_t& source, const fs::path& folder, bool has_diffuse) {
     Material material{.name = source.name, .found = true};
     material.base_color_texture = {plainPath(source.diffuse_texname), folder};
     // With a texture, Kd is left out: exporters write anything there, black too.
-    if (!material.base_color_texture.used()) material.base_color = color(source.diffuse);
+    if (has_diffuse && !material.base_color_texture.used()) material.base_color = color(source.diffuse);
     material.opacity = inUnitRange(source.dissolve, 1);
     material.emission = color(source.emission);
     material.metallic = inUnitRange(source.metallic, 0);
@@ -77,7 +96,10 @@ bool readLibrary(const fs::path& folder, const std::string& name, const FileOpti
     std::string warning;
     std::string error;
     tinyobj::LoadMtl(&unused_index, &sources, &stream, &warning, &error);
-    for (const tinyobj::material_t& source : sources) materials.push_back(toMaterial(source, folderOf(path)));
+    const std::set<std::string> with_diffuse = materialsWithDiffuse(text);
+    for (const tinyobj::material_t& source : sources) {
+        materials.push_back(toMaterial(source, folderOf(path), with_diffuse.count(source.name) != 0));
+    }
     return true;
 }
 

@@ -50,11 +50,12 @@ struct Material {
 };
 
 struct Model {
-    std::vector<Vec3> positions = {};  ///< all finite
-    std::vector<Vec2> uvs = {};        ///< v runs down, as in glTF
-    std::vector<Vec3> normals = {};    ///< unit or zero; corners never refer to zero ones
-    std::vector<Corner> corners = {};  ///< every index is in range
-    std::vector<Face> faces = {};      ///< in file order, at least 3 corners each; never empty
+    std::filesystem::path folder = {};  ///< that of the OBJ file
+    std::vector<Vec3> positions = {};   ///< all finite
+    std::vector<Vec2> uvs = {};         ///< v runs down, as in glTF
+    std::vector<Vec3> normals = {};     ///< unit or zero; corners never refer to zero ones
+    std::vector<Corner> corners = {};   ///< every index is in range
+    std::vector<Face> faces = {};       ///< in file order, at least 3 corners each; never empty
     std::vector<std::string> shape_names = {};
     std::vector<Material> materials = {};  ///< in order of first use by a face
     bool has_smoothing_groups = false;     ///< the file has `s` lines

@@ -277,6 +277,7 @@ Model readModel(const std::filesystem::path& path, const FileOptions& options) {
         failFile(ErrorCode::unsupportedFile, "the OBJ file is larger than 8 GiB");
     Bytes bytes = readFile(path);
     Model model;
+    model.folder = folderOf(path);
     model.input_bytes = bytes.size();
     std::string text(bytes.begin(), bytes.end());
     Bytes().swap(bytes);
@@ -292,7 +293,7 @@ Model readModel(const std::filesystem::path& path, const FileOptions& options) {
     checkIndices(model);
     if (model.faces.empty()) failFile(ErrorCode::invalidFile, "the OBJ file has no faces");
     addWarnings(build, model);
-    fillMaterials(model, readMaterials(folderOf(path), notes.material_libraries, options, model));
+    fillMaterials(model, readMaterials(model.folder, notes.material_libraries, options, model));
     return model;
 }
 

@@ -98,9 +98,13 @@ const char* imageType(const Bytes& bytes) {
 /// Images and textures, one per file however often it is used.
 class ImageBuilder {
   public:
-    ImageBuilder(const fs::path& output, const FileOptions& options, BufferBuilder& buffer,
-                 std::vector<std::string>& warnings)
-        : output_(output), options_(options), buffer_(buffer), warnings_(warnings) {}
+    ImageBuilder(const Model& model, const fs::path& output, const FileOptions& options,
+                 BufferBuilder& buffer, std::vector<std::string>& warnings)
+        : names_by_uri_(isSameFile(folderOf(output), model.folder)),
+          folder_(model.folder),
+          options_(options),
+          buffer_(buffer),
+          warnings_(warnings) {}
 
     /// Sets material[key] to a reference to the texture; nothing where it cannot be had.
     void addReference(const Texture& texture, Json& material, const char* key) {
@@ -135,10 +139,10 @@ class ImageBuilder {
 
     Json imageJson(const fs::path& path, const Bytes& bytes, const char* type) {
         Json image = {{"name", path.stem().string()}};
-        const fs::path root = fs::weakly_canonical(fs::absolute(folderOf(output_)));
+        const fs::path root = fs::weakly_canonical(fs::absolute(folder_));
         const fs::path relative = fs::weakly_canonical(fs::absolute(path)).lexically_relative(root);
         const bool lies_below = !relative.empty() && *relative.begin() != "..";
-        if (lies_below) {
+        if (names_by_uri_ && lies_below) {
             image["uri"] = percentEncode(relative.generic_string());
         } else {
             image["mimeType"] = type;
@@ -147,7 +151,8 @@ class ImageBuilder {
         return image;
     }
 
-    const fs::path& output_;
+    const bool names_by_uri_;
+    const fs::path& folder_;
     const FileOptions& options_;
     BufferBuilder& buffer_;
     std::vector<std::string>& warnings_;
@@ -258,7 +263,7 @@ void writeFiles(Json& root, const Bytes& bytes, const fs::path& output, AtomicOu
 void writeScene(const Model& model, const std::vector<FinishedPrimitive>& primitives, const fs::path& output,
                 const FileOptions& options, AtomicOutput& files, std::vector<std::string>& warnings) {
     BufferBuilder buffer;
-    ImageBuilder images(output, options, buffer, warnings);
+    ImageBuilder images(model, output, options, buffer, warnings);
     Json root = {{"asset", {{"version", "2.0"}, {"generator", "tspace"}}}};
     Json materials = Json::array();
     const std::vector<int> material_numbers = addMaterials(model, images, materials);

@@ -128,6 +128,16 @@ TEST(Obj, TextureCoordinatesAreTurnedToRunDown) {
         EXPECT_EQ(t, (Vec4{1, 0, 0, 1}));
 }
 
+TEST(Obj, AMaterialThatStatesNoColourIsWhite) {
+    const TempFolder folder;
+    folder.write("in/m.mtl", "newmtl a\nNs 10\nnewmtl b\nKd 0 0 0\n");
+    const Made made = make(
+        folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/3 4/4\n");
+    const Json& materials = made.document.json["materials"];
+    EXPECT_FALSE(materials[0]["pbrMetallicRoughness"].contains("baseColorFactor"));
+    EXPECT_EQ(materials[1]["pbrMetallicRoughness"]["baseColorFactor"], Json({0.0, 0.0, 0.0, 1.0}));
+}
+
 TEST(Obj, EachShapeIsAMeshAndEachMaterialInItAPrimitive) {
     const TempFolder folder;
     folder.write("in/m.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\nd 0.5\n");
