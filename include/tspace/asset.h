@@ -30,6 +30,9 @@ struct GenerateOptions {
     TangentOptions tangents{.convention = conventions::gltf};
     /// For primitives without normals. The default is what glTF asks of a client.
     NormalOptions normals{.weighting = NormalWeighting::flat};
+    /// OBJ files with `s` lines: missing normals follow those groups with angle weights (faces in group 0 are flat).
+    /// false, or a file without `s` lines: `normals` alone decides.
+    bool use_smoothing_groups = true;
     bool sanitize = true;
     SanitizeOptions sanitize_options = {};
     FileOptions file = {};
@@ -103,9 +106,9 @@ struct PrimitiveInfo {
     std::int32_t uv_set = -1;              ///< the UV set that tangents would follow, or -1
     std::uint64_t degenerate_uv_count = 0;       ///< triangles without UV area in that set
     std::uint64_t degenerate_triangle_count = 0; ///< triangles with two corners at one position
-    std::uint64_t mirrored_triangle_count = 0;   ///< triangles with negative UV area (file's own V direction)
+    std::uint64_t mirrored_triangle_count = 0;   ///< triangles that show the texture mirrored (V direction considered)
     std::uint32_t uv_island_count = 0;           ///< connected pieces of the UV map
-    std::uint32_t mirrored_island_count = 0;     ///< those whose UV area is mostly negative
+    std::uint32_t mirrored_island_count = 0;     ///< those of which most of the area is mirrored
 };
 
 struct Inspection {

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// The OBJ path from file to file.
+#include <utility>
+
+#include "asset/atomic_output.h"
+#include "asset/file_error.h"
+#include "asset/obj/obj.h"
+#include "asset/obj/obj_primitives.h"
+#include "asset/obj/obj_reader.h"
+#include "asset/obj/obj_writer.h"
+#include "tspace/triangulate.h"
+
+namespace tspace {
+namespace {
+
+using namespace obj;
+
+void checkOutput(const std::string& output) {
+    const std::string extension = lowerExtension(output);
+    if (extension != ".glb" && extension != ".gltf") {
+        failFile(ErrorCode::invalidOption, "the output must end in .glb or .gltf: " + output);
+    }
+}
+
+template <class T>
+std::vector<T> gather(const std::vector<T>& values, const std::vector<std::uint32_t>& sources) {
+    std::vector<T> result;
+    result.reserve(sources.size());
+    for (const std::uint32_t source : sources) result.push_back(values[source]);
+    return result;
+}
+
+/// Sets action and reason. true when tangents are to be computed.
+bool decide(const Material& material, const ObjPrimitive& primitive, const GenerateOptions& options,
+            PrimitiveReport& report) {
+    const bool needed = material.normal_texture.used();
+    if (!needed && !options.all) {
+        report.action = PrimitiveAction::notNeeded;
+        report.reason =
+            material.found ? "the material has no normal map" : "there is no material with a normal map";
+    } else if (!primitive.has_uvs && options.tangents.method != Method::basis) {
+        report.action = PrimitiveAction::impossible;
+        report.reason = "the faces have no texture coordinates";
+    } else {
+        report.action = PrimitiveAction::generated;
+        report.reason = needed ? "the material has the normal map '" + material.normal_texture.file + "'"
+                               : "asked for all primitives";
+        if (primitive.has_uvs) report.uv_set = 0;
+        return true;
+    }
+    return false;
+}
+
+FinishedPrimitive finishWithFrames(ObjGeometry geometry, const GenerateOptions& options,
+                                   PrimitiveReport& report) {
+    PoolFrames frames =
+        valueOrThrow(computeFrames(geometry.pool, {&geometry.polygons, 1}, options, {&report, 1}));
+    FinishedPrimitive finished;
+    finished.positions = gather(geometry.pool.positions, frames.source_vertices);
+    finished.normals = gather(geometry.pool.normals, frames.source_vertices);
+    if (!geometry.pool.uvs.empty()) finished.uvs = gather(geometry.pool.uvs, frames.source_vertices);
+    finished.tangents = std::move(frames.tangents);
+    finished.indices = std::move(frames.indices.front());
+    return finished;
+}
+
+FinishedPrimitive finishWithoutFrames(ObjGeometry geometry, PrimitiveReport& report) {
+    const Triangulation triangles = valueOrThrow(triangulate(geometry.view()));
+    FinishedPrimitive finished;
+    finished.indices = gather(geometry.polygons.indices, triangles.corners);
+    report.triangle_count = finished.indices.size() / 3;
+    report.vertices_before = report.vertices_after = geometry.pool.positions.size();
+    finished.positions = std::move(geometry.pool.positions);
+    finished.normals = std::move(geometry.pool.normals);
+    finished.uvs = std::move(geometry.pool.uvs);
+    return finished;
+}
+
+FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, const GenerateOptions& options,
+                         PrimitiveReport& report) {
+    const Material& material = model.materials[primitive.material];
+    report.mesh = primitive.shape;
+    report.mesh_name = model.shape_names[primitive.shape];
+    report.material_name = material.name;
+    ObjGeometry geometry = buildGeometry(model, primitive);
+    const bool computes = decide(material, primitive, options, report);
+    FinishedPrimitive finished = computes ? finishWithFrames(std::move(geometry), options, report)
+                                          : finishWithoutFrames(std::move(geometry), report);
+    report.normals_generated = primitive.normals_generated;
+    finished.shape = primitive.shape;
+    finished.material = primitive.material;
+    return finished;
+}
+
+void tell(const GenerateOptions& options, const char* what, std::uint64_t done, std::uint64_t total) {
+    if (options.progress) options.progress(what, done, total);
+}
+
+GenerateReport generate(const std::string& input, const std::string& output, const GenerateOptions& options) {
+    checkOutput(output);
+    tell(options, "reading", 0, 0);
+    Model model = readModel(input, options.file);
+    std::vector<ObjPrimitive> primitives = collectPrimitives(model);
+    tell(options, "computing normals", 0, 0);
+    NormalReport normals = valueOrThrow(completeNormals(model, primitives, options));
+
+    GenerateReport report;
+    std::vector<FinishedPrimitive> finished;
+    std::vector<std::uint32_t> next_in_mesh(model.shape_names.size(), 0);
+    for (const ObjPrimitive& primitive : primitives) {
+        tell(options, "computing tangents", finished.size(), primitives.size());
+        PrimitiveReport& entry = report.primitives.emplace_back();
+        finished.push_back(finish(model, primitive, options, entry));
+        entry.primitive = next_in_mesh[primitive.shape]++;
+        // Normals are made for the whole file at once: the counts stand with the first primitive that got
+        // some.
+        if (primitive.normals_generated) entry.normals = std::exchange(normals, {});
+    }
+    tell(options, "writing", 0, 0);
+    report.changed = true;
+    report.input_bytes = model.input_bytes;
+    report.warnings = model.warnings;
+    AtomicOutput files;
+    writeScene(model, finished, output, options.file, files, report.warnings);
+    files.commit();
+    report.output_files = files.files();
+    report.output_bytes = files.byteCount();
+    return report;
+}
+
+}  // namespace
+
+Result<GenerateReport> generateObj(const std::string& input, const std::string& output,
+                                   const GenerateOptions& options) {
+    return atFileBorder([&]() -> Result<GenerateReport> { return generate(input, output, options); });
+}
+
+}  // namespace tspace

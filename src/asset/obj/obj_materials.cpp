@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// MTL libraries to materials as glTF sees them.
+#include <tiny_obj_loader.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "asset/file_error.h"
+#include "asset/file_io.h"
+#include "asset/obj/obj_lines.h"
+#include "asset/obj/obj_reader.h"
+#include "asset/uri.h"
+
+namespace tspace::obj {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A path as an MTL or OBJ file writes it: maybe quoted, maybe with Windows' separators.
+std::string plainPath(std::string text) {
+    text.erase(0, std::min(text.find_first_not_of(" \t"), text.size()));
+    text.erase(text.find_last_not_of(" \t") + 1);
+    if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
+    std::replace(text.begin(), text.end(), '\\', '/');
+    return text;
+}
+
+float inUnitRange(float value, float otherwise) {
+    return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : otherwise;
+}
+
+Vec3 color(const float rgb[3]) {
+    return {inUnitRange(rgb[0], 1), inUnitRange(rgb[1], 1), inUnitRange(rgb[2], 1)};
+}
+
+/// Blinn-Phong exponent to roughness: alpha = sqrt(2 / (n + 2)), roughness = sqrt(alpha) (Walter et al. 2007;
+/// glTF squares its roughness).
+float roughnessOf(const tinyobj::material_t& source) {
+    if (source.roughness > 0) return inUnitRange(source.roughness, 1);
+    if (!(source.shininess > 0)) return 1;
+    return inUnitRange(std::sqrt(std::sqrt(2.0f / (source.shininess + 2.0f))), 1);
+}
+
+/// Names of the materials that state Kd: the parser gives black to the others, which nobody means.
+std::set<std::string> materialsWithDiffuse(const std::string& text) {
+    std::set<std::string> names;
+    std::string name;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string keyword;
+        words >> keyword;
+        if (keyword == "newmtl") {
+            name = line.substr(std::min(line.find(keyword) + keyword.size() + 1, line.size()));
+            name.erase(name.find_last_not_of(" \t") + 1);
+        }
+        if (keyword == "Kd") names.insert(name);
+    }
+    return names;
+}
+
+Material toMaterial(const tinyobj::material_t& source, const fs::path& folder, bool has_diffuse) {
+    Material material{.name = source.name, .found = true};
+    material.base_color_texture = {plainPath(source.diffuse_texname), folder};
+    // With a texture, Kd is left out: exporters write anything there, black too.
+    if (has_diffuse && !material.base_color_texture.used()) material.base_color = color(source.diffuse);
+    material.opacity = inUnitRange(source.dissolve, 1);
+    material.emission = color(source.emission);
+    material.metallic = inUnitRange(source.metallic, 0);
+    material.roughness = roughnessOf(source);
+    const bool has_norm = !source.normal_texname.empty();
+    material.normal_texture = {plainPath(has_norm ? source.normal_texname : source.bump_texname), folder};
+    const float scale = (has_norm ? source.normal_texopt : source.bump_texopt).bump_multiplier;
+    if (std::isfinite(scale)) material.normal_scale = scale;
+    return material;
+}
+
+/// false when there is no such file. Fails with forbiddenPath.
+bool readLibrary(const fs::path& folder, const std::string& name, const FileOptions& options, Model& model,
+                 std::vector<Material>& materials) {
+    const fs::path path =
+        resolveUri(folder, percentEncode(plainPath(name)), options.allow_external, "mtllib");
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored)) return false;
+    const Bytes bytes = readFile(path, "mtllib");
+    model.input_bytes += bytes.size();
+    std::string text(bytes.begin(), bytes.end());
+    makeLineEndsPlain(text);
+
+    std::istringstream stream(text);
+    std::map<std::string, int> unused_index;
+    std::vector<tinyobj::material_t> sources;
+    std::string warning;
+    std::string error;
+    tinyobj::LoadMtl(&unused_index, &sources, &stream, &warning, &error);
+    const std::set<std::string> with_diffuse = materialsWithDiffuse(text);
+    for (const tinyobj::material_t& source : sources) {
+        materials.push_back(toMaterial(source, folderOf(path), with_diffuse.count(source.name) != 0));
+    }
+    return true;
+}
+
+std::vector<std::string> splitNames(const std::string& names) {
+    std::istringstream words(names);
+    std::vector<std::string> result;
+    for (std::string word; words >> word;) result.push_back(word);
+    return result;
+}
+
+}  // namespace
+
+std::vector<Material> readMaterials(const fs::path& folder, const std::vector<std::string>& names,
+                                    const FileOptions& options, Model& model) {
+    std::vector<Material> materials;
+    const auto read = [&](const std::string& name) {
+        try {
+            return readLibrary(folder, name, options, model, materials);
+        } catch (const FileError& failure) {
+            model.warnings.push_back("material library left out: " + failure.error.message);
+            return true;
+        }
+    };
+    std::vector<std::string> seen;
+    for (const std::string& line : names) {
+        if (line.empty() || std::find(seen.begin(), seen.end(), line) != seen.end()) continue;
+        seen.push_back(line);
+        const std::vector<std::string> words = splitNames(line);
+        std::error_code ignored;
+        // File names may have spaces in them, but several files may also stand in one line.
+        if (words.size() == 1 || fs::exists(folder / plainPath(line), ignored)) {
+            if (!read(line)) model.warnings.push_back("there is no material library '" + line + "'");
+            continue;
+        }
+        for (const std::string& word : words) {
+            if (!read(word)) model.warnings.push_back("there is no material library '" + word + "'");
+        }
+    }
+    return materials;
+}
+
+}  // namespace tspace::obj

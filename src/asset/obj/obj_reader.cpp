@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+// OBJ text to Model. The parser is that of tinyobjloader, through its callbacks: they keep faces of any size,
+// which its mesh interface cuts at 255 corners. It is not trusted: every index it gives is checked here.
+#include "asset/obj/obj_reader.h"
+
+#include <tiny_obj_loader.h>
+
+#include <cmath>
+#include <istream>
+#include <map>
+#include <streambuf>
+
+#include "asset/file_error.h"
+#include "asset/file_io.h"
+#include "asset/obj/obj_lines.h"
+#include "tspace/mesh.h"
+
+namespace tspace::obj {
+namespace {
+
+/// A stream over bytes that are already in memory.
+class MemoryStream : private std::streambuf, public std::istream {
+  public:
+    explicit MemoryStream(std::string& text) : std::istream(static_cast<std::streambuf*>(this)) {
+        setg(text.data(), text.data(), text.data() + text.size());
+    }
+};
+
+/// What the callbacks write to.
+struct Build {
+    Model* model = nullptr;
+    const LineNotes* notes = nullptr;
+    std::size_t face_line = 0;  // the next of notes->faces
+    std::string object = {}, group = {};
+    std::map<std::pair<std::string, std::string>, std::uint32_t> shapes = {};
+    std::uint32_t shape = kNone;  // kNone: looked up by the next face
+    std::map<std::string, std::uint32_t> materials = {};
+    std::string material_name = {};
+    std::uint32_t material = kNone;
+    std::uint64_t bad_position_count = 0;
+    std::uint64_t bad_uv_count = 0;
+    std::uint64_t bad_normal_count = 0;
+    std::uint64_t small_face_count = 0;
+};
+
+Build& buildOf(void* user) { return *static_cast<Build*>(user); }
+
+std::string currentPlace(const Build& build) {
+    return "line " + std::to_string(build.notes->faces[build.face_line].line);
+}
+
+void addPosition(void* user, float x, float y, float z, float) {
+    Build& build = buildOf(user);
+    Vec3 position{x, y, z};
+    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
+        position = {};  // glTF has no way to write these
+        ++build.bad_position_count;
+    }
+    build.model->positions.push_back(position);
+}
+
+void addUv(void* user, float u, float v, float) {
+    Build& build = buildOf(user);
+    Vec2 uv{u, 1.0f - v};
+    if (!std::isfinite(u) || !std::isfinite(v)) {
+        uv = {};
+        ++build.bad_uv_count;
+    }
+    build.model->uvs.push_back(uv);
+}
+
+/// OBJ does not ask for unit normals, glTF does. Those that are unit by the validator's tolerance keep their
+/// bits.
+void addNormal(void* user, float x, float y, float z) {
+    Build& build = buildOf(user);
+    const double length = std::sqrt(double{x} * x + double{y} * y + double{z} * z);
+    Vec3 normal{};
+    if (std::isfinite(length) && length > 1e-30) {
+        normal = std::abs(length - 1) <= 5e-4
+                     ? Vec3{x, y, z}
+                     : Vec3{static_cast<float>(x / length), static_cast<float>(y / length),
+                            static_cast<float>(z / length)};
+    } else {
+        ++build.bad_normal_count;
+    }
+    build.model->normals.push_back(normal);
+}
+
+/// From the file's index to ours: 1 is the first, -1 the latest so far. Positive ones may still point ahead.
+std::uint32_t resolveIndex(const Build& build, int index, std::size_t count_so_far, const char* what) {
+    if (index > 0) return static_cast<std::uint32_t>(index - 1);
+    const auto back = static_cast<std::size_t>(-static_cast<std::int64_t>(index));
+    if (back > count_so_far) {
+        failFile(ErrorCode::invalidFile,
+                 "a face counts back to " + std::string(what) + " " + std::to_string(index) +
+                     ", but there are only " + std::to_string(count_so_far) + " before it",
+                 currentPlace(build));
+    }
+    return static_cast<std::uint32_t>(count_so_far - back);
+}
+
+std::uint32_t currentShape(Build& build) {
+    if (build.shape == kNone) {
+        const auto next = static_cast<std::uint32_t>(build.model->shape_names.size());
+        const auto [entry, is_new] = build.shapes.emplace(std::pair(build.object, build.group), next);
+        if (is_new) {
+            const bool both = !build.object.empty() && !build.group.empty();
+            build.model->shape_names.push_back(build.object + (both ? "/" : "") + build.group);
+        }
+        build.shape = entry->second;
+    }
+    return build.shape;
+}
+
+std::uint32_t currentMaterial(Build& build) {
+    if (build.material == kNone) {
+        const auto next = static_cast<std::uint32_t>(build.model->materials.size());
+        const auto [entry, is_new] = build.materials.emplace(build.material_name, next);
+        if (is_new) build.model->materials.push_back({.name = build.material_name});
+        build.material = entry->second;
+    }
+    return build.material;
+}
+
+void addFace(void* user, tinyobj::index_t* indices, int count) {
+    Build& build = buildOf(user);
+    Model& model = *build.model;
+    if (build.face_line >= build.notes->faces.size()) {
+        failFile(ErrorCode::internal,
+                 "internal error: the OBJ parser found a face that the first pass did not");
+    }
+    Face face{.first_corner = static_cast<std::uint32_t>(model.corners.size()),
+              .corner_count = static_cast<std::uint32_t>(count),
+              .smoothing_group = build.notes->faces[build.face_line].smoothing_group,
+              .line = build.notes->faces[build.face_line].line};
+    if (model.corners.size() + face.corner_count > kMaxCorners) {
+        failFile(ErrorCode::unsupportedFile, "the file has more corners than fit into one mesh",
+                 currentPlace(build));
+    }
+    for (int i = 0; i < count; ++i) {
+        const tinyobj::index_t& index = indices[i];
+        if (index.vertex_index == 0) {
+            failFile(ErrorCode::invalidFile, "a face has a corner without a vertex index",
+                     currentPlace(build));
+        }
+        Corner corner{.position = resolveIndex(build, index.vertex_index, model.positions.size(), "vertex")};
+        if (index.texcoord_index != 0) {
+            corner.uv = resolveIndex(build, index.texcoord_index, model.uvs.size(), "texture coordinate");
+        }
+        if (index.normal_index != 0) {
+            corner.normal = resolveIndex(build, index.normal_index, model.normals.size(), "normal");
+        }
+        model.corners.push_back(corner);
+    }
+    if (count < 3) {
+        ++build.small_face_count;
+        model.corners.resize(face.first_corner);
+    } else {
+        face.shape = currentShape(build);
+        face.material = currentMaterial(build);
+        model.faces.push_back(face);
+    }
+    ++build.face_line;
+}
+
+void setGroup(void* user, const char** names, int count) {
+    Build& build = buildOf(user);
+    build.group.clear();
+    for (int i = 0; i < count; ++i) build.group.append(i == 0 ? "" : " ").append(names[i]);
+    // What exporters write to say "no group".
+    if (build.group == "default" || build.group == "off") build.group.clear();
+    build.shape = kNone;
+}
+
+void setObject(void* user, const char* name) {
+    Build& build = buildOf(user);
+    build.object = name;
+    build.object.erase(build.object.find_last_not_of(" \t") + 1);
+    build.shape = kNone;
+}
+
+void setMaterial(void* user, const char* name, int) {
+    Build& build = buildOf(user);
+    build.material_name = name;
+    build.material_name.erase(build.material_name.find_last_not_of(" \t") + 1);
+    build.material = kNone;
+}
+
+void parse(std::string& text, Build& build) {
+    tinyobj::callback_t callbacks;
+    callbacks.vertex_cb = addPosition;
+    callbacks.texcoord_cb = addUv;
+    callbacks.normal_cb = addNormal;
+    callbacks.index_cb = addFace;
+    callbacks.group_cb = setGroup;
+    callbacks.object_cb = setObject;
+    callbacks.usemtl_cb = setMaterial;
+    MemoryStream stream(text);
+    std::string warning;
+    std::string error;
+    // Without a material reader it opens no file.
+    if (!tinyobj::LoadObjWithCallback(stream, callbacks, &build, nullptr, &warning, &error)) {
+        failFile(ErrorCode::invalidFile, "not an OBJ file that can be read");
+    }
+}
+
+[[noreturn]] void failIndex(const Face& face, const char* what, std::uint32_t index, std::size_t count) {
+    failFile(ErrorCode::invalidFile,
+             "a face refers to " + std::string(what) + " " + std::to_string(std::uint64_t{index} + 1) +
+                 " of " + std::to_string(count),
+             "line " + std::to_string(face.line));
+}
+
+/// Positive indices could point ahead, so ranges are known only at the end. Corners let go of normals that
+/// are zero.
+void checkIndices(Model& model) {
+    for (const Face& face : model.faces) {
+        for (std::uint32_t i = 0; i < face.corner_count; ++i) {
+            Corner& corner = model.corners[face.first_corner + i];
+            if (corner.position >= model.positions.size()) {
+                failIndex(face, "vertex", corner.position, model.positions.size());
+            }
+            if (corner.uv != kNone && corner.uv >= model.uvs.size()) {
+                failIndex(face, "texture coordinate", corner.uv, model.uvs.size());
+            }
+            if (corner.normal == kNone) continue;
+            if (corner.normal >= model.normals.size())
+                failIndex(face, "normal", corner.normal, model.normals.size());
+            if (model.normals[corner.normal] == Vec3{}) corner.normal = kNone;
+        }
+    }
+}
+
+void addWarnings(const Build& build, Model& model) {
+    const LineNotes& notes = *build.notes;
+    const auto warn = [&model](const std::string& text) { model.warnings.push_back(text); };
+    const auto warnCount = [&](std::uint64_t count, const char* text) {
+        if (count != 0) warn(text + (": " + std::to_string(count)));
+    };
+    if (notes.unreadable_number_count != 0) {
+        warn("numbers that cannot be read and were taken as 0: " +
+             std::to_string(notes.unreadable_number_count) + ", the first in line " +
+             std::to_string(notes.unreadable_number_line));
+    }
+    warnCount(build.bad_position_count, "positions that are not finite and were moved to the origin");
+    warnCount(build.bad_uv_count, "texture coordinates that are not finite and were set to 0");
+    warnCount(build.bad_normal_count,
+              "normals that are zero or not finite; the faces that use them get new ones");
+    warnCount(build.small_face_count, "faces with fewer than 3 corners, left out");
+    if (notes.has_vertex_colors) warn("vertex colours are not carried over");
+    if (notes.has_lines_or_points) warn("lines and points are not carried over");
+    if (notes.has_free_form) warn("free-form curves and surfaces are not carried over");
+}
+
+/// Puts what the MTL files say into the materials that faces use.
+void fillMaterials(Model& model, std::vector<Material> library) {
+    std::map<std::string, std::size_t> by_name;
+    for (std::size_t i = 0; i < library.size(); ++i) by_name.emplace(library[i].name, i);
+    for (Material& material : model.materials) {
+        const auto entry = by_name.find(material.name);
+        if (entry != by_name.end()) {
+            material = library[entry->second];
+        } else if (!material.name.empty()) {
+            model.warnings.push_back("the material '" + material.name + "' is not in any material library");
+        }
+    }
+}
+
+}  // namespace
+
+Model readModel(const std::filesystem::path& path, const FileOptions& options) {
+    // Beyond this, counts of vertices might not fit 32 bits.
+    constexpr std::uintmax_t kMostBytes = std::uintmax_t{8} << 30;
+    std::error_code no_file;
+    const std::uintmax_t size = std::filesystem::file_size(path, no_file);
+    if (!no_file && size > kMostBytes)
+        failFile(ErrorCode::unsupportedFile, "the OBJ file is larger than 8 GiB");
+    Bytes bytes = readFile(path);
+    Model model;
+    model.folder = folderOf(path);
+    model.input_bytes = bytes.size();
+    std::string text(bytes.begin(), bytes.end());
+    Bytes().swap(bytes);
+    const LineNotes notes = prepareLines(text);
+    model.has_smoothing_groups = notes.has_smoothing_groups;
+
+    Build build{.model = &model, .notes = &notes};
+    parse(text, build);
+    std::string().swap(text);
+    if (build.face_line != notes.faces.size()) {
+        failFile(ErrorCode::internal, "internal error: the OBJ parser found fewer faces than the first pass");
+    }
+    checkIndices(model);
+    if (model.faces.empty()) failFile(ErrorCode::invalidFile, "the OBJ file has no faces");
+    addWarnings(build, model);
+    fillMaterials(model, readMaterials(model.folder, notes.material_libraries, options, model));
+    return model;
+}
+
+}  // namespace tspace::obj

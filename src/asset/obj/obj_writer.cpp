@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+// Writes a model as glTF 2.0.
+#include "asset/obj/obj_writer.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+
+#include "asset/file_error.h"
+#include "asset/uri.h"
+
+namespace tspace::obj {
+namespace {
+
+namespace fs = std::filesystem;
+using gltf::Json;
+
+constexpr int kArrayBuffer = 34962;
+constexpr int kElementArrayBuffer = 34963;
+constexpr int kUnsignedShort = 5123;
+constexpr int kUnsignedInt = 5125;
+constexpr int kFloat = 5126;
+
+/// The buffer, and the views and accessors into it.
+class BufferBuilder {
+  public:
+    template <class T>
+    std::size_t addVertices(const std::vector<T>& values, const char* type) {
+        const std::size_t view = addView(values.data(), values.size() * sizeof(T), kArrayBuffer);
+        accessors_.push_back(
+            {{"bufferView", view}, {"componentType", kFloat}, {"count", values.size()}, {"type", type}});
+        return accessors_.size() - 1;
+    }
+
+    std::size_t addPositions(const std::vector<Vec3>& positions) {
+        const std::size_t accessor = addVertices(positions, "VEC3");
+        Vec3 low = positions.front();
+        Vec3 high = low;
+        for (const Vec3& p : positions) {
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+        accessors_[accessor]["min"] = {low.x, low.y, low.z};
+        accessors_[accessor]["max"] = {high.x, high.y, high.z};
+        return accessor;
+    }
+
+    /// 16 bits where they do. 65535 itself is kept free: it means "restart" to some.
+    std::size_t addIndices(const std::vector<std::uint32_t>& indices, std::size_t vertex_count) {
+        const bool is_short = vertex_count <= 65535;
+        std::size_t view = 0;
+        if (is_short) {
+            const std::vector<std::uint16_t> narrow(indices.begin(), indices.end());
+            view = addView(narrow.data(), narrow.size() * 2, kElementArrayBuffer);
+        } else {
+            view = addView(indices.data(), indices.size() * 4, kElementArrayBuffer);
+        }
+        accessors_.push_back({{"bufferView", view},
+                              {"componentType", is_short ? kUnsignedShort : kUnsignedInt},
+                              {"count", indices.size()},
+                              {"type", "SCALAR"}});
+        return accessors_.size() - 1;
+    }
+
+    /// `target` 0: none.
+    std::size_t addView(const void* data, std::size_t byte_count, int target) {
+        bytes_.resize((bytes_.size() + 3) / 4 * 4);
+        Json view = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", byte_count}};
+        if (target != 0) view["target"] = target;
+        const auto* first = static_cast<const std::uint8_t*>(data);
+        bytes_.insert(bytes_.end(), first, first + byte_count);
+        views_.push_back(std::move(view));
+        return views_.size() - 1;
+    }
+
+    [[nodiscard]] const Bytes& bytes() const { return bytes_; }
+    [[nodiscard]] const Json& views() const { return views_; }
+    [[nodiscard]] const Json& accessors() const { return accessors_; }
+
+  private:
+    Bytes bytes_ = {};
+    Json views_ = Json::array();
+    Json accessors_ = Json::array();
+};
+
+/// By content, because names lie. Null for anything that core glTF does not have.
+const char* imageType(const Bytes& bytes) {
+    static constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+    static constexpr std::uint8_t kJpeg[] = {0xFF, 0xD8, 0xFF};
+    const auto starts = [&](const auto& magic) {
+        return bytes.size() >= std::size(magic) &&
+               std::equal(std::begin(magic), std::end(magic), bytes.begin());
+    };
+    if (starts(kPng)) return "image/png";
+    return starts(kJpeg) ? "image/jpeg" : nullptr;
+}
+
+/// Images and textures, one per file however often it is used.
+class ImageBuilder {
+  public:
+    ImageBuilder(const Model& model, const fs::path& output, const FileOptions& options,
+                 BufferBuilder& buffer, std::vector<std::string>& warnings)
+        : names_by_uri_(isSameFile(folderOf(output), model.folder)),
+          folder_(model.folder),
+          options_(options),
+          buffer_(buffer),
+          warnings_(warnings) {}
+
+    /// Sets material[key] to a reference to the texture; nothing where it cannot be had.
+    void addReference(const Texture& texture, Json& material, const char* key) {
+        if (!texture.used()) return;
+        const std::string name = (texture.folder / texture.file).string();
+        const auto [entry, is_new] = textures_by_file_.emplace(name, -1);
+        if (is_new) entry->second = addTexture(texture);
+        if (entry->second >= 0) material[key] = {{"index", entry->second}};
+    }
+
+    [[nodiscard]] const Json& images() const { return images_; }
+
+  private:
+    int addTexture(const Texture& texture) {
+        try {
+            const fs::path path =
+                resolveUri(texture.folder, percentEncode(texture.file), options_.allow_external, "material");
+            const Bytes bytes = readFile(path);
+            const char* type = imageType(bytes);
+            if (type == nullptr) {
+                warnings_.push_back("the texture '" + texture.file +
+                                    "' was left out: it is neither PNG nor JPEG");
+                return -1;
+            }
+            images_.push_back(imageJson(path, bytes, type));
+        } catch (const FileError& failure) {
+            warnings_.push_back("a texture was left out: " + failure.error.message);
+            return -1;
+        }
+        return static_cast<int>(images_.size()) - 1;
+    }
+
+    Json imageJson(const fs::path& path, const Bytes& bytes, const char* type) {
+        Json image = {{"name", path.stem().string()}};
+        const fs::path root = fs::weakly_canonical(fs::absolute(folder_));
+        const fs::path relative = fs::weakly_canonical(fs::absolute(path)).lexically_relative(root);
+        const bool lies_below = !relative.empty() && *relative.begin() != "..";
+        if (names_by_uri_ && lies_below) {
+            image["uri"] = percentEncode(relative.generic_string());
+        } else {
+            image["mimeType"] = type;
+            image["bufferView"] = buffer_.addView(bytes.data(), bytes.size(), 0);
+        }
+        return image;
+    }
+
+    const bool names_by_uri_;
+    const fs::path& folder_;
+    const FileOptions& options_;
+    BufferBuilder& buffer_;
+    std::vector<std::string>& warnings_;
+    std::map<std::string, int> textures_by_file_ = {};
+    Json images_ = Json::array();
+};
+
+Json rgb(const Vec3& color) { return {color.x, color.y, color.z}; }
+
+Json materialJson(const Material& material, ImageBuilder& images) {
+    Json json = Json::object();
+    if (!material.name.empty()) json["name"] = material.name;
+    if (!material.found) return json;
+    Json surface = Json::object();
+    const Vec3& color = material.base_color;
+    if (material.opacity < 1 || !(color == Vec3{1, 1, 1})) {
+        surface["baseColorFactor"] = {color.x, color.y, color.z, material.opacity};
+    }
+    images.addReference(material.base_color_texture, surface, "baseColorTexture");
+    surface["metallicFactor"] = material.metallic;
+    surface["roughnessFactor"] = material.roughness;
+    json["pbrMetallicRoughness"] = std::move(surface);
+    images.addReference(material.normal_texture, json, "normalTexture");
+    if (material.normal_scale != 1 && json.contains("normalTexture")) {
+        json["normalTexture"]["scale"] = material.normal_scale;
+    }
+    if (!(material.emission == Vec3{})) json["emissiveFactor"] = rgb(material.emission);
+    if (material.opacity < 1) json["alphaMode"] = "BLEND";
+    return json;
+}
+
+/// Materials of the file; those of the faces before any `usemtl` stay the default and are not written.
+std::vector<int> addMaterials(const Model& model, ImageBuilder& images, Json& materials) {
+    std::vector<int> numbers;
+    for (const Material& material : model.materials) {
+        if (material.name.empty() && !material.found) {
+            numbers.push_back(-1);
+            continue;
+        }
+        numbers.push_back(static_cast<int>(materials.size()));
+        materials.push_back(materialJson(material, images));
+    }
+    return numbers;
+}
+
+Json primitiveJson(const FinishedPrimitive& primitive, int material, BufferBuilder& buffer) {
+    Json attributes = {{"POSITION", buffer.addPositions(primitive.positions)},
+                       {"NORMAL", buffer.addVertices(primitive.normals, "VEC3")}};
+    if (!primitive.tangents.empty()) attributes["TANGENT"] = buffer.addVertices(primitive.tangents, "VEC4");
+    if (!primitive.uvs.empty()) attributes["TEXCOORD_0"] = buffer.addVertices(primitive.uvs, "VEC2");
+    Json json = {{"attributes", std::move(attributes)},
+                 {"indices", buffer.addIndices(primitive.indices, primitive.positions.size())}};
+    if (material >= 0) json["material"] = material;
+    return json;
+}
+
+/// A mesh and a node per shape that has faces, in the order of the file.
+void addMeshes(const Model& model, const std::vector<FinishedPrimitive>& primitives,
+               const std::vector<int>& materials, BufferBuilder& buffer, Json& root) {
+    Json meshes = Json::array();
+    Json nodes = Json::array();
+    Json roots = Json::array();
+    for (const std::string& name : model.shape_names) {
+        const std::size_t number = meshes.size();
+        roots.push_back(number);
+        nodes.push_back({{"mesh", number}});
+        meshes.push_back(Json::object());
+        if (!name.empty()) nodes.back()["name"] = meshes.back()["name"] = name;
+        meshes.back()["primitives"] = Json::array();
+    }
+    for (const FinishedPrimitive& primitive : primitives) {
+        meshes[primitive.shape]["primitives"].push_back(
+            primitiveJson(primitive, materials[primitive.material], buffer));
+    }
+    root["scene"] = 0;
+    root["scenes"] = {{{"nodes", std::move(roots)}}};
+    root["nodes"] = std::move(nodes);
+    root["meshes"] = std::move(meshes);
+}
+
+void addTextures(const ImageBuilder& images, Json& root) {
+    if (images.images().empty()) return;
+    Json textures = Json::array();
+    for (std::size_t i = 0; i < images.images().size(); ++i) textures.push_back({{"source", i}});
+    root["textures"] = std::move(textures);
+    root["images"] = images.images();
+}
+
+void writeFiles(Json& root, const Bytes& bytes, const fs::path& output, AtomicOutput& files) {
+    root["buffers"] = {{{"byteLength", bytes.size()}}};
+    const bool is_glb = lowerExtension(output) == ".glb";
+    fs::path bin = output;
+    bin.replace_extension(".bin");
+    if (!is_glb) root["buffers"][0]["uri"] = percentEncode(bin.filename().string());
+    const std::string json = root.dump(is_glb ? -1 : 2, ' ', false, Json::error_handler_t::replace);
+    if (is_glb) {
+        const gltf::GlbFrame frame = gltf::frameGlb(json, bytes.size(), {});
+        files.add(output, {frame.head, bytes, frame.tail});
+    } else {
+        const Bytes text(json.begin(), json.end());
+        files.add(output, text);
+        files.add(bin, bytes);
+    }
+}
+
+}  // namespace
+
+void writeScene(const Model& model, const std::vector<FinishedPrimitive>& primitives, const fs::path& output,
+                const FileOptions& options, AtomicOutput& files, std::vector<std::string>& warnings) {
+    BufferBuilder buffer;
+    ImageBuilder images(model, output, options, buffer, warnings);
+    Json root = {{"asset", {{"version", "2.0"}, {"generator", "tspace"}}}};
+    Json materials = Json::array();
+    const std::vector<int> material_numbers = addMaterials(model, images, materials);
+    addMeshes(model, primitives, material_numbers, buffer, root);
+    if (!materials.empty()) root["materials"] = std::move(materials);
+    addTextures(images, root);
+    root["accessors"] = buffer.accessors();
+    root["bufferViews"] = buffer.views();
+    writeFiles(root, buffer.bytes(), output, files);
+}
+
+}  // namespace tspace::obj

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// A glTF scene made from nothing: meshes, materials, images, and the buffer that holds them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "asset/atomic_output.h"
+#include "asset/gltf/document.h"
+#include "asset/obj/obj_model.h"
+
+namespace tspace::obj {
+
+/// One primitive, ready to be written: triangles over its own vertices.
+struct FinishedPrimitive {
+    std::uint32_t shape = 0;
+    std::uint32_t material = 0;
+    std::vector<Vec3> positions = {};
+    std::vector<Vec3> normals = {};
+    std::vector<Vec2> uvs = {};       ///< empty: none
+    std::vector<Vec4> tangents = {};  ///< empty: none
+    std::vector<std::uint32_t> indices = {};
+};
+
+/// Writes to `output` (.glb, else .gltf with a .bin beside it). Images that lie in the output's own folder
+/// are named by URI, others go into the file. Textures that are missing, forbidden or neither PNG nor JPEG
+/// are left out with a warning. Throws FileError.
+void writeScene(const Model& model, const std::vector<FinishedPrimitive>& primitives,
+                const std::filesystem::path& output, const FileOptions& options, AtomicOutput& files,
+                std::vector<std::string>& warnings);
+
+}  // namespace tspace::obj

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Numbers values in the order in which they are first seen: the way vertices, edges and materials are told
+// apart.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+#include <vector>
+
+namespace tspace {
+
+/// A hash table with open addressing that is never iterated. Keys are compared by their bits, so they must
+/// have no padding; they are made of whole 32-bit words. Expected constant time per key.
+template <class Key>
+class UniqueIndex {
+    static_assert(std::is_trivially_copyable_v<Key> && sizeof(Key) % 4 == 0);
+
+  public:
+    explicit UniqueIndex(std::size_t expected_count = 0) {
+        keys_.reserve(expected_count);
+        slots_.assign(std::bit_ceil(expected_count * 2 + 16), kEmpty);
+    }
+
+    /// The number of this key: a new one, equal to the old size(), when it was not seen before.
+    std::uint32_t indexOf(const Key& key) {
+        if ((keys_.size() + 1) * 2 > slots_.size()) grow();
+        std::uint32_t& slot = slots_[findSlot(key)];
+        if (slot == kEmpty) {
+            slot = static_cast<std::uint32_t>(keys_.size());
+            keys_.push_back(key);
+        }
+        return slot;
+    }
+
+    [[nodiscard]] std::size_t size() const { return keys_.size(); }
+    [[nodiscard]] const std::vector<Key>& keys() const { return keys_; }
+
+  private:
+    static constexpr std::uint32_t kEmpty = 0xffffffffu;
+
+    static std::size_t hash(const Key& key) {
+        std::uint32_t words[sizeof(Key) / 4];
+        std::memcpy(words, &key, sizeof(Key));
+        std::uint64_t state = 0;
+        for (const std::uint32_t word : words) {
+            // An odd multiplier close to 2^64 / golden ratio spreads each word over the upper half.
+            state = (state ^ word) * 0x9e3779b97f4a7c15u;
+            state ^= state >> 32;
+        }
+        return static_cast<std::size_t>(state);
+    }
+
+    std::size_t findSlot(const Key& key) const {
+        std::size_t slot = hash(key) & (slots_.size() - 1);
+        while (slots_[slot] != kEmpty && std::memcmp(&keys_[slots_[slot]], &key, sizeof(Key)) != 0) {
+            slot = (slot + 1) & (slots_.size() - 1);
+        }
+        return slot;
+    }
+
+    void grow() {
+        slots_.assign(slots_.size() * 2, kEmpty);
+        for (std::size_t i = 0; i < keys_.size(); ++i)
+            slots_[findSlot(keys_[i])] = static_cast<std::uint32_t>(i);
+    }
+
+    std::vector<Key> keys_ = {};
+    std::vector<std::uint32_t> slots_ = {};
+};
+
+}  // namespace tspace

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+// tspace generate as a user meets it.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "support/shared_data.h"
+#include "tool/run_tool.h"
+
+namespace tspace::test {
+namespace {
+
+bool isCompleteGlb(const std::string& bytes) {
+    if (bytes.size() < 12 || bytes.compare(0, 4, "glTF") != 0) return false;
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        length |= std::size_t{static_cast<unsigned char>(bytes[8 + i])} << (8 * i);
+    return length == bytes.size();
+}
+
+TEST(Generate, WritesTheOutputAndSaysWhatItDid) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "folded.obj");
+    const ToolRun run = runTool(folder, "generate folded.obj -o out/folded.glb");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    EXPECT_TRUE(isCompleteGlb(folder.read("out/folded.glb")));
+    EXPECT_EQ(run.out.rfind("folded.obj -> out/folded.glb\n", 0), 0U) << run.out;
+    for (const char* text : {"1 primitive: 1 generated", "triangles", "mended", "time", "written", "skin"}) {
+        EXPECT_NE(run.out.find(text), std::string::npos) << text << "\n" << run.out;
+    }
+    EXPECT_EQ(run.out.find('\x1b'), std::string::npos) << "no colours into a pipe";
+}
+
+TEST(Generate, QuietPrintsNothing) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "folded.obj");
+    const ToolRun run = runTool(folder, "generate folded.obj -o out.glb --quiet");
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_EQ(run.out + run.err, "");
+    EXPECT_TRUE(folder.has("out.glb"));
+}
+
+TEST(Generate, HintsAtAllWhenNothingNeedsTangents) {
+    const TempFolder folder;
+    folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+    EXPECT_NE(runTool(folder, "generate a.obj -o a.glb").out.find("--all"), std::string::npos);
+    EXPECT_NE(runTool(folder, "generate a.obj -o a.glb --all").out.find("1 generated"), std::string::npos);
+}
+
+TEST(Generate, TheContainerIsChosenWhenTheNameDoesNotSay) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    EXPECT_EQ(runTool(folder, "generate a.obj -o b").exit_code, 0);
+    EXPECT_TRUE(folder.has("b.glb"));
+    EXPECT_EQ(runTool(folder, "generate a.obj -o c --container gltf").exit_code, 0);
+    EXPECT_TRUE(folder.has("c.gltf"));
+    EXPECT_EQ(runTool(folder, "generate a.obj -o d/ --container gltf").exit_code, 0);
+    EXPECT_TRUE(folder.has("d/a.gltf"));
+}
+
+TEST(Generate, FoldersKeepTheirRelativePaths) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "in/a.obj");
+    writeFoldedObj(folder, "in/deep/b.OBJ");
+    folder.write("in/readme.txt", "not a model");
+    const ToolRun run = runTool(folder, "generate in -o out");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(folder.files("out"), (std::set<std::string>{"a.glb", "deep/b.glb"}));
+    EXPECT_NE(run.out.find("2 of 2 files written"), std::string::npos) << run.out;
+}
+
+TEST(Generate, OneBadFileDoesNotStopTheOthersAndTheWorstDecides) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "in/a.obj");
+    folder.write("in/b.obj", "v 0 0 0\n");
+    folder.write("in/c.glb", "glTF rubbish");
+    writeFoldedObj(folder, "in/d.obj");
+    ToolRun run = runTool(folder, "generate in -o out");
+    EXPECT_EQ(run.exit_code, 3);
+    EXPECT_EQ(run.errorLines(), 2) << run.err;
+    EXPECT_NE(run.err.find("tspace: in/b.obj: the OBJ file has no faces\n"), std::string::npos) << run.err;
+    EXPECT_EQ(folder.files("out"), (std::set<std::string>{"a.glb", "d.glb"}));
+    run = runTool(folder, "generate in missing.obj -o out");
+    EXPECT_EQ(run.exit_code, 4);
+    EXPECT_EQ(run.errorLines(), 3) << run.err;
+}
+
+TEST(Generate, AFolderWithoutModelsIsBadInput) {
+    const TempFolder folder;
+    folder.write("in/readme.txt", "not a model");
+    const ToolRun run = runTool(folder, "generate in -o out");
+    EXPECT_EQ(run.exit_code, 3);
+    EXPECT_EQ(run.errorLines(), 1);
+    EXPECT_FALSE(folder.has("out"));
+}
+
+TEST(Generate, TwoInputsNeverShareAnOutput) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "x/a.obj");
+    writeFoldedObj(folder, "y/a.obj");
+    const ToolRun run = runTool(folder, "generate x/a.obj y/a.obj -o out");
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_EQ(run.errorLines(), 1) << run.err;
+    EXPECT_EQ(folder.files("out"), std::set<std::string>{"a.glb"});
+}
+
+TEST(Generate, AFolderAsOutputNeverOverwritesInputs) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    ASSERT_EQ(runTool(folder, "generate a.obj -o in/a.glb").exit_code, 0);
+    const std::string before = folder.read("in/a.glb");
+    const ToolRun run = runTool(folder, "generate in --overwrite --method flat -o in");
+    EXPECT_EQ(run.exit_code, 2) << run.out;
+    EXPECT_EQ(folder.read("in/a.glb"), before);
+}
+
+TEST(Generate, OutputsInsideTheInputFolderAreNotInputsOfTheNextRun) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "in/a.obj");
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(runTool(folder, "generate in -o in/out").exit_code, 0);
+    EXPECT_EQ(folder.files("in/out"), std::set<std::string>{"a.glb"});
+}
+
+TEST(Generate, InPlaceReplacesTheInput) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    ASSERT_EQ(runTool(folder, "generate a.obj -o a.glb").exit_code, 0);
+    const std::string before = folder.read("a.glb");
+    EXPECT_EQ(runTool(folder, "generate a.glb --in-place --overwrite --convention opengl").exit_code, 0);
+    EXPECT_TRUE(folder.read("a.glb") != before);
+    EXPECT_TRUE(isCompleteGlb(folder.read("a.glb")));
+    EXPECT_EQ(folder.files(), (std::set<std::string>{"a.glb", "a.obj", "folded.mtl"}));
+}
+
+TEST(Generate, AFailedRunLeavesTheOldOutput) {
+    const TempFolder folder;
+    folder.write("bad.obj", "v 0 0 0\nf 1 2 3\n");
+    folder.write("out.glb", "old");
+    const ToolRun run = runTool(folder, "generate bad.obj -o out.glb");
+    EXPECT_EQ(run.exit_code, 3);
+    EXPECT_EQ(run.err, "tspace: bad.obj: a face refers to vertex 2 of 1 (at line 2)\n");
+    EXPECT_EQ(folder.read("out.glb"), "old");
+    EXPECT_EQ(folder.files(), (std::set<std::string>{"bad.obj", "out.glb"}));
+}
+
+TEST(Generate, WhatCannotBeWrittenExitsWithFourAndLeavesNothing) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    folder.write("file", "in the way");
+    folder.write("taken.glb/x", "a folder");
+    for (const std::string out : {"file/out.glb", "taken.glb/../file/b.gltf", "/proc/no/out.glb"}) {
+        const ToolRun run = runTool(folder, "generate a.obj -o " + out);
+        EXPECT_EQ(run.exit_code, 4) << out << " " << run.err;
+        EXPECT_EQ(run.errorLines(), 1) << run.err;
+    }
+    EXPECT_EQ(folder.files(), (std::set<std::string>{"a.obj", "file", "folded.mtl", "taken.glb/x"}));
+}
+
+TEST(Generate, AFolderWithoutPermissionExitsWithFour) {
+    if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    folder.write("closed/old.glb", "old");
+    std::filesystem::permissions(folder.path() / "closed", std::filesystem::perms(0555));
+    EXPECT_EQ(runTool(folder, "generate a.obj -o closed/old.glb").exit_code, 4);
+    EXPECT_EQ(folder.files("closed"), std::set<std::string>{"old.glb"});
+    std::filesystem::permissions(folder.path() / "closed", std::filesystem::perms(0755));
+    EXPECT_EQ(folder.read("closed/old.glb"), "old");
+}
+
+TEST(Generate, AFullStandardOutputExitsWithFour) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    runTool(folder, "generate a.obj -o a.glb > /dev/full 2> err; echo $? > code; true");
+    EXPECT_EQ(folder.read("code"), "4\n");
+    EXPECT_EQ(folder.read("err"), "tspace: standard output: cannot write\n");
+}
+
+TEST(Generate, AnInterruptLeavesACompleteFileOrNone) {
+    const TempFolder folder;
+    std::ostringstream grid;
+    constexpr int kSide = 250;
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) grid << "v " << x << ' ' << y << " 0\nvt " << x << ' ' << y << '\n';
+    }
+    for (int y = 0; y + 1 < kSide; ++y) {
+        for (int x = 1; x < kSide; ++x) {
+            const int a = y * kSide + x;
+            grid << "f " << a << '/' << a << ' ' << a + 1 << '/' << a + 1 << ' ' << a + 1 + kSide << '/'
+                 << a + 1 + kSide << ' ' << a + kSide << '/' << a + kSide << '\n';
+        }
+    }
+    folder.write("grid.obj", grid.str());
+    for (const std::string delay : {"0.01", "0.03", "0.06", "0.1", "0.15", "0.2"}) {
+        const ToolRun run =
+            runTool(folder, "generate grid.obj --all -o out/grid.glb", "timeout -s INT " + delay);
+        EXPECT_LE(run.errorLines(), 1) << run.err;
+        const std::set<std::string> files = folder.files("out");
+        if (files.empty()) continue;
+        EXPECT_EQ(files, std::set<std::string>{"grid.glb"});
+        EXPECT_TRUE(isCompleteGlb(folder.read("out/grid.glb")));
+        std::filesystem::remove_all(folder.path() / "out");
+    }
+}
+
+TEST(Generate, PathsThatLeadOutsideAreRefused) {
+    const TempFolder folder;
+    folder.write("data.bin", std::string(36, '\0'));
+    folder.write(
+        "in/a.gltf",
+        R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"../data.bin"}],)"
+        R"("bufferViews":[{"buffer":0,"byteLength":36}],)"
+        R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)"
+        R"("min":[0,0,0],"max":[0,0,0]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})");
+    const ToolRun run = runTool(folder, "generate in/a.gltf -o out.glb");
+    EXPECT_EQ(run.exit_code, 3) << run.err;
+    EXPECT_EQ(run.errorLines(), 1);
+    EXPECT_EQ(runTool(folder, "generate in/a.gltf -o out.glb --allow-external").exit_code, 0);
+}
+
+TEST(Generate, ThreadsChangeNoByte) {
+    TSPACE_NEEDS_SHARED("models/obj/mikktspace/tangeract.obj");
+    const TempFolder folder;
+    std::filesystem::copy(shared("models/obj/mikktspace/tangeract.obj"), folder.path() / "in.obj");
+    for (const std::string n : {"1", "2", "3", "8"}) {
+        ASSERT_EQ(runTool(folder, "generate in.obj --all -o t" + n + ".glb --threads " + n).exit_code, 0);
+        EXPECT_EQ(folder.read("t" + n + ".glb"), folder.read("t1.glb"));
+    }
+}
+
+}  // namespace
+}  // namespace tspace::test

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// tspace inspect as a user meets it.
+#include <gtest/gtest.h>
+
+#include "tool/run_tool.h"
+
+namespace tspace::test {
+namespace {
+
+TEST(Inspect, BeginsWithASummaryLine) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    const ToolRun run = runTool(folder, "inspect a.obj");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.out.rfind("a.obj: 1 primitive, 4 triangles, 6 vertices, ", 0), 0U) << run.out;
+    EXPECT_NE(run.out.find("1 primitive needs tangents, 1 without"), std::string::npos) << run.out;
+    for (const char* text :
+         {"normalTexture", "\"skin\"", "\"folded\"", "POSITION float3", "1 island, 0 mirrored"}) {
+        EXPECT_NE(run.out.find(text), std::string::npos) << text << "\n" << run.out;
+    }
+}
+
+TEST(Inspect, SeesTheTangentsThatGenerateWrote) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    folder.write("bump.png", "\x89PNG\r\n\x1a\n");
+    ASSERT_EQ(runTool(folder, "generate a.obj -o a.glb").exit_code, 0);
+    const ToolRun run = runTool(folder, "inspect a.glb");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("TANGENT float4"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("needed and there"), std::string::npos) << run.out;
+}
+
+TEST(Inspect, OneBadFileDoesNotStopTheOthers) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    folder.write("b.glb", "glTF");
+    const ToolRun run = runTool(folder, "inspect b.glb missing.gltf a.obj");
+    EXPECT_EQ(run.exit_code, 4);
+    EXPECT_EQ(run.errorLines(), 2) << run.err;
+    EXPECT_NE(run.out.find("a.obj: 1 primitive"), std::string::npos);
+}
+
+TEST(Inspect, NamesFromFilesCannotBreakLinesOrTheTerminal) {
+    const TempFolder folder;
+    folder.write("a.obj", "o evil\x1b[31m\x07\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const ToolRun run = runTool(folder, "inspect a.obj");
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_EQ(run.out.find('\x1b'), std::string::npos);
+    EXPECT_EQ(run.out.find('\x07'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tspace::test

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Runs the built tool through the shell and keeps what it said.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include "support/temp_folder.h"
+
+namespace tspace::test {
+
+struct ToolRun {
+    int exit_code = -1;
+    std::string out = {};
+    std::string err = {};
+    [[nodiscard]] long errorLines() const { return std::count(err.begin(), err.end(), '\n'); }
+};
+
+/// Runs in `folder`. `arguments` is shell text; `runner` is a command that starts the tool.
+inline ToolRun runTool(const TempFolder& folder, const std::string& arguments,
+                       const std::string& runner = "") {
+    const TempFolder output;
+    const std::string command = "cd '" + folder.path().string() + "' && " + runner + " '" TSPACE_TOOL "' " +
+                                arguments + " > '" + (output.path() / "out").string() + "' 2> '" +
+                                (output.path() / "err").string() + "'";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), output.read("out"),
+            output.read("err")};
+}
+
+/// Two quads that meet at an edge, with UVs; the material has a normal map.
+inline std::string writeFoldedObj(const TempFolder& folder, const std::string& name) {
+    folder.write((std::filesystem::path(name).parent_path() / "folded.mtl").string(),
+                 "newmtl skin\nmap_Bump bump.png\n");
+    return folder.write(name,
+                        "mtllib folded.mtl\no folded\n"
+                        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -1\nv 1 1 -1\n"
+                        "vt 0 0\nvt 0.5 0\nvt 0.5 1\nvt 0 1\nvt 1 0\nvt 1 1\n"
+                        "usemtl skin\nf 1/1 2/2 3/3 4/4\nf 2/2 5/5 6/6 3/3\n");
+}
+
+}  // namespace tspace::test

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// The commands. Each works through its inputs, prints, and says how it went.
+#pragma once
+
+#include "arguments.h"
+
+namespace tspace::tool {
+
+ExitCode runGenerate(const GenerateArguments& arguments);
+ExitCode runInspect(const InspectArguments& arguments);
+
+}  // namespace tspace::tool

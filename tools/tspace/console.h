@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// What goes to the terminal: results to stdout, one line per error and the progress to stderr.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "exit_code.h"
+#include "tspace/asset.h"
+
+namespace tspace::tool {
+
+/// Prints "tspace: FILE: message (at PLACE)" on stderr as exactly one line, and returns the exit code it
+/// stands for.
+ExitCode printError(const std::string& file, const Error& error);
+/// The same for a wrong command line: "tspace: message".
+ExitCode printUsageError(const std::string& message);
+
+/// Writes text to stdout. false when stdout cannot take it (closed pipe, full disk).
+bool printResult(std::string_view text);
+
+/// The text with control characters replaced, so that a name from a file can break neither lines nor the
+/// terminal.
+std::string printable(std::string_view text);
+
+/// "1 corner", "2 corners".
+std::string counted(std::uint64_t count, const char* noun);
+/// "318 B", "6.8 MB".
+std::string byteText(std::uint64_t bytes);
+
+/// Rows of cells, printed with aligned columns two spaces apart. Cells of numbers are aligned right.
+class Table {
+  public:
+    void addRow(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+    [[nodiscard]] std::string text(const std::string& margin) const;
+
+  private:
+    std::vector<std::vector<std::string>> rows_ = {};
+};
+
+/// A status line on stderr while one file is worked on. Stays silent when stderr is no terminal, when not
+/// wanted, and during the first half second.
+class ProgressLine {
+  public:
+    ProgressLine(std::string file, bool wanted);
+    ~ProgressLine() { clear(); }
+    ProgressLine(const ProgressLine&) = delete;
+    ProgressLine& operator=(const ProgressLine&) = delete;
+
+    void update(const char* what, std::uint64_t done, std::uint64_t total);
+    void clear();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    std::string file_;
+    bool wanted_ = false;
+    bool shown_ = false;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point last_ = {};
+    std::mutex mutex_ = {};
+};
+
+}  // namespace tspace::tool

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// What the tool's exit codes mean, and which error leads to which.
+#pragma once
+
+#include <algorithm>
+
+#include "tspace/result.h"
+
+namespace tspace::tool {
+
+/// Larger is worse: of several files the worst decides.
+enum class ExitCode : int {
+    done = 0,
+    findings = 1,           ///< a checking command found something
+    usage = 2,              ///< the command line makes no sense
+    badInput = 3,           ///< a file is broken, not supported, or leads outside its folder
+    cannotReadOrWrite = 4,  ///< the file system said no
+    internal = 5,           ///< out of memory, or a defect of tspace
+};
+
+inline ExitCode worse(ExitCode a, ExitCode b) { return std::max(a, b); }
+
+inline ExitCode exitCodeOf(ErrorCode code) {
+    switch (code) {
+        case ErrorCode::ok:
+            return ExitCode::done;
+        case ErrorCode::invalidOption:
+            return ExitCode::usage;
+        case ErrorCode::invalidFile:
+        case ErrorCode::unsupportedFile:
+        case ErrorCode::forbiddenPath:
+        case ErrorCode::indexOutOfRange:
+        case ErrorCode::countMismatch:
+        case ErrorCode::missingAttribute:
+        case ErrorCode::tooLarge:
+            return ExitCode::badInput;
+        case ErrorCode::cannotRead:
+        case ErrorCode::cannotWrite:
+            return ExitCode::cannotReadOrWrite;
+        case ErrorCode::nullData:
+        case ErrorCode::strideTooSmall:
+        case ErrorCode::misaligned:
+        case ErrorCode::outOfMemory:
+        case ErrorCode::planMismatch:
+        case ErrorCode::internal:
+            break;
+    }
+    return ExitCode::internal;
+}
+
+}  // namespace tspace::tool

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+// Results of tspace generate as text and JSON. The JSON is described in docs/json.md.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "console.h"
+#include "report.h"
+
+namespace tspace::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct NamedCount {
+    const char* json_name;
+    const char* words;
+    std::uint64_t SanitizeReport::*count;
+};
+constexpr NamedCount kCauses[] = {
+    {"notFinite", "not finite", &SanitizeReport::not_finite_count},
+    {"zero", "zero", &SanitizeReport::zero_count},
+    {"notUnit", "not unit", &SanitizeReport::not_unit_count},
+    {"parallel", "parallel to the normal", &SanitizeReport::parallel_count},
+    {"badSign", "sign not +1 or -1", &SanitizeReport::bad_sign_count},
+    {"mixedSign", "mixed signs in a face", &SanitizeReport::mixed_sign_count},
+    {"orthogonalized", "made orthogonal as asked", &SanitizeReport::orthogonalized_count},
+};
+constexpr NamedCount kCures[] = {
+    {"normalized", "", &SanitizeReport::normalized_count},
+    {"fromNeighbor", "", &SanitizeReport::from_neighbor_count},
+    {"fromBasis", "", &SanitizeReport::from_basis_count},
+};
+
+const char* actionWords(PrimitiveAction action) {
+    switch (action) {
+        case PrimitiveAction::generated:
+            return "generated";
+        case PrimitiveAction::replaced:
+            return "replaced";
+        case PrimitiveAction::unchanged:
+            return "same as before";
+        case PrimitiveAction::kept:
+            return "kept";
+        case PrimitiveAction::notNeeded:
+            return "not needed";
+        case PrimitiveAction::notTriangles:
+            return "no triangles";
+        case PrimitiveAction::impossible:
+            return "impossible";
+    }
+    return "unknown";
+}
+constexpr PrimitiveAction kActions[] = {
+    PrimitiveAction::generated,  PrimitiveAction::replaced,  PrimitiveAction::unchanged,
+    PrimitiveAction::kept,       PrimitiveAction::notNeeded, PrimitiveAction::notTriangles,
+    PrimitiveAction::impossible,
+};
+
+bool wasComputed(PrimitiveAction action) {
+    return action == PrimitiveAction::generated || action == PrimitiveAction::replaced ||
+           action == PrimitiveAction::unchanged;
+}
+
+/// Sums over primitives; vertices and triangles of those that were computed only.
+struct Totals {
+    std::uint64_t actions[std::size(kActions)] = {};
+    std::uint64_t primitive_count = 0;
+    std::uint64_t triangle_count = 0;
+    std::uint64_t vertices_before = 0;
+    std::uint64_t vertices_after = 0;
+    std::uint64_t normals_generated = 0;
+    std::uint64_t degenerate_uv_count = 0;
+    std::uint64_t degenerate_triangle_count = 0;
+    SanitizeReport sanitize = {};
+    bool reference_order_abandoned = false;
+};
+
+Totals totalsOf(const GenerateReport& report) {
+    Totals totals;
+    for (const PrimitiveReport& primitive : report.primitives) {
+        ++totals.primitive_count;
+        ++totals.actions[static_cast<std::size_t>(primitive.action)];
+        totals.normals_generated += primitive.normals_generated;
+        if (!wasComputed(primitive.action)) continue;
+        totals.triangle_count += primitive.triangle_count;
+        totals.vertices_before += primitive.vertices_before;
+        totals.vertices_after += primitive.vertices_after;
+        totals.degenerate_uv_count += primitive.tangents.degenerate_uv_count;
+        totals.degenerate_triangle_count += primitive.tangents.degenerate_triangle_count;
+        totals.reference_order_abandoned |= primitive.tangents.reference_order_abandoned;
+        for (const NamedCount& cause : kCauses)
+            totals.sanitize.*cause.count += primitive.sanitize.*cause.count;
+        for (const NamedCount& cure : kCures) totals.sanitize.*cure.count += primitive.sanitize.*cure.count;
+        totals.sanitize.bad_normal_count += primitive.sanitize.bad_normal_count;
+    }
+    return totals;
+}
+
+std::string actionsText(const Totals& totals) {
+    std::string text;
+    for (const PrimitiveAction action : kActions) {
+        const std::uint64_t count = totals.actions[static_cast<std::size_t>(action)];
+        if (count != 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, actionWords(action));
+    }
+    return fmt::format("{}{}{}", counted(totals.primitive_count, "primitive"), text.empty() ? "" : ": ",
+                       text);
+}
+
+std::string mendedText(const SanitizeReport& report) {
+    std::string text;
+    for (const NamedCount& cause : kCauses) {
+        const std::uint64_t count = report.*cause.count;
+        if (count != 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, cause.words);
+    }
+    return counted(report.mendedCount(), "corner") + (text.empty() ? "" : ": " + text);
+}
+
+std::string inputFaultsText(const Totals& totals) {
+    std::string text;
+    const auto add = [&text](std::uint64_t count, const char* words) {
+        if (count != 0)
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counted(count, "triangle"), words);
+    };
+    add(totals.degenerate_uv_count, "without UV area");
+    add(totals.degenerate_triangle_count, "with two corners at one place");
+    return text;
+}
+
+bool nothingNeeded(const Totals& totals) {
+    return totals.primitive_count != 0 &&
+           totals.actions[static_cast<std::size_t>(PrimitiveAction::notNeeded)] +
+                   totals.actions[static_cast<std::size_t>(PrimitiveAction::notTriangles)] ==
+               totals.primitive_count &&
+           totals.actions[static_cast<std::size_t>(PrimitiveAction::notNeeded)] != 0;
+}
+
+std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
+    const GenerateReport& report = *outcome.result;
+    Table table;
+    table.addRow({"tangents", actionsText(totals)});
+    if (nothingNeeded(totals)) {
+        table.addRow({"hint", "no material needs tangents; use --all to add them all the same"});
+    }
+    if (totals.triangle_count != 0) {
+        table.addRow({"triangles", fmt::format("{} ", totals.triangle_count)});
+        const std::uint64_t split =
+            totals.vertices_after - std::min(totals.vertices_before, totals.vertices_after);
+        table.addRow({"vertices", fmt::format("{} -> {} ({} split)", totals.vertices_before,
+                                              totals.vertices_after, split)});
+        const std::string faults = inputFaultsText(totals);
+        if (!faults.empty()) table.addRow({"in the input", faults});
+        table.addRow({"mended", mendedText(totals.sanitize)});
+    }
+    if (totals.normals_generated != 0) {
+        table.addRow({"normals", "generated for " + counted(totals.normals_generated, "primitive")});
+    }
+    for (const std::string& warning : report.warnings) table.addRow({"warning", printable(warning)});
+    if (totals.reference_order_abandoned) {
+        table.addRow({"warning",
+                      "the reference's neighbour search would take quadratic time here; the corrected one "
+                      "was used for its last part"});
+    }
+    table.addRow({"time", fmt::format("{:.2f} s", outcome.seconds)});
+    const std::string first = report.output_files.empty() ? outcome.job.output : report.output_files.front();
+    const std::string others =
+        report.output_files.size() > 1
+            ? fmt::format(" and {}", counted(report.output_files.size() - 1, "other file"))
+            : "";
+    table.addRow(
+        {"written", fmt::format("{}{} ({}){}", printable(first), others, byteText(report.output_bytes),
+                                report.changed ? "" : ", a copy of the input")});
+    return table.text("  ");
+}
+
+std::string primitiveRows(const GenerateReport& report) {
+    Table table;
+    table.addRow({"mesh", "prim", "name", "material", "tangents", "UV set", "triangles", "vertices", "why"});
+    for (const PrimitiveReport& primitive : report.primitives) {
+        std::string vertices = std::to_string(primitive.vertices_before);
+        if (primitive.vertices_after != primitive.vertices_before && wasComputed(primitive.action)) {
+            vertices += fmt::format(" -> {}", primitive.vertices_after);
+        }
+        table.addRow({std::to_string(primitive.mesh), std::to_string(primitive.primitive),
+                      primitive.mesh_name.empty() ? "-" : printable(primitive.mesh_name),
+                      primitive.material_name.empty() ? "-" : printable(primitive.material_name),
+                      actionWords(primitive.action),
+                      primitive.uv_set < 0 ? "-" : std::to_string(primitive.uv_set),
+                      std::to_string(primitive.triangle_count), vertices, printable(primitive.reason)});
+    }
+    return table.text("  ");
+}
+
+Json sanitizeJson(const SanitizeReport& report) {
+    Json json = {{"mended", report.mendedCount()}};
+    for (const NamedCount& cause : kCauses) json["causes"][cause.json_name] = report.*cause.count;
+    for (const NamedCount& cure : kCures) json["cures"][cure.json_name] = report.*cure.count;
+    json["badNormals"] = report.bad_normal_count;
+    return json;
+}
+
+Json primitiveJson(const PrimitiveReport& primitive) {
+    const TangentReport& tangents = primitive.tangents;
+    return {
+        {"mesh", primitive.mesh},
+        {"primitive", primitive.primitive},
+        {"meshName", primitive.mesh_name},
+        {"materialName", primitive.material_name},
+        {"action", actionName(primitive.action)},
+        {"reason", primitive.reason},
+        {"uvSet", primitive.uv_set},
+        {"triangles", primitive.triangle_count},
+        {"verticesBefore", primitive.vertices_before},
+        {"verticesAfter", primitive.vertices_after},
+        {"normalsGenerated", primitive.normals_generated},
+        {"normals",
+         {{"faces", primitive.normals.face_count},
+          {"degenerateFaces", primitive.normals.degenerate_face_count},
+          {"fallbackCorners", primitive.normals.fallback_corner_count}}},
+        {"tangents",
+         {{"triangles", tangents.triangle_count},
+          {"degenerateTriangles", tangents.degenerate_triangle_count},
+          {"degenerateUvTriangles", tangents.degenerate_uv_count},
+          {"negativeUvTriangles", tangents.mirrored_count},
+          {"skippedFaces", tangents.skipped_face_count},
+          {"groups", tangents.group_count},
+          {"defaultCorners", tangents.default_corner_count},
+          {"notFiniteCorners", tangents.not_finite_count},
+          {"referenceOrderAbandoned", tangents.reference_order_abandoned}}},
+        {"sanitize", sanitizeJson(primitive.sanitize)},
+    };
+}
+
+Json totalsJson(const GenerateReport& report) {
+    const Totals totals = totalsOf(report);
+    Json json = {{"primitives", totals.primitive_count}};
+    for (const PrimitiveAction action : kActions) {
+        json["actions"][actionName(action)] = totals.actions[static_cast<std::size_t>(action)];
+    }
+    json["triangles"] = totals.triangle_count;
+    json["verticesBefore"] = totals.vertices_before;
+    json["verticesAfter"] = totals.vertices_after;
+    json["mended"] = totals.sanitize.mendedCount();
+    return json;
+}
+
+Json outcomeJson(const GenerateOutcome& outcome) {
+    Json json = {
+        {"input", outcome.job.input},
+        {"output", outcome.job.output},
+        {"ok", outcome.result.ok()},
+        {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())},
+        {"seconds", outcome.seconds},
+    };
+    if (!outcome.result) return json;
+    const GenerateReport& report = *outcome.result;
+    json["changed"] = report.changed;
+    json["inputBytes"] = report.input_bytes;
+    json["outputBytes"] = report.output_bytes;
+    json["outputFiles"] = report.output_files;
+    json["warnings"] = report.warnings;
+    json["totals"] = totalsJson(report);
+    json["primitives"] = Json::array();
+    for (const PrimitiveReport& primitive : report.primitives)
+        json["primitives"].push_back(primitiveJson(primitive));
+    return json;
+}
+
+}  // namespace
+
+std::string generateText(const GenerateOutcome& outcome) {
+    const Totals totals = totalsOf(*outcome.result);
+    return fmt::format("{} -> {}\n{}\n{}\n", printable(outcome.job.input), printable(outcome.job.output),
+                       summaryRows(outcome, totals), primitiveRows(*outcome.result));
+}
+
+std::string generateSummary(const std::vector<GenerateOutcome>& outcomes, double seconds) {
+    std::uint64_t done = 0;
+    std::uint64_t triangles = 0;
+    std::uint64_t mended = 0;
+    for (const GenerateOutcome& outcome : outcomes) {
+        if (!outcome.result) continue;
+        const Totals totals = totalsOf(*outcome.result);
+        ++done;
+        triangles += totals.triangle_count;
+        mended += totals.sanitize.mendedCount();
+    }
+    return fmt::format("{} of {} written, {} failed; {}, {} mended, {:.2f} s\n", done,
+                       counted(outcomes.size(), "file"), outcomes.size() - done,
+                       counted(triangles, "triangle"), counted(mended, "corner"), seconds);
+}
+
+std::string generateJson(const std::vector<GenerateOutcome>& outcomes, ExitCode exit_code, double seconds) {
+    Json json = {
+        {"schema", "tspace.generate/1"},
+        {"version", TSPACE_VERSION},
+        {"ok", exit_code == ExitCode::done},
+        {"exitCode", static_cast<int>(exit_code)},
+        {"seconds", seconds},
+        {"files", Json::array()},
+    };
+    for (const GenerateOutcome& outcome : outcomes) json["files"].push_back(outcomeJson(outcome));
+    return jsonText(json);
+}
+
+}  // namespace tspace::tool

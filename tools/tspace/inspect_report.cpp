@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// Results of tspace inspect as text and JSON. The JSON is described in docs/json.md.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "console.h"
+#include "report.h"
+
+namespace tspace::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string joined(const std::vector<std::string>& parts) {
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string needText(const PrimitiveInfo& primitive) {
+    if (!primitive.needs_tangents) return primitive.has_tangents ? "not needed, but there" : "not needed";
+    return fmt::format("{} ({})", primitive.has_tangents ? "needed and there" : "needed, missing",
+                       primitive.needed_by);
+}
+
+std::string summaryLine(const InspectOutcome& outcome) {
+    const Inspection& file = *outcome.result;
+    std::uint64_t triangles = 0;
+    std::uint64_t vertices = 0;
+    std::uint64_t needed = 0;
+    std::uint64_t missing = 0;
+    for (const PrimitiveInfo& primitive : file.primitives) {
+        triangles += primitive.triangle_count;
+        vertices += primitive.vertex_count;
+        needed += primitive.needs_tangents;
+        missing += primitive.needs_tangents && !primitive.has_tangents;
+    }
+    std::string tangents = "no primitive needs tangents";
+    if (needed != 0) {
+        tangents =
+            fmt::format("{} {} tangents, {}", counted(needed, "primitive"), needed == 1 ? "needs" : "need",
+                        missing == 0 ? "none lacks them" : fmt::format("{} without", missing));
+    }
+    return fmt::format("{}: {}, {}, {}, {}; {}\n", printable(outcome.job.input),
+                       counted(file.primitives.size(), "primitive"), counted(triangles, "triangle"),
+                       counted(vertices, "vertex"), byteText(file.file_bytes), tangents);
+}
+
+std::string fileRows(const Inspection& file) {
+    Table table;
+    table.addRow({"format", file.generator.empty()
+                                ? file.format
+                                : fmt::format("{}, by {}", file.format, printable(file.generator))});
+    table.addRow(
+        {"contents", joined({counted(file.mesh_count, "mesh"), counted(file.material_count, "material"),
+                             counted(file.node_count, "node"), counted(file.animation_count, "animation"),
+                             counted(file.image_count, "image")})});
+    if (!file.extensions_used.empty()) table.addRow({"extensions", printable(joined(file.extensions_used))});
+    if (!file.extensions_required.empty())
+        table.addRow({"required", printable(joined(file.extensions_required))});
+    return table.text("  ");
+}
+
+std::string primitiveRows(const PrimitiveInfo& primitive) {
+    Table table;
+    const std::string name =
+        primitive.mesh_name.empty() ? "" : fmt::format(" \"{}\"", printable(primitive.mesh_name));
+    const std::string material = primitive.material_name.empty()
+                                     ? ""
+                                     : fmt::format(", material \"{}\"", printable(primitive.material_name));
+    std::string geometry = fmt::format("{}, {}, indices {}", counted(primitive.triangle_count, "triangle"),
+                                       counted(primitive.vertex_count, "vertex"), primitive.index_type);
+    if (primitive.mode != "triangles") geometry += ", " + primitive.mode;
+    if (primitive.skinned) geometry += ", skinned";
+    if (primitive.morph_target_count != 0)
+        geometry += ", " + counted(primitive.morph_target_count, "morph target");
+    table.addRow({"geometry", geometry});
+    table.addRow({"attributes", printable(joined(primitive.attributes))});
+    table.addRow({"tangents", needText(primitive)});
+    if (primitive.uv_set >= 0) {
+        std::string uvs = fmt::format("set {} of {}: {}", primitive.uv_set, primitive.uv_set_count,
+                                      counted(primitive.uv_island_count, "island"));
+        uvs += fmt::format(", {} mirrored", primitive.mirrored_island_count);
+        uvs += fmt::format("; {} mirrored, {} without UV area",
+                           counted(primitive.mirrored_triangle_count, "triangle"),
+                           primitive.degenerate_uv_count);
+        table.addRow({"UVs", uvs});
+    }
+    if (primitive.degenerate_triangle_count != 0) {
+        table.addRow({"faults", counted(primitive.degenerate_triangle_count, "triangle") +
+                                    " with two corners at one place"});
+    }
+    return fmt::format("  mesh {}{}, primitive {}{}\n{}", primitive.mesh, name, primitive.primitive, material,
+                       table.text("    "));
+}
+
+Json primitiveJson(const PrimitiveInfo& primitive) {
+    return {
+        {"mesh", primitive.mesh},
+        {"primitive", primitive.primitive},
+        {"meshName", primitive.mesh_name},
+        {"materialName", primitive.material_name},
+        {"mode", primitive.mode},
+        {"triangles", primitive.triangle_count},
+        {"vertices", primitive.vertex_count},
+        {"indexType", primitive.index_type},
+        {"attributes", primitive.attributes},
+        {"uvSets", primitive.uv_set_count},
+        {"morphTargets", primitive.morph_target_count},
+        {"skinned", primitive.skinned},
+        {"hasNormals", primitive.has_normals},
+        {"hasTangents", primitive.has_tangents},
+        {"needsTangents", primitive.needs_tangents},
+        {"neededBy", primitive.needed_by},
+        {"uvSet", primitive.uv_set},
+        {"degenerateUvTriangles", primitive.degenerate_uv_count},
+        {"degenerateTriangles", primitive.degenerate_triangle_count},
+        {"mirroredTriangles", primitive.mirrored_triangle_count},
+        {"uvIslands", primitive.uv_island_count},
+        {"mirroredUvIslands", primitive.mirrored_island_count},
+    };
+}
+
+Json outcomeJson(const InspectOutcome& outcome) {
+    Json json = {
+        {"input", outcome.job.input},
+        {"ok", outcome.result.ok()},
+        {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())},
+    };
+    if (!outcome.result) return json;
+    const Inspection& file = *outcome.result;
+    json["format"] = file.format;
+    json["generator"] = file.generator;
+    json["fileBytes"] = file.file_bytes;
+    json["meshes"] = file.mesh_count;
+    json["materials"] = file.material_count;
+    json["nodes"] = file.node_count;
+    json["animations"] = file.animation_count;
+    json["images"] = file.image_count;
+    json["extensionsUsed"] = file.extensions_used;
+    json["extensionsRequired"] = file.extensions_required;
+    json["primitives"] = Json::array();
+    for (const PrimitiveInfo& primitive : file.primitives)
+        json["primitives"].push_back(primitiveJson(primitive));
+    return json;
+}
+
+}  // namespace
+
+Json errorJson(const Error* error) {
+    if (error == nullptr) return nullptr;
+    return {
+        {"code", errorName(error->code)},
+        {"message", error->message},
+        {"place", error->place},
+        {"exitCode", static_cast<int>(exitCodeOf(error->code))},
+    };
+}
+
+std::string jsonText(const Json& document) {
+    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string inspectText(const InspectOutcome& outcome) {
+    std::string text = summaryLine(outcome) + fileRows(*outcome.result);
+    for (const PrimitiveInfo& primitive : outcome.result->primitives)
+        text += fmt::format("\n{}", primitiveRows(primitive));
+    return text;
+}
+
+std::string inspectJson(const std::vector<InspectOutcome>& outcomes, ExitCode exit_code) {
+    Json json = {
+        {"schema", "tspace.inspect/1"},
+        {"version", TSPACE_VERSION},
+        {"ok", exit_code == ExitCode::done},
+        {"exitCode", static_cast<int>(exit_code)},
+        {"files", Json::array()},
+    };
+    for (const InspectOutcome& outcome : outcomes) json["files"].push_back(outcomeJson(outcome));
+    return jsonText(json);
+}
+
+}  // namespace tspace::tool

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// Which files are worked on and where their results go. Looks at the file system, writes nothing.
+#include "jobs.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+namespace tspace::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lowerExtension(const fs::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return extension;
+}
+
+bool isFolder(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored);
+}
+
+/// One spelling per file, also for files that do not exist yet.
+std::string canonicalName(const fs::path& path) {
+    std::error_code failed;
+    const fs::path canonical = fs::weakly_canonical(path, failed);
+    return failed ? fs::absolute(path).lexically_normal().string() : canonical.string();
+}
+
+struct Found {
+    Job job;
+    fs::path relative;  // where it lies below its folder; for files that were named: the file name
+};
+
+/// Model files below `folder`, but for those in `skipped_folder` (where outputs go).
+void findModels(const fs::path& folder, const std::string& skipped_folder, std::vector<Found>& found) {
+    std::error_code failed;
+    std::vector<fs::path> models;
+    fs::recursive_directory_iterator entry(folder, failed);
+    for (; !failed && entry != fs::recursive_directory_iterator(); entry.increment(failed)) {
+        std::error_code ignored;
+        if (entry->is_directory(ignored)) {
+            if (!skipped_folder.empty() && canonicalName(entry->path()) == skipped_folder) {
+                entry.disable_recursion_pending();
+            }
+        } else if (entry->is_regular_file(ignored) && isModelFile(entry->path().string())) {
+            models.push_back(entry->path());
+        }
+    }
+    std::sort(models.begin(), models.end());
+    for (const fs::path& model : models) {
+        found.push_back({{.input = model.string()}, model.lexically_relative(folder)});
+    }
+    if (failed) {
+        found.push_back({{.input = folder.string(),
+                          .error = {ErrorCode::cannotRead, "cannot read the folder: " + failed.message()}},
+                         {}});
+    } else if (models.empty()) {
+        found.push_back(
+            {{.input = folder.string(),
+              .error = {ErrorCode::invalidFile, "no model files (.glb, .gltf, .obj) in this folder"}},
+             {}});
+    }
+}
+
+std::vector<Found> findInputs(const std::vector<std::string>& inputs, const std::string& skipped_folder) {
+    std::vector<Found> found;
+    for (const std::string& input : inputs) {
+        if (isFolder(input)) {
+            findModels(input, skipped_folder, found);
+        } else {
+            found.push_back({{.input = input}, fs::path(input).filename()});
+        }
+    }
+    return found;
+}
+
+const char* extensionFor(Container container, const fs::path& input) {
+    if (container == Container::glb) return ".glb";
+    if (container == Container::gltf) return ".gltf";
+    return lowerExtension(input) == ".gltf" ? ".gltf" : ".glb";
+}
+
+Error usage(std::string message) { return {ErrorCode::invalidOption, std::move(message)}; }
+
+Result<std::vector<Job>> jobsInPlace(const GenerateArguments& arguments) {
+    std::vector<Job> jobs = inputJobs(arguments.inputs);
+    for (Job& job : jobs) {
+        job.output = job.input;
+        if (lowerExtension(job.input) == ".obj" && job.error.code == ErrorCode::ok) {
+            job.error = usage("an OBJ file cannot hold tangents; write a .glb with -o");
+        }
+    }
+    return jobs;
+}
+
+Result<std::vector<Job>> jobWithNamedOutput(const GenerateArguments& arguments) {
+    Job job{.input = arguments.inputs.front(), .output = arguments.output};
+    const std::string extension = lowerExtension(job.output);
+    if (extension.empty()) {
+        job.output += extensionFor(arguments.container, job.input);
+    } else if (extension != ".glb" && extension != ".gltf") {
+        return usage("the output must end in .glb or .gltf: " + job.output);
+    } else if (arguments.container != Container::sameAsInput &&
+               extension != extensionFor(arguments.container, "")) {
+        return usage("--container says otherwise than the name of the output: " + job.output);
+    }
+    return std::vector<Job>{std::move(job)};
+}
+
+Result<std::vector<Job>> jobsIntoFolder(const GenerateArguments& arguments) {
+    const fs::path folder = arguments.output;
+    std::map<std::string, std::string> writers;  // canonical output -> input
+    std::map<std::string, std::string> inputs;   // canonical input -> as named
+    std::vector<Found> found = findInputs(arguments.inputs, canonicalName(folder));
+    for (const Found& item : found) inputs.emplace(canonicalName(item.job.input), item.job.input);
+    std::vector<Job> jobs;
+    for (Found& item : found) {
+        Job& job = item.job;
+        if (job.error.code == ErrorCode::ok) {
+            fs::path relative = item.relative;
+            relative.replace_extension(extensionFor(arguments.container, job.input));
+            job.output = (folder / relative).string();
+            const std::string name = canonicalName(job.output);
+            const auto [writer, is_new] = writers.emplace(name, job.input);
+            if (inputs.count(name) != 0) {
+                job.error = usage("the output " + job.output +
+                                  " is one of the inputs; use another folder or --in-place");
+            } else if (!is_new) {
+                job.error = usage("the output " + job.output + " is already that of " + writer->second);
+            }
+        }
+        jobs.push_back(std::move(job));
+    }
+    return jobs;
+}
+
+}  // namespace
+
+bool isModelFile(const std::string& path) {
+    const std::string extension = lowerExtension(path);
+    return extension == ".glb" || extension == ".gltf" || extension == ".obj";
+}
+
+std::vector<Job> inputJobs(const std::vector<std::string>& inputs) {
+    std::vector<Job> jobs;
+    for (Found& item : findInputs(inputs, "")) jobs.push_back(std::move(item.job));
+    return jobs;
+}
+
+Result<std::vector<Job>> generateJobs(const GenerateArguments& arguments) {
+    const std::string& output = arguments.output;
+    if (arguments.in_place && !output.empty()) return usage("--in-place and -o exclude each other");
+    if (arguments.in_place) return jobsInPlace(arguments);
+    if (output.empty())
+        return usage("say where to write: -o OUT, or --in-place to change the inputs themselves");
+
+    const bool several = arguments.inputs.size() > 1 || isFolder(arguments.inputs.front());
+    std::error_code ignored;
+    const bool is_file = fs::exists(output, ignored) && !isFolder(output);
+    const std::string extension = lowerExtension(output);
+    if (several && (is_file || ((extension == ".glb" || extension == ".gltf") && !isFolder(output)))) {
+        return usage("several inputs need a folder as output, not " + output);
+    }
+    if (several || isFolder(output) || output.back() == '/') return jobsIntoFolder(arguments);
+    return jobWithNamedOutput(arguments);
+}
+
+}  // namespace tspace::tool

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Results as text for people and as JSON for programs.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "exit_code.h"
+#include "jobs.h"
+
+namespace tspace::tool {
+
+/// What became of one job: a value, or an error.
+template <class Value>
+struct Outcome {
+    Job job = {};
+    Result<Value> result = Error{};
+    double seconds = 0;
+};
+using GenerateOutcome = Outcome<GenerateReport>;
+using InspectOutcome = Outcome<Inspection>;
+
+std::string generateText(const GenerateOutcome& outcome);
+std::string generateJson(const std::vector<GenerateOutcome>& outcomes, ExitCode exit_code, double seconds);
+/// One line over several files.
+std::string generateSummary(const std::vector<GenerateOutcome>& outcomes, double seconds);
+
+std::string inspectText(const InspectOutcome& outcome);
+std::string inspectJson(const std::vector<InspectOutcome>& outcomes, ExitCode exit_code);
+
+/// null, or the error as docs/json.md describes it.
+nlohmann::ordered_json errorJson(const Error* error);
+/// The document as text. Bytes that are not UTF-8 (from file names) become U+FFFD.
+std::string jsonText(const nlohmann::ordered_json& document);
+
+}  // namespace tspace::tool
