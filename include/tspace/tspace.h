@@ -38,8 +38,6 @@ extern "C" {
 #define TSPACE_INIT(object) \
     ((void)memset(&(object), 0, sizeof(object)), (void)((object).struct_size = (uint32_t)sizeof(object)))
 
-/* Part: version and errors. */
-
 /* Version of the library that is linked, as TSPACE_VERSION (tspace/version.h) is of the headers: 10000 *
  * major + 100 * minor + patch. */
 uint32_t tspace_version(void) TSPACE_NOEXCEPT;
@@ -54,12 +52,11 @@ enum {
     TSPACE_ERROR_STRIDE_TOO_SMALL = 4,   /* elements of a span would overlap */
     TSPACE_ERROR_MISALIGNED = 5, /* a pointer or stride is not a multiple of its element's alignment */
     TSPACE_ERROR_TOO_LARGE = 6,  /* a size does not fit: the sum of face sizes, or more than 2^31-1 corners */
-    TSPACE_ERROR_MISSING_ATTRIBUTE =
-        7, /* the method needs an attribute (normals, UVs) that the mesh does not have */
-    TSPACE_ERROR_INVALID_OPTION = 8, /* a value outside its range, or a struct of an unknown size */
-    TSPACE_ERROR_OUT_OF_MEMORY = 9,  /* the allocator returned null */
-    TSPACE_ERROR_PLAN_MISMATCH = 10, /* arrays do not fit the plan they are evaluated with */
-    TSPACE_ERROR_INTERNAL = 11,      /* a defect of tspace; please report it */
+    TSPACE_ERROR_MISSING_ATTRIBUTE = 7, /* the mesh does not have the normals or UVs that the method needs */
+    TSPACE_ERROR_INVALID_OPTION = 8,    /* a value outside its range, or a struct of an unknown size */
+    TSPACE_ERROR_OUT_OF_MEMORY = 9,     /* the allocator returned null */
+    TSPACE_ERROR_PLAN_MISMATCH = 10,    /* arrays do not fit the plan they are evaluated with */
+    TSPACE_ERROR_INTERNAL = 11,         /* a defect of tspace; please report it */
     TSPACE_ERROR_INVALID_FILE = 100, /* 100 and up: model files; no function of this header returns these */
     TSPACE_ERROR_UNSUPPORTED_FILE = 101,
     TSPACE_ERROR_FORBIDDEN_PATH = 102,
@@ -81,8 +78,6 @@ typedef struct tspace_Error {
 /* Stable identifier of a code in lowerCamelCase ("indexOutOfRange"), "unknown" for other numbers. Static
  * memory. */
 const char* tspace_errorName(tspace_ErrorCode code) TSPACE_NOEXCEPT;
-
-/* Part: spans and meshes. */
 
 /* `count` elements of some floats each, the first at `data`, each `stride_bytes` after the one before. How
  * many floats an element has is said where the span is used. stride_bytes 0: tightly packed. data may be null
@@ -135,8 +130,6 @@ size_t tspace_faceCount(const tspace_Mesh* mesh) TSPACE_NOEXCEPT;
  * INVALID_OPTION. O(corners), no memory. */
 tspace_ErrorCode tspace_validate(const tspace_Mesh* mesh, tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Part: execution. */
-
 /* The caller's job system. `run` must call task(context, i) exactly once for each i in [0, task_count), on
  * any threads and in any order, and return when all are done. Tasks never call back into `run`. */
 typedef struct tspace_Executor {
@@ -161,8 +154,6 @@ typedef struct tspace_Execution {
     const tspace_Allocator* allocator; /* null: operator new. For scratch memory and plans */
     uint32_t thread_count;             /* 0: as many as there are cores; 1: the calling thread only */
 } tspace_Execution;
-
-/* Part: conventions. */
 
 /* Where v = 0 lies in the texture. */
 typedef uint32_t tspace_VAxis;
@@ -207,8 +198,6 @@ tspace_ErrorCode tspace_findConvention(const char* name, tspace_Convention* out,
 float tspace_signFactor(tspace_Convention convention) TSPACE_NOEXCEPT;
 /* +1 or -1: what cross(P1-P0, P2-P0) is multiplied with to point outside. */
 float tspace_normalFactor(tspace_Convention convention) TSPACE_NOEXCEPT;
-
-/* Part: normals. */
 
 /* How much a face counts in the mean at one of its corners. e1, e2 are the edges there, a the angle between.
  */
@@ -260,8 +249,6 @@ typedef struct tspace_NormalReport {
 tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_NormalOptions* options,
                                         tspace_Span out, tspace_NormalReport* report,
                                         tspace_Error* error) TSPACE_NOEXCEPT;
-
-/* Part: tangents. */
 
 /* How tangents are computed. */
 typedef uint32_t tspace_Method;
@@ -383,8 +370,6 @@ tspace_ErrorCode tspace_describeTangentPlan(const tspace_TangentPlan* plan, tspa
 /* Frees a plan. Null is allowed. */
 void tspace_destroyTangentPlan(tspace_TangentPlan* plan) TSPACE_NOEXCEPT;
 
-/* Part: sanitize. */
-
 typedef struct tspace_SanitizeOptions {
     uint32_t struct_size;
     /* 0 or 1. 1: also make every sound tangent unit and orthogonal to N; the result then no longer matches a
@@ -419,8 +404,6 @@ typedef struct tspace_SanitizeReport {
 tspace_ErrorCode tspace_sanitizeTangents(const tspace_Mesh* mesh, const tspace_SanitizeOptions* options,
                                          tspace_Span tangents, tspace_SanitizeReport* report,
                                          tspace_Error* error) TSPACE_NOEXCEPT;
-
-/* Part: split. */
 
 /* One attribute given per corner. */
 typedef struct tspace_CornerAttribute {
@@ -463,8 +446,6 @@ tspace_ErrorCode tspace_splitVertices(const tspace_Indices* indices, size_t vert
 
 /* Frees a result of tspace_splitVertices. Null is allowed. */
 void tspace_destroySplitResult(tspace_SplitResult* result) TSPACE_NOEXCEPT;
-
-/* Part: triangulate. */
 
 /* Triangles of a polygon mesh. Made by the library; later versions may append fields. */
 typedef struct tspace_Triangulation {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <new>
+#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -27,30 +28,49 @@ bool hasGetters(const SMikkTSpaceInterface& calls) {
            calls.m_getNormal != nullptr && calls.m_getTexCoord != nullptr;
 }
 
-/// Lists the supported faces. The first corner of the whole mesh is kept even when its face is not supported,
-/// as a face of one corner: the reference starts the bounding box of its welding grid there
-/// (mikktspace-spec, 3.1), which can show in the result. Returns the number of corners, or 0 when there is
-/// nothing to compute or too much.
-std::size_t listFaces(const SMikkTSpaceContext* context, int face_count, Corners& corners) {
-    const SMikkTSpaceInterface& calls = *context->m_pInterface;
-    std::size_t corner_count = 0;
-    bool any_supported = false;
+/// Calls body(face, corners) for every face that results depend on. Those are the supported ones, with all
+/// their corners. The first corner of the whole mesh counts even when its face is not supported, as a face of
+/// one corner: the reference starts the bounding box of its welding grid there, which can show in the result.
+/// Stops when the body returns false.
+template <class Body>
+void forUsedFaces(const SMikkTSpaceContext* context, int face_count, Body&& body) {
+    bool first = true;
     for (int face = 0; face < face_count; ++face) {
-        const int size = calls.m_getNumVerticesOfFace(context, face);
+        const int size = context->m_pInterface->m_getNumVerticesOfFace(context, face);
         const bool supported = isSupported(size);
-        if (!supported && (size < 1 || corner_count != 0)) continue;
-        const std::uint32_t kept = supported ? static_cast<std::uint32_t>(size) : 1u;
-        any_supported = any_supported || supported;
-        corner_count += kept;
-        if (corner_count > tspace::kMaxCorners) return 0;
-        corners.face_sizes.push_back(kept);
-        corners.face_numbers.push_back(face);
+        if (!supported && (size < 1 || !first)) continue;
+        first = false;
+        if (!body(face, supported ? static_cast<std::uint32_t>(size) : 1u)) return;
     }
-    return any_supported ? corner_count : 0;
 }
 
-void readCorners(const SMikkTSpaceContext* context, std::size_t corner_count, Corners& corners) {
+/// Lists the faces; false when there is nothing to compute or too much. Counts first, so that absurd answers
+/// cost no memory.
+bool listFaces(const SMikkTSpaceContext* context, int face_count, Corners& corners) {
+    std::size_t corner_count = 0;
+    std::size_t used_count = 0;
+    bool any_supported = false;
+    forUsedFaces(context, face_count, [&](int, std::uint32_t size) {
+        any_supported = any_supported || size > 1;
+        corner_count += size;
+        ++used_count;
+        return corner_count <= tspace::kMaxCorners;
+    });
+    if (!any_supported || corner_count > tspace::kMaxCorners) return false;
+    corners.face_sizes.reserve(used_count);
+    corners.face_numbers.reserve(used_count);
+    forUsedFaces(context, face_count, [&](int face, std::uint32_t size) {
+        corners.face_sizes.push_back(size);
+        corners.face_numbers.push_back(face);
+        return true;
+    });
+    return true;
+}
+
+void readCorners(const SMikkTSpaceContext* context, Corners& corners) {
     const SMikkTSpaceInterface& calls = *context->m_pInterface;
+    const auto corner_count =
+        std::accumulate(corners.face_sizes.begin(), corners.face_sizes.end(), std::size_t{0});
     corners.positions.resize(corner_count);
     corners.normals.resize(corner_count);
     corners.uvs.resize(corner_count);
@@ -101,9 +121,9 @@ bool generate(const SMikkTSpaceContext* context, float angular_threshold_deg) {
     if (!hasGetters(calls)) return false;
 
     Corners corners;
-    const std::size_t corner_count = listFaces(context, face_count, corners);
-    if (corner_count == 0) return false;
-    readCorners(context, corner_count, corners);
+    if (!listFaces(context, face_count, corners)) return false;
+    readCorners(context, corners);
+    const std::size_t corner_count = corners.positions.size();
 
     std::vector<tspace::Vec4> tangents(corner_count);
     std::vector<tspace::Vec3> bitangents;
