@@ -15,6 +15,10 @@ install(EXPORT tspace_core NAMESPACE tspace:: FILE tspace-core.cmake DESTINATION
         COMPONENT tspace_core)
 
 if(TARGET tspace_asset)
+    # A header-only library that is used inside leaves nothing to link: consumers need not have it.
+    get_target_property(links tspace_asset INTERFACE_LINK_LIBRARIES)
+    list(FILTER links EXCLUDE REGEX nlohmann_json)
+    set_target_properties(tspace_asset PROPERTIES INTERFACE_LINK_LIBRARIES "${links}")
     install(TARGETS tspace_asset EXPORT tspace_asset
             ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT tspace_asset
             LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT tspace_asset)
@@ -22,6 +26,10 @@ if(TARGET tspace_asset)
             COMPONENT tspace_asset FILES_MATCHING PATTERN "asset*.h")
     install(EXPORT tspace_asset NAMESPACE tspace:: FILE tspace-asset.cmake DESTINATION "${TSPACE_CMAKE_DIR}"
             COMPONENT tspace_asset)
+endif()
+
+if(TARGET tspace_tool)
+    install(TARGETS tspace_tool RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tspace_tool)
 endif()
 
 # The library is static, so a C program has to name the C++ runtime as well.

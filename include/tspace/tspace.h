@@ -38,7 +38,7 @@ extern "C" {
 #define TSPACE_INIT(object) \
     ((void)memset(&(object), 0, sizeof(object)), (void)((object).struct_size = (uint32_t)sizeof(object)))
 
-/* Version of the library that is linked, as TSPACE_VERSION (tspace/version.h) is of the headers: 10000 *
+/* Version of the library that is linked, as TSPACE_VERSION_NUMBER (tspace/version.h) is of the headers: 10000 *
  * major + 100 * minor + patch. */
 uint32_t tspace_version(void) TSPACE_NOEXCEPT;
 

@@ -7,7 +7,7 @@
 using namespace tspace;         // NOLINT: this file only forwards
 using namespace tspace::c_api;  // NOLINT
 
-uint32_t tspace_version() noexcept { return TSPACE_VERSION; }
+uint32_t tspace_version() noexcept { return TSPACE_VERSION_NUMBER; }
 
 const char* tspace_errorName(tspace_ErrorCode code) noexcept {
     return errorName(static_cast<ErrorCode>(code));
