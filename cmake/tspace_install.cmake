@@ -1,5 +1,5 @@
-# Installation and packages. Component tspace_core is the core library and needs nothing else; tspace_asset and
-# tspace_tool are added when they were built. Consumers: find_package(tspace [COMPONENTS core asset]) and pkg-config.
+# Installation and packages. Component tspace_core is the core library and needs nothing else; tspace_asset is there when
+# it was built. Consumers: find_package(tspace [COMPONENTS core asset]) and pkg-config.
 include(CMakePackageConfigHelpers)
 
 set(TSPACE_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/tspace")
@@ -26,10 +26,6 @@ if(TARGET tspace_asset)
             COMPONENT tspace_asset FILES_MATCHING PATTERN "asset*.h")
     install(EXPORT tspace_asset NAMESPACE tspace:: FILE tspace-asset.cmake DESTINATION "${TSPACE_CMAKE_DIR}"
             COMPONENT tspace_asset)
-endif()
-
-if(TARGET tspace_tool)
-    install(TARGETS tspace_tool RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tspace_tool)
 endif()
 
 # The library is static, so a C program has to name the C++ runtime as well.
