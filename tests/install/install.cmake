@@ -1,4 +1,5 @@
 # Installs COMPONENTS of BUILD into an empty PREFIX and looks whether the headers are there, and no others.
+cmake_minimum_required(VERSION 3.22)
 file(REMOVE_RECURSE "${PREFIX}")
 foreach(component IN LISTS COMPONENTS)
     execute_process(COMMAND "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${PREFIX}" --component ${component}
