@@ -6,16 +6,15 @@
  *
  * Rules that hold for every function:
  * - A function that can fail returns TSPACE_OK or an error code. Its last parameter `error` may be null;
- * otherwise it is written in either case (code TSPACE_OK and an empty message after success).
+ *   otherwise it is written in either case (code TSPACE_OK and an empty message after success).
  * - Structs that start with `struct_size` are prepared with TSPACE_INIT, which sets the size and zeroes the
- * rest. Zero means the default in every field. A size that this version does not know is
- * TSPACE_ERROR_INVALID_OPTION.
- * - Options and reports may be null: default options, no report wanted. A report is written after success
- * only.
+ *   rest. Zero means the default in every field. A size that this version does not know is
+ *   TSPACE_ERROR_INVALID_OPTION.
+ * - Options and reports may be null: default options, no report wanted. A report is written only on success.
  * - Arrays are the caller's. Inputs are read during the call only. Outputs must not overlap inputs or each
- * other.
+ *   other.
  * - Every function may be called from any thread at the same time as any other, as long as nobody writes what
- * another one uses. There is no global state. Results have the same bits for any thread count.
+ *   another one uses. There is no global state. Results have the same bits for any thread count.
  * - Nothing is printed, nothing aborts, and no C++ exception comes out.
  */
 #ifndef TSPACE_TSPACE_H
@@ -38,8 +37,8 @@ extern "C" {
 #define TSPACE_INIT(object) \
     ((void)memset(&(object), 0, sizeof(object)), (void)((object).struct_size = (uint32_t)sizeof(object)))
 
-/* Version of the library that is linked, as TSPACE_VERSION_NUMBER (tspace/version.h) is of the headers: 10000 *
- * major + 100 * minor + patch. */
+/* Version of the library that is linked: 10000 * major + 100 * minor + patch. TSPACE_VERSION_NUMBER is that
+ * of the headers. */
 uint32_t tspace_version(void) TSPACE_NOEXCEPT;
 
 /* Why a call failed. The numbers are stable, the same in C++, and never reused. */
@@ -125,9 +124,11 @@ size_t tspace_cornerCount(const tspace_Mesh* mesh) TSPACE_NOEXCEPT;
 size_t tspace_faceCount(const tspace_Mesh* mesh) TSPACE_NOEXCEPT;
 
 /* Checks pointers, counts, strides, alignment, every index, and that face sizes add up. Values of floats may
- * be anything. Every function that takes a mesh does this first; call it only to get the error early. mesh
- * not null Errors: NULL_DATA, COUNT_MISMATCH, INDEX_OUT_OF_RANGE, STRIDE_TOO_SMALL, MISALIGNED, TOO_LARGE,
- * INVALID_OPTION. O(corners), no memory. */
+ * be anything. Every function that takes a mesh does this first; call it only to get the error early.
+ * mesh      not null
+ * Errors: NULL_DATA, COUNT_MISMATCH, INDEX_OUT_OF_RANGE, STRIDE_TOO_SMALL, MISALIGNED, TOO_LARGE,
+ *         INVALID_OPTION.
+ * O(corners), no memory. */
 tspace_ErrorCode tspace_validate(const tspace_Mesh* mesh, tspace_Error* error) TSPACE_NOEXCEPT;
 
 /* The caller's job system. `run` must call task(context, i) exactly once for each i in [0, task_count), on
@@ -146,9 +147,8 @@ typedef struct tspace_Allocator {
     void* user;
 } tspace_Allocator;
 
-/* Where work runs and where its memory comes from. Neither changes a bit of any result. These two structs are
- * read during the call only; the functions in them, and `user`, must outlive a plan that was made with them.
- */
+/* Where work runs and where its memory comes from. Neither changes a bit of any result. The structs are read
+ * during the call only; the functions in them, and `user`, must outlive a plan that was made with them. */
 typedef struct tspace_Execution {
     const tspace_Executor* executor;   /* null: threads started and joined within the call */
     const tspace_Allocator* allocator; /* null: operator new. For scratch memory and plans */
@@ -157,13 +157,16 @@ typedef struct tspace_Execution {
 
 /* Where v = 0 lies in the texture. */
 typedef uint32_t tspace_VAxis;
-enum { TSPACE_V_UP = 0 /* bottom row of the image */, TSPACE_V_DOWN = 1 /* top row */ };
+enum {
+    TSPACE_V_UP = 0,  /* bottom row of the image */
+    TSPACE_V_DOWN = 1 /* top row */
+};
 
 /* What a large green value in a normal map means. */
 typedef uint32_t tspace_Green;
 enum {
-    TSPACE_GREEN_UP = 0 /* towards the top row ("OpenGL") */,
-    TSPACE_GREEN_DOWN = 1 /* the bottom row ("DirectX") */
+    TSPACE_GREEN_UP = 0,  /* towards the top row ("OpenGL") */
+    TSPACE_GREEN_DOWN = 1 /* towards the bottom row ("DirectX") */
 };
 
 /* Whether the stored sign is the one of B = sign * cross(N, T) or its negative. */
@@ -199,8 +202,7 @@ float tspace_signFactor(tspace_Convention convention) TSPACE_NOEXCEPT;
 /* +1 or -1: what cross(P1-P0, P2-P0) is multiplied with to point outside. */
 float tspace_normalFactor(tspace_Convention convention) TSPACE_NOEXCEPT;
 
-/* How much a face counts in the mean at one of its corners. e1, e2 are the edges there, a the angle between.
- */
+/* How much a face counts in the mean at one of its corners. e1, e2 are the edges, a the angle between. */
 typedef uint32_t tspace_NormalWeighting;
 enum {
     TSPACE_NORMAL_WEIGHTING_DEFAULT = 0,    /* angle */
@@ -219,8 +221,7 @@ typedef struct tspace_NormalOptions {
      * only when their normals differ by no more than this. For an angle of zero give a tiny one, such as
      * 1e-6. */
     float crease_angle_deg;
-    uint32_t smoothing_groups_are_masks; /* 0 or 1; 1: faces smooth together when their numbers have a bit in
-                                            common */
+    uint32_t smoothing_groups_are_masks; /* 0 or 1; 1: faces with a bit in common smooth together */
     /* One number per face, or null. Faces smooth together only when their numbers are equal and not 0. */
     const uint32_t* smoothing_groups;
     size_t smoothing_group_count; /* entries of smoothing_groups */
@@ -243,9 +244,11 @@ typedef struct tspace_NormalReport {
 /* Computes one unit normal per corner: the weighted mean of the unit face normals (Newell's sum) of the faces
  * that are connected to the corner's face around the vertex over smooth edges. A mean that vanishes is
  * replaced by the face's own normal, then by the mean of the other faces, then by (0, 0, 1). Corners of faces
- * with fewer than 3 corners get zeros. mesh      not null; positions and indices are used out       3 floats
- * per corner; count = tspace_cornerCount(mesh) Errors: those of tspace_validate; COUNT_MISMATCH,
- * INVALID_OPTION, OUT_OF_MEMORY. O(corners), about 40 bytes per corner of scratch memory. */
+ * with fewer than 3 corners get zeros.
+ * mesh      not null; positions and indices are used
+ * out       3 floats per corner; count = tspace_cornerCount(mesh)
+ * Errors: those of tspace_validate; COUNT_MISMATCH, INVALID_OPTION, OUT_OF_MEMORY.
+ * O(corners), about 40 bytes per corner of scratch memory. */
 tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_NormalOptions* options,
                                         tspace_Span out, tspace_NormalReport* report,
                                         tspace_Error* error) TSPACE_NOEXCEPT;
@@ -253,30 +256,27 @@ tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_No
 /* How tangents are computed. */
 typedef uint32_t tspace_Method;
 enum {
-    TSPACE_METHOD_MIKKTSPACE =
-        0, /* bit for bit the MikkTSpace reference (Mikkelsen 2008), for triangles and quads */
-    TSPACE_METHOD_LENGYEL = 1, /* sum of dP/du and dP/dv at a vertex index (Lengyel 2001); never splits */
-    TSPACE_METHOD_UNIFORM = 2, /* weighted mean of unit face tangents in groups; the weight is 1, */
-    TSPACE_METHOD_ANGLE = 3,   /* the corner's angle, */
-    TSPACE_METHOD_AREA = 4,    /* or the face's area */
-    TSPACE_METHOD_FLAT = 5,    /* the face's own dP/du, made orthogonal to N */
-    TSPACE_METHOD_BASIS = 6    /* without UVs: a basis from N alone (Duff et al. 2017) */
+    TSPACE_METHOD_MIKKTSPACE = 0, /* for triangles and quads every bit of the reference (Mikkelsen 2008) */
+    TSPACE_METHOD_LENGYEL = 1,    /* sum of dP/du and dP/dv at a vertex index (Lengyel 2001); never splits */
+    TSPACE_METHOD_UNIFORM = 2,    /* weighted mean of unit face tangents in groups; the weight is 1, */
+    TSPACE_METHOD_ANGLE = 3,      /* the corner's angle, */
+    TSPACE_METHOD_AREA = 4,       /* or the face's area */
+    TSPACE_METHOD_FLAT = 5,       /* the face's own dP/du, made orthogonal to N */
+    TSPACE_METHOD_BASIS = 6       /* without UVs: a basis from N alone (Duff et al. 2017) */
 };
 
 /* How mikktspace finds neighbouring faces. */
 typedef uint32_t tspace_Pairing;
 enum {
-    TSPACE_PAIRING_REFERENCE =
-        0, /* with the reference's defect: the last bucket of its edge list is not sorted */
-    TSPACE_PAIRING_CORRECTED = 1 /* without it */
+    TSPACE_PAIRING_REFERENCE = 0, /* with the reference's defect: its last bucket of edges is not sorted */
+    TSPACE_PAIRING_CORRECTED = 1  /* without it */
 };
 
 /* What happens to faces with more than 4 corners, which the MikkTSpace reference ignores. */
 typedef uint32_t tspace_Ngons;
 enum {
-    TSPACE_NGONS_TRIANGULATE =
-        0,                /* cut as tspace_triangulate does; results come back per corner of the n-gon */
-    TSPACE_NGONS_SKIP = 1 /* nothing is computed, outputs are 0 */
+    TSPACE_NGONS_TRIANGULATE = 0, /* cut as by tspace_triangulate; results are per corner of the n-gon */
+    TSPACE_NGONS_SKIP = 1         /* nothing is computed, outputs are 0 */
 };
 
 typedef struct tspace_TangentOptions {
@@ -295,8 +295,7 @@ typedef struct tspace_TangentOptions {
 /* What was met. Broken input is counted and never makes a call fail. */
 typedef struct tspace_TangentReport {
     uint32_t struct_size;
-    uint32_t reference_order_abandoned; /* 0 or 1; 1: a crafted input, the last bucket was paired as with
-                                           CORRECTED */
+    uint32_t reference_order_abandoned; /* 1: a crafted input; its last bucket was paired as CORRECTED does */
     uint64_t triangle_count;            /* triangles computed with, after cutting quads and n-gons */
     uint64_t degenerate_triangle_count; /* two corners at the same position */
     uint64_t degenerate_uv_count;       /* triangles without UV area: they take their neighbours' frame */
@@ -311,9 +310,8 @@ typedef struct tspace_TangentReport {
 typedef struct tspace_TangentOutput {
     uint32_t struct_size;
     uint32_t reserved;
-    tspace_Span tangents; /* 4 floats: unit tangent and sign */
-    tspace_Span
-        bitangents; /* 3 floats: unit direction of dP/dv, averaged like the tangent; not cross(N, T) */
+    tspace_Span tangents;     /* 4 floats: unit tangent and sign */
+    tspace_Span bitangents;   /* 3 floats: unit direction of dP/dv; in general not cross(N, T) */
     tspace_Span magnitudes_s; /* 1 float: mean length of dP/du; 1 for methods without */
     tspace_Span magnitudes_t; /* 1 float: mean length of dP/dv; 1 for methods without */
 } tspace_TangentOutput;
@@ -323,7 +321,7 @@ typedef struct tspace_TangentOutput {
  * out       not null; spans of tspace_cornerCount(mesh) entries
  * Corners of faces with fewer than 3 corners (and of n-gons with NGONS_SKIP) get 0 in every output.
  * Errors: those of tspace_validate; MISSING_ATTRIBUTE, COUNT_MISMATCH, INVALID_OPTION, OUT_OF_MEMORY.
- * Linear in the number of corners whatever the input. */
+ * Linear in the number of corners whatever the input. docs/methods has a page for each method. */
 tspace_ErrorCode tspace_generateTangents(const tspace_Mesh* mesh, const tspace_TangentOptions* options,
                                          const tspace_TangentOutput* out, tspace_TangentReport* report,
                                          tspace_Error* error) TSPACE_NOEXCEPT;
@@ -346,9 +344,12 @@ typedef struct tspace_Pose {
 } tspace_Pose;
 
 /* Computes frames for a pose with the plan's groups and splits. On the pose the plan was made from the result
- * is bit for bit that of tspace_generateTangents. plan, pose, out   not null execution         replaces the
- * plan's; null: default Errors: PLAN_MISMATCH when counts differ from the plan's; NULL_DATA,
- * STRIDE_TOO_SMALL, MISALIGNED, INVALID_OPTION, OUT_OF_MEMORY. O(corners). */
+ * is bit for bit that of tspace_generateTangents.
+ * plan, pose, out   not null
+ * execution         replaces the plan's; null: default
+ * Errors: PLAN_MISMATCH when counts differ from the plan's; NULL_DATA, COUNT_MISMATCH (outputs),
+ *         STRIDE_TOO_SMALL, MISALIGNED, INVALID_OPTION, OUT_OF_MEMORY.
+ * O(corners). */
 tspace_ErrorCode tspace_evaluateTangents(const tspace_TangentPlan* plan, const tspace_Pose* pose,
                                          const tspace_TangentOutput* out, const tspace_Execution* execution,
                                          tspace_TangentReport* report, tspace_Error* error) TSPACE_NOEXCEPT;
@@ -398,9 +399,11 @@ typedef struct tspace_SanitizeReport {
 
 /* Mends tangents in place: those that are not finite, zero, not unit, parallel to N, or whose sign is not +-1
  * or differs inside a face. What is written is unit and orthogonal to the corner's N within 1e-6. Sound
- * tangents keep every bit. mesh      not null; positions and normals are used tangents  4 floats per corner,
- * read and written Errors: those of tspace_validate; MISSING_ATTRIBUTE, COUNT_MISMATCH, INVALID_OPTION,
- * OUT_OF_MEMORY. O(corners). */
+ * tangents keep every bit.
+ * mesh      not null; positions and normals are used
+ * tangents  4 floats per corner, read and written
+ * Errors: those of tspace_validate; MISSING_ATTRIBUTE, COUNT_MISMATCH, INVALID_OPTION, OUT_OF_MEMORY.
+ * O(corners). */
 tspace_ErrorCode tspace_sanitizeTangents(const tspace_Mesh* mesh, const tspace_SanitizeOptions* options,
                                          tspace_Span tangents, tspace_SanitizeReport* report,
                                          tspace_Error* error) TSPACE_NOEXCEPT;
@@ -439,7 +442,8 @@ typedef struct tspace_SplitResult {
  * attributes       attribute_count entries; may be null when that is 0
  * result           not null; *result is null after an error. Free it with tspace_destroySplitResult.
  * Errors: NULL_DATA, COUNT_MISMATCH, INDEX_OUT_OF_RANGE, STRIDE_TOO_SMALL, TOO_LARGE, INVALID_OPTION,
- * OUT_OF_MEMORY. O(corners) expected. The result holds 4 bytes per corner and 8 per new vertex. */
+ *         OUT_OF_MEMORY.
+ * O(corners) expected. The result holds 4 bytes per corner and 8 per new vertex. */
 tspace_ErrorCode tspace_splitVertices(const tspace_Indices* indices, size_t vertex_count, size_t corner_count,
                                       const tspace_CornerAttribute* attributes, size_t attribute_count,
                                       tspace_SplitResult** result, tspace_Error* error) TSPACE_NOEXCEPT;
@@ -456,9 +460,11 @@ typedef struct tspace_Triangulation {
 
 /* Cuts every face with 4 or more corners: quads along the diagonal that MikkTSpace takes, n-gons by clipping
  * the ear with the shortest diagonal first. Faces with fewer than 3 corners give nothing. Triangles come in
- * face order. mesh      not null; positions and indices are used, and UVs when there are any result    not
- * null; *result is null after an error. Free it with tspace_destroyTriangulation. Errors: those of
- * tspace_validate; OUT_OF_MEMORY. O(corners) for triangles and quads, O(n^2) at most for an n-gon. */
+ * face order.
+ * mesh      not null; positions and indices are used, and UVs when there are any
+ * result    not null; *result is null after an error. Free it with tspace_destroyTriangulation.
+ * Errors: those of tspace_validate; OUT_OF_MEMORY.
+ * O(corners) for triangles and quads, O(n^2) at most for an n-gon. */
 tspace_ErrorCode tspace_triangulate(const tspace_Mesh* mesh, tspace_Triangulation** result,
                                     tspace_Error* error) TSPACE_NOEXCEPT;
 
