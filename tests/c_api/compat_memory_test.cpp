@@ -67,7 +67,7 @@ void setBasic(const SMikkTSpaceContext* context, const float[], const float, con
     ++*static_cast<int*>(context->m_pUserData);
 }
 
-TEST(MikktspaceMemory, EachAllocationThatFailsMakesTheCallFalse) {
+TEST(CompatMemory, EachAllocationThatFailsMakesTheCallFalse) {
     SMikkTSpaceInterface calls = {numFaces,    numVertices, getPosition, getNormal,
                                   getTexCoord, setBasic,    nullptr};
     int written = 0;

@@ -109,7 +109,7 @@ std::size_t countDifferent(const Golden& golden) {
     return different;
 }
 
-TEST(MikktspaceGolden, EveryWordIsTheReferences) {
+TEST(CompatGolden, EveryWordIsTheReferences) {
     TSPACE_NEEDS_SHARED("golden/mikktspace");
     SMikkTSpaceInterface calls = {numFaces, numVertices, get<0, 3>, get<3, 3>, get<6, 2>, setBasic, setFull};
     std::size_t mesh_count = 0, equal_count = 0;

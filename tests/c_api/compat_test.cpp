@@ -85,7 +85,7 @@ struct Strip {
     }
 };
 
-TEST(Mikktspace, ReadsEverythingThenWritesFaceByFaceFullBeforeBasic) {
+TEST(Compat, ReadsEverythingThenWritesFaceByFaceFullBeforeBasic) {
     Strip strip({4, 5, 3});
     ASSERT_TRUE(strip.run());
     const std::vector<std::string> written = {"f0.0", "b0.0", "f0.1", "b0.1", "f0.2", "b0.2", "f0.3",
@@ -98,14 +98,14 @@ TEST(Mikktspace, ReadsEverythingThenWritesFaceByFaceFullBeforeBasic) {
     EXPECT_EQ(strip.count('t'), 7u);
 }
 
-TEST(Mikktspace, CallsBackFromTheCallingThreadOnly) {
+TEST(Compat, CallsBackFromTheCallingThreadOnly) {
     Strip strip(std::vector<int>(20000, 4));
     ASSERT_TRUE(strip.run());
     EXPECT_TRUE(strip.only_caller);
     EXPECT_EQ(strip.count('b'), 80000u);
 }
 
-TEST(Mikktspace, NeedsNeitherSetter) {
+TEST(Compat, NeedsNeitherSetter) {
     Strip strip({4});
     strip.callbacks.m_setTSpace = nullptr;
     EXPECT_TRUE(strip.run());
@@ -118,7 +118,7 @@ TEST(Mikktspace, NeedsNeitherSetter) {
     EXPECT_EQ(strip.count('f'), 4u);
 }
 
-TEST(Mikktspace, IsFalseWithoutAnyGetter) {
+TEST(Compat, IsFalseWithoutAnyGetter) {
     for (int missing = 0; missing < 5; ++missing) {
         Strip strip({4});
         if (missing == 0) strip.callbacks.m_getNumFaces = nullptr;
@@ -134,7 +134,7 @@ TEST(Mikktspace, IsFalseWithoutAnyGetter) {
     EXPECT_FALSE(genTangSpaceDefault(&empty));
 }
 
-TEST(Mikktspace, IsFalseWithoutAFaceOfThreeOrFourVertices) {
+TEST(Compat, IsFalseWithoutAFaceOfThreeOrFourVertices) {
     for (const std::vector<int>& sizes :
          {std::vector<int>{}, {0}, {2, 5}, {-1, -3, INT_MIN}, {1, INT_MAX, 100}}) {
         Strip strip(sizes);
@@ -143,7 +143,7 @@ TEST(Mikktspace, IsFalseWithoutAFaceOfThreeOrFourVertices) {
     }
 }
 
-TEST(Mikktspace, TakesNegativeCountsAsNone) {
+TEST(Compat, TakesNegativeCountsAsNone) {
     Strip strip({4});
     for (const int face_count : {-1, INT_MIN}) {
         strip.face_count = face_count;
@@ -155,7 +155,7 @@ TEST(Mikktspace, TakesNegativeCountsAsNone) {
     EXPECT_EQ(mixed.count('p'), 8u);
 }
 
-TEST(Mikktspace, ReadsTheFirstCornerOfAnUnsupportedFirstFaceOnly) {
+TEST(Compat, ReadsTheFirstCornerOfAnUnsupportedFirstFaceOnly) {
     Strip strip({0, 7, 9, 4});
     EXPECT_TRUE(strip.run());
     EXPECT_EQ(strip.calls.front(), "p1.0");
@@ -163,7 +163,7 @@ TEST(Mikktspace, ReadsTheFirstCornerOfAnUnsupportedFirstFaceOnly) {
     EXPECT_EQ(strip.count('n'), 4u);
 }
 
-TEST(Mikktspace, RefusesMoreCornersThanFitBeforeReadingOne) {
+TEST(Compat, RefusesMoreCornersThanFitBeforeReadingOne) {
     Strip strip({});
     strip.callbacks.m_getNumFaces = [](const SMikkTSpaceContext*) { return INT_MAX; };
     strip.callbacks.m_getNumVerticesOfFace = [](const SMikkTSpaceContext*, const int) { return 4; };
@@ -171,7 +171,7 @@ TEST(Mikktspace, RefusesMoreCornersThanFitBeforeReadingOne) {
     EXPECT_TRUE(strip.calls.empty());
 }
 
-TEST(Mikktspace, TakesAnyThreshold) {
+TEST(Compat, TakesAnyThreshold) {
     for (const float threshold : {0.0f, 0.5f, 360.0f, -90.0f, 1e30f, INFINITY, NAN}) {
         Strip strip({4, 3});
         const SMikkTSpaceContext context = strip.context();
