@@ -1,0 +1,61 @@
+# Installation and packages. Component tspace_core is the core library and needs nothing else; tspace_asset is there when
+# it was built. Consumers: find_package(tspace [COMPONENTS core asset]) and pkg-config.
+include(CMakePackageConfigHelpers)
+
+set(TSPACE_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/tspace")
+
+install(TARGETS tspace EXPORT tspace_core
+        ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT tspace_core
+        LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT tspace_core)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/tspace" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT tspace_core
+        FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp" PATTERN "asset*" EXCLUDE)
+install(FILES "${PROJECT_BINARY_DIR}/include/tspace/version.h" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/tspace"
+        COMPONENT tspace_core)
+install(EXPORT tspace_core NAMESPACE tspace:: FILE tspace-core.cmake DESTINATION "${TSPACE_CMAKE_DIR}"
+        COMPONENT tspace_core)
+
+if(TARGET tspace_asset)
+    # A header-only library that is used inside leaves nothing to link: consumers need not have it.
+    get_target_property(links tspace_asset INTERFACE_LINK_LIBRARIES)
+    list(FILTER links EXCLUDE REGEX nlohmann_json)
+    set_target_properties(tspace_asset PROPERTIES INTERFACE_LINK_LIBRARIES "${links}")
+    install(TARGETS tspace_asset EXPORT tspace_asset
+            ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT tspace_asset
+            LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT tspace_asset)
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/tspace" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+            COMPONENT tspace_asset FILES_MATCHING PATTERN "asset*.h")
+    install(EXPORT tspace_asset NAMESPACE tspace:: FILE tspace-asset.cmake DESTINATION "${TSPACE_CMAKE_DIR}"
+            COMPONENT tspace_asset)
+endif()
+
+# The library is static, so a C program has to name the C++ runtime as well.
+set(TSPACE_PC_CXX_RUNTIME "")
+foreach(runtime stdc++ c++)
+    if(runtime IN_LIST CMAKE_CXX_IMPLICIT_LINK_LIBRARIES)
+        set(TSPACE_PC_CXX_RUNTIME "-l${runtime}")
+    endif()
+endforeach()
+
+configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/tspaceConfig.cmake.in"
+                              "${PROJECT_BINARY_DIR}/package/tspaceConfig.cmake"
+                              INSTALL_DESTINATION "${TSPACE_CMAKE_DIR}")
+# Before 1.0 a new minor version may break callers.
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/package/tspaceConfigVersion.cmake"
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/package/tspaceConfig.cmake" "${PROJECT_BINARY_DIR}/package/tspaceConfigVersion.cmake"
+        DESTINATION "${TSPACE_CMAKE_DIR}" COMPONENT tspace_core)
+
+# The prefix is found from where the file lies, so that an installed tree can be moved.
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}" OR IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
+    set(TSPACE_PC_PREFIX "${CMAKE_INSTALL_PREFIX}")
+    set(TSPACE_PC_LIBDIR "${CMAKE_INSTALL_FULL_LIBDIR}")
+    set(TSPACE_PC_INCLUDEDIR "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
+else()
+    file(RELATIVE_PATH TSPACE_PC_PREFIX "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+    set(TSPACE_PC_PREFIX "\${pcfiledir}/${TSPACE_PC_PREFIX}")
+    set(TSPACE_PC_LIBDIR "\${prefix}/${CMAKE_INSTALL_LIBDIR}")
+    set(TSPACE_PC_INCLUDEDIR "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
+endif()
+configure_file("${CMAKE_CURRENT_LIST_DIR}/tspace.pc.in" "${PROJECT_BINARY_DIR}/package/tspace.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/package/tspace.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig"
+        COMPONENT tspace_core)

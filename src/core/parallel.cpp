@@ -5,7 +5,6 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -18,8 +17,8 @@ class Parallel::Pool {
         for (unsigned i = 0; i < helper_count; ++i) {
             try {
                 helpers_.emplace_back([this] { serve(); });
-            } catch (const std::system_error&) {
-                break;  // no more threads to be had: the ones there are, and the caller, do the work
+            } catch (...) {
+                break;  // no more threads (or memory for them): the ones there are, and the caller, do the work
             }
         }
     }

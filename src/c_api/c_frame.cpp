@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// C API: the mathematics of one frame.
+#include "tspace/frame.h"
+
+#include <bit>
+
+#include "tspace/tspace.h"
+
+namespace {
+
+// C and C++ structs have the same members in the same order, so a value is passed on bit by bit.
+tspace::Vec2 in(const tspace_Vec2& v) { return std::bit_cast<tspace::Vec2>(v); }
+tspace::Vec3 in(const tspace_Vec3& v) { return std::bit_cast<tspace::Vec3>(v); }
+tspace::Vec4 in(const tspace_Vec4& v) { return std::bit_cast<tspace::Vec4>(v); }
+tspace::Frame in(const tspace_Frame& v) { return std::bit_cast<tspace::Frame>(v); }
+tspace::Mat3 in(const tspace_Mat3& v) { return std::bit_cast<tspace::Mat3>(v); }
+tspace_Vec2 out(const tspace::Vec2& v) { return std::bit_cast<tspace_Vec2>(v); }
+tspace_Vec3 out(const tspace::Vec3& v) { return std::bit_cast<tspace_Vec3>(v); }
+tspace_Vec4 out(const tspace::Vec4& v) { return std::bit_cast<tspace_Vec4>(v); }
+tspace_Frame out(const tspace::Frame& v) { return std::bit_cast<tspace_Frame>(v); }
+tspace_Mat3 out(const tspace::Mat3& v) { return std::bit_cast<tspace_Mat3>(v); }
+tspace_FaceFrame out(const tspace::FaceFrame& v) { return std::bit_cast<tspace_FaceFrame>(v); }
+
+using MakeFaceFrame = tspace::FaceFrame(const tspace::Vec3*, const tspace::Vec2*);
+
+tspace_FaceFrame faceFrameBy(MakeFaceFrame* make, const tspace_Vec3* positions, const tspace_Vec2* uvs) {
+    const tspace::Vec3 p[3] = {in(positions[0]), in(positions[1]), in(positions[2])};
+    const tspace::Vec2 t[3] = {in(uvs[0]), in(uvs[1]), in(uvs[2])};
+    return out(make(p, t));
+}
+
+}  // namespace
+
+tspace_FaceFrame tspace_faceFrame(const tspace_Vec3* positions, const tspace_Vec2* uvs) noexcept {
+    return faceFrameBy(tspace::faceFrame, positions, uvs);
+}
+
+tspace_FaceFrame tspace_faceFrameFromPath(const tspace_Vec3* positions, const tspace_Vec2* uvs) noexcept {
+    return faceFrameBy(tspace::faceFrameFromPath, positions, uvs);
+}
+
+float tspace_determinant(tspace_Frame frame) noexcept { return tspace::determinant(in(frame)); }
+
+float tspace_frameSign(tspace_Frame frame) noexcept { return tspace::frameSign(in(frame)); }
+
+tspace_Vec3 tspace_rebuildBitangent(tspace_Vec3 normal, tspace_Vec4 tangent) noexcept {
+    return out(tspace::rebuildBitangent(in(normal), in(tangent)));
+}
+
+tspace_Frame tspace_orthonormalize(tspace_Frame frame) noexcept {
+    return out(tspace::orthonormalize(in(frame)));
+}
+
+tspace_Vec4 tspace_packTangent(tspace_Frame frame) noexcept { return out(tspace::packTangent(in(frame))); }
+
+tspace_Frame tspace_basisFromNormal(tspace_Vec3 unit_normal) noexcept {
+    return out(tspace::basisFromNormal(in(unit_normal)));
+}
+
+tspace_Mat3 tspace_tangentToObject(tspace_Frame frame) noexcept {
+    return out(tspace::tangentToObject(in(frame)));
+}
+
+tspace_Mat3 tspace_objectToTangentOrthonormal(tspace_Frame frame) noexcept {
+    return out(tspace::objectToTangentOrthonormal(in(frame)));
+}
+
+int tspace_objectToTangent(tspace_Frame frame, tspace_Mat3* result) noexcept {
+    tspace::Mat3 inverse;
+    if (!tspace::objectToTangent(in(frame), inverse)) return 0;
+    *result = out(inverse);
+    return 1;
+}
+
+tspace_Vec3 tspace_transform(tspace_Mat3 m, tspace_Vec3 v) noexcept {
+    return out(tspace::transform(in(m), in(v)));
+}
+
+tspace_Vec3 tspace_toTangentSpace(tspace_Frame frame, tspace_Vec3 direction) noexcept {
+    return out(tspace::toTangentSpace(in(frame), in(direction)));
+}
+
+tspace_Vec3 tspace_toObjectSpace(tspace_Frame frame, tspace_Vec3 direction) noexcept {
+    return out(tspace::toObjectSpace(in(frame), in(direction)));
+}
+
+tspace_Vec3 tspace_decodeNormal(tspace_Vec3 texel, float scale, tspace_Green green) noexcept {
+    return out(tspace::decodeNormal(in(texel), {scale, static_cast<tspace::Green>(green)}));
+}
+
+tspace_Vec2 tspace_tileUv(tspace_Vec2 uv, tspace_Vec2 tiling, tspace_Vec2 offset) noexcept {
+    return out(tspace::tileUv(in(uv), in(tiling), in(offset)));
+}
+
+float tspace_lambert(tspace_Frame frame, tspace_Vec3 light_direction,
+                     tspace_Vec3 tangent_space_normal) noexcept {
+    return tspace::lambert(in(frame), in(light_direction), in(tangent_space_normal));
+}
+
+tspace_Vec3 tspace_objectNormal(tspace_Frame frame, tspace_Vec3 tangent_space_normal) noexcept {
+    return out(tspace::objectNormal(in(frame), in(tangent_space_normal)));
+}
+
+tspace_Vec3 tspace_objectNormalMikktspace(tspace_Vec3 interpolated_normal, tspace_Vec4 interpolated_tangent,
+                                          tspace_Vec3 tangent_space_normal) noexcept {
+    return out(tspace::objectNormalMikktspace(in(interpolated_normal), in(interpolated_tangent),
+                                              in(tangent_space_normal)));
+}

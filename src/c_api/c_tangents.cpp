@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// C API: tangents, plans and sanitize.
+#include "tspace/tangents.h"
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "c_api/c_convert.h"
+#include "tspace/sanitize.h"
+
+using namespace tspace;         // NOLINT: this file only forwards
+using namespace tspace::c_api;  // NOLINT
+
+/// A plan with the hooks it was made with: it releases its memory through them.
+struct tspace_TangentPlan {
+    explicit tspace_TangentPlan(const tspace_Execution& execution) : hooks(execution) {}
+
+    Hooks hooks;
+    std::optional<TangentPlan> plan;
+};
+
+namespace {
+
+static_assert(TSPACE_METHOD_MIKKTSPACE == static_cast<std::uint32_t>(Method::mikktspace));
+static_assert(TSPACE_METHOD_LENGYEL == static_cast<std::uint32_t>(Method::lengyel));
+static_assert(TSPACE_METHOD_UNIFORM == static_cast<std::uint32_t>(Method::uniform));
+static_assert(TSPACE_METHOD_ANGLE == static_cast<std::uint32_t>(Method::angle));
+static_assert(TSPACE_METHOD_AREA == static_cast<std::uint32_t>(Method::area));
+static_assert(TSPACE_METHOD_FLAT == static_cast<std::uint32_t>(Method::flat));
+static_assert(TSPACE_METHOD_BASIS == static_cast<std::uint32_t>(Method::basis));
+static_assert(TSPACE_PAIRING_CORRECTED == static_cast<std::uint32_t>(Pairing::corrected));
+static_assert(TSPACE_NGONS_SKIP == static_cast<std::uint32_t>(Ngons::skip));
+
+Error checkOptions(const tspace_TangentOptions* given) {
+    if (given == nullptr) return {ErrorCode::ok};
+    const tspace_TangentOptions& options = *given;
+    return firstError([&] { return checkSized(given, "options"); },
+                      [&] { return checkChoice(options.method, TSPACE_METHOD_BASIS, "method"); },
+                      [&] { return checkChoice(options.pairing, TSPACE_PAIRING_CORRECTED, "pairing"); },
+                      [&] { return checkChoice(options.ngons, TSPACE_NGONS_SKIP, "ngons"); },
+                      [&] { return checkConvention(options.convention); },
+                      [&] { return checkExecution(options.execution); });
+}
+
+TangentOptions toOptions(const tspace_TangentOptions& options, const Hooks& hooks) {
+    TangentOptions result;
+    result.method = static_cast<Method>(options.method);
+    if (options.angular_threshold_deg != 0.0f) result.angular_threshold_deg = options.angular_threshold_deg;
+    result.pairing = static_cast<Pairing>(options.pairing);
+    result.ngons = static_cast<Ngons>(options.ngons);
+    result.convention = toConvention(options.convention);
+    result.execution = hooks.execution();
+    return result;
+}
+
+TangentOutput toOutput(const tspace_TangentOutput& out) {
+    return {toSpan<Vec4>(out.tangents), toSpan<Vec3>(out.bitangents), toSpan<float>(out.magnitudes_s),
+            toSpan<float>(out.magnitudes_t)};
+}
+
+void writeReport(const TangentReport& from, tspace_TangentReport* to) {
+    if (to == nullptr) return;
+    TSPACE_INIT(*to);
+    to->reference_order_abandoned = from.reference_order_abandoned ? 1 : 0;
+    to->triangle_count = from.triangle_count;
+    to->degenerate_triangle_count = from.degenerate_triangle_count;
+    to->degenerate_uv_count = from.degenerate_uv_count;
+    to->mirrored_count = from.mirrored_count;
+    to->skipped_face_count = from.skipped_face_count;
+    to->group_count = from.group_count;
+    to->default_corner_count = from.default_corner_count;
+    to->not_finite_count = from.not_finite_count;
+}
+
+void writeReport(const SanitizeReport& from, tspace_SanitizeReport* to) {
+    if (to == nullptr) return;
+    TSPACE_INIT(*to);
+    to->not_finite_count = from.not_finite_count;
+    to->zero_count = from.zero_count;
+    to->not_unit_count = from.not_unit_count;
+    to->parallel_count = from.parallel_count;
+    to->bad_sign_count = from.bad_sign_count;
+    to->mixed_sign_count = from.mixed_sign_count;
+    to->orthogonalized_count = from.orthogonalized_count;
+    to->normalized_count = from.normalized_count;
+    to->from_neighbor_count = from.from_neighbor_count;
+    to->from_basis_count = from.from_basis_count;
+    to->bad_normal_count = from.bad_normal_count;
+    to->mended_count = from.mendedCount();
+}
+
+}  // namespace
+
+tspace_ErrorCode tspace_generateTangents(const tspace_Mesh* mesh, const tspace_TangentOptions* options,
+                                         const tspace_TangentOutput* out, tspace_TangentReport* report,
+                                         tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        Error e =
+            firstError([&] { return checkMesh(mesh); }, [&] { return checkOptions(options); },
+                       [&] { return checkNeeded(out, "out"); }, [&] { return checkSized(report, "report"); });
+        if (e.code != ErrorCode::ok) return e;
+        const tspace_TangentOptions given = orDefault(options);
+        const Hooks hooks(given.execution);
+        const Result<TangentReport> result =
+            generateTangents(toMesh(*mesh), toOptions(given, hooks), toOutput(*out));
+        if (!result) return result.error();
+        writeReport(*result, report);
+        return Done{};
+    });
+}
+
+tspace_ErrorCode tspace_planTangents(const tspace_Mesh* mesh, const tspace_TangentOptions* options,
+                                     tspace_TangentPlan** plan, tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        if (plan == nullptr) return Error{ErrorCode::nullData, "plan is null"};
+        *plan = nullptr;
+        Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkOptions(options); });
+        if (e.code != ErrorCode::ok) return e;
+        const tspace_TangentOptions given = orDefault(options);
+        auto made = std::make_unique<tspace_TangentPlan>(given.execution);
+        Result<TangentPlan> result = planTangents(toMesh(*mesh), toOptions(given, made->hooks));
+        if (!result) return result.error();
+        made->plan.emplace(std::move(*result));
+        *plan = made.release();
+        return Done{};
+    });
+}
+
+tspace_ErrorCode tspace_evaluateTangents(const tspace_TangentPlan* plan, const tspace_Pose* pose,
+                                         const tspace_TangentOutput* out, const tspace_Execution* execution,
+                                         tspace_TangentReport* report, tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        if (plan == nullptr) return Error{ErrorCode::nullData, "plan is null"};
+        const tspace_Execution given = execution != nullptr ? *execution : tspace_Execution{};
+        Error e =
+            firstError([&] { return checkNeeded(pose, "pose"); }, [&] { return checkNeeded(out, "out"); },
+                       [&] { return checkExecution(given); }, [&] { return checkSized(report, "report"); });
+        if (e.code != ErrorCode::ok) return e;
+        const Hooks hooks(given);
+        const Pose converted{toSpan<Vec3>(pose->positions), toSpan<Vec3>(pose->normals)};
+        const Result<TangentReport> result =
+            evaluateTangents(*plan->plan, converted, toOutput(*out), hooks.execution());
+        if (!result) return result.error();
+        writeReport(*result, report);
+        return Done{};
+    });
+}
+
+tspace_ErrorCode tspace_describeTangentPlan(const tspace_TangentPlan* plan, tspace_TangentPlanInfo* info,
+                                            tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        if (plan == nullptr) return Error{ErrorCode::nullData, "plan is null"};
+        if (Error e = checkNeeded(info, "info"); e.code != ErrorCode::ok) return e;
+        TSPACE_INIT(*info);
+        info->method = static_cast<tspace_Method>(plan->plan->method());
+        info->vertex_count = plan->plan->vertexCount();
+        info->corner_count = plan->plan->cornerCount();
+        info->memory_bytes = plan->plan->memoryBytes();
+        return Done{};
+    });
+}
+
+void tspace_destroyTangentPlan(tspace_TangentPlan* plan) noexcept { delete plan; }
+
+tspace_ErrorCode tspace_sanitizeTangents(const tspace_Mesh* mesh, const tspace_SanitizeOptions* options,
+                                         tspace_Span tangents, tspace_SanitizeReport* report,
+                                         tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkSized(options, "options"); },
+                             [&] { return checkSized(report, "report"); });
+        if (e.code != ErrorCode::ok) return e;
+        const tspace_SanitizeOptions given = orDefault(options);
+        e = firstError([&] { return checkChoice(given.orthogonalize_all, 1, "orthogonalize_all"); },
+                       [&] { return checkExecution(given.execution); });
+        if (e.code != ErrorCode::ok) return e;
+        const Hooks hooks(given.execution);
+        const SanitizeOptions converted{given.orthogonalize_all != 0, hooks.execution()};
+        const Result<SanitizeReport> result =
+            sanitizeTangents(toMesh(*mesh), toSpan<Vec4>(tangents), converted);
+        if (!result) return result.error();
+        writeReport(*result, report);
+        return Done{};
+    });
+}

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: MIT
+// The C API does what the C++ API does, to the bit.
+#include "tspace/tspace.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+#include <new>
+#include <random>
+#include <vector>
+
+#include "c_api/random_mesh.h"
+#include "tspace/tspace.hpp"
+
+namespace tspace::test {
+namespace {
+
+/// Results of all kinds for one mesh.
+struct Outputs {
+    explicit Outputs(std::size_t n) : tangents(n), bitangents(n), magnitudes_s(n), magnitudes_t(n) {}
+
+    TangentOutput view() { return {tangents, bitangents, magnitudes_s, magnitudes_t}; }
+    tspace_TangentOutput c() {
+        tspace_TangentOutput out;
+        TSPACE_INIT(out);
+        out.tangents = {&tangents[0].x, tangents.size(), sizeof(Vec4)};
+        out.bitangents = {&bitangents[0].x, bitangents.size(), 0};
+        out.magnitudes_s = {magnitudes_s.data(), magnitudes_s.size(), 0};
+        out.magnitudes_t = {magnitudes_t.data(), magnitudes_t.size(), 0};
+        return out;
+    }
+
+    std::vector<Vec4> tangents;
+    std::vector<Vec3> bitangents;
+    std::vector<float> magnitudes_s, magnitudes_t;
+};
+
+template <class T>
+bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+void expectSame(const Outputs& a, const Outputs& b) {
+    EXPECT_TRUE(sameBits(a.tangents, b.tangents));
+    EXPECT_TRUE(sameBits(a.bitangents, b.bitangents));
+    EXPECT_TRUE(sameBits(a.magnitudes_s, b.magnitudes_s));
+    EXPECT_TRUE(sameBits(a.magnitudes_t, b.magnitudes_t));
+}
+
+void expectSame(const TangentReport& cpp, const tspace_TangentReport& c) {
+    EXPECT_EQ(c.struct_size, sizeof(c));
+    EXPECT_EQ(cpp.triangle_count, c.triangle_count);
+    EXPECT_EQ(cpp.degenerate_triangle_count, c.degenerate_triangle_count);
+    EXPECT_EQ(cpp.degenerate_uv_count, c.degenerate_uv_count);
+    EXPECT_EQ(cpp.mirrored_count, c.mirrored_count);
+    EXPECT_EQ(cpp.skipped_face_count, c.skipped_face_count);
+    EXPECT_EQ(cpp.group_count, c.group_count);
+    EXPECT_EQ(cpp.default_corner_count, c.default_corner_count);
+    EXPECT_EQ(cpp.not_finite_count, c.not_finite_count);
+    EXPECT_EQ(cpp.reference_order_abandoned ? 1u : 0u, c.reference_order_abandoned);
+}
+
+TEST(CApi, GivesTheTangentsOfTheCppApiForEveryMethod) {
+    const RandomMesh mesh(1, 60);
+    for (std::uint32_t method = TSPACE_METHOD_MIKKTSPACE; method <= TSPACE_METHOD_BASIS; ++method) {
+        Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
+        TangentOptions options;
+        options.method = static_cast<Method>(method);
+        options.angular_threshold_deg = 70.0f;
+        options.pairing = Pairing::corrected;
+        options.ngons = Ngons::skip;
+        options.convention = conventions::gltf;
+        const auto expected = generateTangents(mesh.view(), options, cpp.view());
+        ASSERT_TRUE(expected);
+
+        tspace_TangentOptions c_options;
+        TSPACE_INIT(c_options);
+        c_options.method = method;
+        c_options.angular_threshold_deg = 70.0f;
+        c_options.pairing = TSPACE_PAIRING_CORRECTED;
+        c_options.ngons = TSPACE_NGONS_SKIP;
+        c_options.convention.v_axis = TSPACE_V_DOWN;
+        const tspace_Mesh c_mesh = mesh.c();
+        const tspace_TangentOutput out = c.c();
+        tspace_TangentReport report;
+        TSPACE_INIT(report);
+        ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &c_options, &out, &report, nullptr)) << method;
+        expectSame(cpp, c);
+        expectSame(*expected, report);
+    }
+}
+
+TEST(CApi, DefaultsOfTangentsAreThoseOfCpp) {
+    const RandomMesh mesh(2, 60);
+    Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount()), zeroed(mesh.cornerCount());
+    ASSERT_TRUE(generateTangents(mesh.view(), {}, cpp.view()));
+    const tspace_Mesh c_mesh = mesh.c();
+    tspace_TangentOutput out = c.c();
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, nullptr, &out, nullptr, nullptr));
+    expectSame(cpp, c);
+    tspace_TangentOptions options;
+    TSPACE_INIT(options);
+    out = zeroed.c();
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr));
+    expectSame(cpp, zeroed);
+}
+
+TEST(CApi, GivesTheNormalsOfTheCppApi) {
+    const RandomMesh mesh(3, 60);
+    std::vector<std::uint32_t> groups(mesh.sizes.size());
+    for (std::size_t f = 0; f < groups.size(); ++f) groups[f] = 1u << (f % 3);
+    for (std::uint32_t weighting = TSPACE_NORMAL_WEIGHTING_DEFAULT; weighting <= TSPACE_NORMAL_WEIGHTING_MAX;
+         ++weighting) {
+        std::vector<Vec3> cpp(mesh.cornerCount()), c(mesh.cornerCount());
+        NormalOptions options;
+        tspace_NormalOptions c_options;
+        TSPACE_INIT(c_options);
+        if (weighting != TSPACE_NORMAL_WEIGHTING_DEFAULT) {
+            options = {static_cast<NormalWeighting>(weighting - 1),
+                       50.0f,
+                       groups,
+                       true,
+                       false,
+                       conventions::unity,
+                       {}};
+            c_options.weighting = weighting;
+            c_options.crease_angle_deg = 50.0f;
+            c_options.smoothing_groups = groups.data();
+            c_options.smoothing_group_count = groups.size();
+            c_options.smoothing_groups_are_masks = 1;
+            c_options.keep_positions_apart = 1;
+            ASSERT_EQ(TSPACE_OK, tspace_findConvention("unity", &c_options.convention, nullptr));
+        }
+        const auto expected = generateNormals(mesh.view(), options, cpp);
+        ASSERT_TRUE(expected);
+        const tspace_Mesh c_mesh = mesh.c();
+        tspace_NormalReport report;
+        TSPACE_INIT(report);
+        ASSERT_EQ(TSPACE_OK,
+                  tspace_generateNormals(&c_mesh, &c_options, {&c[0].x, c.size(), 0}, &report, nullptr));
+        EXPECT_TRUE(sameBits(cpp, c)) << weighting;
+        EXPECT_EQ(expected->face_count, report.face_count);
+        EXPECT_EQ(expected->degenerate_face_count, report.degenerate_face_count);
+        EXPECT_EQ(expected->fallback_corner_count, report.fallback_corner_count);
+    }
+}
+
+TEST(CApi, MendsAsTheCppApi) {
+    const RandomMesh mesh(4, 60);
+    for (const std::uint32_t all : {0u, 1u}) {
+        std::vector<Vec4> cpp(mesh.cornerCount());
+        std::mt19937 random(9);
+        std::uniform_real_distribution<float> value(-2.0f, 2.0f);
+        for (Vec4& t : cpp)
+            t = {value(random), value(random), value(random), value(random) < 0 ? -1.0f : 1.0f};
+        std::vector<Vec4> c = cpp;
+        SanitizeOptions options;
+        options.orthogonalize_all = all != 0;
+        const auto expected = sanitizeTangents(mesh.view(), cpp, options);
+        ASSERT_TRUE(expected);
+        tspace_SanitizeOptions c_options;
+        TSPACE_INIT(c_options);
+        c_options.orthogonalize_all = all;
+        const tspace_Mesh c_mesh = mesh.c();
+        tspace_SanitizeReport report;
+        TSPACE_INIT(report);
+        ASSERT_EQ(TSPACE_OK,
+                  tspace_sanitizeTangents(&c_mesh, &c_options, {&c[0].x, c.size(), 0}, &report, nullptr));
+        EXPECT_TRUE(sameBits(cpp, c));
+        EXPECT_EQ(expected->mendedCount(), report.mended_count);
+        EXPECT_EQ(expected->not_unit_count, report.not_unit_count);
+        EXPECT_EQ(expected->mixed_sign_count, report.mixed_sign_count);
+        EXPECT_EQ(expected->normalized_count, report.normalized_count);
+        EXPECT_EQ(expected->from_neighbor_count, report.from_neighbor_count);
+        EXPECT_EQ(expected->from_basis_count, report.from_basis_count);
+        EXPECT_GT(report.mended_count, 0u);
+    }
+}
+
+TEST(CApi, SplitsAndTriangulatesAsTheCppApi) {
+    const RandomMesh mesh(5, 60);
+    Outputs outputs(mesh.cornerCount());
+    ASSERT_TRUE(generateTangents(mesh.view(), {}, outputs.view()));
+    const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec4>(outputs.tangents), 1e-5f);
+    const auto expected =
+        splitVertices(mesh.view().indices, mesh.positions.size(), mesh.cornerCount(), {&attribute, 1});
+    ASSERT_TRUE(expected);
+    const tspace_Mesh c_mesh = mesh.c();
+    const tspace_CornerAttribute c_attribute = {attribute.data, 0, 4, 1e-5f};
+    tspace_SplitResult* split = nullptr;
+    ASSERT_EQ(TSPACE_OK, tspace_splitVertices(&c_mesh.indices, mesh.positions.size(), mesh.cornerCount(),
+                                              &c_attribute, 1, &split, nullptr));
+    EXPECT_EQ(expected->indices, std::vector(split->indices, split->indices + split->corner_count));
+    EXPECT_EQ(expected->source_vertices,
+              std::vector(split->source_vertices, split->source_vertices + split->vertex_count));
+    EXPECT_EQ(expected->source_corners,
+              std::vector(split->source_corners, split->source_corners + split->vertex_count));
+    EXPECT_GT(split->vertex_count, mesh.positions.size());
+    tspace_destroySplitResult(split);
+
+    const auto triangles = triangulate(mesh.view());
+    ASSERT_TRUE(triangles);
+    tspace_Triangulation* cut = nullptr;
+    ASSERT_EQ(TSPACE_OK, tspace_triangulate(&c_mesh, &cut, nullptr));
+    EXPECT_EQ(triangles->corners, std::vector(cut->corners, cut->corners + 3 * cut->triangle_count));
+    EXPECT_EQ(triangles->faces, std::vector(cut->faces, cut->faces + cut->triangle_count));
+    tspace_destroyTriangulation(cut);
+}
+
+TEST(CApi, SplitsWithoutIndices) {
+    const float values[3] = {1, 2, 3};
+    const tspace_CornerAttribute attribute = {values, 0, 1, 0};
+    tspace_SplitResult* split = nullptr;
+    ASSERT_EQ(TSPACE_OK, tspace_splitVertices(nullptr, 3, 3, &attribute, 1, &split, nullptr));
+    EXPECT_EQ(split->vertex_count, 3u);
+    EXPECT_EQ(split->indices[2], 2u);
+    tspace_destroySplitResult(split);
+}
+
+TEST(CApi, KnowsEveryPreset) {
+    for (const char* name : {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot"}) {
+        const Convention* expected = findConvention(name);
+        ASSERT_NE(expected, nullptr) << name;
+        tspace_Convention convention;
+        ASSERT_EQ(TSPACE_OK, tspace_findConvention(name, &convention, nullptr)) << name;
+        EXPECT_EQ(static_cast<std::uint32_t>(expected->v_axis), convention.v_axis);
+        EXPECT_EQ(static_cast<std::uint32_t>(expected->green), convention.green);
+        EXPECT_EQ(static_cast<std::uint32_t>(expected->stored_sign), convention.stored_sign);
+        EXPECT_EQ(static_cast<std::uint32_t>(expected->handedness), convention.handedness);
+        EXPECT_EQ(static_cast<std::uint32_t>(expected->winding), convention.winding);
+        EXPECT_EQ(signFactor(*expected), tspace_signFactor(convention));
+        EXPECT_EQ(normalFactor(*expected), tspace_normalFactor(convention));
+    }
+}
+
+/// Counts what it gives and takes back, and refuses after `allowed` allocations.
+struct CountingMemory {
+    std::size_t given = 0;
+    std::size_t live = 0;
+    std::size_t allowed = ~std::size_t{0};
+
+    tspace_Allocator hooks() { return {allocate, release, this}; }
+
+    static void* allocate(void* user, std::size_t bytes, std::size_t alignment) {
+        auto& self = *static_cast<CountingMemory*>(user);
+        if (self.given == self.allowed) return nullptr;
+        ++self.given;
+        ++self.live;
+        return ::operator new(bytes, std::align_val_t(alignment));
+    }
+    static void release(void* user, void* memory, std::size_t, std::size_t alignment) {
+        --static_cast<CountingMemory*>(user)->live;
+        ::operator delete(memory, std::align_val_t(alignment));
+    }
+};
+
+void runInReverse(void* user, std::size_t count, void (*task)(void*, std::size_t), void* context) {
+    ++*static_cast<int*>(user);
+    for (std::size_t i = count; i-- > 0;) task(context, i);
+}
+
+TEST(CApi, UsesTheCallersExecutorAndAllocator) {
+    const RandomMesh mesh(6, 6000);
+    Outputs expected(mesh.cornerCount()), c(mesh.cornerCount());
+    ASSERT_TRUE(generateTangents(mesh.view(), {}, expected.view()));
+    int run_count = 0;
+    CountingMemory memory;
+    const tspace_Executor executor = {runInReverse, &run_count, 4};
+    const tspace_Allocator allocator = memory.hooks();
+    tspace_TangentOptions options;
+    TSPACE_INIT(options);
+    options.execution.executor = &executor;
+    options.execution.allocator = &allocator;
+    const tspace_Mesh c_mesh = mesh.c();
+    const tspace_TangentOutput out = c.c();
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr));
+    expectSame(expected, c);
+    EXPECT_GT(run_count, 0);
+    EXPECT_GT(memory.given, 0u);
+    EXPECT_EQ(memory.live, 0u);
+}
+
+TEST(CApi, APlanOutlivesTheStructsItWasMadeWith) {
+    const RandomMesh mesh(7, 60);
+    Outputs expected(mesh.cornerCount()), c(mesh.cornerCount());
+    ASSERT_TRUE(generateTangents(mesh.view(), {}, expected.view()));
+    CountingMemory memory;
+    tspace_TangentPlan* plan = nullptr;
+    {
+        // On the heap and freed, so that an address sanitizer sees a plan that still looks at it.
+        const auto allocator = std::make_unique<tspace_Allocator>(memory.hooks());
+        const auto c_mesh = std::make_unique<tspace_Mesh>(mesh.c());
+        tspace_TangentOptions options;
+        TSPACE_INIT(options);
+        options.execution.allocator = allocator.get();
+        ASSERT_EQ(TSPACE_OK, tspace_planTangents(c_mesh.get(), &options, &plan, nullptr));
+    }
+    const tspace_Mesh c_mesh = mesh.c();
+    tspace_Pose pose;
+    TSPACE_INIT(pose);
+    pose.positions = c_mesh.positions;
+    pose.normals = c_mesh.normals;
+    const tspace_TangentOutput out = c.c();
+    ASSERT_EQ(TSPACE_OK, tspace_evaluateTangents(plan, &pose, &out, nullptr, nullptr, nullptr));
+    expectSame(expected, c);
+    EXPECT_GT(memory.live, 0u);
+
+    pose.positions.count -= 1;
+    EXPECT_EQ(TSPACE_ERROR_PLAN_MISMATCH,
+              tspace_evaluateTangents(plan, &pose, &out, nullptr, nullptr, nullptr));
+    tspace_destroyTangentPlan(plan);
+    EXPECT_EQ(memory.live, 0u);
+}
+
+TEST(CApi, EveryAllocationThatFailsGivesOutOfMemoryAndLeaksNothing) {
+    const RandomMesh mesh(8, 60);
+    const tspace_Mesh c_mesh = mesh.c();
+    Outputs c(mesh.cornerCount());
+    const tspace_TangentOutput out = c.c();
+    tspace_ErrorCode code = TSPACE_ERROR_OUT_OF_MEMORY;
+    std::size_t allowed = 0;
+    for (; code != TSPACE_OK && allowed < 1000; ++allowed) {
+        CountingMemory memory;
+        memory.allowed = allowed;
+        const tspace_Allocator allocator = memory.hooks();
+        tspace_TangentOptions options;
+        TSPACE_INIT(options);
+        options.execution.allocator = &allocator;
+        code = tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr);
+        EXPECT_TRUE(code == TSPACE_OK || code == TSPACE_ERROR_OUT_OF_MEMORY) << code;
+        EXPECT_EQ(memory.live, 0u);
+    }
+    EXPECT_EQ(TSPACE_OK, code);
+    EXPECT_GT(allowed, 1u);
+}
+
+}  // namespace
+}  // namespace tspace::test

@@ -1,0 +1,7 @@
+# The page PAGE shows the file SOURCE, whole and unchanged, as a code block of LANGUAGE.
+file(READ "${PAGE}" page)
+file(READ "${SOURCE}" code)
+string(FIND "${page}" "```${LANGUAGE}\n${code}```" position)
+if(position EQUAL -1)
+    message(FATAL_ERROR "${PAGE} does not show ${SOURCE} as it is")
+endif()

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+// Uses one function of the installed asset layer: enough to link it.
+#include <tspace/asset.h>
+
+int main() {
+    const auto result = tspace::inspectFile("there-is-no-such-file.glb");
+    return !result && result.error().code == tspace::ErrorCode::cannotRead ? 0 : 1;
+}

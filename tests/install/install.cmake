@@ -1,0 +1,23 @@
+# Installs COMPONENTS of BUILD into an empty PREFIX and looks whether the headers are there, and no others.
+cmake_minimum_required(VERSION 3.22)
+file(REMOVE_RECURSE "${PREFIX}")
+foreach(component IN LISTS COMPONENTS)
+    execute_process(COMMAND "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${PREFIX}" --component ${component}
+                    COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+
+foreach(header tspace.h tspace_frame.h tspace.hpp version.h tangents.h compat/mikktspace.h)
+    if(NOT EXISTS "${PREFIX}/include/tspace/${header}")
+        message(FATAL_ERROR "include/tspace/${header} was not installed")
+    endif()
+endforeach()
+if(EXISTS "${PREFIX}/include/tspace/asset.h")
+    set(has_asset TRUE)
+else()
+    set(has_asset FALSE)
+endif()
+if("tspace_asset" IN_LIST COMPONENTS AND NOT has_asset)
+    message(FATAL_ERROR "include/tspace/asset.h was not installed")
+elseif(NOT "tspace_asset" IN_LIST COMPONENTS AND has_asset)
+    message(FATAL_ERROR "the core's component has headers of the asset layer")
+endif()
