@@ -18,7 +18,8 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kGrain = 2048;  // nodes
+constexpr std::size_t kGrain = 2048;   // nodes
+constexpr std::size_t kLookAhead = 4;  // nodes; far enough for their triangles to arrive from memory
 
 /// Spreads a group from `seed` along one side. `joins(member)` says whether the group may take a member.
 template <class Joins>
@@ -59,6 +60,7 @@ class Grouper {
         parallel.forRanges(plan_.node_count, kGrain, [&](std::size_t begin, std::size_t end) {
             std::uint64_t groups = 0;
             for (std::size_t node = begin; node < end; ++node) {
+                if (node + kLookAhead < end) fetch(node + kLookAhead);
                 if (size(node) != 0 && size(node) <= kSmallNode && !touchesAny(node))
                     groups += groupSmall(node);
             }
@@ -79,6 +81,14 @@ class Grouper {
     }
     [[nodiscard]] bool touchesAny(std::size_t node) const {
         return !any_node_.empty() && any_node_[node] != 0;
+    }
+
+    void fetch(std::size_t node) const {
+        const std::uint32_t begin = plan_.node_begin[node], end = std::min(plan_.node_begin[node + 1], begin + kSmallNode);
+        for (std::uint32_t e = begin; e < end; ++e) {
+            __builtin_prefetch(&plan_.nodes[plan_.list[e] & kValue]);
+            __builtin_prefetch(&plan_.flags[(plan_.list[e] & kValue) / 3]);
+        }
     }
 
     void findAnyNodes() {

@@ -37,9 +37,15 @@ void pairSmall(Around& around) {
     }
 }
 
+namespace {
+
+/// A member has two neighbours, so there are at most 2 * count keys, and for a proper fan count + 1.
+std::size_t tableSize(std::uint32_t count) { return std::bit_ceil(2 * std::size_t{count} + count / 2 + 2); }
+
+}  // namespace
+
 PairingTable::PairingTable(const Allocator* allocator, std::uint32_t most)
-    : queues_(allocator, std::bit_ceil(4 * (std::size_t{most} + 1))),
-      behind_(allocator, 2 * std::size_t{most}) {}
+    : queues_(allocator, tableSize(most)), behind_(allocator, 2 * std::size_t{most}) {}
 
 PairingTable::Queue& PairingTable::find(std::uint32_t neighbour) {
     std::size_t i = (neighbour * std::uint64_t{0x9e3779b97f4a7c15u} >> 32) & mask_;
@@ -71,7 +77,7 @@ void PairingTable::meet(std::uint32_t member, std::uint32_t neighbour, std::uint
 }
 
 void PairingTable::pair(Around& around) {
-    const std::size_t size = std::bit_ceil(4 * (std::size_t{around.count} + 1));
+    const std::size_t size = tableSize(around.count);
     mask_ = size - 1;
     std::fill_n(queues_.data(), size, Queue{});
     for (std::uint32_t i = 0; i < around.count; ++i) {

@@ -14,7 +14,8 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kGrain = 2048;  // nodes
+constexpr std::size_t kGrain = 2048;      // nodes
+constexpr std::uint32_t kLookAhead = 32;  // corners; far enough for a line to arrive from memory
 /// Far more than the rounding errors of a projection and three dot products.
 constexpr float kMargin = 1e-2f;
 
@@ -62,6 +63,11 @@ class SuspectFinder {
         for (std::uint32_t begin = plan_.node_begin[first_node]; begin < end; begin += kBlock) {
             const std::uint32_t count = std::min<std::uint32_t>(kBlock, end - begin);
             for (std::uint32_t i = 0; i < count; ++i) {
+                if (begin + i + kLookAhead < end) {
+                    const std::uint32_t ahead = (plan_.list[begin + i + kLookAhead] & kValue) / 3;
+                    __builtin_prefetch(&data_.frames[ahead]);
+                    __builtin_prefetch(&plan_.flags[ahead]);
+                }
                 while (begin + i == node_end) {
                     normal = pose_.normals[plan_.node_vertex[node]];
                     node_end = plan_.node_begin[++node];

@@ -134,63 +134,115 @@ class TailFinder {
   private:
     std::uint32_t representative(std::uint32_t node) const { return nodes_.corner[node]; }
 
-    /// Finds the lower end of the last bucket's edges, and makes the representatives of the nodes that matter
-    /// exact.
+    /// Finds the lower end of the last bucket's edges, and makes the representatives of the nodes that matter exact.
     void findLargestLow() {
-        Buffer<std::uint32_t> last(allocator_, nodes_.count, 0u);
-        for (std::size_t i = 0; i < 3 * triangles_.count; ++i) {
-            const std::uint32_t corner = triangles_.corner(i);
-            std::uint32_t& latest = last[nodes_.of_corner[corner]];
-            latest = std::max(latest, corner);
-        }
-        if (!nodes_.exact) findCandidates(last);
-        low_ = 0;
-        const std::uint32_t* n = plan_.nodes.data();
-        for (std::size_t i = 0; i < 3 * plan_.triangle_count; i += 3) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint32_t a = n[i + k], b = n[i + (k + 1) % 3];
-                // Without an exact representative an edge is below the bound, and so is its lower end's first
-                // corner.
-                const bool a_is_lower = representative(a) < representative(b);
-                const std::uint32_t low = representative(a_is_lower ? a : b);
-                if (low >= low_) {
-                    low_ = low;
-                    low_node_ = a_is_lower ? a : b;
-                }
+        if (nodes_.exact) {
+            for (std::uint32_t node = 0; node < plan_.node_count; ++node) {
+                forEachNeighbour(node, [&](std::uint32_t other) { offerLow(node, other); });
             }
+            return;
+        }
+        const Buffer<std::uint32_t> last = lastCorners();
+        const std::uint32_t bound = improveBound(lowerBound(), last);
+        resolve(bound, last);
+        forEachLateEdge(bound, last, [&](std::uint32_t a, std::uint32_t b) { offerLow(a, b); });
+    }
+
+    /// The last corner of each node; 0 for nodes without edges.
+    [[nodiscard]] Buffer<std::uint32_t> lastCorners() const {
+        Buffer<std::uint32_t> last(allocator_, plan_.node_count, 0u);
+        if (plan_.slots.empty()) {
+            for (std::size_t node = 0; node < plan_.node_count; ++node) {
+                const std::uint32_t end = plan_.node_begin[node + 1];
+                if (end > plan_.node_begin[node]) last[node] = plan_.list[end - 1];
+            }
+        } else {  // corners of degenerate triangles count as well, though they have no edges
+            for (std::size_t i = 0; i < 3 * triangles_.count; ++i) {
+                std::uint32_t& latest = last[nodes_.of_corner[triangles_.corner(i)]];
+                latest = std::max(latest, triangles_.corner(i));
+            }
+        }
+        return last;
+    }
+
+    /// body(a, b), in both directions, for edges of which both ends' last corners reach the bound. The edges of the
+    /// last bucket are among them, for any bound that is not above it.
+    template <class Body>
+    void forEachLateEdge(std::uint32_t bound, const Buffer<std::uint32_t>& last, const Body& body) const {
+        for (std::uint32_t node = 0; node < plan_.node_count; ++node) {
+            if (last[node] < bound) continue;
+            forEachNeighbour(node, [&](std::uint32_t other) {
+                if (last[other] >= bound) body(node, other);
+            });
         }
     }
 
-    /// The middle one of a triangle's representatives is the lower end of its highest edge; taking first
-    /// corners for representatives can only make it smaller. Edges that cannot reach the largest of these
-    /// bounds are out.
-    void findCandidates(const Buffer<std::uint32_t>& last) {
-        const std::uint32_t* n = plan_.nodes.data();
-        Buffer<std::uint32_t> first(allocator_, nodes_.count, kNone);
-        for (std::size_t i = 0; i < 3 * triangles_.count; ++i) {
-            const std::uint32_t corner = triangles_.corner(i);
-            std::uint32_t& earliest = first[nodes_.of_corner[corner]];
-            earliest = std::min(earliest, corner);
-        }
-        std::uint32_t bound = 0;
-        for (std::size_t i = 0; i < 3 * plan_.triangle_count; i += 3) {
-            bound = std::max(bound, middleOf(first[n[i]], first[n[i + 1]], first[n[i + 2]]));
-        }
-        Buffer<std::uint8_t> wanted(allocator_, nodes_.count, std::uint8_t{0});
+    /// Makes the representatives at late edges exact.
+    void resolve(std::uint32_t bound, const Buffer<std::uint32_t>& last) {
+        Buffer<std::uint8_t> wanted(allocator_, plan_.node_count, std::uint8_t{0});
         bool any = false;
+        forEachLateEdge(bound, last, [&](std::uint32_t a, std::uint32_t b) {
+            for (const std::uint32_t node : {a, b}) {
+                if (representative(node) == last[node]) continue;  // a single corner, or known already
+                wanted[node] = 1;
+                any = true;
+            }
+        });
+        if (any) findRepresentatives(mesh_, triangles_, nodes_, wanted.data(), nullptr, allocator_, parallel_);
+    }
+
+    /// When triangles are in no order, most edges reach the first bound. The exact lower ends of a few that may be
+    /// highest give a far better one.
+    std::uint32_t improveBound(std::uint32_t bound, const Buffer<std::uint32_t>& last) {
+        constexpr std::size_t kEnough = 64;
+        const std::uint32_t end = *std::max_element(last.begin(), last.end());
+        for (const int share : {14, 12, 11, 10, 9, 8, 6, 4}) {
+            const std::uint32_t probe = end - (end >> share);
+            if (probe <= bound) return bound;
+            std::size_t count = 0;
+            forEachLateEdge(probe, last, [&](std::uint32_t, std::uint32_t) { ++count; });
+            if (count < kEnough) continue;
+            resolve(probe, last);
+            forEachLateEdge(probe, last, [&](std::uint32_t a, std::uint32_t b) {
+                bound = std::max(bound, std::min(representative(a), representative(b)));
+            });
+            return bound;
+        }
+        return bound;
+    }
+
+    void offerLow(std::uint32_t node, std::uint32_t other) {
+        if (representative(node) < representative(other) && representative(node) >= low_) {
+            low_ = representative(node);
+            low_node_ = node;
+        }
+    }
+
+    /// body(node) for the two other nodes of each triangle at a node.
+    template <class Body>
+    void forEachNeighbour(std::uint32_t node, const Body& body) const {
+        for (std::uint32_t e = plan_.node_begin[node]; e < plan_.node_begin[node + 1]; ++e) {
+            const std::uint32_t h = plan_.list[e], first = h - h % 3;
+            body(plan_.nodes[first + (h - first + 1) % 3]);
+            body(plan_.nodes[first + (h - first + 2) % 3]);
+        }
+    }
+
+    /// The middle one of a triangle's representatives is the lower end of its highest edge, so that of any triangle
+    /// bounds the last bucket's from below, and first corners in place of representatives can only make it smaller.
+    /// Nodes are numbered by their first corners, so the best triangle can be told from the numbers of its nodes.
+    [[nodiscard]] std::uint32_t lowerBound() const {
+        const std::uint32_t* n = plan_.nodes.data();
+        std::size_t best = 0;
+        std::uint32_t highest = 0;
         for (std::size_t i = 0; i < 3 * plan_.triangle_count; i += 3) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint32_t a = n[i + k], b = n[i + (k + 1) % 3];
-                if (std::min(last[a], last[b]) < bound) continue;
-                for (const std::uint32_t node : {a, b}) {
-                    if (first[node] == last[node]) continue;  // a single corner is exact
-                    wanted[node] = 1;
-                    any = true;
-                }
+            const std::uint32_t middle = middleOf(n[i], n[i + 1], n[i + 2]);
+            if (middle >= highest) {
+                highest = middle;
+                best = i;
             }
         }
-        if (any)
-            findRepresentatives(mesh_, triangles_, nodes_, wanted.data(), nullptr, allocator_, parallel_);
+        return middleOf(representative(n[best]), representative(n[best + 1]), representative(n[best + 2]));
     }
 
     /// The last bucket lies around one node. The other ends above it were candidates, so they are exact too.

@@ -12,7 +12,8 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kGrain = 4096;     // triangles
+constexpr std::size_t kLookAhead = 16;   // triangles; far enough for a line to arrive from memory
 constexpr std::uint8_t kDegenerate = 0x80;  // a flag of this file only: such triangles leave the list here
 
 bool isDegenerate(const Vec3& a, const Vec3& b, const Vec3& c) { return a == b || b == c || c == a; }
@@ -26,6 +27,13 @@ void readTriangles(GroupedPlan& plan, PoseData& pose, std::size_t count, Counts&
     parallel.forRanges(count, kGrain, [&](std::size_t begin, std::size_t end) {
         std::size_t degenerate = 0, any = 0, mirrored = 0;
         for (std::size_t t = begin; t < end; ++t) {
+            if (t + kLookAhead < end) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::uint32_t ahead = plan.nodes[3 * (t + kLookAhead) + k];
+                    __builtin_prefetch(&pose.positions[ahead]);
+                    __builtin_prefetch(&plan.node_uv[ahead]);
+                }
+            }
             const std::uint32_t* n = plan.nodes.data() + 3 * t;
             const Vec3 &a = pose.positions[n[0]], &b = pose.positions[n[1]], &c = pose.positions[n[2]];
             if (isDegenerate(a, b, c)) {

@@ -21,7 +21,7 @@ namespace {
 constexpr float kHugePosition = 1.6e38f;
 constexpr std::size_t kGrain =
     8192;  // vertices per task at least: below, starting threads costs more than it saves
-constexpr std::size_t kLookAhead = 12;  // corners; far enough for a table line to arrive from memory
+constexpr std::size_t kLookAhead = 48;  // corners; far enough for a table line to arrive from memory
 
 struct Vertex {
     Vec3 position, normal;
@@ -92,7 +92,7 @@ class Welder {
         nodes_.corner = Buffer<std::uint32_t>(allocator, most);
         nodes_.of_corner = triangles.corners.empty() ? Buffer<std::uint32_t>(allocator, corners)
                                                      : Buffer<std::uint32_t>(allocator, corners, kNone);
-        const std::size_t slots = std::bit_ceil(2 * std::max<std::size_t>(mesh.vertexCount(), 1));
+        const std::size_t slots = std::bit_ceil(mesh.vertexCount() + mesh.vertexCount() / 2 + 2);
         table_ = Buffer<Slot>(allocator, slots, Slot{});
         mask_ = slots - 1;
     }
@@ -101,7 +101,10 @@ class Welder {
     Nodes run(Parallel& parallel) {
         const std::size_t corners = 3 * triangles_.count;
         for (std::size_t i = 0; i < corners; ++i) {
-            if (i + kLookAhead < corners) {
+            if (i + 2 * kLookAhead < corners) {
+                const std::uint32_t far = mesh_.indices[triangles_.corner(i + 2 * kLookAhead)];
+                __builtin_prefetch(&vertex_node_[far]);
+                __builtin_prefetch(&hashes_[far]);
                 const std::uint32_t ahead = mesh_.indices[triangles_.corner(i + kLookAhead)];
                 if (vertex_node_[ahead] == kNone) __builtin_prefetch(&table_[hashes_[ahead] & mask_]);
             }

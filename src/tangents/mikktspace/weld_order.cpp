@@ -143,10 +143,14 @@ class Cell {
     std::uint8_t* not_welded_;
 };
 
-/// Over the corner list but for its first entry, starting from corner 0 of the mesh: that is what the
-/// reference does, and it shows when the first face is one that is skipped.
-Box boundingBox(const MeshView& mesh, const TriangleList& triangles) {
+/// Over the corner list but for its first entry, starting from corner 0 of the mesh: that is what the reference
+/// does, and it shows when the first face is one that is skipped. Else it is the box of all nodes.
+Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes) {
     Box box(mesh.positions[mesh.indices[0]]);
+    if (triangles.corner(0) == 0) {
+        for (std::size_t n = 0; n < nodes.count; ++n) box.add(mesh.positions[mesh.indices[nodes.corner[n]]]);
+        return box;
+    }
     for (std::size_t i = 1; i < 3 * triangles.count; ++i)
         box.add(mesh.positions[mesh.indices[triangles.corner(i)]]);
     return box;
@@ -159,7 +163,7 @@ void findRepresentatives(const MeshView& mesh, const TriangleList& triangles, No
                          Parallel& parallel) {
     const std::size_t entries = 3 * triangles.count;
     if (entries == 0) return;
-    const Box box = boundingBox(mesh, triangles);
+    const Box box = boundingBox(mesh, triangles, nodes);
     const int axis = box.longestAxis();
     const float low = component(box.low, axis), high = component(box.high, axis);
 
