@@ -471,6 +471,23 @@ TEST(GenerateGltf, ReadsTheFallbackOfOptionalCompressionAndLeavesItsViewAlone) {
     EXPECT_EQ(outcome.after.json["bufferViews"][4], outcome.before.json["bufferViews"][4]);
 }
 
+TEST(GenerateGltf, EndsInOrderWhateverByteIsChanged) {
+    const TempFolder folder;
+    const Bytes sound = withTangents(Grid(2)).glb();
+    const std::string input = folder.path("in.glb").string(), output = folder.path("out.glb").string();
+    for (std::size_t i = 12; i < sound.size(); ++i) {
+        for (const std::uint8_t value : {0, 0x39, 0xff}) {
+            Bytes changed = sound;
+            changed[i] = value;
+            folder.write("in.glb", changed);
+            const auto report = generateFile(input, output, {.all = true, .overwrite = true});
+            if (report) continue;
+            EXPECT_NE(report.error().code, ErrorCode::internal) << i << ": " << report.error().message;
+            EXPECT_NE(report.error().code, ErrorCode::outOfMemory) << i << ": " << report.error().message;
+        }
+    }
+}
+
 TEST(GenerateGltf, NamesThePlaceOfABadIndex) {
     const TempFolder folder;
     GltfBuilder builder = gridModel(Grid(4));
