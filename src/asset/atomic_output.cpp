@@ -86,8 +86,11 @@ void AtomicOutput::commit() {
         const File& file = files_[i];
         if (files_.size() > 1 && fs::exists(file.target, ignored)) {
             aside[i] = {file.target, besideName(file.target, ".old"), false};
-            fs::create_hard_link(aside[i].old_name, aside[i].new_name, ignored);
-            aside[i].renamed = !ignored;
+            fs::create_hard_link(aside[i].old_name, aside[i].new_name, error);
+            // Not every file system has hard links.
+            if (error) fs::rename(aside[i].old_name, aside[i].new_name, error);
+            if (error) continue;
+            aside[i].renamed = true;
         }
         fs::rename(file.temporary, file.target, error);
     }

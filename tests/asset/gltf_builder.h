@@ -2,7 +2,6 @@
 // Small glTF documents made in the test itself.
 #pragma once
 
-#include <cstring>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,9 +16,8 @@ using gltf::Json;
 
 template <class T>
 Bytes bytesOfValues(const std::vector<T>& values) {
-    Bytes bytes(values.size() * sizeof(T));
-    if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
-    return bytes;
+    const auto* first = reinterpret_cast<const std::uint8_t*>(values.data());
+    return Bytes(first, first + values.size() * sizeof(T));
 }
 
 /// A document with one buffer that grows by whole accessors.

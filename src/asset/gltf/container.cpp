@@ -175,7 +175,9 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
     }
     std::error_code error;
     if (!fs::exists(from, error)) {
-        warnings.push_back("the file " + quoted(uri) + " does not exist and was not copied");
+        // Taking it in failed before, with a warning.
+        if (!target.takes_images_in)
+            warnings.push_back("the file " + quoted(uri) + " does not exist and was not copied");
         return;
     }
     const fs::path to = folderOf(target.path) / relative;
@@ -229,6 +231,7 @@ OutputTarget outputTarget(const Document& document, const fs::path& path) {
         failFile(ErrorCode::unsupportedFile, "the output '" + path.string() + "' is neither .glb nor .gltf");
     }
     target.container = extension == ".glb" ? Container::glb : Container::gltf;
+    target.takes_images_in = target.container == Container::glb && document.container == Container::gltf;
     target.in_place = isSameFile(document.path, path);
     target.same_folder = isSameFile(document.folder, folderOf(path));
     return target;
@@ -252,8 +255,8 @@ void convertContainer(Document& document, const OutputTarget& target, bool will_
                       std::vector<std::string>& warnings) {
     if (target.container == Container::glb) {
         const bool has_bin = document.buffers.empty() || document.buffers[0].source == BufferSource::bin;
-        if (document.container == Container::gltf || (!has_bin && will_edit)) joinBuffers(document);
-        if (document.container == Container::gltf) embedImages(document, warnings);
+        if (target.takes_images_in || (!has_bin && will_edit)) joinBuffers(document);
+        if (target.takes_images_in) embedImages(document, warnings);
         document.container = Container::glb;
         if (!document.buffers.empty() && document.buffers[0].source == BufferSource::bin)
             document.buffers[0].own = true;

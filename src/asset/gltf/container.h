@@ -15,8 +15,9 @@ namespace tspace::gltf {
 struct OutputTarget {
     std::filesystem::path path = {};
     Container container = Container::glb;
-    bool in_place = false;     ///< the output is the input
-    bool same_folder = false;  ///< files that the model names need not be copied
+    bool in_place = false;         ///< the output is the input
+    bool same_folder = false;      ///< files that the model names need not be copied
+    bool takes_images_in = false;  ///< .gltf to .glb
 };
 
 /// Decides by extension; fails with unsupportedFile for any other than .glb and .gltf.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include "asset/file_error.h"
 #include "asset/gltf/accessor.h"
@@ -57,6 +58,16 @@ void checkRoot(const Json& root) {
     for (const char* name : {"accessors", "bufferViews", "buffers", "images", "materials", "meshes", "nodes",
                              "skins", "animations"}) {
         readArray(root, name, "");
+    }
+}
+
+/// A better word than "syntax error" for a file of another kind.
+void checkLooksLikeJson(std::span<const std::uint8_t> text) {
+    std::string_view view(reinterpret_cast<const char*>(text.data()), text.size());
+    if (view.substr(0, 3) == "\xef\xbb\xbf") view.remove_prefix(3);  // byte order mark
+    const std::size_t first = view.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos || view[first] != '{') {
+        failFile(ErrorCode::invalidFile, "the file is neither GLB nor the JSON of glTF", "byte 0");
     }
 }
 
@@ -167,6 +178,8 @@ Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, cons
         glb = readGlb(document.file_bytes);
         text = glb.json;
         document.extra_chunks = std::move(glb.extra);
+    } else {
+        checkLooksLikeJson(text);
     }
     ParsedJson parsed = parseJson(text);
     document.json = std::move(parsed.root);
