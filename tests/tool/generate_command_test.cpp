@@ -104,6 +104,14 @@ TEST(Generate, TwoInputsNeverShareAnOutput) {
     EXPECT_EQ(folder.files("out"), std::set<std::string>{"a.glb"});
 }
 
+TEST(Generate, InputsThatDifferInTheExtensionOnlyBothGetAnOutput) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "in/a.obj");
+    ASSERT_EQ(runTool(folder, "generate in/a.obj -o in/a.gltf").exit_code, 0);
+    EXPECT_EQ(runTool(folder, "generate in -o out --container glb").exit_code, 0);
+    EXPECT_EQ(folder.files("out"), (std::set<std::string>{"a.glb", "a.obj.glb"}));
+}
+
 TEST(Generate, AFolderAsOutputNeverOverwritesInputs) {
     const TempFolder folder;
     writeFoldedObj(folder, "a.obj");
@@ -126,7 +134,8 @@ TEST(Generate, InPlaceReplacesTheInput) {
     writeFoldedObj(folder, "a.obj");
     ASSERT_EQ(runTool(folder, "generate a.obj -o a.glb").exit_code, 0);
     const std::string before = folder.read("a.glb");
-    EXPECT_EQ(runTool(folder, "generate a.glb --in-place --overwrite --convention opengl").exit_code, 0);
+    EXPECT_EQ(runTool(folder, "generate a.glb --in-place --all --overwrite --convention opengl").exit_code,
+              0);
     EXPECT_TRUE(folder.read("a.glb") != before);
     EXPECT_TRUE(isCompleteGlb(folder.read("a.glb")));
     EXPECT_EQ(folder.files(), (std::set<std::string>{"a.glb", "a.obj", "folded.mtl"}));

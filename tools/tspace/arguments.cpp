@@ -112,7 +112,9 @@ void addOutputOptions(CLI::App* command, GenerateArguments& arguments, RawGenera
             "-o,--output", arguments.output,
             "Where to write: a file that ends in .glb or .gltf, or a folder. With several inputs, or a "
             "folder as input, it is a folder: it is made if it is not there, and files keep their paths "
-            "relative to the input folder.")
+            "relative to the input folder. Where a.glb and a.obj would both become a.glb, the later one "
+            "becomes "
+            "a.obj.glb.")
         ->type_name("OUT")
         ->group(group);
     command

@@ -143,7 +143,7 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
         table.addRow({"hint", "no material needs tangents; use --all to add them all the same"});
     }
     if (totals.triangle_count != 0) {
-        table.addRow({"triangles", fmt::format("{} ", totals.triangle_count)});
+        table.addRow({"computed", counted(totals.triangle_count, "triangle")});
         const std::uint64_t split =
             totals.vertices_after - std::min(totals.vertices_before, totals.vertices_after);
         table.addRow({"vertices", fmt::format("{} -> {} ({} split)", totals.vertices_before,

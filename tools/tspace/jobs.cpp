@@ -122,9 +122,14 @@ Result<std::vector<Job>> jobsIntoFolder(const GenerateArguments& arguments) {
     for (Found& item : found) {
         Job& job = item.job;
         if (job.error.code == ErrorCode::ok) {
+            const char* extension = extensionFor(arguments.container, job.input);
             fs::path relative = item.relative;
-            relative.replace_extension(extensionFor(arguments.container, job.input));
-            job.output = (folder / relative).string();
+            job.output = (folder / relative.replace_extension(extension)).string();
+            // a.glb and a.obj side by side: the second becomes a.obj.glb.
+            const auto taken = writers.find(canonicalName(job.output));
+            if (taken != writers.end() && lowerExtension(taken->second) != lowerExtension(job.input)) {
+                job.output = (folder / item.relative).string() + extension;
+            }
             const std::string name = canonicalName(job.output);
             const auto [writer, is_new] = writers.emplace(name, job.input);
             if (inputs.count(name) != 0) {

@@ -158,8 +158,8 @@ TEST(Obj, EachShapeIsAMeshAndEachMaterialInItAPrimitive) {
 
 /// Two quads at a right angle; the edge between them is vertices 2 and 3.
 std::string folded(const std::string& before_faces) {
-    return std::string(kQuad) + "v 1 0 -1\nv 1 1 -1\n" + before_faces +
-           "f 1/1 2/2 3/3 4/4\nf 2/2 5/1 6/4 3/3\n";
+    return std::string(kQuad) + "v 1 0 -1\nv 1 1 -1\nvt 2 0\nvt 2 1\n" + before_faces +
+           "f 1/1 2/2 3/3 4/4\nf 2/2 5/5 6/6 3/3\n";
 }
 
 TEST(Obj, SmoothingGroupsDecideWhereNormalsAreMissing) {
