@@ -31,8 +31,8 @@ enum class Winding : std::uint32_t { counterClockwise = 0, clockwise = 1 };
 ///
 /// T always points along growing u. The image's green axis decides where B must point, and so the stored sign:
 ///     sign = uv_orientation * (v_axis down ? -1 : 1) * (green down ? -1 : 1) * (stored_sign negated ? -1 : 1)
-/// where uv_orientation is +1 when cross(dP/du, dP/dv) points along N. Handedness and winding act on generated
-/// normals only (see `normalFactor`): numerically B = sign * cross(N, T) holds in either handedness.
+/// where uv_orientation is +1 when cross(dP/du, dP/dv) points along N. Handedness and winding say which side of a
+/// face is out (see `normalFactor`), and so which way N points; B = sign * cross(N, T) holds numerically in either.
 struct Convention {
     VAxis v_axis = VAxis::up;
     Green green = Green::up;

@@ -43,8 +43,9 @@ enum class Ngons : std::uint32_t {
 
 struct TangentOptions {
     Method method = Method::mikktspace;
-    /// Degrees, 0..360; `mikktspace` only. Faces of one group whose tangents (or bitangents) differ by this or more
-    /// are not averaged. 180 is the reference's default and what every baker uses.
+    /// Degrees; `mikktspace` only. Faces of one group whose tangents (or bitangents) differ by this or more are not
+    /// averaged. 180 is the reference's default and what every baker uses. Any float is taken, as by the reference:
+    /// only its cosine counts.
     float angular_threshold_deg = 180.0f;
     Pairing pairing = Pairing::reference;  ///< `mikktspace` only
     Ngons ngons = Ngons::triangulate;

@@ -282,7 +282,7 @@ enum {
 typedef struct tspace_TangentOptions {
     uint32_t struct_size;
     tspace_Method method;
-    /* Degrees, above 0 to 360; 0 means 180, the reference's default. mikktspace only: faces of one group
+    /* Degrees; 0 means 180, the reference's default. mikktspace only: faces of one group
      * whose tangents (or bitangents) differ by this or more are not averaged. For a threshold of zero give a
      * tiny one, such as 1e-6: its cosine is 1 as well. */
     float angular_threshold_deg;

@@ -2,7 +2,6 @@
 // The MikkTSpace reference's interface: reads all corners through the callbacks, then calls generateTangents.
 #include "tspace/compat/mikktspace.h"
 
-#include <cmath>
 #include <new>
 #include <numeric>
 #include <stdexcept>
@@ -87,12 +86,6 @@ void readCorners(const SMikkTSpaceContext* context, Corners& corners) {
     }
 }
 
-/// fmod is exact, so it is the same everywhere. An angle that is not a number acts as 0: nothing is averaged.
-float thresholdInRange(float degrees) {
-    if (degrees >= 0.0f && degrees <= 360.0f) return degrees;
-    return std::isfinite(degrees) ? std::fmod(std::fabs(degrees), 360.0f) : 0.0f;
-}
-
 void writeCorners(const SMikkTSpaceContext* context, const Corners& corners,
                   const tspace::TangentOutput& out) {
     const SMikkTSpaceInterface& calls = *context->m_pInterface;
@@ -140,7 +133,7 @@ bool generate(const SMikkTSpaceContext* context, float angular_threshold_deg) {
     mesh.uvs = corners.uvs;
     mesh.face_sizes = corners.face_sizes;
     tspace::TangentOptions options;
-    options.angular_threshold_deg = thresholdInRange(angular_threshold_deg);
+    options.angular_threshold_deg = angular_threshold_deg;
     options.ngons = tspace::Ngons::skip;
     const tspace::TangentOutput out{tangents, bitangents, magnitudes_s, magnitudes_t};
     if (!tspace::generateTangents(mesh, options, out)) return false;

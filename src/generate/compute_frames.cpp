@@ -54,13 +54,23 @@ std::vector<T> gather(const std::vector<T>& values, const std::vector<std::uint3
     return result;
 }
 
+/// A convention may be asked for by an engine's name, but the geometry stays the file's: right-handed, faces
+/// counter-clockwise, in every format that is read.
+GenerateOptions inFileCoordinates(GenerateOptions options) {
+    for (Convention* convention : {&options.tangents.convention, &options.normals.convention}) {
+        convention->handedness = Handedness::right;
+        convention->winding = Winding::counterClockwise;
+    }
+    return options;
+}
+
 class FrameComputer {
   public:
     FrameComputer(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,
                   const GenerateOptions& options, std::span<PrimitiveReport> reports)
         : pool_(pool),
           primitives_(primitives),
-          options_(options),
+          options_(inFileCoordinates(options)),
           reports_(reports),
           generates_normals_(pool.normals.empty()),
           generates_tangents_(options.tangents.method == Method::basis || !pool.uvs.empty()),
@@ -228,7 +238,7 @@ class FrameComputer {
 
     const VertexPool& pool_;
     std::span<const PrimitiveGeometry> primitives_;
-    const GenerateOptions& options_;
+    const GenerateOptions options_;
     std::span<PrimitiveReport> reports_;
     bool generates_normals_;
     bool generates_tangents_;

@@ -34,9 +34,6 @@ Error checkOptions(const TangentOptions& options) {
     }
     if (options.pairing > Pairing::corrected) return {ErrorCode::invalidOption, "unknown pairing"};
     if (options.ngons > Ngons::skip) return {ErrorCode::invalidOption, "unknown treatment of n-gons"};
-    if (!(options.angular_threshold_deg >= 0.0f && options.angular_threshold_deg <= 360.0f)) {
-        return {ErrorCode::invalidOption, "angular_threshold_deg is not within 0 to 360"};
-    }
     return {ErrorCode::ok, {}};
 }
 

@@ -172,8 +172,6 @@ TEST_F(CErrors, RefuseChoicesThatDoNotExist) {
     expectRefused([](auto& o) { o.method = 7; });
     expectRefused([](auto& o) { o.pairing = 2; });
     expectRefused([](auto& o) { o.ngons = 2; });
-    expectRefused([](auto& o) { o.angular_threshold_deg = -1.0f; });
-    expectRefused([](auto& o) { o.angular_threshold_deg = 361.0f; });
     expectRefused([](auto& o) { o.convention.v_axis = 2; });
     expectRefused([](auto& o) { o.convention.green = 2; });
     expectRefused([](auto& o) { o.convention.stored_sign = 2; });

@@ -63,8 +63,8 @@ struct SMikkTSpaceContext {
  * missing, when there are more than 2^31-1 corners, or when memory runs out. */
 tbool genTangSpaceDefault(const SMikkTSpaceContext* pContext);
 
-/* The same with a threshold in degrees: faces whose tangents differ by this or more are not averaged. Values
- * outside 0..360 are taken to the angle in that range with the same cosine. */
+/* The same with a threshold in degrees: faces whose tangents differ by this or more are not averaged. Any
+ * float is taken, as by the reference: only its cosine counts. */
 tbool genTangSpace(const SMikkTSpaceContext* pContext, const float fAngularThreshold);
 
 #ifdef __cplusplus

@@ -45,12 +45,13 @@ void merge(Tangents& first, const Tangents& second) {
 /// The outputs, of which some may be missing.
 class Sink {
   public:
-    Sink(const TangentOutput& out, float sign_factor) : out_(out), factor_(sign_factor) {}
+    Sink(const TangentOutput& out, const GroupedPlan& plan)
+        : out_(out), sign_factor_(plan.sign_factor), bitangent_factor_(plan.bitangent_factor) {}
 
     void write(std::size_t corner, const Tangents& r) const {
-        const float sign = r.positive ? factor_ : -factor_;
+        const float sign = r.positive ? sign_factor_ : -sign_factor_;
         out_.tangents[corner] = {r.s.x, r.s.y, r.s.z, sign};
-        if (!out_.bitangents.empty()) out_.bitangents[corner] = factor_ * r.t;
+        if (!out_.bitangents.empty()) out_.bitangents[corner] = bitangent_factor_ * r.t;
         if (!out_.magnitudes_s.empty()) out_.magnitudes_s[corner] = r.mag_s;
         if (!out_.magnitudes_t.empty()) out_.magnitudes_t[corner] = r.mag_t;
     }
@@ -72,7 +73,7 @@ class Sink {
 
   private:
     TangentOutput out_;
-    float factor_;
+    float sign_factor_, bitangent_factor_;
 };
 
 /// The running sums of one group or subset.
@@ -399,7 +400,7 @@ PoseData readPose(const GroupedPlan& plan, const Pose& pose, const Allocator* al
 
 TangentReport evaluateGrouped(const GroupedPlan& plan, const Pose& pose, const PoseData& data,
                               const TangentOutput& out, const Allocator* allocator, Parallel& parallel) {
-    Job job{plan, pose, data, Sink(out, plan.sign_factor),
+    Job job{plan, pose, data, Sink(out, plan),
             Buffer<Tangents>(allocator, plan.conflicts.size())};
     parallel.forRanges(plan.node_count, kGrain,
                        [&](std::size_t begin, std::size_t end) { GroupEvaluator(job).run(begin, end); });

@@ -61,7 +61,8 @@ struct Copy {
 
 struct GroupedPlan {
     Method method = Method::mikktspace;
-    float sign_factor = 1.0f;
+    float sign_factor = 1.0f;       ///< what the sign of the UV determinant is multiplied with
+    float bitangent_factor = 1.0f;  ///< signFactor(convention)
     std::size_t vertex_count = 0;
     std::size_t corner_count = 0;
     std::size_t triangle_count = 0;

@@ -52,7 +52,9 @@ GroupedPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Par
     const bool is_mikktspace = options.method == Method::mikktspace;
     GroupedPlan plan;
     plan.method = options.method;
-    plan.sign_factor = signFactor(options.convention);
+    // The UV determinant speaks of the side that cross(P1-P0, P2-P0) points to; the sign must speak of N's side.
+    plan.bitangent_factor = signFactor(options.convention);
+    plan.sign_factor = plan.bitangent_factor * normalFactor(options.convention);
     plan.vertex_count = mesh.vertexCount();
     plan.corner_count = mesh.cornerCount();
 
