@@ -43,9 +43,9 @@ enum class Ngons : std::uint32_t {
 
 struct TangentOptions {
     Method method = Method::mikktspace;
-    /// Degrees; `mikktspace` only. Faces of one group whose tangents (or bitangents) differ by this or more are not
-    /// averaged. 180 is the reference's default and what every baker uses. Any float is taken, as by the reference:
-    /// only its cosine counts.
+    /// Degrees, meant for 0..360; `mikktspace` only. Faces of one group whose tangents (or bitangents) differ by this
+    /// or more are not averaged. 180 is the reference's default and what every baker uses. As in the reference, any
+    /// float is taken: only its cosine counts, and with NaN no two faces are averaged.
     float angular_threshold_deg = 180.0f;
     Pairing pairing = Pairing::reference;  ///< `mikktspace` only
     Ngons ngons = Ngons::triangulate;
@@ -63,8 +63,9 @@ struct TangentReport {
     std::uint64_t group_count = 0;                ///< groups: sets of corners that share one tangent
     std::uint64_t default_corner_count = 0;       ///< corners that no face gives a tangent: they hold the method's default
     std::uint64_t not_finite_count = 0;           ///< corners whose tangent has a NaN or infinity
-    /// `mikktspace` with Pairing::reference: the input drives the reference's own sort into quadratic time, so the
-    /// corrected pairing was used for the last bucket. Only crafted inputs do this.
+    /// `mikktspace`: the input drives the reference itself into quadratic time, so its last step was left out. Either its
+    /// sort (with Pairing::reference): the corrected pairing was used for the last bucket; only crafted inputs do this.
+    /// Or its angular test: a group of more than 4096 faces whose tangents spread too far was not split.
     bool reference_order_abandoned = false;
 };
 

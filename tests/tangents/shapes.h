@@ -2,6 +2,7 @@
 // Meshes for tests: regular ones, and the ones that make careless implementations slow or wrong.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -195,6 +196,52 @@ inline Shape someWithoutUvArea(std::size_t triangles) {
     for (std::size_t v = 0; v < shape.uvs.size(); ++v) {
         if (v / 16 % 2 == 0) shape.uvs[v] = {0.5f, 0.5f};
     }
+    return shape;
+}
+
+/// Triangles in an order that makes the fixed-seed quicksort of the reference pick the smallest key as its
+/// pivot again and again. The first 2048 faces are points that give vertex i the number 3i; the keys of the
+/// others' edges are the smaller number of their ends. The sort is played with keys that are only chosen when
+/// a pivot falls on them.
+inline Shape sortKiller(std::size_t triangles) {
+    constexpr std::uint32_t kVertices = 2048, kHigh = 2000, kRounds = 100;
+    Shape shape;
+    for (std::uint32_t i = 0; i < kVertices; ++i) {
+        const auto x = static_cast<float>(i);
+        shape.vertex({x, 0, 0}, kUp, {x, static_cast<float>(i * i % 97)});
+        shape.triangle(i, i, i);
+    }
+    std::mt19937 random(1);
+    std::vector<std::uint32_t> corners(3 * triangles);
+    // At first all corners are high, so any of them may become low.
+    for (std::size_t t = 0; t < triangles; ++t) {
+        const std::uint32_t a = random() % 48, b = a + 1 + random() % 23, c = b + 24;
+        corners[3 * t] = kHigh + a;
+        corners[3 * t + 1] = kHigh + (t % 2 == 0 ? b : c) % 48;
+        corners[3 * t + 2] = kHigh + (t % 2 == 0 ? c : b) % 48;
+    }
+    const auto key = [&](std::uint32_t edge) {
+        return std::min(corners[edge], corners[edge % 3 == 2 ? edge - 2 : edge + 1]);
+    };
+    std::vector<std::uint32_t> edges(3 * triangles);
+    for (std::uint32_t e = 0; e < edges.size(); ++e) edges[e] = e;
+    std::size_t begin = 0;
+    std::uint32_t seed = 39871946;
+    for (std::uint32_t round = 0; round < kRounds; ++round) {
+        seed = seed + (seed << (seed & 31) | seed >> ((32 - (seed & 31)) & 31)) + 3;
+        const std::uint32_t pivot_edge = edges[begin + seed % (edges.size() - begin)];
+        if (key(pivot_edge) >= kHigh) corners[pivot_edge] = round;
+        const std::uint32_t pivot = key(pivot_edge);
+        std::int64_t i = static_cast<std::int64_t>(begin), j = static_cast<std::int64_t>(edges.size()) - 1;
+        do {
+            while (key(edges[static_cast<std::size_t>(i)]) < pivot) ++i;
+            while (key(edges[static_cast<std::size_t>(j)]) > pivot) --j;
+            if (i <= j) std::swap(edges[static_cast<std::size_t>(i++)], edges[static_cast<std::size_t>(j--)]);
+        } while (i <= j);
+        begin = static_cast<std::size_t>(i);
+    }
+    for (std::size_t t = 0; t < triangles; ++t)
+        shape.triangle(corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]);
     return shape;
 }
 

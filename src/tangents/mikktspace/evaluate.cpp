@@ -18,8 +18,8 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kGrain = 1024;       // nodes or triangles per task at least
-constexpr std::uint32_t kLookAhead = 24;   // corners; far enough for a line to arrive from memory
+constexpr std::size_t kGrain = 1024;      // nodes or triangles per task at least
+constexpr std::uint32_t kLookAhead = 24;  // corners; far enough for a line to arrive from memory
 
 struct Tangents {
     Vec3 s{1, 0, 0}, t{0, 1, 0};

@@ -84,7 +84,8 @@ class Grouper {
     }
 
     void fetch(std::size_t node) const {
-        const std::uint32_t begin = plan_.node_begin[node], end = std::min(plan_.node_begin[node + 1], begin + kSmallNode);
+        const std::uint32_t begin = plan_.node_begin[node],
+                            end = std::min(plan_.node_begin[node + 1], begin + kSmallNode);
         for (std::uint32_t e = begin; e < end; ++e) {
             __builtin_prefetch(&plan_.nodes[plan_.list[e] & kValue]);
             __builtin_prefetch(&plan_.flags[(plan_.list[e] & kValue) / 3]);

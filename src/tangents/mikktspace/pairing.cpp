@@ -48,7 +48,9 @@ PairingTable::PairingTable(const Allocator* allocator, std::uint32_t most)
     : queues_(allocator, tableSize(most)), behind_(allocator, 2 * std::size_t{most}) {}
 
 PairingTable::Queue& PairingTable::find(std::uint32_t neighbour) {
-    std::size_t i = (neighbour * std::uint64_t{0x9e3779b97f4a7c15u} >> 32) & mask_;
+    // Nodes with neighbouring numbers, which a fan's rim has, lie side by side in runs of 16.
+    const std::uint64_t run = (neighbour / 16) * std::uint64_t{0x9e3779b97f4a7c15u} >> 32;
+    std::size_t i = (16 * run + neighbour % 16) & mask_;
     while (queues_[i].neighbour != kNone && queues_[i].neighbour != neighbour) i = (i + 1) & mask_;
     queues_[i].neighbour = neighbour;
     return queues_[i];

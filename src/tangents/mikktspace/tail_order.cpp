@@ -134,7 +134,8 @@ class TailFinder {
   private:
     std::uint32_t representative(std::uint32_t node) const { return nodes_.corner[node]; }
 
-    /// Finds the lower end of the last bucket's edges, and makes the representatives of the nodes that matter exact.
+    /// Finds the lower end of the last bucket's edges, and makes the representatives of the nodes that matter
+    /// exact.
     void findLargestLow() {
         if (nodes_.exact) {
             for (std::uint32_t node = 0; node < plan_.node_count; ++node) {
@@ -165,8 +166,8 @@ class TailFinder {
         return last;
     }
 
-    /// body(a, b), in both directions, for edges of which both ends' last corners reach the bound. The edges of the
-    /// last bucket are among them, for any bound that is not above it.
+    /// body(a, b), in both directions, for edges of which both ends' last corners reach the bound. The edges
+    /// of the last bucket are among them, for any bound that is not above it.
     template <class Body>
     void forEachLateEdge(std::uint32_t bound, const Buffer<std::uint32_t>& last, const Body& body) const {
         for (std::uint32_t node = 0; node < plan_.node_count; ++node) {
@@ -188,11 +189,12 @@ class TailFinder {
                 any = true;
             }
         });
-        if (any) findRepresentatives(mesh_, triangles_, nodes_, wanted.data(), nullptr, allocator_, parallel_);
+        if (any)
+            findRepresentatives(mesh_, triangles_, nodes_, wanted.data(), nullptr, allocator_, parallel_);
     }
 
-    /// When triangles are in no order, most edges reach the first bound. The exact lower ends of a few that may be
-    /// highest give a far better one.
+    /// When triangles are in no order, most edges reach the first bound. The exact lower ends of a few that
+    /// may be highest give a far better one.
     std::uint32_t improveBound(std::uint32_t bound, const Buffer<std::uint32_t>& last) {
         constexpr std::size_t kEnough = 64;
         const std::uint32_t end = *std::max_element(last.begin(), last.end());
@@ -228,9 +230,10 @@ class TailFinder {
         }
     }
 
-    /// The middle one of a triangle's representatives is the lower end of its highest edge, so that of any triangle
-    /// bounds the last bucket's from below, and first corners in place of representatives can only make it smaller.
-    /// Nodes are numbered by their first corners, so the best triangle can be told from the numbers of its nodes.
+    /// The middle one of a triangle's representatives is the lower end of its highest edge, so that of any
+    /// triangle bounds the last bucket's from below, and first corners in place of representatives can only
+    /// make it smaller. Nodes are numbered by their first corners, so the best triangle can be told from the
+    /// numbers of its nodes.
     [[nodiscard]] std::uint32_t lowerBound() const {
         const std::uint32_t* n = plan_.nodes.data();
         std::size_t best = 0;

@@ -12,8 +12,8 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kGrain = 4096;     // triangles
-constexpr std::size_t kLookAhead = 16;   // triangles; far enough for a line to arrive from memory
+constexpr std::size_t kGrain = 4096;        // triangles
+constexpr std::size_t kLookAhead = 16;      // triangles; far enough for a line to arrive from memory
 constexpr std::uint8_t kDegenerate = 0x80;  // a flag of this file only: such triangles leave the list here
 
 bool isDegenerate(const Vec3& a, const Vec3& b, const Vec3& c) { return a == b || b == c || c == a; }

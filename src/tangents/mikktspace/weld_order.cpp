@@ -143,8 +143,8 @@ class Cell {
     std::uint8_t* not_welded_;
 };
 
-/// Over the corner list but for its first entry, starting from corner 0 of the mesh: that is what the reference
-/// does, and it shows when the first face is one that is skipped. Else it is the box of all nodes.
+/// Over the corner list but for its first entry, starting from corner 0 of the mesh: that is what the
+/// reference does, and it shows when the first face is one that is skipped. Else it is the box of all nodes.
 Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes) {
     Box box(mesh.positions[mesh.indices[0]]);
     if (triangles.corner(0) == 0) {
