@@ -84,6 +84,10 @@ void AtomicOutput::commit() {
     std::size_t done = 0;
     for (std::size_t i = files_.size(); i-- > 0 && !error; ++done) {
         const File& file = files_[i];
+        if (fs::is_directory(file.target, ignored)) {
+            error = std::make_error_code(std::errc::is_a_directory);
+            continue;
+        }
         if (files_.size() > 1 && fs::exists(file.target, ignored)) {
             aside[i] = {file.target, besideName(file.target, ".old"), false};
             fs::create_hard_link(aside[i].old_name, aside[i].new_name, error);
@@ -99,6 +103,8 @@ void AtomicOutput::commit() {
         for (std::size_t i = failed; i < files_.size(); ++i) {
             if (aside[i].renamed) {
                 fs::rename(aside[i].new_name, aside[i].old_name, ignored);
+                // Where both names are still one file, renaming does nothing.
+                fs::remove(aside[i].new_name, ignored);
             } else if (i != failed) {
                 fs::remove(files_[i].target, ignored);
             }

@@ -53,6 +53,7 @@ TEST(AtomicOutput, TakesBackWhatWasRenamedWhenALaterRenameFails) {
     EXPECT_EQ(errorOf([&] { output.commit(); }).code, ErrorCode::cannotWrite);
     EXPECT_EQ(readFile(folder.path("last")), toBytes("old"));
     EXPECT_FALSE(std::filesystem::exists(folder.path("fresh")));
+    EXPECT_TRUE(std::filesystem::is_directory(folder.path("first")));
 }
 
 TEST(AtomicOutput, WritesThroughALink) {

@@ -475,16 +475,15 @@ TEST(GenerateGltf, EndsInOrderWhateverByteIsChanged) {
     const TempFolder folder;
     const Bytes sound = withTangents(Grid(2)).glb();
     const std::string input = folder.path("in.glb").string(), output = folder.path("out.glb").string();
+    constexpr std::uint8_t kValues[] = {0x00, 0x39, 0xff, 0x22};
     for (std::size_t i = 12; i < sound.size(); ++i) {
-        for (const std::uint8_t value : {0, 0x39, 0xff}) {
-            Bytes changed = sound;
-            changed[i] = value;
-            folder.write("in.glb", changed);
-            const auto report = generateFile(input, output, {.all = true, .overwrite = true});
-            if (report) continue;
-            EXPECT_NE(report.error().code, ErrorCode::internal) << i << ": " << report.error().message;
-            EXPECT_NE(report.error().code, ErrorCode::outOfMemory) << i << ": " << report.error().message;
-        }
+        Bytes changed = sound;
+        changed[i] = kValues[i % 4];
+        folder.write("in.glb", changed);
+        const auto report = generateFile(input, output, {.all = true, .overwrite = true});
+        if (report) continue;
+        EXPECT_NE(report.error().code, ErrorCode::internal) << i << ": " << report.error().message;
+        EXPECT_NE(report.error().code, ErrorCode::outOfMemory) << i << ": " << report.error().message;
     }
 }
 

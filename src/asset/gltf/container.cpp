@@ -143,9 +143,10 @@ void embedImages(Document& document, std::vector<std::string>& warnings) {
         if (uri.empty()) continue;
         const auto image = loadImage(document, uri, readString(old, "mimeType", place), place, warnings);
         if (!image) continue;
+        // First, because a new member of the root moves the others.
+        Buffer& bin = binBuffer(document);
         Json& views = document.json["bufferViews"];
         if (views.is_null()) views = Json::array();
-        Buffer& bin = binBuffer(document);
         const std::size_t begin = appendAligned(bin, image->bytes, 4);
         views.push_back(Json{{"buffer", 0}, {"byteOffset", begin}, {"byteLength", image->bytes.size()}});
         document.json["buffers"][0]["byteLength"] = bin.bytes.size();
