@@ -20,20 +20,22 @@ struct CloseFile {
 }  // namespace
 
 Bytes readFile(const fs::path& path, const std::string& place) {
+    // What the user named cannot be read; what a model names makes the model incomplete.
+    const ErrorCode code = place.empty() ? ErrorCode::cannotRead : ErrorCode::invalidFile;
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (!fs::exists(status))
-        failFile(ErrorCode::cannotRead, "the file '" + path.string() + "' does not exist", place);
+        failFile(code, "the file '" + path.string() + "' does not exist", place);
     // Pipes and devices could block or never end.
     if (!fs::is_regular_file(status)) {
-        failFile(ErrorCode::cannotRead, "'" + path.string() + "' is not a regular file", place);
+        failFile(code, "'" + path.string() + "' is not a regular file", place);
     }
     const std::uintmax_t size = fs::file_size(path, error);
     const std::unique_ptr<std::FILE, CloseFile> file(error ? nullptr : std::fopen(path.c_str(), "rb"));
-    if (!file) failFile(ErrorCode::cannotRead, "cannot open the file '" + path.string() + "'", place);
+    if (!file) failFile(code, "cannot open the file '" + path.string() + "'", place);
     Bytes bytes(static_cast<std::size_t>(size));
     if (!bytes.empty() && std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) {
-        failFile(ErrorCode::cannotRead, "cannot read all of the file '" + path.string() + "'", place);
+        failFile(code, "cannot read all of the file '" + path.string() + "'", place);
     }
     return bytes;
 }

@@ -11,7 +11,7 @@ namespace tspace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Reads a regular file. Fails with cannotRead; `place` says who asked for it.
+/// Reads a regular file. Fails with cannotRead; with invalidFile when `place` says where a model names it.
 Bytes readFile(const std::filesystem::path& path, const std::string& place = {});
 
 /// The folder that a file lies in; "." for a bare name.

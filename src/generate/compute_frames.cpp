@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Normals, tangents, sanitize and split for all primitives of one vertex pool.
-#include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "core/border.h"
@@ -86,7 +86,8 @@ class FrameComputer {
     }
 
   private:
-    /// Frames and triangles of one primitive, appended to what the split works on.
+    /// Frames of one primitive, appended to what the split works on. Polygons are cut after the normals, which want
+    /// whole faces, and before the tangents: whoever reads the result sees triangles, and would compute with these.
     Result<Done> computePrimitive(const PrimitiveGeometry& primitive, PrimitiveReport& report) {
         if (Result<Done> valid = validate(viewInPool(pool_, primitive)); !valid) return valid;
         if (primitive.indices.empty()) {
@@ -94,15 +95,25 @@ class FrameComputer {
             return Done{};
         }
         LocalMesh mesh = localMesh(primitive);
+        std::vector<std::uint32_t> vertices = primitive.indices;
         std::vector<Vec3> normals;
         if (generates_normals_) {
             if (Result<Done> done = computeNormals(primitive, mesh, normals, report); !done) return done;
+        }
+        if (!mesh.face_sizes.empty()) {
+            Result<Triangulation> triangles = triangulate(mesh.view());
+            if (!triangles) return std::move(triangles).error();
+            mesh.indices = gather(mesh.indices, triangles->corners);
+            vertices = gather(vertices, triangles->corners);
+            normals = gather(normals, triangles->corners);
+            mesh.face_sizes = {};
         }
         std::vector<Vec4> tangents;
         if (generates_tangents_) {
             if (Result<Done> done = computeTangents(mesh, tangents, report); !done) return done;
         }
-        return append(primitive, mesh, normals, tangents, report);
+        report.triangle_count = vertices.size() / 3;
+        return append(vertices, normals, tangents);
     }
 
     /// The used part of the pool, vertices in order of first use.
@@ -162,32 +173,18 @@ class FrameComputer {
         return Done{};
     }
 
-    /// Corners of faces with fewer than 3 corners stay out: they have no frame and must not claim a vertex.
-    Result<Done> append(const PrimitiveGeometry& primitive, const LocalMesh& mesh,
-                        const std::vector<Vec3>& normals, const std::vector<Vec4>& tangents,
-                        PrimitiveReport& report) {
-        Result<Triangulation> triangles = triangulate(mesh.view());
-        if (!triangles) return std::move(triangles).error();
-        report.triangle_count = triangles->faces.size();
-        std::vector<std::uint32_t> slot_of_corner(primitive.indices.size(), kNoSlot);
-        std::size_t first = 0;
-        const std::size_t face_count = mesh.view().faceCount();
-        for (std::size_t face = 0; face < face_count; ++face) {
-            const std::size_t size = mesh.face_sizes.empty() ? 3 : mesh.face_sizes[face];
-            for (std::size_t c = first; size >= 3 && c < first + size; ++c) {
-                slot_of_corner[c] = static_cast<std::uint32_t>(indices_.size());
-                indices_.push_back(primitive.indices[c]);
-                if (generates_normals_) normals_.push_back(normals[c]);
-                if (generates_tangents_) tangents_.push_back(tangents[c]);
-            }
-            first += size;
-        }
-        if (indices_.size() > kMaxCorners) {
+    Result<Done> append(const std::vector<std::uint32_t>& vertices, const std::vector<Vec3>& normals,
+                        const std::vector<Vec4>& tangents) {
+        const std::size_t first = indices_.size();
+        if (first + vertices.size() > kMaxCorners) {
             return Error{ErrorCode::tooLarge,
                          "the primitives that share these vertices have more than 2^31-1 corners"};
         }
-        for (std::uint32_t& corner : triangles->corners) corner = slot_of_corner[corner];
-        triangles_.push_back(std::move(triangles->corners));
+        indices_.insert(indices_.end(), vertices.begin(), vertices.end());
+        normals_.insert(normals_.end(), normals.begin(), normals.end());
+        tangents_.insert(tangents_.end(), tangents.begin(), tangents.end());
+        triangles_.emplace_back(vertices.size());
+        std::iota(triangles_.back().begin(), triangles_.back().end(), static_cast<std::uint32_t>(first));
         return Done{};
     }
 

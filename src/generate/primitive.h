@@ -43,8 +43,8 @@ struct PoolFrames {
 /// Vertices that no corner uses get a frame from their normal, so that every tangent written is unit.
 /// `reports` has one entry per primitive; its normals, tangents, sanitize and count fields are filled (vertices are
 /// those of the pool).
-/// Run again on its own output it gives the same bits and splits nothing. Exceptions: polygons, which were cut, and
-/// `lengyel` where sanitize made corners of one vertex differ, because that method sums over vertex indices.
+/// Polygons are cut before tangents are computed. Run again on its own output it gives the same bits and splits nothing.
+/// Exception: `lengyel` where sanitize made corners of one vertex differ, because that method sums over vertex indices.
 Result<PoolFrames> computeFrames(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,
                                  const GenerateOptions& options, std::span<PrimitiveReport> reports);
 

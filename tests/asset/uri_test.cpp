@@ -77,8 +77,8 @@ TEST(ResolveUri, IsAskedForBuffersAndImages) {
     EXPECT_EQ(load(buffer, false).place, "/buffers/0/uri");
     EXPECT_EQ(load(buffer, true).code, ErrorCode::ok);
     EXPECT_EQ(load(R"("images":[{"uri":"../secret.bin"}])", false).place, "/images/0/uri");
-    EXPECT_EQ(load(R"("buffers":[{"byteLength":4,"uri":"gone.bin"}])", false).code, ErrorCode::cannotRead);
-    EXPECT_EQ(load(R"("buffers":[{"byteLength":4,"uri":"."}])", false).code, ErrorCode::cannotRead);
+    EXPECT_EQ(load(R"("buffers":[{"byteLength":4,"uri":"gone.bin"}])", false).code, ErrorCode::invalidFile);
+    EXPECT_EQ(load(R"("buffers":[{"byteLength":4,"uri":"."}])", false).code, ErrorCode::invalidFile);
 }
 
 }  // namespace

@@ -97,6 +97,19 @@ std::vector<PrimitiveGeometry> anyTriangles(const VertexPool& pool) {
     return primitives;
 }
 
+/// Now and then faces of 1 to 6 corners instead of triangles.
+std::vector<PrimitiveGeometry> anyFaces(const VertexPool& pool) {
+    std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
+    for (PrimitiveGeometry& primitive : primitives) {
+        if (*rc::gen::arbitrary<bool>()) continue;
+        for (std::size_t left = primitive.indices.size(); left > 0; left -= primitive.face_sizes.back()) {
+            const auto size = *rc::gen::inRange<std::uint32_t>(1, 7);
+            primitive.face_sizes.push_back(std::min(size, static_cast<std::uint32_t>(left)));
+        }
+    }
+    return primitives;
+}
+
 GenerateOptions anyOptions() {
     GenerateOptions options = withMethod(*rc::gen::element(Method::mikktspace, Method::uniform, Method::angle,
                                                            Method::area, Method::flat, Method::basis));
@@ -110,7 +123,7 @@ GenerateOptions anyOptions() {
 
 RC_GTEST_PROP(ComputeFrames, ReproducesItselfOnItsOwnOutput, ()) {
     const VertexPool pool = anyPool();
-    const std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
+    const std::vector<PrimitiveGeometry> primitives = anyFaces(pool);
     const GenerateOptions options = anyOptions();
     const Outcome first = compute(pool, primitives, options);
     const VertexPool written = rebuilt(pool, first.frames);
