@@ -14,6 +14,12 @@ class Growing {
   public:
     explicit Growing(const Allocator* allocator) : allocator_(allocator) {}
 
+    /// `capacity` must not be below size().
+    void reserve(std::size_t capacity) {
+        Buffer<T> larger(allocator_, capacity);
+        std::copy_n(buffer_.data(), count_, larger.data());
+        buffer_ = std::move(larger);
+    }
     void push(const T& value) {
         if (count_ == buffer_.size()) reserve(std::max<std::size_t>(16, 2 * count_));
         buffer_[count_++] = value;
@@ -31,6 +37,7 @@ class Growing {
     T* begin() { return buffer_.data(); }
     T* end() { return buffer_.data() + count_; }
 
+    /// Takes the last `count` elements off.
     void drop(std::size_t count) { count_ -= count; }
 
     /// The elements in a Buffer of exactly their size.
@@ -41,12 +48,6 @@ class Growing {
     }
 
   private:
-    void reserve(std::size_t capacity) {
-        Buffer<T> larger(allocator_, capacity);
-        std::copy_n(buffer_.data(), count_, larger.data());
-        buffer_ = std::move(larger);
-    }
-
     const Allocator* allocator_;
     Buffer<T> buffer_;
     std::size_t count_ = 0;

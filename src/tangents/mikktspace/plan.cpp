@@ -35,12 +35,13 @@ void readNodes(const MeshView& mesh, const Nodes& nodes, GroupedPlan& plan, Pose
     });
 }
 
-/// Corners of degenerate triangles take the result of the first good corner of their node.
-void resolveNodeCopies(GroupedPlan& plan, TrianglePass& pass) {
-    for (const NodeCopy& copy : pass.node_copies) {
-        const std::uint32_t begin = plan.node_begin[copy.node];
-        const bool has_corner = begin < plan.node_begin[copy.node + 1];
-        pass.copies.push({copy.to, has_corner ? plan.slot(plan.list[begin]) : kNone});
+/// Finds the first good corner of the nodes that corners of degenerate triangles copy from; kNone when there
+/// is none.
+void resolveCopies(const GroupedPlan& plan, TrianglePass& pass) {
+    for (Copy& copy : pass.copies) {
+        if ((copy.from & kMark) == 0) continue;
+        const std::uint32_t node = copy.from & kValue, begin = plan.node_begin[node];
+        copy.from = begin < plan.node_begin[node + 1] ? plan.slot(plan.list[begin]) : kNone;
     }
 }
 
@@ -71,7 +72,7 @@ GroupedPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Par
         tail = findTailPairs(mesh, triangles, nodes, plan, allocator, parallel);
         plan.report.reference_order_abandoned = tail.abandoned;
     }
-    resolveNodeCopies(plan, pass);
+    resolveCopies(plan, pass);
     formGroups(plan, tail, allocator, parallel);
     if (is_mikktspace) {
         const Pose own{mesh.positions, mesh.normals};

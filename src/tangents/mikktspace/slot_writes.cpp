@@ -93,21 +93,23 @@ void planSlotWrites(GroupedPlan& plan, TrianglePass& pass, const Allocator* allo
     if (has_conflict) collectConflicts(plan, result_of, allocator);
 
     Growing<std::uint32_t> defaults(allocator);
+    defaults.reserve(pass.copies.size());
     for (std::size_t i = 0; i < 3 * plan.triangle_count; ++i) {
         const std::uint32_t slot = plan.slot(static_cast<std::uint32_t>(i));
         if (result_of[slot] != kNone) continue;
         result_of[slot] = kDefault;
         defaults.push(slot);
     }
-    Growing<Copy> copies(allocator);
+    std::size_t kept = 0;
     for (const Copy& copy : pass.copies) {
         if (copy.from == kNone || result_of[copy.from] == kDefault) {
             defaults.push(copy.to);
         } else {
-            copies.push(copy);
+            pass.copies[kept++] = copy;
         }
     }
-    plan.copies = copies.exact();
+    pass.copies.drop(pass.copies.size() - kept);
+    plan.copies = pass.copies.exact();
     plan.default_corners = defaults.exact();
     plan.report.default_corner_count = plan.default_corners.size();
 }

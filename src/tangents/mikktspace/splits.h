@@ -17,7 +17,7 @@ void findSplits(GroupedPlan& plan, float threshold_cosine, const Pose& pose, con
                 const Buffer<std::uint32_t>& faces, const Allocator* allocator, Parallel& parallel);
 
 /// Subsets are quadratic in the size of a group by definition: every member may have another one, and float
-/// sums cannot be shared. The reference takes minutes for the sizes above this.
+/// sums cannot be shared. Above this size, groups that might split would take quadratic time here too.
 inline constexpr std::uint32_t kLargestSplitGroup = 4096;
 
 }  // namespace tspace::mikk

@@ -61,6 +61,7 @@ void readTriangles(GroupedPlan& plan, PoseData& pose, std::size_t count, Counts&
 /// corner.)
 void planCopies(const MeshView& mesh, const TriangleList& list, const Nodes& nodes, const GroupedPlan& plan,
                 TrianglePass& pass, const Allocator* allocator) {
+    pass.copies.reserve(3 * plan.report.degenerate_triangle_count);
     Buffer<std::uint8_t> done(allocator, mesh.cornerCount(), std::uint8_t{0});
     for (std::size_t i = 0; i < 3 * list.count; ++i) {
         if (plan.flags[i / 3] != kDegenerate) done[list.corner(i)] = 1;
@@ -77,11 +78,7 @@ void planCopies(const MeshView& mesh, const TriangleList& list, const Nodes& nod
                 const std::uint32_t other = list.corner(3 * t + (k + j) % 3);
                 if (done[other] == 1 && at(other) == at(to)) from = other;
             }
-            if (from != kNone) {
-                pass.copies.push({to, from});
-            } else {
-                pass.node_copies.push({to, nodes.of_corner[to]});
-            }
+            pass.copies.push({to, from != kNone ? from : kMark | nodes.of_corner[to]});
         }
     }
 }

@@ -18,19 +18,15 @@ struct TriangleShape {
 TriangleShape triangleShape(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec2& uv0, const Vec2& uv1,
                             const Vec2& uv2);
 
-/// A corner of a degenerate triangle that takes the result of the first good corner of `node`.
-struct NodeCopy {
-    std::uint32_t to = 0, node = 0;
-};
-
 /// What later planning steps need of triangles, besides the plan itself.
 struct TrianglePass {
     Buffer<std::uint32_t> faces;  ///< one per good triangle; empty: triangle t is face t
-    Growing<Copy> copies;         ///< corners of good faces that only a degenerate triangle has
-    Growing<NodeCopy> node_copies;
+    /// Corners that only a degenerate triangle has. `from` is a corner of the mesh, or kMark | node: the
+    /// first good corner of that node.
+    Growing<Copy> copies;
     std::size_t uv_degenerate_count = 0;
 
-    explicit TrianglePass(const Allocator* allocator) : copies(allocator), node_copies(allocator) {}
+    explicit TrianglePass(const Allocator* allocator) : copies(allocator) {}
 };
 
 /// Fills the plan's nodes, slots, flags, triangle_count and report counts, and pose.frames; pose.positions
