@@ -4,11 +4,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <new>
 #include <type_traits>
 #include <utility>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
 
 #include "tspace/execution.h"
 
@@ -18,12 +23,31 @@ struct OutOfMemory {};
 
 inline constexpr std::size_t kMemoryAlignment = 64;  // a cache line, and the widest SIMD register
 
+inline constexpr std::size_t kHugePage = std::size_t{2} << 20;
+inline std::size_t defaultAlignment(std::size_t bytes) { return bytes < kHugePage ? kMemoryAlignment : kHugePage; }
+
+/// Touching fresh 4 KB pages one by one can cost as much as all the computing on them (a fault is 0.5 us and more on
+/// a virtual machine). So a large block asks for its pages at once, and for huge ones. Hints only: they may fail.
+inline void askForPages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__) && defined(MADV_POPULATE_WRITE)
+    constexpr std::size_t kPage = 4096, kWorthACall = 32 * kPage;
+    if (bytes < kWorthACall) return;
+    if (bytes >= kHugePage) madvise(memory, bytes, MADV_HUGEPAGE);
+    const std::size_t skip = -reinterpret_cast<std::uintptr_t>(memory) % kPage;
+    madvise(static_cast<std::byte*>(memory) + skip, (bytes - skip) / kPage * kPage, MADV_POPULATE_WRITE);
+#endif
+}
+
 inline void* allocateBytes(const Allocator* allocator, std::size_t bytes) {
     if (bytes == 0) return nullptr;
-    void* memory = allocator != nullptr
-                       ? allocator->allocate(allocator->user, bytes, kMemoryAlignment)
-                       : ::operator new(bytes, std::align_val_t(kMemoryAlignment), std::nothrow);
+    if (allocator != nullptr) {
+        void* memory = allocator->allocate(allocator->user, bytes, kMemoryAlignment);
+        if (memory == nullptr) throw OutOfMemory{};
+        return memory;
+    }
+    void* memory = ::operator new(bytes, std::align_val_t(defaultAlignment(bytes)), std::nothrow);
     if (memory == nullptr) throw OutOfMemory{};
+    askForPages(memory, bytes);
     return memory;
 }
 
@@ -32,7 +56,7 @@ inline void releaseBytes(const Allocator* allocator, void* memory, std::size_t b
     if (allocator != nullptr) {
         allocator->release(allocator->user, memory, bytes, kMemoryAlignment);
     } else {
-        ::operator delete(memory, std::align_val_t(kMemoryAlignment));
+        ::operator delete(memory, std::align_val_t(defaultAlignment(bytes)));
     }
 }
 
