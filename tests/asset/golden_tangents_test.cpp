@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 
 #include "asset/gltf/primitive_reader.h"
 #include "gltf_builder.h"
@@ -19,6 +20,8 @@ struct GoldenFile {
     const char* name;
     float sign;  ///< shipped sign times ours
 };
+
+void PrintTo(const GoldenFile& file, std::ostream* out) { *out << file.name; }
 
 // TwoSidedPlane stores the sign the other way round, against the specification.
 constexpr GoldenFile kFiles[] = {

@@ -41,10 +41,11 @@ inline void flattenLanes(const Lanes3& n, Lanes3& v, std::size_t count) {
         const float along = n.x[i] * v.x[i] + n.y[i] * v.y[i] + n.z[i] * v.z[i];
         const float x = v.x[i] - along * n.x[i], y = v.y[i] - along * n.y[i], z = v.z[i] - along * n.z[i];
         const float scale = 1.0f / std::sqrt(x * x + y * y + z * z);
-        const bool sound = (std::fabs(x) > FLT_MIN) | (std::fabs(y) > FLT_MIN) | (std::fabs(z) > FLT_MIN);
-        v.x[i] = sound ? scale * x : x;
-        v.y[i] = sound ? scale * y : y;
-        v.z[i] = sound ? scale * z : z;
+        // All three are compared, without a branch.
+        const int sound = int{std::fabs(x) > FLT_MIN} | int{std::fabs(y) > FLT_MIN} | int{std::fabs(z) > FLT_MIN};
+        v.x[i] = sound != 0 ? scale * x : x;
+        v.y[i] = sound != 0 ? scale * y : y;
+        v.z[i] = sound != 0 ? scale * z : z;
     }
 }
 
