@@ -80,8 +80,9 @@ struct GenerateReport {
 
 /// Reads `input`, adds or replaces normals and tangents, and writes `output` (.glb or .gltf; may be the same file).
 /// All outputs appear at once or not at all: they are written beside the target under a temporary name, then renamed.
-/// Errors: cannotRead, invalidFile, unsupportedFile, forbiddenPath, cannotWrite, outOfMemory. On error nothing on
-/// disk has changed.
+/// Errors: cannotRead (the input), invalidFile (also when a buffer file that it names cannot be read),
+/// unsupportedFile, forbiddenPath, invalidOption, tooLarge, cannotWrite, outOfMemory. On error nothing on disk has
+/// changed.
 Result<GenerateReport> generateFile(const std::string& input, const std::string& output,
                                     const GenerateOptions& options = {});
 

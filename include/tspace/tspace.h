@@ -295,7 +295,9 @@ typedef struct tspace_TangentOptions {
 /* What was met. Broken input is counted and never makes a call fail. */
 typedef struct tspace_TangentReport {
     uint32_t struct_size;
-    uint32_t reference_order_abandoned; /* 1: a crafted input; its last bucket was paired as CORRECTED does */
+    /* 1: the reference would take quadratic time, so its last step was left out: the last bucket was paired as
+     * CORRECTED does, or a group of more than 4096 faces was not split by the threshold */
+    uint32_t reference_order_abandoned;
     uint64_t triangle_count;            /* triangles computed with, after cutting quads and n-gons */
     uint64_t degenerate_triangle_count; /* two corners at the same position */
     uint64_t degenerate_uv_count;       /* triangles without UV area: they take their neighbours' frame */
