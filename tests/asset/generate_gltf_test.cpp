@@ -7,7 +7,7 @@
 #include "asset/gltf/primitive_reader.h"
 #include "gltf_builder.h"
 #include "model_compare.h"
-#include "temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace tspace {
 namespace {
@@ -407,12 +407,12 @@ TEST(GenerateGltf, CopiesNamedFilesButOverwritesNoOther) {
     EXPECT_TRUE(std::filesystem::exists(folder.path("out/tex/image.png")));
     EXPECT_TRUE(generateFile(input, output)) << "the same files again are no conflict";
     folder.write("out/tex/image.png", std::string("somebody else's"));
-    const std::size_t files = folder.fileCount();
+    const std::size_t files = folder.entryCount();
     const Bytes model = readFile(output);
     const auto refused = generateFile(input, output, {.overwrite = true});
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::cannotWrite);
-    EXPECT_EQ(folder.fileCount(), files);
+    EXPECT_EQ(folder.entryCount(), files);
     EXPECT_EQ(readFile(output), model);
 }
 
@@ -458,7 +458,7 @@ TEST(GenerateGltf, RefusesOtherOutputsAndCompressedPrimitives) {
     ASSERT_FALSE(draco);
     EXPECT_EQ(draco.error().code, ErrorCode::unsupportedFile);
     EXPECT_NE(draco.error().message.find("not supported yet"), std::string::npos);
-    EXPECT_EQ(folder.fileCount(), 1u);
+    EXPECT_EQ(folder.entryCount(), 1u);
 }
 
 TEST(GenerateGltf, ReadsTheFallbackOfOptionalCompressionAndLeavesItsViewAlone) {
@@ -495,7 +495,7 @@ TEST(GenerateGltf, NamesThePlaceOfABadIndex) {
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().code, ErrorCode::invalidFile);
     EXPECT_EQ(report.error().place, "/meshes/0/primitives/0/indices");
-    EXPECT_EQ(folder.fileCount(), 1u);
+    EXPECT_EQ(folder.entryCount(), 1u);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include "gltf_builder.h"
 #include "model_compare.h"
 #include "model_files.h"
-#include "temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace tspace {
 namespace {
@@ -39,7 +39,7 @@ class Models : public testing::TestWithParam<std::string> {
         if (!report && report.error().code == ErrorCode::unsupportedFile) {
             EXPECT_NE(report.error().message.find("not supported yet"), std::string::npos)
                 << report.error().message;
-            EXPECT_EQ(folder.fileCount(), 0u);
+            EXPECT_EQ(folder.entryCount(), 0u);
             GTEST_SKIP() << report.error().message;
         }
         ASSERT_TRUE(report) << report.error().message << " at " << report.error().place;
@@ -112,7 +112,7 @@ TEST_P(BadFiles, EndWithAnErrorOrASoundFile) {
         EXPECT_NE(error.code, ErrorCode::internal) << error.message;
         EXPECT_FALSE(error.message.empty());
         EXPECT_EQ((error.message + error.place).find_first_of("\n\r"), std::string::npos) << error.message;
-        EXPECT_EQ(folder.fileCount(), 0u) << "an error leaves nothing behind";
+        EXPECT_EQ(folder.entryCount(), 0u) << "an error leaves nothing behind";
     }
 }
 
