@@ -88,6 +88,38 @@ TEST_P(Models, StayAsTheyAreWithoutOverwriteWhereNothingIsMissing) {
     }
 }
 
+/// Every method keeps its own output as it is. Small models are enough, and quick.
+class EveryMethod : public testing::TestWithParam<Method> {};
+
+TEST_P(EveryMethod, ChangesNothingTheSecondTime) {
+    TSPACE_NEEDS_SHARED("models");
+    constexpr std::uintmax_t kSmall = 1u << 20;
+    int count = 0;
+    for (const std::string folder : {"models/features", "models/khronos"}) {
+        for (const std::string& name : test::modelFiles(folder)) {
+            const auto input = shared(folder) / name;
+            if (name.empty() || std::filesystem::file_size(input) > kSmall) continue;
+            SCOPED_TRACE(name);
+            const TempFolder temp;
+            const std::string output = temp.path("out.glb").string();
+            GenerateOptions options;
+            options.all = options.overwrite = true;
+            options.tangents.method = GetParam();
+            if (!generateFile(input.string(), output, options)) continue;
+            ++count;
+            const Bytes first = readFile(output);
+            const auto second = generateFile(output, output, options);
+            ASSERT_TRUE(second) << second.error().message;
+            EXPECT_FALSE(second->changed);
+            EXPECT_EQ(readFile(output), first);
+        }
+    }
+    EXPECT_GT(count, 0);
+    RecordProperty("models", count);
+}
+
+INSTANTIATE_TEST_SUITE_P(Small, EveryMethod, testing::Values(Method::uniform, Method::angle, Method::area));
+
 INSTANTIATE_TEST_SUITE_P(Shared, Models, testing::ValuesIn(test::modelFiles("models")),
                          [](const auto& file) { return test::testName(file.param); });
 
