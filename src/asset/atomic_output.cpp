@@ -22,7 +22,7 @@ struct CloseFile {
 };
 
 [[noreturn]] void failWrite(const fs::path& target, const std::string& why) {
-    failFile(ErrorCode::cannotWrite, "cannot write '" + target.string() + "': " + why);
+    failFile(ErrorCode::cannotWrite, "cannot write " + pathInQuotes(target) + ": " + why);
 }
 
 /// A name beside `target` that no other run uses; `kind` tells the temporary file from the set-aside old one.

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "core/border.h"
@@ -21,6 +22,11 @@ struct FileError {
 [[noreturn]] inline void failFile(ErrorCode code, std::string message, std::string place = {}) {
     throw FileError{Error{code, std::move(message), kNoElement, std::move(place)}};
 }
+
+/// Text from a file or of a user, fit to stand inside a one-line message: in quotation marks, valid UTF-8,
+/// without control characters, cut after `limit` bytes.
+std::string inQuotes(std::string_view text, std::size_t limit = 80);
+std::string pathInQuotes(const std::filesystem::path& path);
 
 /// The value of a Result, or its error thrown as FileError.
 template <class T>
@@ -39,7 +45,7 @@ auto atFileBorder(Body&& body) -> std::invoke_result_t<Body> {
             return failure.error;
         } catch (const std::filesystem::filesystem_error& failure) {
             return Error{ErrorCode::cannotRead,
-                         "cannot look up '" + failure.path1().string() + "': " + failure.code().message()};
+                         "cannot look up " + pathInQuotes(failure.path1()) + ": " + failure.code().message()};
         }
     });
 }

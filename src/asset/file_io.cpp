@@ -24,18 +24,17 @@ Bytes readFile(const fs::path& path, const std::string& place) {
     const ErrorCode code = place.empty() ? ErrorCode::cannotRead : ErrorCode::invalidFile;
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    if (!fs::exists(status))
-        failFile(code, "the file '" + path.string() + "' does not exist", place);
+    if (!fs::exists(status)) failFile(code, "the file " + pathInQuotes(path) + " does not exist", place);
     // Pipes and devices could block or never end.
     if (!fs::is_regular_file(status)) {
-        failFile(code, "'" + path.string() + "' is not a regular file", place);
+        failFile(code, pathInQuotes(path) + " is not a regular file", place);
     }
     const std::uintmax_t size = fs::file_size(path, error);
     const std::unique_ptr<std::FILE, CloseFile> file(error ? nullptr : std::fopen(path.c_str(), "rb"));
-    if (!file) failFile(code, "cannot open the file '" + path.string() + "'", place);
+    if (!file) failFile(code, "cannot open the file " + pathInQuotes(path), place);
     Bytes bytes(static_cast<std::size_t>(size));
     if (!bytes.empty() && std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) {
-        failFile(code, "cannot read all of the file '" + path.string() + "'", place);
+        failFile(code, "cannot read all of the file " + pathInQuotes(path), place);
     }
     return bytes;
 }

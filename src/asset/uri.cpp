@@ -163,7 +163,7 @@ std::string percentEncode(std::string_view path) {
 fs::path resolveUri(const fs::path& folder, std::string_view uri, bool allow_external,
                     const std::string& place) {
     const auto refuse = [&](const char* why) {
-        failFile(ErrorCode::forbiddenPath, "the URI '" + std::string(uri.substr(0, 200)) + "' " + why, place);
+        failFile(ErrorCode::forbiddenPath, "the URI " + inQuotes(uri, 200) + " " + why, place);
     };
     if (uriKind(uri) != UriKind::path) refuse("has a scheme other than data, which is never loaded");
     const std::string decoded = percentDecode(uri);

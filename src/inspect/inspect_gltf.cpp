@@ -45,12 +45,24 @@ void describeAttributes(const Document& document, const Primitive& primitive, Pr
     while (primitive.find("TEXCOORD_" + std::to_string(info.uv_set_count))) ++info.uv_set_count;
 }
 
-/// Counts over the triangles; nothing where their data lies in a compression extension.
+/// False where the data lies in a compression extension or is not in the file at all.
+bool hasTriangleData(const Document& document, const Primitive& primitive, const PrimitiveInfo& info) {
+    if (!hasTriangles(primitive.mode) || primitive.has_draco || !primitive.find("POSITION")) return false;
+    std::vector<std::size_t> needed = {*primitive.find("POSITION")};
+    if (primitive.indices) needed.push_back(*primitive.indices);
+    if (info.uv_set >= 0) needed.push_back(*primitive.find("TEXCOORD_" + std::to_string(info.uv_set)));
+    return std::all_of(needed.begin(), needed.end(), [&](std::size_t accessor) {
+        return hasData(document, readAccessor(document, accessor));
+    });
+}
+
+/// Counts over the triangles; nothing where there is no data.
 void describeTriangles(const Document& document, const Primitive& primitive, PrimitiveInfo& info) {
-    if (!hasTriangles(primitive.mode) || primitive.has_draco || !primitive.find("POSITION")) return;
+    if (!hasTriangleData(document, primitive, info)) return;
+    // Positions first: they fail before a number of vertices without data costs any memory.
+    const std::vector<Vec3> positions = readVec3(document, primitive, "POSITION");
     const std::vector<std::uint32_t> corners = readTriangleCorners(document, primitive);
     info.triangle_count = corners.size() / 3;
-    const std::vector<Vec3> positions = readVec3(document, primitive, "POSITION");
     std::vector<Vec2> uvs;
     if (info.uv_set >= 0) uvs = readUvs(document, primitive, static_cast<std::size_t>(info.uv_set));
     describeUvMap(corners, positions, uvs, true, info);

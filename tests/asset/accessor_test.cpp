@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "asset/gltf/accessor.h"
+#include "asset/gltf/references.h"
 #include "gltf_builder.h"
 
 namespace tspace::gltf {
@@ -195,6 +196,74 @@ TEST(Accessor, RefusesAnAttributeOfAnotherWidth) {
     builder.addFloats({1, 2, 3, 4}, 4);
     const Document document = parse(builder);
     EXPECT_EQ(errorOf([&] { decodeVec3(document, readAccessor(document, 0), "/here"); }).place, "/here");
+}
+
+TEST(Accessor, NeedsNoPaddingBehindTheLastColumnOfMatrices) {
+    // MAT3 of bytes: columns of 3 start every 4 bytes.
+    const std::vector<std::uint8_t> two = {1,  2,  3,  0, 4,  5,  6,  0, 7,  8,  9, 0,
+                                           11, 12, 13, 0, 14, 15, 16, 0, 17, 18, 19};
+    GltfBuilder builder;
+    builder.addAccessor(two, 5121, "MAT3", 2);
+    const Document document = parse(builder);
+    Bytes padded = two;
+    padded.push_back(0);
+    EXPECT_EQ(copyElements(document, readAccessor(document, 0)), padded);
+    const Extent extent = extentOf(document, readAccessor(document, 0));
+    EXPECT_EQ(extent.end - extent.begin, two.size());
+
+    GltfBuilder short_of_one;
+    short_of_one.addAccessor(Bytes(two.begin(), two.end() - 1), 5121, "MAT3", 2);
+    EXPECT_EQ(errorOf([&] { parse(short_of_one); }).place, "/accessors/0");
+}
+
+TEST(Accessor, CopiesSparseMatricesWithoutPaddingAtTheEnd) {
+    GltfBuilder builder;
+    const std::size_t indices = builder.addView({1});
+    const std::size_t values = builder.addView({1, 2, 0, 0, 3, 4});
+    builder.json()["accessors"].push_back({{"componentType", 5121},
+                                           {"type", "MAT2"},
+                                           {"count", 2},
+                                           {"sparse",
+                                            {{"count", 1},
+                                             {"indices", {{"bufferView", indices}, {"componentType", 5121}}},
+                                             {"values", {{"bufferView", values}}}}}});
+    const Document document = parse(builder);
+    EXPECT_EQ(copyElements(document, readAccessor(document, 0)),
+              (Bytes{0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 0, 0, 3, 4, 0, 0}));
+}
+
+TEST(Accessor, OfUnknownTypeIsAnErrorOnlyWhenItsElementsAreNeeded) {
+    GltfBuilder builder;
+    builder.addAccessor(std::vector<float>(40), 5126, "VEC9", 1000);
+    builder.json()["accessors"][0]["sparse"] = {{"count", 3},
+                                                {"indices", {{"bufferView", 0}, {"componentType", 5121}}},
+                                                {"values", {{"bufferView", 0}, {"byteOffset", 10000}}}};
+    const Document document = parse(builder);
+    const Accessor accessor = readAccessor(document, 0);
+    EXPECT_EQ(formatName(accessor), "float of an unknown type");
+    for (const Extent& extent : collectExtents(document)) {
+        EXPECT_LE(extent.end, 160u);
+    }
+    const std::vector<std::function<void()>> readers = {
+        [&] { copyElements(document, accessor); },
+        [&] { decodeVec3(document, accessor, "/here"); },
+        [&] { decodeIndices(document, accessor, 5, "/here"); },
+    };
+    for (const auto& read : readers) EXPECT_EQ(errorOf(read).code, ErrorCode::invalidFile);
+    EXPECT_EQ(errorOf(readers[0]).place, "/accessors/0/type");
+}
+
+TEST(Accessor, OfABufferWithoutDataIsAnErrorOnlyWhenItsElementsAreNeeded) {
+    GltfBuilder builder;
+    builder.addFloats({1, 2, 3}, 3);
+    Json json = builder.json();
+    json["buffers"] = Json::array({Json{{"byteLength", 12}}});
+    const Document document = parseDocument(test::toBytes(json.dump()), "model.gltf", {});
+    const Accessor accessor = readAccessor(document, 0);
+    EXPECT_FALSE(hasData(document, accessor));
+    EXPECT_EQ(errorOf([&] { copyElements(document, accessor); }).code, ErrorCode::unsupportedFile);
+    const Document with_data = parse(builder);
+    EXPECT_TRUE(hasData(with_data, readAccessor(with_data, 0)));
 }
 
 }  // namespace

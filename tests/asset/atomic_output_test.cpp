@@ -4,7 +4,7 @@
 
 #include "asset/atomic_output.h"
 #include "gltf_builder.h"
-#include "temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace tspace {
 namespace {
@@ -25,7 +25,7 @@ TEST(AtomicOutput, PutsAllFilesInPlaceAtOnce) {
     EXPECT_EQ(readFile(folder.path("a")), one);
     EXPECT_EQ(readFile(folder.path("new/deep/b")), toBytes("onetwo"));
     EXPECT_EQ(output.byteCount(), 9u);
-    EXPECT_EQ(folder.fileCount(), 4u);  // two files, two folders, nothing temporary
+    EXPECT_EQ(folder.entryCount(), 4u);  // two files, two folders, nothing temporary
 }
 
 TEST(AtomicOutput, LeavesNothingWithoutCommit) {
@@ -37,7 +37,7 @@ TEST(AtomicOutput, LeavesNothingWithoutCommit) {
         output.add(folder.path("sub/b"), toBytes("new"));
     }
     EXPECT_EQ(readFile(folder.path("a")), toBytes("old"));
-    EXPECT_EQ(folder.fileCount(), 1u);
+    EXPECT_EQ(folder.entryCount(), 1u);
 }
 
 TEST(AtomicOutput, TakesBackWhatWasRenamedWhenALaterRenameFails) {

@@ -43,9 +43,9 @@ TEST(Glb, RefusesEveryTruncation) {
 }
 
 TEST(Glb, RefusesWrongLengthsAndOrder) {
-    Bytes longer = smallGlb();
-    longer.push_back(0);
-    EXPECT_EQ(errorOf([&] { readGlb(longer); }).place, "byte 8");
+    Bytes shorter = smallGlb();
+    shorter.pop_back();
+    EXPECT_EQ(errorOf([&] { readGlb(shorter); }).place, "byte 8");
     Bytes huge_chunk = smallGlb();
     huge_chunk[12] = huge_chunk[13] = huge_chunk[14] = huge_chunk[15] = 0xff;
     EXPECT_EQ(errorOf([&] { readGlb(huge_chunk); }).place, "byte 12");
@@ -55,6 +55,21 @@ TEST(Glb, RefusesWrongLengthsAndOrder) {
     Bytes version = smallGlb();
     version[4] = 1;
     EXPECT_EQ(errorOf([&] { readGlb(version); }).code, ErrorCode::unsupportedFile);
+}
+
+TEST(Glb, IgnoresBytesBehindItsEnd) {
+    Bytes longer = smallGlb();
+    longer.insert(longer.end(), {1, 2, 3, 4, 5});
+    const GlbChunks chunks = readGlb(longer);
+    EXPECT_EQ(chunks.ignored_bytes, 5u);
+    EXPECT_EQ(chunks.extra.size(), 1u);
+    EXPECT_EQ(parseDocument(longer, "model.glb", {}).warnings.size(), 1u);
+    EXPECT_TRUE(parseDocument(smallGlb(), "model.glb", {}).warnings.empty());
+    for (std::uint8_t stated = 0; stated < 12; ++stated) {
+        longer[8] = stated;
+        longer[9] = longer[10] = longer[11] = 0;
+        EXPECT_EQ(errorOf([&] { readGlb(longer); }).code, ErrorCode::invalidFile) << int{stated};
+    }
 }
 
 TEST(Glb, RefusesToGrowBeyond4GiB) {
@@ -129,7 +144,7 @@ TEST(Document, RefusesWrongTypesAtTheirPlace) {
          "/accessors/0/count"},
         {R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5124,"type":"VEC3","count":1}]})",
          "/accessors/0/componentType"},
-        {R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5126,"type":"VEC5","count":1}]})",
+        {R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5126,"count":1}]})",
          "/accessors/0/type"},
     };
     for (const auto& test : cases) {
@@ -139,6 +154,49 @@ TEST(Document, RefusesWrongTypesAtTheirPlace) {
         EXPECT_EQ(error.place, test.place) << test.text;
         EXPECT_EQ(error.message.find('\n'), std::string::npos);
     }
+}
+
+TEST(Document, ReadsManyAccessorsInLinearTime) {
+    std::string text = R"({"asset":{"version":"2.0"},"accessors":[)";
+    for (int i = 0; i < 300000; ++i) text += R"({"componentType":5126,"type":"VEC3","count":1},)";
+    text.back() = ']';
+    EXPECT_EQ(rootArray(parseDocument(toBytes(text + "}"), "model.gltf", {}), "accessors").size(), 300000u);
+}
+
+TEST(Document, MessagesAreOneLineOfValidUtf8) {
+    const auto message = [](const std::string& uri) {
+        const Json json = {{"asset", {{"version", "2.0"}}}, {"buffers", {{{"byteLength", 1}, {"uri", uri}}}}};
+        return errorOf([&] { parseDocument(toBytes(json.dump()), "model.gltf", {}); }).message;
+    };
+    std::string long_name;
+    for (int i = 0; i < 300; ++i) long_name += "\u00e9";
+    for (const std::string& uri :
+         {std::string("../a\nb"), std::string("a%0Ab"), std::string("%FF%C3"), std::string("http:\n\x1b[1m"),
+          "../" + long_name, "../x" + long_name, std::string("\0a", 2), std::string("a%00"), long_name}) {
+        const std::string text = message(uri);
+        EXPECT_FALSE(text.empty()) << uri;
+        EXPECT_EQ(text.find_first_of("\n\x1b"), std::string::npos) << text;
+        EXPECT_NO_THROW(static_cast<void>(Json(text).dump())) << uri;
+    }
+}
+
+TEST(InQuotes, KeepsCharactersAndReplacesWhatIsNone) {
+    EXPECT_EQ(inQuotes("a\u00e9\u20ac\U0001f600"), "'a\u00e9\u20ac\U0001f600'");
+    // Each byte of a malformed sequence counts as one character, and so does a control character.
+    const auto unknown = [](std::size_t count) {
+        std::string text(count + 2, '?');
+        text.front() = text.back() = '\'';
+        return text;
+    };
+    for (const std::string bytes :
+         {"\xff", "\xc3", "\xc0\x80", "\xe2\x82", "\xed\xa0\x80", "\xe0\x80\x80", "\xf4\x90\x80\x80"})
+        EXPECT_EQ(inQuotes(bytes), unknown(bytes.size()));
+    EXPECT_EQ(inQuotes("\t\x7f\u009b\u2028"), unknown(4));
+    EXPECT_EQ(inQuotes("\xe2"
+                       "a"),
+              "'?a'");
+    EXPECT_EQ(inQuotes("ab\u00e9", 4), "'ab\u00e9'");
+    EXPECT_EQ(inQuotes("ab\u00e9", 3), "'ab...'");
 }
 
 TEST(Document, NamesRequiredExtensions) {

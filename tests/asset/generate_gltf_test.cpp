@@ -7,7 +7,7 @@
 #include "asset/gltf/primitive_reader.h"
 #include "gltf_builder.h"
 #include "model_compare.h"
-#include "temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace tspace {
 namespace {
@@ -407,12 +407,12 @@ TEST(GenerateGltf, CopiesNamedFilesButOverwritesNoOther) {
     EXPECT_TRUE(std::filesystem::exists(folder.path("out/tex/image.png")));
     EXPECT_TRUE(generateFile(input, output)) << "the same files again are no conflict";
     folder.write("out/tex/image.png", std::string("somebody else's"));
-    const std::size_t files = folder.fileCount();
+    const std::size_t files = folder.entryCount();
     const Bytes model = readFile(output);
     const auto refused = generateFile(input, output, {.overwrite = true});
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::cannotWrite);
-    EXPECT_EQ(folder.fileCount(), files);
+    EXPECT_EQ(folder.entryCount(), files);
     EXPECT_EQ(readFile(output), model);
 }
 
@@ -458,7 +458,7 @@ TEST(GenerateGltf, RefusesOtherOutputsAndCompressedPrimitives) {
     ASSERT_FALSE(draco);
     EXPECT_EQ(draco.error().code, ErrorCode::unsupportedFile);
     EXPECT_NE(draco.error().message.find("not supported yet"), std::string::npos);
-    EXPECT_EQ(folder.fileCount(), 1u);
+    EXPECT_EQ(folder.entryCount(), 1u);
 }
 
 TEST(GenerateGltf, ReadsTheFallbackOfOptionalCompressionAndLeavesItsViewAlone) {
@@ -495,7 +495,88 @@ TEST(GenerateGltf, NamesThePlaceOfABadIndex) {
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().code, ErrorCode::invalidFile);
     EXPECT_EQ(report.error().place, "/meshes/0/primitives/0/indices");
-    EXPECT_EQ(folder.fileCount(), 1u);
+    EXPECT_EQ(folder.entryCount(), 1u);
+}
+
+TEST(GenerateGltf, DropsBytesBehindTheGlbOnlyWhenItWritesAnew) {
+    const auto longer = [](Bytes file) {
+        file.insert(file.end(), {1, 2, 3});
+        return file;
+    };
+    const TempFolder folder;
+    const std::string input = folder.write("in.glb", longer(gridModel(Grid(4)).glb()));
+    const std::string output = folder.path("out.glb").string();
+    const auto anew = generateFile(input, output);
+    ASSERT_TRUE(anew) << anew.error().message;
+    EXPECT_TRUE(anew->changed);
+    EXPECT_EQ(anew->warnings.size(), 1u);
+    EXPECT_EQ(gltf::readGlb(readFile(output)).ignored_bytes, 0u);
+
+    const std::string finished = folder.write("finished.glb", longer(readFile(output)));
+    const auto unchanged = generateFile(finished, output);
+    ASSERT_TRUE(unchanged) << unchanged.error().message;
+    EXPECT_FALSE(unchanged->changed);
+    EXPECT_EQ(unchanged->warnings.size(), 1u);
+    EXPECT_EQ(readFile(output), readFile(finished)) << "byte for byte";
+}
+
+TEST(GenerateGltf, CarriesMatricesWithoutPaddingAtTheEndThroughASplit) {
+    const Grid grid(4);
+    GltfBuilder builder = gridModel(grid);
+    Bytes matrices(grid.vertexCount() * 8 - 2, 0);
+    for (std::size_t i = 0; i < matrices.size(); ++i) {
+        if (i % 4 < 2) matrices[i] = static_cast<std::uint8_t>(i % 8);
+    }
+    const std::size_t accessor = builder.addAccessor(matrices, 5121, "MAT2", grid.vertexCount());
+    builder.json()["meshes"][0]["primitives"][0]["attributes"]["_MATRIX"] = accessor;
+    const Outcome outcome = run(builder);
+    EXPECT_GT(outcome.report.primitives.at(0).vertices_after, grid.vertexCount());
+}
+
+TEST(GenerateGltf, ConvertsAModelWithoutAnyData) {
+    const TempFolder folder;
+    const std::string input =
+        folder.write("in.gltf", std::string(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":12}],
+            "bufferViews":[{"buffer":0,"byteLength":12}]})"));
+    const std::string output = folder.path("out.glb").string();
+    ASSERT_TRUE(generateFile(input, output));
+    const Document after = gltf::loadDocument(output, {});
+    EXPECT_GT(after.json["buffers"][0]["byteLength"], 0) << "glTF has no empty buffers";
+    EXPECT_EQ(after.json["buffers"][1], Json({{"byteLength", 12}}));
+    EXPECT_EQ(after.json["bufferViews"][0]["buffer"], 1);
+}
+
+TEST(GenerateGltf, RefusesUvSetsThatNoReportCanName) {
+    const TempFolder folder;
+    GltfBuilder builder = gridModel(Grid(4));
+    builder.json()["materials"][0]["normalTexture"]["texCoord"] = 4294967295u;
+    builder.json()["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_4294967295"] = 2;
+    const auto report = generateFile(folder.write("in.glb", builder.glb()), folder.path("out.glb").string());
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().place, "/materials/0/normalTexture/texCoord");
+}
+
+TEST(GenerateGltf, RefusesThousandsOfAttributes) {
+    const TempFolder folder;
+    GltfBuilder builder = gridModel(Grid(4));
+    Json& attributes = builder.json()["meshes"][0]["primitives"][0]["attributes"];
+    for (int i = 1; i < 2000; ++i) attributes["TEXCOORD_" + std::to_string(i)] = 2;
+    const auto report = inspectFile(folder.write("in.glb", builder.glb()));
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().code, ErrorCode::unsupportedFile);
+}
+
+TEST(GenerateGltf, VerticesWithoutDataCostNoMemory) {
+    const TempFolder folder;
+    const std::string input = folder.write("in.gltf", std::string(R"({"asset":{"version":"2.0"},
+            "accessors":[{"componentType":5126,"type":"VEC3","count":2147483647}],
+            "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})"));
+    const auto inspection = inspectFile(input);
+    ASSERT_FALSE(inspection);
+    EXPECT_EQ(inspection.error().code, ErrorCode::unsupportedFile);
+    const auto report =
+        generateFile(input, folder.path("out.glb").string(), {.all = true, .overwrite = true});
+    EXPECT_TRUE(report) << "it has no UVs, so nothing is read";
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "asset/gltf/primitive_reader.h"
 #include "gltf_builder.h"
 #include "model_files.h"
-#include "temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace tspace {
 namespace {

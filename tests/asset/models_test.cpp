@@ -6,7 +6,7 @@
 #include "gltf_builder.h"
 #include "model_compare.h"
 #include "model_files.h"
-#include "temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace tspace {
 namespace {
@@ -39,7 +39,7 @@ class Models : public testing::TestWithParam<std::string> {
         if (!report && report.error().code == ErrorCode::unsupportedFile) {
             EXPECT_NE(report.error().message.find("not supported yet"), std::string::npos)
                 << report.error().message;
-            EXPECT_EQ(folder.fileCount(), 0u);
+            EXPECT_EQ(folder.entryCount(), 0u);
             GTEST_SKIP() << report.error().message;
         }
         ASSERT_TRUE(report) << report.error().message << " at " << report.error().place;
@@ -88,6 +88,38 @@ TEST_P(Models, StayAsTheyAreWithoutOverwriteWhereNothingIsMissing) {
     }
 }
 
+/// Every method keeps its own output as it is. Small models are enough, and quick.
+class EveryMethod : public testing::TestWithParam<Method> {};
+
+TEST_P(EveryMethod, ChangesNothingTheSecondTime) {
+    TSPACE_NEEDS_SHARED("models");
+    constexpr std::uintmax_t kSmall = 1u << 20;
+    int count = 0;
+    for (const std::string folder : {"models/features", "models/khronos"}) {
+        for (const std::string& name : test::modelFiles(folder)) {
+            const auto input = shared(folder) / name;
+            if (name.empty() || std::filesystem::file_size(input) > kSmall) continue;
+            SCOPED_TRACE(name);
+            const TempFolder temp;
+            const std::string output = temp.path("out.glb").string();
+            GenerateOptions options;
+            options.all = options.overwrite = true;
+            options.tangents.method = GetParam();
+            if (!generateFile(input.string(), output, options)) continue;
+            ++count;
+            const Bytes first = readFile(output);
+            const auto second = generateFile(output, output, options);
+            ASSERT_TRUE(second) << second.error().message;
+            EXPECT_FALSE(second->changed);
+            EXPECT_EQ(readFile(output), first);
+        }
+    }
+    EXPECT_GT(count, 0);
+    RecordProperty("models", count);
+}
+
+INSTANTIATE_TEST_SUITE_P(Small, EveryMethod, testing::Values(Method::uniform, Method::angle, Method::area));
+
 INSTANTIATE_TEST_SUITE_P(Shared, Models, testing::ValuesIn(test::modelFiles("models")),
                          [](const auto& file) { return test::testName(file.param); });
 
@@ -112,7 +144,7 @@ TEST_P(BadFiles, EndWithAnErrorOrASoundFile) {
         EXPECT_NE(error.code, ErrorCode::internal) << error.message;
         EXPECT_FALSE(error.message.empty());
         EXPECT_EQ((error.message + error.place).find_first_of("\n\r"), std::string::npos) << error.message;
-        EXPECT_EQ(folder.fileCount(), 0u) << "an error leaves nothing behind";
+        EXPECT_EQ(folder.entryCount(), 0u) << "an error leaves nothing behind";
     }
 }
 

@@ -4,7 +4,7 @@
 
 #include "asset/uri.h"
 #include "gltf_builder.h"
-#include "temp_folder.h"
+#include "support/temp_folder.h"
 
 namespace tspace {
 namespace {

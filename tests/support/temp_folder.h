@@ -4,11 +4,14 @@
 
 #include <stdlib.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace tspace::test {
 
@@ -26,7 +29,10 @@ class TempFolder {
     TempFolder(const TempFolder&) = delete;
     TempFolder& operator=(const TempFolder&) = delete;
 
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    /// The folder, or a path in it.
+    [[nodiscard]] std::filesystem::path path(const std::string& relative = {}) const {
+        return relative.empty() ? path_ : path_ / relative;
+    }
 
     /// Writes a file, with the folders above it, and returns its path.
     std::string write(const std::string& relative, const std::string& bytes) const {
@@ -34,6 +40,9 @@ class TempFolder {
         std::filesystem::create_directories(file.parent_path());
         std::ofstream(file, std::ios::binary) << bytes;
         return file.string();
+    }
+    std::string write(const std::string& relative, const std::vector<std::uint8_t>& bytes) const {
+        return write(relative, std::string(bytes.begin(), bytes.end()));
     }
     [[nodiscard]] std::string read(const std::string& relative) const {
         std::ostringstream text;
@@ -53,6 +62,12 @@ class TempFolder {
             if (entry.is_regular_file()) names.insert(entry.path().lexically_relative(folder).string());
         }
         return names;
+    }
+
+    /// Files and folders below this one.
+    [[nodiscard]] std::size_t entryCount() const {
+        const auto entries = std::filesystem::recursive_directory_iterator(path_);
+        return static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
     }
 
   private:

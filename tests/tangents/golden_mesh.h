@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Reading the golden files of the MikkTSpace reference. The layout is described beside the files.
+// The golden files of the MikkTSpace reference as meshes, and comparing bits.
 #pragma once
 
+#include <bit>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <vector>
 
+#include "support/golden_file.h"
 #include "tangents/shapes.h"
 
 namespace tspace::test {
 
+/// Laid out as in the file.
 struct GoldenResult {
     Vec3 tangent, bitangent;
     float magnitude_s = 0, magnitude_t = 0;
@@ -25,62 +26,21 @@ struct GoldenMesh {
     std::vector<GoldenResult> results;
 };
 
-/// Reads words one after the other; running over the end gives zeros and clears `ok`.
-class WordReader {
-  public:
-    explicit WordReader(const std::filesystem::path& path) {
-        std::ifstream file(path, std::ios::binary);
-        bytes_.assign(std::istreambuf_iterator<char>(file), {});
-    }
-    template <class T>
-    T next() {
-        static_assert(sizeof(T) == 4);
-        T value{};
-        if (at_ + 4 > bytes_.size()) {
-            ok = false;
-        } else {
-            std::memcpy(&value, bytes_.data() + at_, 4);
-            at_ += 4;
-        }
-        return value;
-    }
-    Vec3 vec3() {
-        const float x = next<float>(), y = next<float>(), z = next<float>();
-        return {x, y, z};
-    }
-    [[nodiscard]] bool atEnd() const { return at_ == bytes_.size(); }
-    bool ok = true;
-
-  private:
-    std::vector<char> bytes_;
-    std::size_t at_ = 0;
-};
-
 /// Returns false when the file is not a complete golden file.
 inline bool readGolden(const std::filesystem::path& path, GoldenMesh& golden) {
-    WordReader in(path);
-    if (in.next<std::uint32_t>() != 0x31475354) return false;
-    const auto faces = in.next<std::uint32_t>(), corners = in.next<std::uint32_t>();
-    golden.angular_threshold_deg = in.next<float>();
-    in.next<std::uint32_t>();
-    for (std::uint32_t f = 0; f < faces && in.ok; ++f)
-        golden.shape.face_sizes.push_back(in.next<std::uint32_t>());
-    for (std::uint32_t c = 0; c < corners && in.ok; ++c) {
-        const Vec3 position = in.vec3(), normal = in.vec3();
-        const float u = in.next<float>(), v = in.next<float>();
-        golden.shape.indices.push_back(golden.shape.vertex(position, normal, {u, v}));
+    const GoldenFile file(path);
+    if (file.face_sizes.empty()) return false;
+    golden.angular_threshold_deg = file.angular_threshold_deg;
+    golden.shape.face_sizes = file.face_sizes;
+    for (std::size_t c = 0; c < file.inputs.size() / GoldenFile::kInputWords; ++c) {
+        const auto word = [&](std::size_t k) { return std::bit_cast<float>(file.input(c)[k]); };
+        golden.shape.indices.push_back(golden.shape.vertex({word(0), word(1), word(2)},
+                                                           {word(3), word(4), word(5)}, {word(6), word(7)}));
+        GoldenResult& result = golden.results.emplace_back();
+        static_assert(sizeof(GoldenResult) == 4 * GoldenFile::kResultWords);
+        std::memcpy(static_cast<void*>(&result), file.result(c).data(), sizeof(result));
     }
-    for (std::uint32_t c = 0; c < corners && in.ok; ++c) {
-        GoldenResult r;
-        r.tangent = in.vec3();
-        r.bitangent = in.vec3();
-        r.magnitude_s = in.next<float>();
-        r.magnitude_t = in.next<float>();
-        r.orientation = in.next<std::int32_t>();
-        r.sign = in.next<float>();
-        golden.results.push_back(r);
-    }
-    return in.ok && in.atEnd();
+    return true;
 }
 
 /// Equal words; any NaN equals any NaN.

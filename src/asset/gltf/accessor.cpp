@@ -13,9 +13,9 @@ namespace tspace::gltf {
 
 namespace {
 
-/// An accessor without a buffer view is all zeros and costs its file nothing, so its size needs a limit of
-/// its own.
-constexpr std::size_t kMaxZeroBytes = std::size_t{256} << 20;
+/// An accessor without a buffer view is all zeros and costs its file nothing, so their number needs a
+/// limit of its own.
+constexpr std::size_t kMaxZeroElements = std::size_t{1} << 24;
 
 [[noreturn]] void failAt(std::string message, std::string place) {
     failFile(ErrorCode::invalidFile, std::move(message), std::move(place));
@@ -57,16 +57,19 @@ void setShape(Accessor& accessor, const Json& object, const std::string& place) 
         accessor.component_count = shape.columns * shape.rows;
         const std::size_t column = shape.rows * bytesOf(accessor.component);
         // Columns of matrices start at multiples of 4 bytes.
-        accessor.element_bytes = shape.columns == 1 ? column : (column + 3) / 4 * 4 * shape.columns;
+        const std::size_t column_stride = shape.columns == 1 ? column : (column + 3) / 4 * 4;
+        accessor.element_bytes = column_stride * shape.columns;
+        accessor.data_bytes = column_stride * (shape.columns - 1) + column;
         return;
     }
-    failAt(name.empty() ? "the member 'type' is missing"
-                        : "the accessor type " + quoted(name) + " does not exist",
-           join(place, "type"));
+    if (name.empty()) failAt("the member 'type' is missing", join(place, "type"));
+    // Another type is nobody's concern until its elements are needed.
+    accessor.type = name;
+    accessor.component_count = accessor.element_bytes = accessor.data_bytes = 0;
 }
 
-/// `count` elements of `element_bytes`, `stride` apart, from `offset` must lie inside the view. No sum can
-/// overflow.
+/// `count` elements of `element_bytes` (not 0), `stride` apart, from `offset` must lie inside the view. No
+/// sum can overflow.
 void checkRange(const BufferView& view, std::size_t offset, std::size_t count, std::size_t stride,
                 std::size_t element_bytes, const std::string& place) {
     if (count == 0) return;
@@ -109,8 +112,10 @@ SparsePart readSparse(const Document& document, const Json& object, const Access
     const std::size_t index_bytes = bytesOf(sparse.index_type);
     checkRange(readBufferView(document, sparse.index_view), sparse.index_offset, sparse.count, index_bytes,
                index_bytes, index_place);
-    checkRange(readBufferView(document, sparse.value_view), sparse.value_offset, sparse.count,
-               accessor.element_bytes, accessor.element_bytes, value_place);
+    if (accessor.component_count > 0) {
+        checkRange(readBufferView(document, sparse.value_view), sparse.value_offset, sparse.count,
+                   accessor.element_bytes, accessor.data_bytes, value_place);
+    }
     return sparse;
 }
 
@@ -156,7 +161,7 @@ void applySparse(const Document& document, const Accessor& accessor, Bytes& elem
                    accessor.place() + "/sparse/indices");
         }
         std::memcpy(elements.data() + at * accessor.element_bytes, values + i * accessor.element_bytes,
-                    accessor.element_bytes);
+                    accessor.data_bytes);
     }
 }
 
@@ -283,8 +288,10 @@ Accessor readAccessor(const Document& document, std::size_t index) {
                        " bytes overlap at a stride of " + std::to_string(accessor.stride),
                    join(join("/bufferViews", *accessor.view), "byteStride"));
         }
-        checkRange(view, accessor.byte_offset, accessor.count, accessor.stride, accessor.element_bytes,
-                   place);
+        if (accessor.component_count > 0) {
+            checkRange(view, accessor.byte_offset, accessor.count, accessor.stride, accessor.data_bytes,
+                       place);
+        }
     }
     if (const Json* sparse = readObject(object, "sparse", place)) {
         accessor.sparse = readSparse(document, *sparse, accessor, join(place, "sparse"));
@@ -292,8 +299,21 @@ Accessor readAccessor(const Document& document, std::size_t index) {
     return accessor;
 }
 
+bool hasData(const Document& document, const Accessor& accessor) {
+    const auto has = [&](std::size_t view) {
+        const BufferView range = readBufferView(document, view);
+        return range.byte_count == 0 || document.buffers[range.buffer].source != BufferSource::absent;
+    };
+    return (!accessor.view || has(*accessor.view)) &&
+           (!accessor.sparse || (has(accessor.sparse->index_view) && has(accessor.sparse->value_view)));
+}
+
 Bytes copyElements(const Document& document, const Accessor& accessor) {
-    if (!accessor.view && accessor.count > kMaxZeroBytes / accessor.element_bytes) {
+    if (accessor.component_count == 0) {
+        failAt("the accessor type " + inQuotes(accessor.type) + " does not exist",
+               join(accessor.place(), "type"));
+    }
+    if (!accessor.view && accessor.count > kMaxZeroElements) {
         failFile(ErrorCode::unsupportedFile,
                  "an accessor without data claims " + std::to_string(accessor.count) + " elements",
                  join(accessor.place(), "count"));
@@ -303,11 +323,12 @@ Bytes copyElements(const Document& document, const Accessor& accessor) {
         source = viewBytes(document, *accessor.view) + accessor.byte_offset;
     Bytes elements(accessor.count * accessor.element_bytes);
     if (source != nullptr && accessor.stride == accessor.element_bytes) {
-        std::memcpy(elements.data(), source, elements.size());
+        std::memcpy(elements.data(), source,
+                    (accessor.count - 1) * accessor.element_bytes + accessor.data_bytes);
     } else if (source != nullptr) {
         for (std::size_t i = 0; i < accessor.count; ++i) {
             std::memcpy(elements.data() + i * accessor.element_bytes, source + i * accessor.stride,
-                        accessor.element_bytes);
+                        accessor.data_bytes);
         }
     }
     if (accessor.sparse) applySparse(document, accessor, elements);
@@ -368,6 +389,7 @@ std::string formatName(const Accessor& accessor) {
             name = "float";
             break;
     }
+    if (accessor.component_count == 0) return name + " of an unknown type";
     if (accessor.component_count == 1) return name;
     // "snorm16x3", but "float3".
     return name + (accessor.component == ComponentType::f32 ? "" : "x") +

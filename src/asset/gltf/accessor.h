@@ -46,13 +46,14 @@ struct Accessor {
     std::size_t index = 0;
     ComponentType component = ComponentType::f32;
     std::string type = {};            ///< "SCALAR", "VEC3", ...
-    std::size_t component_count = 1;  ///< 1 for SCALAR, 9 for MAT3
-    std::size_t element_bytes = 4;    ///< with the padding of small matrix columns
+    std::size_t component_count = 1;  ///< 1 for SCALAR, 9 for MAT3; 0: a type that this program does not know
+    std::size_t element_bytes = 4;    ///< with the padding of small matrix columns; 0 for an unknown type
+    std::size_t data_bytes = 4;       ///< without the padding behind the last column, which need not be there
     bool normalized = false;
     std::size_t count = 0;
     std::optional<std::size_t> view = {};  ///< absent: all zero (before `sparse`)
     std::size_t byte_offset = 0;           ///< in the view
-    std::size_t stride = 0;                ///< from element to element; never 0
+    std::size_t stride = 0;                ///< from element to element; never 0 where the type is known
     std::optional<SparsePart> sparse = {};
 
     [[nodiscard]] std::string place() const { return "/accessors/" + std::to_string(index); }
@@ -66,7 +67,11 @@ struct Accessor {
 /// elements.
 Accessor readAccessor(const Document& document, std::size_t index);
 
-/// All elements, tightly packed (element_bytes each), sparse values put in. Fails where a buffer has no data.
+/// True when copyElements finds the data that it needs.
+bool hasData(const Document& document, const Accessor& accessor);
+
+/// All elements, tightly packed (element_bytes each), sparse values put in. Fails where a buffer has no data,
+/// and for an unknown type.
 Bytes copyElements(const Document& document, const Accessor& accessor);
 
 /// Elements as floats: normalised integers by the rule of the specification, others by value.

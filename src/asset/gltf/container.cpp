@@ -40,14 +40,14 @@ std::optional<DataUri> loadImage(const Document& document, const std::string& ur
         image = decodeDataUri(uri, join(place, "uri"));
         if (!declared.empty()) image.mime_type = declared;
     } else if (uriKind(uri) == UriKind::otherScheme) {
-        warnings.push_back("the image " + quoted(uri) + " is not a file and stays outside of the GLB");
+        warnings.push_back("the image " + inQuotes(uri) + " is not a file and stays outside of the GLB");
         return {};
     } else {
         const fs::path path =
             resolveUri(document.folder, uri, document.options.allow_external, join(place, "uri"));
         std::error_code error;
         if (!fs::exists(path, error)) {
-            warnings.push_back("the image " + quoted(uri) + " does not exist; its URI is kept");
+            warnings.push_back("the image " + inQuotes(uri) + " does not exist; its URI is kept");
             return {};
         }
         image.bytes = readFile(path, join(place, "uri"));
@@ -55,7 +55,7 @@ std::optional<DataUri> loadImage(const Document& document, const std::string& ur
     }
     image.mime_type = mimeTypeOf(image.bytes, image.mime_type);
     if (image.bytes.empty() || image.mime_type.empty()) {
-        warnings.push_back("the image " + quoted(uri.substr(0, 60)) +
+        warnings.push_back("the image " + inQuotes(uri, 60) +
                            " has no known type and stays outside of the GLB");
         return {};
     }
@@ -110,7 +110,10 @@ void joinBuffers(Document& document) {
         moved[i] = {0, appendAligned(bin, old[i].bytes, kJoinAlignment)};
         old[i].bytes = {};
     }
-    if (entries.empty()) entries.push_back(Json::object());
+    if (entries.empty()) {
+        entries.push_back(Json::object());
+        bin.bytes.resize(kJoinAlignment);  // glTF has no empty buffers
+    }
     entries[0].erase("uri");
     entries[0]["byteLength"] = bin.bytes.size();
     for (std::size_t i = 0; i < old.size(); ++i) {
@@ -145,8 +148,7 @@ void embedImages(Document& document, std::vector<std::string>& warnings) {
         if (!image) continue;
         // First, because a new member of the root moves the others.
         Buffer& bin = binBuffer(document);
-        Json& views = document.json["bufferViews"];
-        if (views.is_null()) views = Json::array();
+        Json& views = editableRootArray(document, "bufferViews");
         const std::size_t begin = appendAligned(bin, image->bytes, 4);
         views.push_back(Json{{"buffer", 0}, {"byteOffset", begin}, {"byteLength", image->bytes.size()}});
         document.json["buffers"][0]["byteLength"] = bin.bytes.size();
@@ -170,7 +172,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
     const fs::path from = resolveUri(document.folder, uri, document.options.allow_external, place);
     const fs::path relative = fs::path(percentDecode(uri)).lexically_normal();
     if (relative.is_absolute() || *relative.begin() == "..") {
-        warnings.push_back("the file " + quoted(uri) +
+        warnings.push_back("the file " + inQuotes(uri) +
                            " lies outside of the model's folder and was not copied");
         return;
     }
@@ -178,7 +180,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
     if (!fs::exists(from, error)) {
         // Taking it in failed before, with a warning.
         if (!target.takes_images_in)
-            warnings.push_back("the file " + quoted(uri) + " does not exist and was not copied");
+            warnings.push_back("the file " + inQuotes(uri) + " does not exist and was not copied");
         return;
     }
     const fs::path to = folderOf(target.path) / relative;
@@ -188,8 +190,8 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
         if (isSameFile(from, to)) return;
         if (readFile(from, place) == readFile(to, place)) return;
         failFile(ErrorCode::cannotWrite,
-                 "the model needs the file " + quoted(uri) + " beside it, but '" + to.string() +
-                     "' exists already and is another one",
+                 "the model needs the file " + inQuotes(uri) + " beside it, but " + pathInQuotes(to) +
+                     " exists already and is another one",
                  place);
     }
     output.add(to, readFile(from, place));
@@ -229,7 +231,8 @@ OutputTarget outputTarget(const Document& document, const fs::path& path) {
     target.path = path;
     const std::string extension = lowerExtension(path);
     if (extension != ".glb" && extension != ".gltf") {
-        failFile(ErrorCode::unsupportedFile, "the output '" + path.string() + "' is neither .glb nor .gltf");
+        failFile(ErrorCode::unsupportedFile,
+                 "the output " + pathInQuotes(path) + " is neither .glb nor .gltf");
     }
     target.container = extension == ".glb" ? Container::glb : Container::gltf;
     target.takes_images_in = target.container == Container::glb && document.container == Container::gltf;

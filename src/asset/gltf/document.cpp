@@ -57,7 +57,7 @@ void checkRoot(const Json& root) {
         failFile(ErrorCode::invalidFile, "the root has more than 1000 members", "");
     for (const char* name : {"accessors", "bufferViews", "buffers", "images", "materials", "meshes", "nodes",
                              "skins", "animations"}) {
-        readArray(root, name, "");
+        readArray(root, name, "", true);
     }
 }
 
@@ -83,7 +83,7 @@ void checkVersion(const Json& root) {
         const bool readable = std::string(key) == "version" ? version.substr(0, 2) == "2." : version == "2.0";
         if (!readable) {
             failFile(ErrorCode::unsupportedFile,
-                     "the file needs glTF version " + quoted(version) + ", not 2.0", join("/asset", key));
+                     "the file needs glTF version " + inQuotes(version) + ", not 2.0", join("/asset", key));
         }
     }
 }
@@ -161,7 +161,13 @@ void checkViewsAndAccessors(const Document& document) {
 }  // namespace
 
 const Json& rootArray(const Document& document, const char* name) {
-    return readArray(document.json, name, "");
+    return readArray(document.json, name, "", false);
+}
+
+Json& editableRootArray(Document& document, const char* name) {
+    Json& array = document.json[name];
+    if (array.is_null()) array = Json::array();
+    return array;
 }
 
 Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, const FileOptions& options) {
@@ -178,6 +184,11 @@ Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, cons
         glb = readGlb(document.file_bytes);
         text = glb.json;
         document.extra_chunks = std::move(glb.extra);
+        if (glb.ignored_bytes > 0) {
+            document.warnings.push_back("the file has " + std::to_string(glb.ignored_bytes) +
+                                        " bytes behind the length that its GLB header states; they mean "
+                                        "nothing, and are left out when the file is written anew");
+        }
     } else {
         checkLooksLikeJson(text);
     }
@@ -213,7 +224,7 @@ std::vector<std::string> checkRequiredExtensions(const Document& document) {
                      place);
         }
         if (std::find(kHarmless.begin(), kHarmless.end(), name) == kHarmless.end()) {
-            warnings.push_back("the file requires the extension " + quoted(name) +
+            warnings.push_back("the file requires the extension " + inQuotes(name) +
                                ", which tspace does not know; its data is kept as it is");
         }
     }

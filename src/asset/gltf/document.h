@@ -21,7 +21,7 @@ enum class BufferSource {
     bin,  ///< the BIN chunk
     dataUri,
     file,
-    absent,  ///< none: the fallback buffer of a compression extension
+    absent,  ///< none: the fallback buffer of a compression extension, or data that somebody else provides
 };
 
 struct Buffer {
@@ -45,6 +45,7 @@ struct Document {
     std::vector<ExtraChunk> extra_chunks = {};
     std::uint64_t input_bytes = 0;  ///< the model file and its buffer files
     FileOptions options = {};
+    std::vector<std::string> warnings = {};  ///< about how the file is stored
 };
 
 /// Reads a .glb or .gltf (told apart by content) and its buffers. Checks asset.version, buffers, buffer views
@@ -59,7 +60,11 @@ Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, cons
 /// warning for each other required extension that this program does not know; their data survives untouched.
 std::vector<std::string> checkRequiredExtensions(const Document& document);
 
-/// Array of the root ("meshes", "accessors"); empty when absent.
+/// Array of the root, whose entries are objects; only the names that loading checks ("meshes", "accessors");
+/// empty when absent.
 const Json& rootArray(const Document& document, const char* name);
+
+/// The same to change it; made when absent, which moves the other members of the root.
+Json& editableRootArray(Document& document, const char* name);
 
 }  // namespace tspace::gltf

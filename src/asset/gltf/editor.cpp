@@ -84,8 +84,7 @@ std::size_t Editor::targetBuffer() {
     }
     // A compressed view names its buffer by number too; data appended behind does not disturb it.
     if (target_buffer_) return *target_buffer_;
-    Json& buffers = document_.json["buffers"];
-    if (buffers.is_null()) buffers = Json::array();
+    Json& buffers = editableRootArray(document_, "buffers");
     target_buffer_ = buffers.size();
     Json entry = Json::object();
     entry["byteLength"] = 0;
@@ -128,8 +127,7 @@ std::size_t Editor::storeView(const ElementData& data, std::optional<std::size_t
         data.target == kVertexTarget ? (data.element_bytes + 3) / 4 * 4 : data.element_bytes;
     const std::size_t buffer = targetBuffer();
     const std::size_t begin = appendBytes(buffer, data.bytes, data.element_bytes, stride);
-    Json& views = document_.json["bufferViews"];
-    if (views.is_null()) views = Json::array();
+    Json& views = editableRootArray(document_, "bufferViews");
     const std::size_t index = replaces ? *replaces : views.size();
     if (!replaces) {
         views.push_back(Json::object());
@@ -168,8 +166,7 @@ std::size_t Editor::store(const ElementData& data, std::optional<std::size_t> re
         }
     }
     const std::size_t view = storeView(data, old_view);
-    Json& accessors = document_.json["accessors"];
-    if (accessors.is_null()) accessors = Json::array();
+    Json& accessors = editableRootArray(document_, "accessors");
     const std::size_t index = replaces ? *replaces : accessors.size();
     if (!replaces) {
         accessors.push_back(Json::object());

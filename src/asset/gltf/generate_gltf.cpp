@@ -51,7 +51,9 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     tell(options, "reading", 0, 1);
     Document document = loadDocument(input, options.file);
     const OutputTarget target = outputTarget(document, output_path);
-    report.warnings = checkRequiredExtensions(document);
+    report.warnings = document.warnings;
+    for (std::string& warning : checkRequiredExtensions(document))
+        report.warnings.push_back(std::move(warning));
     const std::vector<Primitive> primitives = readPrimitives(document);
     GeneratePlan plan = planGenerate(document, primitives, options);
     report.input_bytes = document.input_bytes;

@@ -44,12 +44,15 @@ GlbChunks readGlb(std::span<const std::uint8_t> file) {
         failFile(ErrorCode::unsupportedFile,
                  "the GLB container has version " + std::to_string(word(file, 4)) + ", not 2", "byte 4");
     }
-    if (word(file, 8) != file.size()) {
-        failGlb("the GLB header says " + std::to_string(word(file, 8)) + " bytes, but the file has " +
+    const std::size_t stated = word(file, 8);
+    if (stated > file.size()) {
+        failGlb("the GLB header says " + std::to_string(stated) + " bytes, but the file has " +
                     std::to_string(file.size()),
                 8);
     }
     GlbChunks chunks;
+    chunks.ignored_bytes = file.size() - stated;
+    file = file.first(stated);
     std::size_t at = kHeaderBytes;
     for (std::size_t number = 0; at < file.size(); ++number) {
         if (file.size() - at < kChunkHeadBytes) failGlb("the head of a GLB chunk is cut short", at);

@@ -22,6 +22,7 @@ struct GlbChunks {
     std::span<const std::uint8_t> json;  ///< into the file's bytes
     std::optional<std::span<const std::uint8_t>> bin;
     std::vector<ExtraChunk> extra;
+    std::size_t ignored_bytes = 0;  ///< behind the length that the header states
 };
 
 /// True when the bytes start with the magic word of GLB.

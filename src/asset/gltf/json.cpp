@@ -83,7 +83,7 @@ class Builder {
         names_.clear();
         for (const auto& [name, value] : object) {
             if (!names_.insert(name).second)
-                failJson("the JSON has the member " + quoted(name) + " twice in one object", {});
+                failJson("the JSON has the member " + inQuotes(name) + " twice in one object", {});
         }
     }
 
@@ -235,12 +235,5 @@ std::string join(const std::string& place, const std::string& key) {
 }
 
 std::string join(const std::string& place, std::size_t index) { return place + '/' + std::to_string(index); }
-
-std::string quoted(const std::string& text) {
-    std::string result = "'";
-    for (const char c : text.substr(0, 80))
-        result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-    return result + (text.size() > 80 ? "...'" : "'");
-}
 
 }  // namespace tspace::gltf

@@ -69,7 +69,4 @@ const Json* findExtension(const Json& object, const char* name);
 std::string join(const std::string& place, const std::string& key);
 std::string join(const std::string& place, std::size_t index);
 
-/// A key or text from a file, fit to stand inside a one-line message.
-std::string quoted(const std::string& text);
-
 }  // namespace tspace::gltf

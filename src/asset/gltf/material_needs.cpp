@@ -9,15 +9,24 @@ namespace tspace::gltf {
 
 namespace {
 
+/// Reports number UV sets in 32 bits.
+std::size_t readUvSet(const Json& object, const std::string& place, std::size_t fallback) {
+    constexpr std::size_t kMaxUvSet = 0x7fffffff;
+    const std::size_t set = readSize(object, "texCoord", place, fallback);
+    if (set > kMaxUvSet)
+        failFile(ErrorCode::invalidFile, "no file has so many UV sets", join(place, "texCoord"));
+    return set;
+}
+
 /// texCoord of a texture reference; the one of KHR_texture_transform goes first.
 std::size_t uvSetOf(const Json& texture, const std::string& place) {
-    const std::size_t own = readSize(texture, "texCoord", place, 0);
+    const std::size_t own = readUvSet(texture, place, 0);
     const Json* extensions = readObject(texture, "extensions", place);
     if (extensions == nullptr) return own;
     const std::string transform_place = join(place, "extensions");
     const Json* transform = readObject(*extensions, "KHR_texture_transform", transform_place);
     if (transform == nullptr) return own;
-    return readSize(*transform, "texCoord", join(transform_place, "KHR_texture_transform"), own);
+    return readUvSet(*transform, join(transform_place, "KHR_texture_transform"), own);
 }
 
 TangentNeed needOf(const Json& material, const std::string& place) {

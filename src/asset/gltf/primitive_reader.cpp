@@ -11,6 +11,10 @@ namespace tspace::gltf {
 namespace {
 
 AttributeList readAttributes(const Json& object, const std::string& place, std::size_t accessor_count) {
+    // Looking up an attribute is a linear search, done for each of them.
+    constexpr std::size_t kMaxAttributes = 1000;
+    if (object.size() > kMaxAttributes)
+        failFile(ErrorCode::unsupportedFile, "more than 1000 attributes are not supported", place);
     AttributeList list;
     for (const auto& [name, value] : object.items()) {
         list.emplace_back(name, toIndex(value, join(place, name), accessor_count, "accessor"));

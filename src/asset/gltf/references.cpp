@@ -221,9 +221,11 @@ std::vector<std::size_t> countViewUses(const Document& document) {
 
 Extent extentOf(const Document& document, const Accessor& accessor) {
     const BufferView view = readBufferView(document, *accessor.view);
+    if (accessor.component_count == 0)
+        return {accessor.index, view.buffer, view.begin, view.begin + view.byte_count, 0, 0};
     const std::size_t begin = view.begin + accessor.byte_offset;
     const std::size_t span =
-        accessor.count == 0 ? 0 : (accessor.count - 1) * accessor.stride + accessor.element_bytes;
+        accessor.count == 0 ? 0 : (accessor.count - 1) * accessor.stride + accessor.data_bytes;
     return {accessor.index, view.buffer, begin, begin + span, accessor.stride, accessor.element_bytes};
 }
 
@@ -236,8 +238,11 @@ std::vector<Extent> collectExtents(const Document& document) {
         const SparsePart& sparse = *accessor.sparse;
         extents.push_back(solidExtent(document, Extent::kNoAccessor, sparse.index_view, sparse.index_offset,
                                       sparse.count * bytesOf(sparse.index_type)));
-        extents.push_back(solidExtent(document, Extent::kNoAccessor, sparse.value_view, sparse.value_offset,
-                                      sparse.count * accessor.element_bytes));
+        const bool known = accessor.component_count > 0;
+        extents.push_back(solidExtent(document, Extent::kNoAccessor, sparse.value_view,
+                                      known ? sparse.value_offset : 0,
+                                      known ? sparse.count * accessor.element_bytes
+                                            : readBufferView(document, sparse.value_view).byte_count));
     }
     // Views that images, extensions or nobody we know reads are taken as a whole.
     const std::vector<std::size_t> all = countViewUses(document), known = accessorViewUses(document);

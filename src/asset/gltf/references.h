@@ -31,7 +31,8 @@ std::vector<std::size_t> countAccessorUses(const Document& document);
 /// References to each buffer view from anywhere: every member named "bufferView".
 std::vector<std::size_t> countViewUses(const Document& document);
 
-/// The bytes of an accessor's own view (not of its sparse parts). It must have a view.
+/// The bytes of an accessor's own view (not of its sparse parts); the whole view for an unknown type. It must
+/// have a view.
 Extent extentOf(const Document& document, const Accessor& accessor);
 
 /// Everything that reads bytes of any buffer.

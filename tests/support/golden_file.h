@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Reading the golden files of the MikkTSpace reference, as words. The layout is described beside the files.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <vector>
+
+namespace tspace::test {
+
+struct GoldenFile {
+    static constexpr std::size_t kInputWords = 8;    ///< per corner: position, normal, uv
+    static constexpr std::size_t kResultWords = 10;  ///< tangent, bitangent, magnitudes, orientation, sign
+
+    float angular_threshold_deg = 180;
+    std::uint32_t returned = 0;             ///< what the reference's function returned
+    std::vector<std::uint32_t> face_sizes;  ///< empty: not a complete golden file
+    std::vector<std::uint32_t> inputs, results;
+
+    GoldenFile() = default;
+    explicit GoldenFile(const std::filesystem::path& path) {
+        constexpr std::size_t kHeadWords = 5;
+        std::ifstream file(path, std::ios::binary);
+        std::vector<std::uint32_t> words(std::filesystem::file_size(path) / 4);
+        file.read(reinterpret_cast<char*>(words.data()), static_cast<std::streamsize>(words.size() * 4));
+        if (!file || words.size() < kHeadWords || words[0] != 0x31475354u) return;
+        const std::size_t faces = words[1], corners = words[2];
+        if (words.size() != kHeadWords + faces + corners * (kInputWords + kResultWords)) return;
+        angular_threshold_deg = std::bit_cast<float>(words[3]);
+        returned = words[4];
+        auto at = words.begin() + kHeadWords;
+        const auto take = [&](std::size_t count) {
+            const auto begin = at;
+            at += static_cast<std::ptrdiff_t>(count);
+            return std::vector<std::uint32_t>(begin, at);
+        };
+        face_sizes = take(faces);
+        inputs = take(corners * kInputWords);
+        results = take(corners * kResultWords);
+    }
+
+    [[nodiscard]] std::span<const std::uint32_t> input(std::size_t corner) const {
+        return std::span(inputs).subspan(corner * kInputWords, kInputWords);
+    }
+    [[nodiscard]] std::span<const std::uint32_t> result(std::size_t corner) const {
+        return std::span(results).subspan(corner * kResultWords, kResultWords);
+    }
+};
+
+}  // namespace tspace::test
