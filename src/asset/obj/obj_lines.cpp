@@ -2,6 +2,7 @@
 // The first pass over an OBJ file.
 #include "asset/obj/obj_lines.h"
 
+#include <algorithm>
 #include <string_view>
 
 #include "asset/file_error.h"
@@ -71,8 +72,10 @@ void noteNumbers(std::string_view rest, std::uint32_t line, bool is_position, Li
 void blankFaceComment(std::string& text, std::size_t begin, std::size_t end) {
     while (begin < end && isBlank(text[begin])) ++begin;
     if (begin + 1 >= end || text[begin] != 'f' || !isBlank(text[begin + 1])) return;
-    const std::size_t comment = text.find('#', begin);
-    for (std::size_t i = comment; i < end; ++i) text[i] = ' ';
+    // Not text.find: it would look through the rest of the file for each face.
+    const auto first = text.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = text.begin() + static_cast<std::ptrdiff_t>(end);
+    std::fill(std::find(first, last, '#'), last, ' ');
 }
 
 struct LineState {

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 
 #include "asset/gltf/primitive_reader.h"
+#include "asset/obj/obj_lines.h"
 #include "support/shared_data.h"
 #include "support/temp_folder.h"
 #include "tspace/asset.h"
@@ -352,6 +354,20 @@ TEST(Obj, OddFloatsDoNotUpsetTheParser) {
         make(folder, std::string("v ") + number + " 0 0\nv 1 0 0\nv 0 1 0\nvt 0 " + number +
                          "\nvt 1 0\nvt 0 1\nvn 0 0 " + number + "\nf 1/1/1 2/2/1 3/3/1\n");
     }
+}
+
+/// Processor time in seconds of preparing a text of that many faces.
+double secondsToPrepare(int face_count) {
+    std::string text;
+    for (int f = 0; f < face_count; ++f) text += "f 1/1 2/2 3/3 4/4\n";
+    const std::clock_t begin = std::clock();
+    obj::prepareLines(text);
+    return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+}
+
+TEST(ObjTime, GrowsLinearlyWithTheNumberOfFaces) {
+    // Ten times the faces take ten times the time; a search through the rest of the file took a hundred times.
+    EXPECT_LT(secondsToPrepare(400000), 40 * secondsToPrepare(40000) + 0.05);
 }
 
 TEST(Obj, OnlyGlTfIsWritten) {
