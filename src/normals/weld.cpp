@@ -6,6 +6,7 @@
 #include <bit>
 #include <compare>
 
+#include "core/hash.h"
 #include "tspace/vec.h"
 
 namespace tspace {
@@ -22,16 +23,6 @@ struct Key {
 std::uint32_t bitsOf(float f) { return std::bit_cast<std::uint32_t>(f == 0 ? 0.0f : f); }
 
 Key keyOf(const Vec3& p) { return {bitsOf(p.x), bitsOf(p.y), bitsOf(p.z)}; }
-
-/// Multiplies in each coordinate and folds the high half down, which low bits of the product never reach.
-std::uint64_t hashOf(const Key& key) {
-    std::uint64_t h = 0;
-    for (const std::uint32_t part : {key.x, key.y, key.z}) {
-        h = (h ^ part) * 0x9e3779b97f4a7c15u;  // 2^64 / golden ratio, odd: spreads neighbouring values
-        h ^= h >> 32;
-    }
-    return h;
-}
 
 bool hasNan(const Vec3& p) { return p.x != p.x || p.y != p.y || p.z != p.z; }
 
@@ -56,7 +47,7 @@ Buffer<std::uint32_t> weldPositions(StridedSpan<const Vec3> positions, const All
                                     Parallel& parallel) {
     const std::size_t count = positions.count;
     const std::size_t bucket_count = std::bit_ceil(std::max<std::size_t>(count, 1));
-    const auto bucketOf = [&](std::size_t v) { return hashOf(keyOf(positions[v])) & (bucket_count - 1); };
+    const auto bucketOf = [&](std::size_t v) { return hashPosition(positions[v]) & (bucket_count - 1); };
 
     Buffer<std::uint32_t> ends(allocator, bucket_count + 1, 0);
     for (std::size_t v = 0; v < count; ++v) ++ends[bucketOf(v) + 1];
