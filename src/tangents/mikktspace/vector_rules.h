@@ -20,6 +20,4 @@ inline Vec3 unit(const Vec3& v) { return notZero(v) ? (1.0f / length(v)) * v : v
 /// The unit vector of v without its part along n. n is used as given, never normalised.
 inline Vec3 flatten(const Vec3& n, const Vec3& v) { return unit(v - dot(n, v) * n); }
 
-inline bool sameVector(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
-
 }  // namespace tspace::mikk
