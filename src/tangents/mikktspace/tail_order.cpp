@@ -107,12 +107,13 @@ struct TailEdge {
 
 class TailFinder {
   public:
-    TailFinder(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes, const GroupedPlan& plan,
+    TailFinder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const GroupedPlan& plan,
                const Allocator* allocator, Parallel& parallel)
         : mesh_(mesh),
           triangles_(triangles),
           nodes_(nodes),
           plan_(plan),
+          exact_(!nodes.tame),
           allocator_(allocator),
           parallel_(parallel),
           edges_(allocator) {}
@@ -132,18 +133,19 @@ class TailFinder {
     }
 
   private:
-    std::uint32_t representative(std::uint32_t node) const { return nodes_.corner[node]; }
+    std::uint32_t representative(std::uint32_t node) const { return nodes_.tame ? corners_[node] : nodes_.representatives[node]; }
 
     /// Finds the lower end of the last bucket's edges, and makes the representatives of the nodes that matter
     /// exact.
     void findLargestLow() {
-        if (nodes_.exact) {
+        if (exact_) {
             for (std::uint32_t node = 0; node < plan_.node_count; ++node) {
                 forEachNeighbour(node, [&](std::uint32_t other) { offerLow(node, other); });
             }
             return;
         }
         const Buffer<std::uint32_t> last = lastCorners();
+        corners_ = firstCorners();
         const std::uint32_t bound = improveBound(lowerBound(), last);
         resolve(bound, last);
         forEachLateEdge(bound, last, [&](std::uint32_t a, std::uint32_t b) { offerLow(a, b); });
@@ -159,11 +161,26 @@ class TailFinder {
             }
         } else {  // corners of degenerate triangles count as well, though they have no edges
             for (std::size_t i = 0; i < 3 * triangles_.count; ++i) {
-                std::uint32_t& latest = last[nodes_.of_corner[triangles_.corner(i)]];
+                std::uint32_t& latest = last[nodes_.of(mesh_, triangles_.corner(i))];
                 latest = std::max(latest, triangles_.corner(i));
             }
         }
         return last;
+    }
+
+    /// The first corner of each node; 0 for nodes without edges.
+    [[nodiscard]] Buffer<std::uint32_t> firstCorners() const {
+        Buffer<std::uint32_t> first(allocator_, plan_.node_count, 0u);
+        if (plan_.slots.empty()) {
+            for (std::size_t node = 0; node < plan_.node_count; ++node) {
+                const std::uint32_t begin = plan_.node_begin[node];
+                if (begin < plan_.node_begin[node + 1]) first[node] = plan_.list[begin];
+            }
+        } else {  // backwards, so that the first is the last to be written
+            for (std::size_t i = 3 * triangles_.count; i-- > 0;)
+                first[nodes_.of(mesh_, triangles_.corner(i))] = triangles_.corner(i);
+        }
+        return first;
     }
 
     /// body(a, b), in both directions, for edges of which both ends' last corners reach the bound. The edges
@@ -190,7 +207,8 @@ class TailFinder {
             }
         });
         if (any)
-            findRepresentatives(mesh_, triangles_, nodes_, wanted.data(), nullptr, allocator_, parallel_);
+            findRepresentatives(mesh_, triangles_, nodes_, wanted.data(), corners_.data(), nullptr, allocator_,
+                                parallel_);
     }
 
     /// When triangles are in no order, most edges reach the first bound. The exact lower ends of a few that
@@ -232,20 +250,15 @@ class TailFinder {
 
     /// The middle one of a triangle's representatives is the lower end of its highest edge, so that of any
     /// triangle bounds the last bucket's from below, and first corners in place of representatives can only
-    /// make it smaller. Nodes are numbered by their first corners, so the best triangle can be told from the
-    /// numbers of its nodes.
+    /// make it smaller.
     [[nodiscard]] std::uint32_t lowerBound() const {
         const std::uint32_t* n = plan_.nodes.data();
-        std::size_t best = 0;
         std::uint32_t highest = 0;
         for (std::size_t i = 0; i < 3 * plan_.triangle_count; i += 3) {
-            const std::uint32_t middle = middleOf(n[i], n[i + 1], n[i + 2]);
-            if (middle >= highest) {
-                highest = middle;
-                best = i;
-            }
+            highest = std::max(
+                highest, middleOf(representative(n[i]), representative(n[i + 1]), representative(n[i + 2])));
         }
-        return middleOf(representative(n[best]), representative(n[best + 1]), representative(n[best + 2]));
+        return highest;
     }
 
     /// The last bucket lies around one node. The other ends above it were candidates, so they are exact too.
@@ -276,9 +289,9 @@ class TailFinder {
 
     /// Leaves edges_ in the order in which the reference meets them.
     bool sortAsReference() {
-        if (!nodes_.exact) {
-            findRepresentatives(mesh_, triangles_, nodes_, nullptr, nullptr, allocator_, parallel_);
-            nodes_.exact = true;
+        if (!exact_) {
+            findRepresentatives(mesh_, triangles_, nodes_, nullptr, corners_.data(), nullptr, allocator_, parallel_);
+            exact_ = true;
         }
         Buffer<Record> records(allocator_, 3 * plan_.triangle_count);
         for (std::size_t h = 0; h < records.size(); ++h) {
@@ -353,8 +366,10 @@ class TailFinder {
 
     const MeshView& mesh_;
     const TriangleList& triangles_;
-    Nodes& nodes_;
+    const Nodes& nodes_;
     const GroupedPlan& plan_;
+    bool exact_;                       // corners_ are the representatives of all nodes
+    Buffer<std::uint32_t> corners_;    // one per node: the representative where it is known, else the first corner
     const Allocator* allocator_;
     Parallel& parallel_;
     Growing<TailEdge> edges_;
@@ -390,7 +405,7 @@ void TailPairs::apply(std::uint32_t node, Around& around) const {
     }
 }
 
-TailPairs findTailPairs(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
+TailPairs findTailPairs(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
                         const GroupedPlan& plan, const Allocator* allocator, Parallel& parallel) {
     return TailFinder(mesh, triangles, nodes, plan, allocator, parallel).run();
 }

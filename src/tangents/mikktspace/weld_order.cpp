@@ -64,8 +64,8 @@ struct Range {
 
 class Cell {
   public:
-    Cell(Element* elements, Nodes& nodes, std::uint8_t* not_welded)
-        : elements_(elements), nodes_(nodes), not_welded_(not_welded) {}
+    Cell(Element* elements, std::uint32_t* representatives, std::uint8_t* not_welded)
+        : elements_(elements), representatives_(representatives), not_welded_(not_welded) {}
 
     void run(Range all) {
         Range waiting[64];  // each at most half of the one before
@@ -130,7 +130,7 @@ class Cell {
     /// is kept; going backwards makes the first the last to be written.
     void leaf(Range range) {
         for (std::size_t i = range.end; i-- > range.begin;)
-            nodes_.corner[elements_[i].node] = elements_[i].corner;
+            representatives_[elements_[i].node] = elements_[i].corner;
     }
 
     void giveUp(Range range) {
@@ -139,18 +139,14 @@ class Cell {
     }
 
     Element* elements_;
-    Nodes& nodes_;
+    std::uint32_t* representatives_;
     std::uint8_t* not_welded_;
 };
 
 /// Over the corner list but for its first entry, starting from corner 0 of the mesh: that is what the
-/// reference does, and it shows when the first face is one that is skipped. Else it is the box of all nodes.
-Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes) {
+/// reference does, and it shows when the first face is one that is skipped.
+Box boundingBox(const MeshView& mesh, const TriangleList& triangles) {
     Box box(mesh.positions[mesh.indices[0]]);
-    if (triangles.corner(0) == 0) {
-        for (std::size_t n = 0; n < nodes.count; ++n) box.add(mesh.positions[mesh.indices[nodes.corner[n]]]);
-        return box;
-    }
     for (std::size_t i = 1; i < 3 * triangles.count; ++i)
         box.add(mesh.positions[mesh.indices[triangles.corner(i)]]);
     return box;
@@ -158,26 +154,26 @@ Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const Nodes
 
 }  // namespace
 
-void findRepresentatives(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
-                         const std::uint8_t* wanted, std::uint8_t* not_welded, const Allocator* allocator,
-                         Parallel& parallel) {
+void findRepresentatives(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+                         const std::uint8_t* wanted, std::uint32_t* representatives, std::uint8_t* not_welded,
+                         const Allocator* allocator, Parallel& parallel) {
     const std::size_t entries = 3 * triangles.count;
     if (entries == 0) return;
-    const Box box = boundingBox(mesh, triangles, nodes);
+    const Box box = boundingBox(mesh, triangles);
     const int axis = box.longestAxis();
     const float low = component(box.low, axis), high = component(box.high, axis);
 
-    Buffer<std::uint16_t> node_cell(allocator, nodes.count);
+    const std::size_t vertex_count = mesh.vertexCount();
+    Buffer<std::uint16_t> vertex_cell(allocator, vertex_count);
     Buffer<std::size_t> cell_begin(allocator, kCells + 1, std::size_t{0});
     Buffer<std::uint8_t> cell_wanted(allocator, kCells, std::uint8_t{0});
-    for (std::size_t node = 0; node < nodes.count; ++node) {
-        const Vec3 p = mesh.positions[mesh.indices[nodes.corner[node]]];
-        const std::size_t cell = cellOf(low, high, component(p, axis));
-        node_cell[node] = static_cast<std::uint16_t>(cell);
-        if (wanted == nullptr || wanted[node] != 0) cell_wanted[cell] = 1;
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+        const std::size_t cell = cellOf(low, high, component(mesh.positions[v], axis));
+        vertex_cell[v] = static_cast<std::uint16_t>(cell);
+        if (wanted == nullptr || wanted[nodes.ofVertex(static_cast<std::uint32_t>(v))] != 0) cell_wanted[cell] = 1;
     }
     for (std::size_t i = 0; i < entries; ++i) {
-        const std::size_t cell = node_cell[nodes.of_corner[triangles.corner(i)]];
+        const std::size_t cell = vertex_cell[mesh.indices[triangles.corner(i)]];
         if (cell_wanted[cell] != 0) ++cell_begin[cell + 1];
     }
     for (std::size_t cell = 0; cell < kCells; ++cell) cell_begin[cell + 1] += cell_begin[cell];
@@ -185,13 +181,12 @@ void findRepresentatives(const MeshView& mesh, const TriangleList& triangles, No
     Buffer<std::size_t> fill(allocator, kCells);
     std::copy_n(cell_begin.data(), kCells, fill.data());
     for (std::size_t i = 0; i < entries; ++i) {
-        const std::uint32_t corner = triangles.corner(i);
-        const std::uint32_t node = nodes.of_corner[corner];
-        const std::size_t cell = node_cell[node];
+        const std::uint32_t corner = triangles.corner(i), vertex = mesh.indices[corner];
+        const std::size_t cell = vertex_cell[vertex];
         if (cell_wanted[cell] == 0) continue;
+        const std::uint32_t node = nodes.of(mesh, corner);
         const bool want = wanted == nullptr || wanted[node] != 0;
-        elements[fill[cell]++] = {mesh.positions[mesh.indices[corner]], corner, node,
-                                  want ? kWanted : kNotWanted};
+        elements[fill[cell]++] = {mesh.positions[vertex], corner, node, want ? kWanted : kNotWanted};
     }
     // Cells share nothing: a node lies in one of them.
     parallel.forTasks(elements.size() < kCells ? 1 : kCells, [&](std::size_t task) {
@@ -199,7 +194,7 @@ void findRepresentatives(const MeshView& mesh, const TriangleList& triangles, No
         const std::size_t last = elements.size() < kCells ? kCells : task + 1;
         for (std::size_t cell = first; cell < last; ++cell) {
             if (cell_begin[cell] == cell_begin[cell + 1]) continue;
-            Cell(elements.data(), nodes, not_welded).run({cell_begin[cell], cell_begin[cell + 1]});
+            Cell(elements.data(), representatives, not_welded).run({cell_begin[cell], cell_begin[cell + 1]});
         }
     });
 }

@@ -11,13 +11,14 @@
 
 namespace tspace::mikk {
 
-/// Sets nodes.corner to the representative for each node with wanted[node] != 0 (all nodes when `wanted` is
-/// null). `not_welded` may be null; else it has one zero byte per corner of the mesh, which becomes 1 where
+/// Sets representatives[node] to the corner that the reference keeps, for each node with wanted[node] != 0 that has
+/// corners (all nodes when `wanted` is null; which must be so when nodes are not tame). Other elements may be set too,
+/// and then are right. `not_welded` may be null; else it has one zero byte per corner of the mesh, which becomes 1 where
 /// the reference gives up welding (positions that are not finite, or so large that a sum of two overflows).
 /// Linear in the corners of those cells (of 2048) that hold wanted nodes, times the halvings of a float
 /// interval.
-void findRepresentatives(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
-                         const std::uint8_t* wanted, std::uint8_t* not_welded, const Allocator* allocator,
-                         Parallel& parallel);
+void findRepresentatives(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+                         const std::uint8_t* wanted, std::uint32_t* representatives, std::uint8_t* not_welded,
+                         const Allocator* allocator, Parallel& parallel);
 
 }  // namespace tspace::mikk
