@@ -4,16 +4,18 @@
 // comes from weld_order.cpp, and so does what the reference does with values that are not finite.
 //
 // Most vertices of an indexed mesh are equal to no other. So each hash counts in a small table, by its upper bits, up to
-// two; only vertices whose place in it counts two can be equal to another, and only they are looked up exactly. Threads
-// share nothing: each counts its own vertices, and looks up the vertices of its own range of hashes.
+// two; only vertices whose place in it counts two can be equal to another, and only they are looked up. Where most
+// vertices are equal to others, all are looked up at once. Threads share nothing: each counts its own vertices, and looks
+// up the vertices of its own range of hashes.
 #include "tangents/mikktspace/weld.h"
 
 #include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <limits>
+#include <cstring>
 
+#include "core/hash.h"
 #include "core/vec_math.h"
 #include "tangents/mikktspace/grouped_plan.h"
 #include "tangents/mikktspace/weld_order.h"
@@ -24,11 +26,12 @@ namespace {
 
 /// The reference adds the ends of intervals of positions: above this the sum may overflow and welding stops.
 constexpr float kHugePosition = 1.6e38f;
-constexpr float kLargest = std::numeric_limits<float>::max();
 constexpr std::size_t kGrain =
     16384;  // vertices per task at least: below, starting threads costs more than it saves
+constexpr std::size_t kFew = 4096;  // vertices; so few are all looked up
 constexpr unsigned kMostRanges = 4;  // each has a counting table of its own
 constexpr std::size_t kBlock = 256;  // vertices; their hashes stay in the first cache
+constexpr std::size_t kBatch = 32;  // lookups; all that they touch has to stay in the first cache
 constexpr std::size_t kPlacesPerVertex = 8;  // of a counting table: leaves 1 vertex of 9 to be looked up
 constexpr std::size_t kPlacesPerByte = 4;
 
@@ -50,43 +53,49 @@ bool isTame(const Vertex& v) {
     return small && isFinite(v.normal) && std::isfinite(v.uv.x) && std::isfinite(v.uv.y);
 }
 
-struct Bits {
-    std::uint32_t words[8];
-    friend bool operator==(const Bits&, const Bits&) = default;
-};
-static_assert(sizeof(Vertex) == sizeof(Bits));
+std::uint64_t pairAt(const void* at) {
+    std::uint64_t pair = 0;
+    std::memcpy(&pair, at, sizeof pair);
+    return pair;
+}
 
-bool sameBits(const Vertex& a, const Vertex& b) { return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b); }
+/// Whether two vertices have the same bits. Words are read as they lie: a copy would be written in small pieces and
+/// read in large ones, which processors are slow at.
+bool sameBits(const MeshView& mesh, std::size_t a, std::size_t b) {
+    const Vec3 &p = mesh.positions[a], &q = mesh.positions[b], &m = mesh.normals[a], &n = mesh.normals[b];
+    const std::uint64_t xy = (pairAt(&p) ^ pairAt(&q)) | (pairAt(&m) ^ pairAt(&n));
+    const std::uint32_t z = (std::bit_cast<std::uint32_t>(p.z) ^ std::bit_cast<std::uint32_t>(q.z)) |
+                            (std::bit_cast<std::uint32_t>(m.z) ^ std::bit_cast<std::uint32_t>(n.z));
+    return (xy | z | (pairAt(&mesh.uvs[a]) ^ pairAt(&mesh.uvs[b]))) == 0;
+}
 
 /// Four floats or words at once, in the compiler's own vectors: scalar code where the target has none.
 using Floats = float __attribute__((vector_size(16)));
-using Words = std::int32_t __attribute__((vector_size(16)));
+using Words = std::uint32_t __attribute__((vector_size(16)));
 using Pairs = std::uint64_t __attribute__((vector_size(16)));
 
-/// Halves are turned against each other, so that signs that change together (mirrored shapes) do not cancel.
-std::uint32_t mix(Pairs a, Pairs b) {
-    const std::uint64_t x = a[0] * 0xbf58476d1ce4e5b9u + std::rotl(std::uint64_t{b[0]}, 32);
-    const std::uint64_t y = a[1] * 0x94d049bb133111ebu + std::rotl(std::uint64_t{b[1]}, 32);
-    const std::uint64_t h = (x ^ x >> 32) * 0x9e3779b97f4a7c15u + (y ^ y >> 29) * 0xd6e8feb86659fd93u;
-    return static_cast<std::uint32_t>(h >> 32);
-}
-
 /// Hashes of the vertices [begin, end). Vertices that compare equal have equal hashes: adding +0 turns -0 into +0.
-/// Returns whether all of them are tame.
+/// Returns whether all of them are tame; large normals and UVs are not taken for tame here either.
 bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std::uint32_t* hashes) {
-    const Floats first_limit{kHugePosition, kHugePosition, kHugePosition, kLargest},
-        second_limit{kLargest, kLargest, kLargest, kLargest};
-    const Words no_sign = Words{} + 0x7fffffff;
-    Words tame = Words{} - 1;
+    const Floats limit = Floats{} + kHugePosition;
+    const Words no_sign = Words{} + 0x7fffffffu;
+    auto tame = limit == limit;
     const StridedSpan<const Vec3> positions = mesh.positions, normals = mesh.normals;
     const StridedSpan<const Vec2> uvs = mesh.uvs;
     for (std::size_t v = begin; v < end; ++v) {
         const Vec3 &p = positions[v], &n = normals[v];
-        const Vec2& uv = uvs[v];
-        const Floats a = Floats{p.x, p.y, p.z, uv.x} + Floats{}, b = Floats{n.x, n.y, n.z, uv.y} + Floats{};
-        tame &= (std::bit_cast<Floats>(std::bit_cast<Words>(a) & no_sign) <= first_limit) &
-                (std::bit_cast<Floats>(std::bit_cast<Words>(b) & no_sign) <= second_limit);
-        hashes[v] = mix(std::bit_cast<Pairs>(a), std::bit_cast<Pairs>(b));
+        const Floats z = {p.z, n.z, 0, 0};
+        const Floats a = std::bit_cast<Floats>(Pairs{pairAt(&p), pairAt(&n)}) + Floats{};
+        const Floats b =
+            std::bit_cast<Floats>(Pairs{std::bit_cast<Pairs>(z)[0], pairAt(&uvs[v])}) + Floats{};
+        tame &= (std::bit_cast<Floats>(std::bit_cast<Words>(a) & no_sign) < limit) &
+                (std::bit_cast<Floats>(std::bit_cast<Words>(b) & no_sign) < limit);
+        // Turned against each other, so that signs that change together (mirrored shapes) do not cancel.
+        const Words turned = std::bit_cast<Words>(b) << 13 | std::bit_cast<Words>(b) >> 19;
+        const Pairs both = std::bit_cast<Pairs>(std::bit_cast<Words>(a) ^ turned);
+        std::uint64_t h = both[0] * 0xbf58476d1ce4e5b9u ^ std::rotl(both[1] * 0x94d049bb133111ebu, 32);
+        h = (h ^ h >> 29) * 0x9e3779b97f4a7c15u;
+        hashes[v] = static_cast<std::uint32_t>(h >> 32);
     }
     return (tame[0] & tame[1] & tame[2] & tame[3]) != 0;
 }
@@ -104,8 +113,9 @@ class Counting {
 
     void add(std::size_t range, const std::uint32_t* hashes, std::size_t count) {
         std::uint8_t* table = table_.data() + range * bytes_;
+        const unsigned shift = 32 - log2_;  // a copy: bytes that are written might be the member's
         for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t place = hashes[i] >> (32 - log2_);
+            const std::uint32_t place = hashes[i] >> shift;
             std::uint8_t& byte = table[place / kPlacesPerByte];
             const unsigned once = 1u << 2 * (place % kPlacesPerByte), now = byte;
             byte = static_cast<std::uint8_t>(now | (now & once) << 1 | once);
@@ -125,20 +135,33 @@ class Counting {
                     total |= other | (total & other & kOnce) << 1;
                 }
                 if (ranges > 1) std::memcpy(table_.data() + i * sizeof total, &total, sizeof total);
-                mine += static_cast<std::size_t>(std::popcount(total & kOnce));
+                mine += pairsSet(total & kOnce);
             }
             taken += mine;
         });
         return taken;
     }
 
-    /// 1 when another vertex may have this hash, else 0.
-    [[nodiscard]] unsigned repeats(std::uint32_t hash) const {
-        const std::uint32_t place = hash >> (32 - log2_);
-        return table_[place / kPlacesPerByte] >> (2 * (place % kPlacesPerByte) + 1) & 1u;
+    /// Writes those of the vertices [begin, end) to `list` whose hash another vertex may have. Returns how many.
+    std::size_t repeated(const std::uint32_t* hashes, std::size_t begin, std::size_t end, std::uint32_t* list) const {
+        const std::uint8_t* table = table_.data();
+        const unsigned shift = 32 - log2_;
+        std::size_t count = 0;  // list[count] is written in any case, and stays when the next one is written behind it
+        for (std::size_t v = begin; v < end; ++v) {
+            const std::uint32_t place = hashes[v] >> shift;
+            list[count] = static_cast<std::uint32_t>(v);
+            count += table[place / kPlacesPerByte] >> (2 * (place % kPlacesPerByte) + 1) & 1u;
+        }
+        return count;
     }
 
   private:
+    /// How many of the bits 0, 2, 4, ... are set. (std::popcount is a call where the target is plain x86-64.)
+    static std::size_t pairsSet(std::uint64_t x) {
+        x = (x & 0x3333333333333333u) + (x >> 2 & 0x3333333333333333u);
+        x = (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0fu;
+        return static_cast<std::size_t>((x * 0x0101010101010101u) >> 56);
+    }
     [[nodiscard]] std::uint64_t word(std::size_t range, std::size_t i) const {
         std::uint64_t value = 0;
         std::memcpy(&value, table_.data() + range * bytes_ + i * sizeof value, sizeof value);
@@ -150,32 +173,32 @@ class Counting {
     Buffer<std::uint8_t> table_;
 };
 
-/// The exact lookup: the first equal vertex of each candidate. Each task has the candidates of one range of hashes, and
-/// a part of the table.
+/// Finds the first equal vertex, the root, of each candidate. First by hashes alone: each task has the candidates of one
+/// range of hashes, and a part of the table. Then the data of each candidate and its root are compared, in order, which
+/// reads memory as it lies. The few that differ from the root of their hash are looked up by their data.
 class Lookup {
   public:
-    /// `candidates` ascending; null: all vertices. roots[i] becomes the first vertex that equals candidate i.
+    /// `candidates` ascending; null: all vertices. roots[i] becomes the root of candidate i.
     Lookup(const MeshView& mesh, const std::uint32_t* hashes, const std::uint32_t* candidates, std::size_t count,
            bool all_tame, std::uint32_t* roots)
         : mesh_(mesh), hashes_(hashes), candidates_(candidates), count_(count), all_tame_(all_tame), roots_(roots) {}
 
     /// `distinct`: about how many different candidates there are. Returns whether equal vertices differ in a zero's sign.
     bool run(std::size_t distinct, const Allocator* allocator, Parallel& parallel) {
-        const std::size_t tasks =
-            count_ < 2 * kGrain ? 1 : std::min<std::size_t>(parallel.width(), std::size_t{2} * kMostRanges);
-        slots_ = std::bit_ceil(2 * distinct / tasks + 2 * kBlock);
-        while (true) {
-            table_ = Buffer<Slot>(allocator, tasks * slots_);
-            std::atomic<bool> mixed{false}, full{false};
-            parallel.forTasks(tasks, [&](std::size_t task) {
-                std::fill_n(table_.data() + task * slots_, slots_, Slot{});
-                bool any_mixed = false;
-                if (!find(task, tasks, any_mixed)) full.store(true, std::memory_order_relaxed);
-                if (any_mixed) mixed.store(true, std::memory_order_relaxed);
-            });
-            if (!full) return mixed;
-            slots_ *= 4;  // the guess was bad; at 4/3 of the candidates it ends for sure
-        }
+        matchHashes(distinct, allocator, parallel);
+        std::atomic<bool> any_mixed{false}, any_different{false};
+        parallel.forRanges(count_, kGrain, [&](std::size_t begin, std::size_t end) {
+            bool mixed = false, different = false;
+            for (std::size_t i = begin; i < end; ++i) {
+                if (i + kBatch < end && roots_[i + kBatch] != vertexOf(i + kBatch)) prefetch(roots_[i + kBatch]);
+                verify(i, mixed, different);
+            }
+            if (mixed) any_mixed.store(true, std::memory_order_relaxed);
+            if (different) any_different.store(true, std::memory_order_relaxed);
+        });
+        bool mixed = any_mixed;
+        if (any_different) matchData(allocator, mixed);
+        return mixed;
     }
 
   private:
@@ -187,55 +210,105 @@ class Lookup {
         std::size_t index;
     };
 
-    bool find(std::size_t task, std::size_t tasks, bool& mixed) {
-        Slot* table = table_.data() + task * slots_;
-        const std::size_t mask = slots_ - 1;
-        std::size_t room = slots_ - slots_ / 4;
-        Item items[kBlock];
-        for (std::size_t begin = 0; begin < count_; begin += kBlock) {
-            const std::size_t end = std::min(begin + kBlock, count_);
+    [[nodiscard]] std::uint32_t vertexOf(std::size_t i) const {
+        return candidates_ == nullptr ? static_cast<std::uint32_t>(i) : candidates_[i];
+    }
+
+    void matchHashes(std::size_t distinct, const Allocator* allocator, Parallel& parallel) {
+        const std::size_t tasks =
+            count_ < 2 * kGrain ? 1 : std::min<std::size_t>(parallel.width(), std::size_t{2} * kMostRanges);
+        std::size_t slots = std::bit_ceil(2 * distinct / tasks + 4 * kBatch);  // of each task
+        for (bool full = true; full; slots *= 4) {  // when the guess is bad; at 4/3 of the candidates it ends for sure
+            Buffer<Slot> table(allocator, tasks * slots);
+            std::atomic<std::size_t> done{0};
+            parallel.forTasks(tasks, [&](std::size_t task) {
+                Slot* part = table.data() + task * slots;
+                std::fill_n(part, slots, Slot{});
+                if (matchRange(task, tasks, part, slots)) ++done;
+            });
+            full = done < tasks;
+        }
+    }
+
+    /// The candidates of one range of hashes. Returns false when the table is too small.
+    bool matchRange(std::size_t task, std::size_t tasks, Slot* table, std::size_t slots) {
+        const std::size_t mask = slots - 1;
+        std::size_t room = slots - slots / 4;
+        Item items[kBatch];
+        for (std::size_t begin = 0; begin < count_; begin += kBatch) {
+            const std::size_t end = std::min(begin + kBatch, count_);
             std::size_t count = 0;
             for (std::size_t i = begin; i < end; ++i) {
-                const std::uint32_t vertex = candidates_ == nullptr ? static_cast<std::uint32_t>(i) : candidates_[i];
-                const std::uint32_t hash = hashes_[vertex];
+                const std::uint32_t vertex = vertexOf(i), hash = hashes_[vertex];
                 items[count] = {hash, vertex, i};
                 count += (std::uint64_t{hash} * tasks) >> 32 == task ? 1 : 0;
                 __builtin_prefetch(&table[hash & mask]);
             }
             if (room < count) return false;
             for (std::size_t i = 0; i < count; ++i) {
-                const Slot& slot = table[items[i].hash & mask];
-                if (slot.vertex == kNone) continue;
-                __builtin_prefetch(&mesh_.positions[slot.vertex]);
-                __builtin_prefetch(&mesh_.normals[slot.vertex]);
-                __builtin_prefetch(&mesh_.uvs[slot.vertex]);
-            }
-            for (std::size_t i = 0; i < count; ++i) {
-                const std::uint32_t root = rootOf(items[i], table, mask, mixed);
-                roots_[items[i].index] = root;
-                room -= root == items[i].vertex ? 1 : 0;
+                const Item& item = items[i];
+                std::size_t at = item.hash & mask;
+                while (table[at].vertex != kNone && table[at].hash != item.hash) at = (at + 1) & mask;
+                if (table[at].vertex == kNone) {
+                    table[at] = {item.hash, item.vertex};
+                    --room;
+                }
+                roots_[item.index] = table[at].vertex;
             }
         }
         return true;
     }
 
-    std::uint32_t rootOf(const Item& item, Slot* table, std::size_t mask, bool& mixed) {
-        std::size_t i = item.hash & mask;
-        if (all_tame_ && table[i].vertex == kNone) {
-            table[i] = {item.hash, item.vertex};
-            return item.vertex;
+    void prefetch(std::uint32_t vertex) const {
+        __builtin_prefetch(&mesh_.positions[vertex]);
+        __builtin_prefetch(&mesh_.normals[vertex]);
+        __builtin_prefetch(&mesh_.uvs[vertex]);
+    }
+
+    void verify(std::size_t i, bool& mixed, bool& different) {
+        const std::uint32_t vertex = vertexOf(i), root = roots_[i];
+        if (root == vertex) return;
+        const bool same = sameBits(mesh_, vertex, root);
+        if (same && all_tame_) return;
+        if (equal(load(mesh_, vertex), load(mesh_, root))) {
+            mixed |= !same;
+        } else {  // NaN too, which equals nothing, not even itself
+            roots_[i] = kNone;
+            different = true;
         }
-        const Vertex data = load(mesh_, item.vertex);
-        if (!all_tame_ && !equal(data, data)) return item.vertex;  // NaN equals nothing, not even itself
-        for (; table[i].vertex != kNone; i = (i + 1) & mask) {
-            if (table[i].hash != item.hash) continue;
-            const Vertex other = load(mesh_, table[i].vertex);
-            if (!equal(data, other)) continue;
-            mixed |= !sameBits(data, other);
-            return table[i].vertex;
+    }
+
+    /// A hash of all bits, for vertices whose first hash is that of others.
+    static std::uint64_t longHash(const Vertex& v) {
+        std::uint64_t hash = foldHash(hashPosition(v.position), hashPosition(v.normal));
+        return foldHash(hash, hashPosition({v.uv.x, v.uv.y, 0}));
+    }
+
+    void matchData(const Allocator* allocator, bool& mixed) {
+        struct Entry {
+            std::uint64_t hash = 0;
+            std::uint32_t vertex = kNone;
+        };
+        const auto different = static_cast<std::size_t>(std::count(roots_, roots_ + count_, kNone));
+        Buffer<Entry> table(allocator, std::bit_ceil(2 * different), Entry{});
+        for (std::size_t i = 0; i < count_; ++i) {
+            if (roots_[i] != kNone) continue;
+            const std::uint32_t vertex = roots_[i] = vertexOf(i);
+            const Vertex data = load(mesh_, vertex);
+            if (!equal(data, data)) continue;
+            const std::uint64_t hash = longHash(data);
+            for (std::size_t at = hash & (table.size() - 1);; at = (at + 1) & (table.size() - 1)) {
+                if (table[at].vertex == kNone) {
+                    table[at] = {hash, vertex};
+                } else {
+                    if (table[at].hash != hash) continue;
+                    if (!equal(data, load(mesh_, table[at].vertex))) continue;
+                    roots_[i] = table[at].vertex;
+                    mixed |= !sameBits(mesh_, vertex, roots_[i]);
+                }
+                break;
+            }
         }
-        table[i] = {item.hash, item.vertex};
-        return item.vertex;
     }
 
     const MeshView& mesh_;
@@ -244,8 +317,6 @@ class Lookup {
     std::size_t count_;
     bool all_tame_;
     std::uint32_t* roots_;
-    Buffer<Slot> table_;
-    std::size_t slots_ = 0;  // of each task
 };
 
 /// Equal vertices, without regard to triangles.
@@ -259,17 +330,17 @@ class VertexWelder {
         nodes.count = count_;
         hashes_ = Buffer<std::uint32_t>(allocator_, count_);
         Buffer<std::uint32_t> of_vertex(allocator_, count_);
-        std::size_t candidate_count = 0;
-        std::size_t distinct = count_;
-        {
+        std::size_t candidate_count = count_, distinct = count_;
+        if (count_ < kFew || mesh_.indices.type == IndexType::none) {
+            hashAll(nullptr, 1);
+            if (count_ >= kFew) distinct = guessDistinct();
+        } else {
             const std::size_t ranges =
                 std::clamp<std::size_t>(count_ / kGrain, 1, std::min(parallel_.width(), kMostRanges));
             Counting counting(allocator_, count_, ranges);
-            countHashes(counting, ranges);
+            hashAll(&counting, ranges);
             distinct = counting.sum(ranges, parallel_);
-            if (distinct < count_ - count_ / 4) {
-                candidate_count = count_;
-            } else {
+            if (distinct >= count_ - count_ / 4) {
                 candidate_count = collectCandidates(counting, ranges, of_vertex.data());
             }
         }
@@ -288,20 +359,32 @@ class VertexWelder {
     }
 
   private:
-    void countHashes(Counting& counting, std::size_t ranges) {
+    void hashAll(Counting* counting, std::size_t ranges) {
+        if (counting == nullptr) ranges = std::clamp<std::size_t>(count_ / kGrain, 1, parallel_.width());
         std::atomic<bool> tame{true};
         parallel_.forTasks(ranges, [&](std::size_t range) {
-            counting.clear(range);
+            if (counting != nullptr) counting->clear(range);
             bool all = true;
             const std::size_t end = count_ * (range + 1) / ranges;
             for (std::size_t v = count_ * range / ranges; v < end; v += kBlock) {
                 const std::size_t stop = std::min(v + kBlock, end);
                 all &= hashVertices(mesh_, v, stop, hashes_.data());
-                counting.add(range, hashes_.data() + v, stop - v);
+                if (counting != nullptr) counting->add(range, hashes_.data() + v, stop - v);
             }
             if (!all) tame.store(false, std::memory_order_relaxed);
         });
         all_tame_ = tame;
+    }
+
+    /// Counts a sample of the hashes, chosen by their value, so that equal vertices are in it together or not at all.
+    [[nodiscard]] std::size_t guessDistinct() {
+        constexpr std::uint32_t kShare = 32;
+        Counting counting(allocator_, count_ / kShare, 1);
+        counting.clear(0);
+        for (std::size_t v = 0; v < count_; ++v) {
+            if (hashes_[v] % kShare == 0) counting.add(0, hashes_.data() + v, 1);
+        }
+        return std::min(count_, kShare * counting.sum(1, parallel_));
     }
 
     /// Vertices whose hash may be that of another one, ascending, at the front of `list`. Returns how many.
@@ -309,12 +392,7 @@ class VertexWelder {
         std::size_t found[kMostRanges] = {};
         parallel_.forTasks(ranges, [&](std::size_t range) {
             const std::size_t begin = count_ * range / ranges, end = count_ * (range + 1) / ranges;
-            std::uint32_t* to = list + begin;  // never ahead of v
-            for (std::size_t v = begin; v < end; ++v) {
-                *to = static_cast<std::uint32_t>(v);
-                to += counting.repeats(hashes_[v]);
-            }
-            found[range] = static_cast<std::size_t>(to - list) - begin;
+            found[range] = counting.repeated(hashes_.data(), begin, end, list + begin);
         });
         std::size_t count = found[0];
         for (std::size_t range = 1; range < ranges; ++range) {
@@ -378,7 +456,7 @@ void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& no
     Buffer<std::uint8_t> wanted(allocator, nodes.count, std::uint8_t{0});
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
         const std::uint32_t node = nodes.of_vertex[v];
-        if (!sameBits(load(mesh, v), load(mesh, nodes.vertices[node]))) wanted[node] = 1;
+        if (!sameBits(mesh, v, nodes.vertices[node])) wanted[node] = 1;
     }
     Buffer<std::uint32_t> corners(allocator, nodes.count, kNone);
     findRepresentatives(mesh, triangles, nodes, wanted.data(), corners.data(), nullptr, allocator, parallel);
