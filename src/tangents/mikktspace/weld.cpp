@@ -459,7 +459,7 @@ void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& no
         if (!sameBits(mesh, v, nodes.vertices[node])) wanted[node] = 1;
     }
     Buffer<std::uint32_t> corners(allocator, nodes.count, kNone);
-    findRepresentatives(mesh, triangles, nodes, wanted.data(), corners.data(), nullptr, allocator, parallel);
+    WeldOrder(mesh, triangles, nodes, allocator, parallel).find(wanted.data(), corners.data());
     for (std::size_t node = 0; node < nodes.count; ++node) {
         if (corners[node] != kNone) nodes.vertices[node] = mesh.indices[corners[node]];
     }
@@ -498,8 +498,8 @@ void weldCorners(const MeshView& mesh, const TriangleList& triangles, Nodes& nod
         if (nodes.representatives[node] == kNone) nodes.representatives[node] = corner;
     }
     Buffer<std::uint8_t> not_welded(allocator, corner_count, std::uint8_t{0});
-    findRepresentatives(mesh, triangles, nodes, nullptr, nodes.representatives.data(), not_welded.data(), allocator,
-                        parallel);
+    WeldOrder(mesh, triangles, nodes, allocator, parallel)
+        .find(nullptr, nodes.representatives.data(), not_welded.data());
     for (std::size_t c = 0; c < corner_count; ++c) {
         const std::uint32_t node = nodes.of_corner[c];
         if (not_welded[c] != 0 && node != kNone && nodes.representatives[node] != c) {

@@ -8,10 +8,13 @@
 // whatever the input; the work list below stays short because the larger side is always put off.
 #include "tangents/mikktspace/weld_order.h"
 
-#include <atomic>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/vec_math.h"
+#include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/grouped_plan.h"
 
 namespace tspace::mikk {
@@ -143,53 +146,141 @@ class Cell {
     std::uint8_t* not_welded_;
 };
 
-/// Over the corner list but for its first entry, starting from corner 0 of the mesh: that is what the
-/// reference does, and it shows when the first face is one that is skipped.
-Box boundingBox(const MeshView& mesh, const TriangleList& triangles) {
+/// What the reference computes: the box of the corner list but for its first entry, starting from corner 0 of the mesh.
+Box listedBox(const MeshView& mesh, const TriangleList& triangles) {
     Box box(mesh.positions[mesh.indices[0]]);
     for (std::size_t i = 1; i < 3 * triangles.count; ++i)
         box.add(mesh.positions[mesh.indices[triangles.corner(i)]]);
     return box;
 }
 
+/// Whether each of six vertices is in the corner list.
+bool allListed(const std::array<std::uint32_t, 6>& vertices, const MeshView& mesh, const TriangleList& triangles) {
+    constexpr std::size_t kStep = 4096;  // entries between looks at what was found
+    const std::size_t entries = 3 * triangles.count;
+    return withListedVertices(mesh, triangles, [&](auto vertexOf) {
+        std::array<std::uint32_t, 6> missing;
+        missing.fill(1);
+        for (std::size_t begin = 0; begin < entries; begin += kStep) {
+            const std::size_t end = std::min(begin + kStep, entries);
+            for (std::size_t k = 0; k < 6; ++k) {
+                if (missing[k] == 0) continue;
+                std::uint32_t different = 1;
+                for (std::size_t i = begin; i < end; ++i) different &= vertexOf(i) != vertices[k] ? 1u : 0u;
+                missing[k] = different;
+            }
+            if (std::all_of(missing.begin(), missing.end(), [](std::uint32_t m) { return m == 0; })) return true;
+        }
+        return false;
+    });
+}
+
+/// The same box. Reading vertices in order is much faster than reading those of the list; nearly always they make the
+/// same box, which is so when vertices on its six sides are in the list.
+Box boundingBox(const MeshView& mesh, const TriangleList& triangles) {
+    if (triangles.corner(0) != 0) return listedBox(mesh, triangles);
+    const std::uint32_t start = mesh.indices[0];
+    Box box(mesh.positions[start]);
+    for (std::size_t v = 0; v < mesh.vertexCount(); ++v) box.add(mesh.positions[v]);
+    std::array<std::uint32_t, 6> sides;
+    sides.fill(start);
+    for (std::size_t v = mesh.vertexCount(); v-- > 0;) {
+        const Vec3& p = mesh.positions[v];
+        const auto vertex = static_cast<std::uint32_t>(v);
+        for (int axis = 0; axis < 3; ++axis) {
+            if (component(p, axis) == component(box.low, axis)) sides[2 * axis] = vertex;
+            if (component(p, axis) == component(box.high, axis)) sides[2 * axis + 1] = vertex;
+        }
+    }
+    return allListed(sides, mesh, triangles) ? box : listedBox(mesh, triangles);
+}
+
+/// For a quick look at most vertices: cells by a multiplication in place of a division. The two differ by one at most
+/// (their relative difference is a few 2^-24, at values up to 2^11), so cells beside a wanted one are near.
+class NearCells {
+  public:
+    NearCells(float low, float high, const std::array<std::uint8_t, kCells>& wanted)
+        : low_(low), scale_(static_cast<float>(kCells) / (high - low)) {
+        for (std::size_t cell = 0; cell < kCells; ++cell) {
+            if (wanted[cell] == 0) continue;
+            for (std::size_t near = cell; near < cell + 3; ++near) near_[near] = 1;  // near_[0] is for cell -1
+        }
+        if (!(scale_ <= std::numeric_limits<float>::max())) near_.fill(1);  // no extent, or nearly none
+        if (!std::isfinite(low) || !std::isfinite(high - low)) near_.fill(1);
+    }
+    [[nodiscard]] bool mayBeWanted(float x) const {
+        const float q = (x - low_) * scale_;
+        // Outside of the box are only vertices that no triangle uses.
+        const int cell = q > 0.0f ? (q < static_cast<float>(kCells) ? static_cast<int>(q) : kCells - 1) : 0;
+        return near_[static_cast<std::size_t>(cell) + 1] != 0;
+    }
+
+  private:
+    float low_, scale_;
+    std::array<std::uint8_t, kCells + 2> near_ = {};
+};
+
 }  // namespace
 
-void findRepresentatives(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                         const std::uint8_t* wanted, std::uint32_t* representatives, std::uint8_t* not_welded,
-                         const Allocator* allocator, Parallel& parallel) {
-    const std::size_t entries = 3 * triangles.count;
-    if (entries == 0) return;
+WeldOrder::WeldOrder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+                     const Allocator* allocator, Parallel& parallel)
+    : mesh_(mesh), triangles_(triangles), nodes_(nodes), allocator_(allocator), parallel_(parallel) {
+    if (triangles.count == 0) return;
     const Box box = boundingBox(mesh, triangles);
-    const int axis = box.longestAxis();
-    const float low = component(box.low, axis), high = component(box.high, axis);
+    axis_ = box.longestAxis();
+    low_ = component(box.low, axis_);
+    high_ = component(box.high, axis_);
+}
 
-    const std::size_t vertex_count = mesh.vertexCount();
-    Buffer<std::uint16_t> vertex_cell(allocator, vertex_count);
-    Buffer<std::size_t> cell_begin(allocator, kCells + 1, std::size_t{0});
-    Buffer<std::uint8_t> cell_wanted(allocator, kCells, std::uint8_t{0});
-    for (std::size_t v = 0; v < vertex_count; ++v) {
-        const std::size_t cell = cellOf(low, high, component(mesh.positions[v], axis));
-        vertex_cell[v] = static_cast<std::uint16_t>(cell);
-        if (wanted == nullptr || wanted[nodes.ofVertex(static_cast<std::uint32_t>(v))] != 0) cell_wanted[cell] = 1;
+std::size_t WeldOrder::cellOf(std::uint32_t vertex) const {
+    return mikk::cellOf(low_, high_, component(mesh_.positions[vertex], axis_));
+}
+
+/// Positions in the corner list.
+Buffer<std::uint32_t> WeldOrder::entriesOfWantedCells(const std::uint8_t* wanted) const {
+    const std::size_t entries = 3 * triangles_.count;
+    if (wanted == nullptr) {
+        return collect(entries, [](std::size_t) { return true; }, allocator_, parallel_);
     }
-    for (std::size_t i = 0; i < entries; ++i) {
-        const std::size_t cell = vertex_cell[mesh.indices[triangles.corner(i)]];
-        if (cell_wanted[cell] != 0) ++cell_begin[cell + 1];
+    const std::size_t vertex_count = mesh_.vertexCount();
+    std::array<std::uint8_t, kCells> cell_wanted = {};
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+        const auto vertex = static_cast<std::uint32_t>(v);
+        if (wanted[nodes_.ofVertex(vertex)] != 0) cell_wanted[cellOf(vertex)] = 1;
+    }
+    const NearCells near(low_, high_, cell_wanted);
+    Bitmap in_wanted(allocator_, vertex_count);
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+        if (!near.mayBeWanted(component(mesh_.positions[v], axis_))) continue;
+        if (cell_wanted[cellOf(static_cast<std::uint32_t>(v))] != 0) in_wanted.set(v);
+    }
+    return withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
+        return collect(entries, [&](std::size_t i) { return in_wanted[vertexOf(i)] != 0; }, allocator_, parallel_);
+    });
+}
+
+void WeldOrder::find(const std::uint8_t* wanted, std::uint32_t* representatives, std::uint8_t* not_welded) const {
+    if (triangles_.count == 0) return;
+    const Buffer<std::uint32_t> entries = entriesOfWantedCells(wanted);
+    Buffer<std::size_t> cell_begin(allocator_, kCells + 1, std::size_t{0});
+    Buffer<std::uint16_t> cells(allocator_, entries.size());
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const std::size_t cell = cellOf(mesh_.indices[triangles_.corner(entries[i])]);
+        cells[i] = static_cast<std::uint16_t>(cell);
+        ++cell_begin[cell + 1];
     }
     for (std::size_t cell = 0; cell < kCells; ++cell) cell_begin[cell + 1] += cell_begin[cell];
-    Buffer<Element> elements(allocator, cell_begin[kCells]);
-    Buffer<std::size_t> fill(allocator, kCells);
+    Buffer<Element> elements(allocator_, entries.size());
+    Buffer<std::size_t> fill(allocator_, kCells);
     std::copy_n(cell_begin.data(), kCells, fill.data());
-    for (std::size_t i = 0; i < entries; ++i) {
-        const std::uint32_t corner = triangles.corner(i), vertex = mesh.indices[corner];
-        const std::size_t cell = vertex_cell[vertex];
-        if (cell_wanted[cell] == 0) continue;
-        const std::uint32_t node = nodes.of(mesh, corner);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const std::uint32_t corner = triangles_.corner(entries[i]), node = nodes_.of(mesh_, corner);
         const bool want = wanted == nullptr || wanted[node] != 0;
-        elements[fill[cell]++] = {mesh.positions[vertex], corner, node, want ? kWanted : kNotWanted};
+        elements[fill[cells[i]]++] = {mesh_.positions[mesh_.indices[corner]], corner, node,
+                                      want ? kWanted : kNotWanted};
     }
     // Cells share nothing: a node lies in one of them.
-    parallel.forTasks(elements.size() < kCells ? 1 : kCells, [&](std::size_t task) {
+    parallel_.forTasks(elements.size() < kCells ? 1 : kCells, [&](std::size_t task) {
         const std::size_t first = elements.size() < kCells ? 0 : task;
         const std::size_t last = elements.size() < kCells ? kCells : task + 1;
         for (std::size_t cell = first; cell < last; ++cell) {
