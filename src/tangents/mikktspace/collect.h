@@ -61,6 +61,15 @@ Buffer<std::uint32_t> collect(std::size_t count, const Test& test, const Allocat
     return found;
 }
 
+/// Marks of vertices or nodes, a byte each: looked up in the middle of lists, where taking a bit out of a word costs more
+/// than the memory does.
+using Marks = Buffer<std::uint8_t>;
+inline Marks noMarks(const Allocator* allocator, std::size_t count) {
+    Marks marks(allocator, count);
+    std::fill_n(marks.data(), count, std::uint8_t{0});
+    return marks;
+}
+
 /// Calls body(vertexOf), where vertexOf(i) is the vertex of entry i of the corner list (3 per triangle). The usual kind
 /// of mesh gets code of its own.
 template <class Body>
@@ -69,20 +78,21 @@ auto withListedVertices(const MeshView& mesh, const TriangleList& triangles, con
         const auto* indices = static_cast<const std::uint32_t*>(mesh.indices.data);
         return body([indices](std::size_t i) { return indices[i]; });
     }
-    return body([&](std::size_t i) { return mesh.indices[triangles.corner(i)]; });
+    return body([&mesh, &triangles](std::size_t i) { return mesh.indices[triangles.corner(i)]; });
 }
 
-/// One bit per number.
-class Bitmap {
-  public:
-    Bitmap(const Allocator* allocator, std::size_t count) : words_(allocator, count / 64 + 1, std::uint64_t{0}) {}
-    void set(std::size_t i) { words_[i / 64] |= std::uint64_t{1} << i % 64; }
-    [[nodiscard]] unsigned operator[](std::size_t i) const {
-        return static_cast<unsigned>(words_[i / 64] >> i % 64 & 1);
-    }
-
-  private:
-    Buffer<std::uint64_t> words_;
-};
+/// The triangles of which at least `least` corners are at marked vertices, ascending.
+inline Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles, const Marks& marks,
+                                              unsigned least, const Allocator* allocator, Parallel& parallel) {
+    return withListedVertices(mesh, triangles, [&](auto vertexOf) {
+        const std::uint8_t* marked = marks.data();
+        const auto enough = [=](std::size_t t) {
+            const unsigned count =
+                unsigned{marked[vertexOf(3 * t)]} + marked[vertexOf(3 * t + 1)] + marked[vertexOf(3 * t + 2)];
+            return count >= least;
+        };
+        return collect(triangles.count, enough, allocator, parallel);
+    });
+}
 
 }  // namespace tspace::mikk

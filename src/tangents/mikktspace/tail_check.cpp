@@ -29,7 +29,7 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kFirstTail = 4096;  // triangles; in a mesh in natural order, a few rows
+constexpr std::size_t kFirstTail = 2048;  // triangles; in a mesh in natural order, a few rows
 constexpr std::size_t kLonger = 8;        // times, when that was not enough
 constexpr std::size_t kFirstEdges = 64;   // that are worked out before a better bound is known
 
@@ -49,7 +49,6 @@ class TailCheck {
           parallel_(parallel),
           order_(mesh, triangles, nodes, allocator, parallel),
           corners_(allocator, nodes.count),
-          wanted_(allocator, nodes.count, std::uint8_t{0}),
           edges_(allocator) {}
 
     bool run() {
@@ -91,30 +90,25 @@ class TailCheck {
 
     /// S, with the last corners of its nodes; then the edges that have both ends in S.
     void collectEdges(std::size_t begin) {
-        Bitmap late_vertices(allocator_, mesh_.vertexCount());
+        Marks late_vertices = noMarks(allocator_, mesh_.vertexCount());
         {
-            Bitmap late_nodes(allocator_, nodes_.count);
+            Marks late_nodes = noMarks(allocator_, nodes_.count);
             for (std::size_t t = triangles_.count; t-- > begin;) {
                 for (std::size_t k = 0; k < 3; ++k) {
                     const std::uint32_t corner = triangles_.corner(3 * t + k), node = nodes_.of(mesh_, corner);
                     if (late_nodes[node] == 0) corners_[node] = corner;
                     // Corners of a face are in no order; those of later faces are larger.
                     corners_[node] = std::max(corners_[node], corner);
-                    late_nodes.set(node);
-                    late_vertices.set(mesh_.indices[corner]);
+                    late_nodes[node] = 1;
+                    late_vertices[mesh_.indices[corner]] = 1;
                 }
             }
             for (std::size_t v = 0; v < nodes_.of_vertex.size(); ++v) {
-                if (late_nodes[nodes_.of_vertex[v]] != 0) late_vertices.set(v);
+                late_vertices[v] = late_nodes[nodes_.of_vertex[v]];
             }
         }
-        const Buffer<std::uint32_t> found = withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
-            const auto hasLateEdge = [&](std::size_t t) {
-                return late_vertices[vertexOf(3 * t)] + late_vertices[vertexOf(3 * t + 1)] +
-                           late_vertices[vertexOf(3 * t + 2)] >= 2;
-            };
-            return collect(triangles_.count, hasLateEdge, allocator_, parallel_);
-        });
+        const Buffer<std::uint32_t> found =
+            collectTriangles(mesh_, triangles_, late_vertices, 2, allocator_, parallel_);
         edges_.drop(edges_.size());
         for (const std::uint32_t t : found) {
             if (!isGood(t)) continue;
@@ -136,7 +130,7 @@ class TailCheck {
     bool findLargestKey(std::uint32_t first_corner) {
         if (edges_.empty()) return false;
         const auto higher = [&](const LateEdge& a, const LateEdge& b) { return bound(a) > bound(b); };
-        Bitmap exact(allocator_, nodes_.count);
+        Marks exact = noMarks(allocator_, nodes_.count);
         const std::size_t first = std::min(kFirstEdges, edges_.size());
         std::nth_element(edges_.begin(), edges_.begin() + (first - 1), edges_.end(), higher);
         workOut(bound(edges_[first - 1]), exact);
@@ -152,20 +146,17 @@ class TailCheck {
     }
 
     /// Makes the ends of all edges exact whose bound reaches the limit.
-    void workOut(std::uint32_t limit, Bitmap& exact) {
-        Growing<std::uint32_t> asked(allocator_);
+    void workOut(std::uint32_t limit, Marks& exact) {
+        Growing<std::uint32_t> asked(allocator_);  // a vertex of each
         for (const LateEdge& e : edges_) {
             if (bound(e) < limit) continue;
             for (const std::uint32_t node : {e.from, e.to}) {
                 if (exact[node] != 0) continue;
-                exact.set(node);
-                wanted_[node] = 1;
-                asked.push(node);
+                exact[node] = 1;
+                asked.push(mesh_.indices[corners_[node]]);
             }
         }
-        if (asked.empty()) return;
-        order_.find(wanted_.data(), corners_.data());
-        for (const std::uint32_t node : asked) wanted_[node] = 0;
+        if (!asked.empty()) order_.findSome({asked.begin(), asked.end()}, corners_.data());
     }
 
     bool bucketMatters() {
@@ -196,7 +187,6 @@ class TailCheck {
     Parallel& parallel_;
     WeldOrder order_;
     Buffer<std::uint32_t> corners_;  // of nodes in S: the representative where it is known, else the last corner
-    Buffer<std::uint8_t> wanted_;    // one per node; all zero between calls of workOut
     Growing<LateEdge> edges_;
     std::uint32_t key_ = 0;  // L, and V in the end
 };

@@ -140,7 +140,7 @@ class TailFinder {
     void findLargestLow() {
         if (nodes_.tame) {
             corners_ = Buffer<std::uint32_t>(allocator_, nodes_.count, kNone);
-            WeldOrder(mesh_, triangles_, nodes_, allocator_, parallel_).find(nullptr, corners_.data());
+            WeldOrder(mesh_, triangles_, nodes_, allocator_, parallel_).findAll(corners_.data());
         }
         const std::uint32_t* n = plan_.nodes.data();
         for (std::size_t i = 0; i < 3 * plan_.triangle_count; i += 3) {

@@ -18,6 +18,7 @@
 #include "core/hash.h"
 #include "core/vec_math.h"
 #include "tangents/mikktspace/grouped_plan.h"
+#include "tangents/mikktspace/growing.h"
 #include "tangents/mikktspace/weld_order.h"
 
 namespace tspace::mikk {
@@ -453,13 +454,14 @@ class VertexWelder {
 void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes, const Allocator* allocator,
                   Parallel& parallel) {
     listVertices(nodes, allocator);
-    Buffer<std::uint8_t> wanted(allocator, nodes.count, std::uint8_t{0});
+    Growing<std::uint32_t> different(allocator);
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
-        const std::uint32_t node = nodes.of_vertex[v];
-        if (!sameBits(mesh, v, nodes.vertices[node])) wanted[node] = 1;
+        const std::uint32_t first = nodes.vertices[nodes.of_vertex[v]];
+        if (!sameBits(mesh, v, first)) different.push(first);
     }
     Buffer<std::uint32_t> corners(allocator, nodes.count, kNone);
-    WeldOrder(mesh, triangles, nodes, allocator, parallel).find(wanted.data(), corners.data());
+    WeldOrder(mesh, triangles, nodes, allocator, parallel)
+        .findSome({different.begin(), different.end()}, corners.data());
     for (std::size_t node = 0; node < nodes.count; ++node) {
         if (corners[node] != kNone) nodes.vertices[node] = mesh.indices[corners[node]];
     }
@@ -499,7 +501,7 @@ void weldCorners(const MeshView& mesh, const TriangleList& triangles, Nodes& nod
     }
     Buffer<std::uint8_t> not_welded(allocator, corner_count, std::uint8_t{0});
     WeldOrder(mesh, triangles, nodes, allocator, parallel)
-        .find(nullptr, nodes.representatives.data(), not_welded.data());
+        .findAll(nodes.representatives.data(), not_welded.data());
     for (std::size_t c = 0; c < corner_count; ++c) {
         const std::uint32_t node = nodes.of_corner[c];
         if (not_welded[c] != 0 && node != kNone && nodes.representatives[node] != c) {

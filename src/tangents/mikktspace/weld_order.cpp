@@ -154,45 +154,55 @@ Box listedBox(const MeshView& mesh, const TriangleList& triangles) {
     return box;
 }
 
-/// Whether each of six vertices is in the corner list.
-bool allListed(const std::array<std::uint32_t, 6>& vertices, const MeshView& mesh, const TriangleList& triangles) {
-    constexpr std::size_t kStep = 4096;  // entries between looks at what was found
-    const std::size_t entries = 3 * triangles.count;
+/// Whether a vertex is in the corner list. Looks first where it is when vertices are numbered as triangles use them.
+bool isListed(std::uint32_t vertex, const MeshView& mesh, const TriangleList& triangles) {
+    constexpr std::size_t kStep = 1024;  // entries between looks at what was found
+    const std::size_t steps = 3 * triangles.count / kStep + 1;
+    const std::size_t guess = std::size_t{vertex} * steps / mesh.vertexCount();
     return withListedVertices(mesh, triangles, [&](auto vertexOf) {
-        std::array<std::uint32_t, 6> missing;
-        missing.fill(1);
-        for (std::size_t begin = 0; begin < entries; begin += kStep) {
-            const std::size_t end = std::min(begin + kStep, entries);
-            for (std::size_t k = 0; k < 6; ++k) {
-                if (missing[k] == 0) continue;
-                std::uint32_t different = 1;
-                for (std::size_t i = begin; i < end; ++i) different &= vertexOf(i) != vertices[k] ? 1u : 0u;
-                missing[k] = different;
-            }
-            if (std::all_of(missing.begin(), missing.end(), [](std::uint32_t m) { return m == 0; })) return true;
+        for (std::size_t n = 0; n < steps; ++n) {
+            const std::size_t step = (guess + n) % steps;
+            const std::size_t end = std::min((step + 1) * kStep, 3 * triangles.count);
+            std::uint32_t found = 0;
+            for (std::size_t i = step * kStep; i < end; ++i) found |= vertexOf(i) == vertex ? 1u : 0u;
+            if (found != 0) return true;
         }
         return false;
     });
 }
 
 /// The same box. Reading vertices in order is much faster than reading those of the list; nearly always they make the
-/// same box, which is so when vertices on its six sides are in the list.
-Box boundingBox(const MeshView& mesh, const TriangleList& triangles) {
+/// same box, which is so when vertices on its six sides are in the list. Not for a NaN in the list.
+Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator, Parallel& parallel) {
+    constexpr std::size_t kBoxed = 512;  // vertices
+    constexpr std::size_t kGrain = 64;   // boxes
     if (triangles.corner(0) != 0) return listedBox(mesh, triangles);
-    const std::uint32_t start = mesh.indices[0];
-    Box box(mesh.positions[start]);
-    for (std::size_t v = 0; v < mesh.vertexCount(); ++v) box.add(mesh.positions[v]);
-    std::array<std::uint32_t, 6> sides;
-    sides.fill(start);
-    for (std::size_t v = mesh.vertexCount(); v-- > 0;) {
-        const Vec3& p = mesh.positions[v];
-        const auto vertex = static_cast<std::uint32_t>(v);
-        for (int axis = 0; axis < 3; ++axis) {
-            if (component(p, axis) == component(box.low, axis)) sides[2 * axis] = vertex;
-            if (component(p, axis) == component(box.high, axis)) sides[2 * axis + 1] = vertex;
+    const Box start(mesh.positions[mesh.indices[0]]);
+    const std::size_t count = mesh.vertexCount(), box_count = (count + kBoxed - 1) / kBoxed;
+    Buffer<Box> boxes(allocator, box_count);
+    parallel.forRanges(box_count, kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t b = begin; b < end; ++b) {
+            Box box = start;
+            for (std::size_t v = b * kBoxed; v < std::min((b + 1) * kBoxed, count); ++v) box.add(mesh.positions[v]);
+            boxes[b] = box;
+        }
+    });
+    Box whole = start;
+    for (const Box& box : boxes) {
+        whole.add(box.low);
+        whole.add(box.high);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const bool upper : {false, true}) {
+            const auto side = [&](const Box& box) { return component(upper ? box.high : box.low, axis); };
+            if (component(start.low, axis) == side(whole)) continue;  // in the list for sure
+            std::size_t v = 0;
+            while (side(boxes[v / kBoxed]) != side(whole)) v += kBoxed;
+            while (component(mesh.positions[v], axis) != side(whole)) ++v;
+            if (!isListed(static_cast<std::uint32_t>(v), mesh, triangles)) return listedBox(mesh, triangles);
         }
     }
-    return allListed(sides, mesh, triangles) ? box : listedBox(mesh, triangles);
+    return whole;
 }
 
 /// For a quick look at most vertices: cells by a multiplication in place of a division. The two differ by one at most
@@ -208,12 +218,24 @@ class NearCells {
         if (!(scale_ <= std::numeric_limits<float>::max())) near_.fill(1);  // no extent, or nearly none
         if (!std::isfinite(low) || !std::isfinite(high - low)) near_.fill(1);
     }
-    [[nodiscard]] bool mayBeWanted(float x) const {
-        const float q = (x - low_) * scale_;
-        // Outside of the box are only vertices that no triangle uses.
-        const int cell = q > 0.0f ? (q < static_cast<float>(kCells) ? static_cast<int>(q) : kCells - 1) : 0;
-        return near_[static_cast<std::size_t>(cell) + 1] != 0;
+    /// marks[i] becomes 0 for vertices [begin, end) that are in no wanted cell. Returns whether any may be in one.
+    bool mark(const StridedSpan<const Vec3>& positions, int axis, std::size_t begin, std::size_t end,
+              std::uint8_t* marks) const {
+        constexpr float kLast = static_cast<float>(kCells - 1);
+        std::array<std::int32_t, kBlock> cells;
+        for (std::size_t v = begin; v < end; ++v) {
+            const float q = (component(positions[v], axis) - low_) * scale_;
+            const float inside = q > 0.0f ? q : 0.0f;  // outside are only vertices that no triangle uses
+            cells[v - begin] = static_cast<std::int32_t>(inside < kLast ? inside : kLast);
+        }
+        unsigned any = 0;
+        for (std::size_t v = begin; v < end; ++v) {
+            marks[v] = near_[static_cast<std::size_t>(cells[v - begin]) + 1];
+            any |= marks[v];
+        }
+        return any != 0;
     }
+    static constexpr std::size_t kBlock = 256;
 
   private:
     float low_, scale_;
@@ -226,7 +248,7 @@ WeldOrder::WeldOrder(const MeshView& mesh, const TriangleList& triangles, const 
                      const Allocator* allocator, Parallel& parallel)
     : mesh_(mesh), triangles_(triangles), nodes_(nodes), allocator_(allocator), parallel_(parallel) {
     if (triangles.count == 0) return;
-    const Box box = boundingBox(mesh, triangles);
+    const Box box = nodes.tame ? boundingBox(mesh, triangles, allocator, parallel) : listedBox(mesh, triangles);
     axis_ = box.longestAxis();
     low_ = component(box.low, axis_);
     high_ = component(box.high, axis_);
@@ -237,31 +259,50 @@ std::size_t WeldOrder::cellOf(std::uint32_t vertex) const {
 }
 
 /// Positions in the corner list.
-Buffer<std::uint32_t> WeldOrder::entriesOfWantedCells(const std::uint8_t* wanted) const {
-    const std::size_t entries = 3 * triangles_.count;
-    if (wanted == nullptr) {
-        return collect(entries, [](std::size_t) { return true; }, allocator_, parallel_);
-    }
-    const std::size_t vertex_count = mesh_.vertexCount();
+Buffer<std::uint32_t> WeldOrder::entriesInCellsOf(std::span<const std::uint32_t> vertices) const {
+    constexpr std::size_t kGrain = 64;  // blocks
     std::array<std::uint8_t, kCells> cell_wanted = {};
-    for (std::size_t v = 0; v < vertex_count; ++v) {
-        const auto vertex = static_cast<std::uint32_t>(v);
-        if (wanted[nodes_.ofVertex(vertex)] != 0) cell_wanted[cellOf(vertex)] = 1;
-    }
+    for (const std::uint32_t vertex : vertices) cell_wanted[cellOf(vertex)] = 1;
     const NearCells near(low_, high_, cell_wanted);
-    Bitmap in_wanted(allocator_, vertex_count);
-    for (std::size_t v = 0; v < vertex_count; ++v) {
-        if (!near.mayBeWanted(component(mesh_.positions[v], axis_))) continue;
-        if (cell_wanted[cellOf(static_cast<std::uint32_t>(v))] != 0) in_wanted.set(v);
-    }
-    return withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
-        return collect(entries, [&](std::size_t i) { return in_wanted[vertexOf(i)] != 0; }, allocator_, parallel_);
+    const std::size_t vertex_count = mesh_.vertexCount();
+    Marks in_cells(allocator_, vertex_count);
+    parallel_.forRanges((vertex_count + NearCells::kBlock - 1) / NearCells::kBlock, kGrain,
+                        [&](std::size_t first_block, std::size_t end_block) {
+        for (std::size_t block = first_block; block < end_block; ++block) {
+            const std::size_t begin = block * NearCells::kBlock, end = std::min(begin + NearCells::kBlock, vertex_count);
+            if (!near.mark(mesh_.positions, axis_, begin, end, in_cells.data())) continue;
+            for (std::size_t v = begin; v < end; ++v) {
+                if (in_cells[v] != 0) in_cells[v] = cell_wanted[cellOf(static_cast<std::uint32_t>(v))];
+            }
+        }
     });
+    const Buffer<std::uint32_t> found = collectTriangles(mesh_, triangles_, in_cells, 1, allocator_, parallel_);
+    Growing<std::uint32_t> entries(allocator_);
+    entries.reserve(3 * found.size());
+    for (const std::uint32_t t : found) {
+        for (std::uint32_t i = 3 * t; i < 3 * t + 3; ++i) {
+            if (in_cells[mesh_.indices[triangles_.corner(i)]] != 0) entries.push(i);
+        }
+    }
+    return entries.exact();
 }
 
-void WeldOrder::find(const std::uint8_t* wanted, std::uint32_t* representatives, std::uint8_t* not_welded) const {
+void WeldOrder::findSome(std::span<const std::uint32_t> vertices, std::uint32_t* representatives) const {
     if (triangles_.count == 0) return;
-    const Buffer<std::uint32_t> entries = entriesOfWantedCells(wanted);
+    Marks wanted = noMarks(allocator_, nodes_.count);
+    for (const std::uint32_t vertex : vertices) wanted[nodes_.ofVertex(vertex)] = 1;
+    find(entriesInCellsOf(vertices), wanted, representatives, nullptr);
+}
+
+void WeldOrder::findAll(std::uint32_t* representatives, std::uint8_t* not_welded) const {
+    Buffer<std::uint32_t> all(allocator_, 3 * triangles_.count);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint32_t>(i);
+    find(all, Marks(), representatives, not_welded);
+}
+
+/// `wanted`: one per node; empty: all nodes.
+void WeldOrder::find(const Buffer<std::uint32_t>& entries, const Marks& wanted, std::uint32_t* representatives,
+                     std::uint8_t* not_welded) const {
     Buffer<std::size_t> cell_begin(allocator_, kCells + 1, std::size_t{0});
     Buffer<std::uint16_t> cells(allocator_, entries.size());
     for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -275,7 +316,7 @@ void WeldOrder::find(const std::uint8_t* wanted, std::uint32_t* representatives,
     std::copy_n(cell_begin.data(), kCells, fill.data());
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const std::uint32_t corner = triangles_.corner(entries[i]), node = nodes_.of(mesh_, corner);
-        const bool want = wanted == nullptr || wanted[node] != 0;
+        const bool want = wanted.empty() || wanted[node] != 0;
         elements[fill[cells[i]]++] = {mesh_.positions[mesh_.indices[corner]], corner, node,
                                       want ? kWanted : kNotWanted};
     }
