@@ -141,7 +141,8 @@ TEST(Weld, TakesZerosOfBothSignsForOne) {
     for (const float zero : {0.0f, -0.0f, 0.0f}) shape.vertex({zero, 0, 0}, {0, 0, 1}, {0, -zero});
     shape.vertex({1, 0, 0}, {0, 0, 1}, {1, 0});
     shape.vertex({0, 1, 0}, {0, 0, 1}, {0, 1});
-    shape.triangle(1, 3, 4);  // the only one at this node: the vertex that is used stands for it, not the first
+    shape.triangle(1, 3,
+                   4);  // the only one at this node: the vertex that is used stands for it, not the first
     const Nodes nodes = weldWith(shape.view(), 1);
     EXPECT_EQ(nodes.count, 3u);
     EXPECT_TRUE(nodes.mixed);

@@ -79,13 +79,20 @@ Shape someShape(std::uint32_t seed) {
     std::mt19937 random(seed);
     Shape shape;
     switch (seed % 4) {
-        case 0: shape = test::grid(1 + random() % 12); break;
-        case 1: shape = test::fan(1 + random() % 40); break;
-        case 2: shape = test::book(1 + random() % 40, true); break;
+        case 0:
+            shape = test::grid(1 + random() % 12);
+            break;
+        case 1:
+            shape = test::fan(1 + random() % 40);
+            break;
+        case 2:
+            shape = test::book(1 + random() % 40, true);
+            break;
         default: {
             const std::uint32_t vertices = 3 + random() % 12;
             const auto value = [&] { return static_cast<float>(random() % 5); };
-            for (std::uint32_t v = 0; v < vertices; ++v) shape.vertex({value(), value(), value()}, test::kUp, {value(), value()});
+            for (std::uint32_t v = 0; v < vertices; ++v)
+                shape.vertex({value(), value(), value()}, test::kUp, {value(), value()});
             for (std::uint32_t f = 1 + random() % 60; f-- > 0;) {
                 std::vector<std::uint32_t> face(random() % 8 == 0 ? 2 + 2 * (random() % 2) : 3);
                 for (std::uint32_t& corner : face) corner = random() % vertices;
@@ -115,7 +122,8 @@ TEST(TailCheck, NoMeansThatBothPairingsGiveTheSameBits) {
         const Shape shape = someShape(seed);
         const std::vector<Vec4> reference = tangents(shape.view(), Pairing::reference),
                                 corrected = tangents(shape.view(), Pairing::corrected);
-        const bool same = std::memcmp(reference.data(), corrected.data(), reference.size() * sizeof(Vec4)) == 0;
+        const bool same =
+            std::memcmp(reference.data(), corrected.data(), reference.size() * sizeof(Vec4)) == 0;
         if (!Welded(shape.view()).tailMayMatter()) {
             ASSERT_TRUE(same) << seed;
         }
@@ -142,11 +150,13 @@ TEST(TailCheck, DecidesTheSameForLargeMeshesAndAllThreads) {
         Shape shape = seed < 5 ? test::grid(300) : test::fan(200000);
         if (seed > 0) test::shuffleTriangles(shape, seed);
         const bool want = Welded(shape.view()).lastBucketMatters();
-        for (const unsigned threads : {1u, 2u, 3u}) EXPECT_EQ(Welded(shape.view(), threads).tailMayMatter(), want);
+        for (const unsigned threads : {1u, 2u, 3u})
+            EXPECT_EQ(Welded(shape.view(), threads).tailMayMatter(), want);
     }
 }
 
-/// The last triangles' nodes all have their first corners, and with them their representatives, at the beginning.
+/// The last triangles' nodes all have their first corners, and with them their representatives, at the
+/// beginning.
 TEST(TailCheck, LooksFurtherBackWhenTheLastTrianglesOnlyUseOldNodes) {
     Shape shape = test::grid(80);
     for (int repeat = 0; repeat < 6000; ++repeat) shape.triangle(0, 1, 82);

@@ -16,10 +16,12 @@ namespace tspace::mikk {
 
 inline constexpr std::size_t kCollectBlock = 256;
 
-/// Writes the numbers of [begin, end) for which test(i) to `to`, which must have room for all; returns how many.
+/// Writes the numbers of [begin, end) for which test(i) to `to`, which must have room for all; returns how
+/// many.
 template <class Test>
 std::size_t collectBlock(std::size_t begin, std::size_t end, const Test& test, std::uint32_t* to) {
-    std::size_t count = 0;  // to[count] is written in any case, and stays when the next one is written behind it
+    std::size_t count =
+        0;  // to[count] is written in any case, and stays when the next one is written behind it
     for (std::size_t i = begin; i < end; ++i) {
         to[count] = static_cast<std::uint32_t>(i);
         count += test(i) ? 1 : 0;
@@ -27,11 +29,12 @@ std::size_t collectBlock(std::size_t begin, std::size_t end, const Test& test, s
     return count;
 }
 
-/// The numbers i of [0, count), ascending, for which test(i). mayHold(begin, end) is asked first, for each block: when it
-/// says no, no test in the block may hold. With threads the tests are asked twice in blocks where one holds.
+/// The numbers i of [0, count), ascending, for which test(i). mayHold(begin, end) is asked first, for each
+/// block: when it says no, no test in the block may hold. With threads the tests are asked twice in blocks
+/// where one holds.
 template <class Test, class MayHold>
-Buffer<std::uint32_t> collect(std::size_t count, const Test& test, const MayHold& mayHold, const Allocator* allocator,
-                              Parallel& parallel) {
+Buffer<std::uint32_t> collect(std::size_t count, const Test& test, const MayHold& mayHold,
+                              const Allocator* allocator, Parallel& parallel) {
     constexpr std::size_t kGrain = 256;  // blocks
     const std::size_t blocks = (count + kCollectBlock - 1) / kCollectBlock;
     const auto inBlock = [&](std::size_t block, std::uint32_t* to) {
@@ -65,8 +68,8 @@ Buffer<std::uint32_t> collect(std::size_t count, const Test& test, const MayHold
     return found;
 }
 
-/// Calls body(vertexOf), where vertexOf(i) is the vertex of entry i of the corner list (3 per triangle). The usual kinds
-/// of mesh get code of their own.
+/// Calls body(vertexOf), where vertexOf(i) is the vertex of entry i of the corner list (3 per triangle). The
+/// usual kinds of mesh get code of their own.
 template <class Body>
 auto withListedVertices(const MeshView& mesh, const TriangleList& triangles, const Body& body) {
     if (mesh.indices.type == IndexType::u32 && triangles.corners.empty()) {
@@ -79,8 +82,8 @@ auto withListedVertices(const MeshView& mesh, const TriangleList& triangles, con
     return body([&mesh, &triangles](std::size_t i) { return mesh.indices[triangles.corner(i)]; });
 }
 
-/// Marks of vertices or nodes, a byte each: looked up in the middle of lists, where taking a bit out of a word costs more
-/// than the memory does.
+/// Marks of vertices or nodes, a byte each: looked up in the middle of lists, where taking a bit out of a
+/// word costs more than the memory does.
 using Marks = Buffer<std::uint8_t>;
 inline Marks noMarks(const Allocator* allocator, std::size_t count) {
     Marks marks(allocator, count);
@@ -91,7 +94,8 @@ inline Marks noMarks(const Allocator* allocator, std::size_t count) {
 /// Which parts of some marks have any.
 class MarkedParts {
   public:
-    MarkedParts(const Marks& marks, const Allocator* allocator) : before_(allocator, marks.size() / kPart + 2) {
+    MarkedParts(const Marks& marks, const Allocator* allocator)
+        : before_(allocator, marks.size() / kPart + 2) {
         before_[0] = 0;
         for (std::size_t part = 0; part + 1 < before_.size(); ++part) {
             const std::size_t end = std::min((part + 1) * kPart, marks.size());
@@ -110,10 +114,11 @@ class MarkedParts {
     Buffer<std::uint32_t> before_;  // how many parts before this one have marks
 };
 
-/// The triangles of which at least `least` corners, not 0, are at marked vertices; ascending. Where triangles of a block
-/// use vertices that lie together, few instructions show that none is marked.
-inline Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles, const Marks& marks,
-                                              unsigned least, const Allocator* allocator, Parallel& parallel) {
+/// The triangles of which at least `least` corners, not 0, are at marked vertices; ascending. Where triangles
+/// of a block use vertices that lie together, few instructions show that none is marked.
+inline Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles,
+                                              const Marks& marks, unsigned least, const Allocator* allocator,
+                                              Parallel& parallel) {
     const MarkedParts parts(marks, allocator);
     return withListedVertices(mesh, triangles, [&](auto vertexOf) {
         const std::uint8_t* marked = marks.data();

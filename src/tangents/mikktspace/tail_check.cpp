@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
 // Step 5: whether the last bucket of the reference's edge list can matter.
 //
-// An edge's key is the lower one of its two nodes' representatives (which are corners), and the last bucket holds the
-// edges with the largest key, V. Where are they? Let F be the first corner of some triangles at the end of the list, so
-// that corners from F on are in these triangles only, and S the nodes that have such a corner.
+// An edge's key is the lower one of its two nodes' representatives (which are corners), and the last bucket
+// holds the edges with the largest key, V. Where are they? Let F be the first corner of some triangles at the
+// end of the list, so that corners from F on are in these triangles only, and S the nodes that have such a
+// corner.
 //
-//   If V >= F, both ends of every edge of the last bucket are in S: the lower end's representative is V, the higher
-//   end's is larger, and a node's representative is one of its corners.
+//   If V >= F, both ends of every edge of the last bucket are in S: the lower end's representative is V, the
+//   higher end's is larger, and a node's representative is one of its corners.
 //
-// So it is enough to look at edges with both ends in S. Let L be the largest key among them. V >= L, since they are
-// edges of the mesh. If L >= F, then V >= F, all of the bucket is among them, and V = L. Else V < F (otherwise V would be
-// the key of one of them), and the end of the list has to be taken longer; with the whole list F is its first corner.
+// So it is enough to look at edges with both ends in S. Let L be the largest key among them. V >= L, since
+// they are edges of the mesh. If L >= F, then V >= F, all of the bucket is among them, and V = L. Else V < F
+// (otherwise V would be the key of one of them), and the end of the list has to be taken longer; with the
+// whole list F is its first corner.
 //
-// To find L, few representatives are needed. A node's last corner is the most that its representative can be, which
-// bounds an edge's key from above. The edges of the highest bounds are worked out exactly, then those whose bound reaches
-// the best key found.
+// To find L, few representatives are needed. A node's last corner is the most that its representative can be,
+// which bounds an edge's key from above. The edges of the highest bounds are worked out exactly, then those
+// whose bound reaches the best key found.
 #include "tangents/mikktspace/tail_check.h"
 
 #include <algorithm>
@@ -40,8 +42,8 @@ struct LateEdge {
 
 class TailCheck {
   public:
-    TailCheck(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const Allocator* allocator,
-              Parallel& parallel)
+    TailCheck(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+              const Allocator* allocator, Parallel& parallel)
         : mesh_(mesh),
           triangles_(triangles),
           nodes_(nodes),
@@ -74,16 +76,21 @@ class TailCheck {
     /// F: a face's first corner is in one of its triangles.
     [[nodiscard]] std::uint32_t firstCorner(std::size_t triangle) const {
         std::uint32_t first = kNone;
-        for (std::size_t t = triangle; t < triangles_.count && triangles_.face(t) == triangles_.face(triangle); ++t) {
+        for (std::size_t t = triangle;
+             t < triangles_.count && triangles_.face(t) == triangles_.face(triangle); ++t) {
             for (std::size_t k = 0; k < 3; ++k) first = std::min(first, triangles_.corner(3 * t + k));
         }
         return first;
     }
 
-    [[nodiscard]] std::uint32_t nodeAt(std::size_t entry) const { return nodes_.of(mesh_, triangles_.corner(entry)); }
+    [[nodiscard]] std::uint32_t nodeAt(std::size_t entry) const {
+        return nodes_.of(mesh_, triangles_.corner(entry));
+    }
 
     [[nodiscard]] bool isGood(std::size_t triangle) const {
-        const auto at = [&](std::size_t k) { return mesh_.positions[mesh_.indices[triangles_.corner(3 * triangle + k)]]; };
+        const auto at = [&](std::size_t k) {
+            return mesh_.positions[mesh_.indices[triangles_.corner(3 * triangle + k)]];
+        };
         const Vec3 a = at(0), b = at(1), c = at(2);
         return !(a == b || b == c || c == a);
     }
@@ -95,7 +102,8 @@ class TailCheck {
             Marks late_nodes = noMarks(allocator_, nodes_.count);
             for (std::size_t t = triangles_.count; t-- > begin;) {
                 for (std::size_t k = 0; k < 3; ++k) {
-                    const std::uint32_t corner = triangles_.corner(3 * t + k), node = nodes_.of(mesh_, corner);
+                    const std::uint32_t corner = triangles_.corner(3 * t + k),
+                                        node = nodes_.of(mesh_, corner);
                     if (late_nodes[node] == 0) corners_[node] = corner;
                     // Corners of a face are in no order; those of later faces are larger.
                     corners_[node] = std::max(corners_[node], corner);
@@ -123,10 +131,12 @@ class TailCheck {
     }
 
     /// Never below the edge's key; equal to it when both ends are exact.
-    [[nodiscard]] std::uint32_t bound(const LateEdge& e) const { return std::min(corners_[e.from], corners_[e.to]); }
+    [[nodiscard]] std::uint32_t bound(const LateEdge& e) const {
+        return std::min(corners_[e.from], corners_[e.to]);
+    }
 
-    /// L, if it is not below F; else anything below F. Returns false when there is no edge. All edges whose bound is L
-    /// are exact afterwards.
+    /// L, if it is not below F; else anything below F. Returns false when there is no edge. All edges whose
+    /// bound is L are exact afterwards.
     bool findLargestKey(std::uint32_t first_corner) {
         if (edges_.empty()) return false;
         const auto higher = [&](const LateEdge& a, const LateEdge& b) { return bound(a) > bound(b); };
@@ -175,7 +185,8 @@ class TailCheck {
             return a.high != b.high ? a.high < b.high : a.ascending < b.ascending;
         });
         for (std::size_t i = 1; i < bucket.size(); ++i) {
-            if (bucket[i].high == bucket[i - 1].high && bucket[i].ascending != bucket[i - 1].ascending) return true;
+            if (bucket[i].high == bucket[i - 1].high && bucket[i].ascending != bucket[i - 1].ascending)
+                return true;
         }
         return false;
     }
@@ -186,7 +197,8 @@ class TailCheck {
     const Allocator* allocator_;
     Parallel& parallel_;
     WeldOrder order_;
-    Buffer<std::uint32_t> corners_;  // of nodes in S: the representative where it is known, else the last corner
+    Buffer<std::uint32_t>
+        corners_;  // of nodes in S: the representative where it is known, else the last corner
     Growing<LateEdge> edges_;
     std::uint32_t key_ = 0;  // L, and V in the end
 };

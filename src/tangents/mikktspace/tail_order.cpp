@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Step 5: the last bucket of the reference's edge list. To know its order, the reference's first sort (a
-// quicksort with a fixed seed, not stable) must be replayed; but nearly always tail_check.cpp shows that the order
-// cannot matter.
+// quicksort with a fixed seed, not stable) must be replayed; but nearly always tail_check.cpp shows that the
+// order cannot matter.
 //
 // Half-edges compare by their nodes' representative corners only.
 #include "tangents/mikktspace/tail_order.h"
@@ -107,8 +107,8 @@ struct TailEdge {
 
 class TailFinder {
   public:
-    TailFinder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const GroupedPlan& plan,
-               const Allocator* allocator, Parallel& parallel)
+    TailFinder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+               const GroupedPlan& plan, const Allocator* allocator, Parallel& parallel)
         : mesh_(mesh),
           triangles_(triangles),
           nodes_(nodes),
@@ -133,10 +133,12 @@ class TailFinder {
     }
 
   private:
-    std::uint32_t representative(std::uint32_t node) const { return nodes_.tame ? corners_[node] : nodes_.representatives[node]; }
+    std::uint32_t representative(std::uint32_t node) const {
+        return nodes_.tame ? corners_[node] : nodes_.representatives[node];
+    }
 
-    /// Finds the lower end of the last bucket's edges: in each triangle the middle one of the representatives is the
-    /// lower end of its highest edge.
+    /// Finds the lower end of the last bucket's edges: in each triangle the middle one of the representatives
+    /// is the lower end of its highest edge.
     void findLargestLow() {
         if (nodes_.tame) {
             corners_ = Buffer<std::uint32_t>(allocator_, nodes_.count, kNone);
@@ -144,7 +146,8 @@ class TailFinder {
         }
         const std::uint32_t* n = plan_.nodes.data();
         for (std::size_t i = 0; i < 3 * plan_.triangle_count; i += 3) {
-            const std::uint32_t r[3] = {representative(n[i]), representative(n[i + 1]), representative(n[i + 2])};
+            const std::uint32_t r[3] = {representative(n[i]), representative(n[i + 1]),
+                                        representative(n[i + 2])};
             const std::uint32_t middle = middleOf(r[0], r[1], r[2]);
             if (middle < low_) continue;
             low_ = middle;

@@ -3,10 +3,10 @@
 // here the vertices of the mesh are hashed. The classes are the same; their representative, where it matters,
 // comes from weld_order.cpp, and so does what the reference does with values that are not finite.
 //
-// Most vertices of an indexed mesh are equal to no other. So each hash counts in a small table, by its upper bits, up to
-// two; only vertices whose place in it counts two can be equal to another, and only they are looked up. Where most
-// vertices are equal to others, all are looked up at once. Threads share nothing: each counts its own vertices, and looks
-// up the vertices of its own range of hashes.
+// Most vertices of an indexed mesh are equal to no other. So each hash counts in a small table, by its upper
+// bits, up to two; only vertices whose place in it counts two can be equal to another, and only they are
+// looked up. Where most vertices are equal to others, all are looked up at once. Threads share nothing: each
+// counts its own vertices, and looks up the vertices of its own range of hashes.
 #include "tangents/mikktspace/weld.h"
 
 #include <algorithm>
@@ -29,10 +29,10 @@ namespace {
 constexpr float kHugePosition = 1.6e38f;
 constexpr std::size_t kGrain =
     16384;  // vertices per task at least: below, starting threads costs more than it saves
-constexpr std::size_t kFew = 4096;  // vertices; so few are all looked up
-constexpr unsigned kMostRanges = 4;  // each has a counting table of its own
-constexpr std::size_t kBlock = 256;  // vertices; their hashes stay in the first cache
-constexpr std::size_t kBatch = 32;  // lookups; all that they touch has to stay in the first cache
+constexpr std::size_t kFew = 4096;           // vertices; so few are all looked up
+constexpr unsigned kMostRanges = 4;          // each has a counting table of its own
+constexpr std::size_t kBlock = 256;          // vertices; their hashes stay in the first cache
+constexpr std::size_t kBatch = 32;           // lookups; all that they touch has to stay in the first cache
 constexpr std::size_t kPlacesPerVertex = 8;  // of a counting table: leaves 1 vertex of 9 to be looked up
 constexpr std::size_t kPlacesPerByte = 4;
 
@@ -60,8 +60,8 @@ std::uint64_t pairAt(const void* at) {
     return pair;
 }
 
-/// Whether two vertices have the same bits. Words are read as they lie: a copy would be written in small pieces and
-/// read in large ones, which processors are slow at.
+/// Whether two vertices have the same bits. Words are read as they lie: a copy would be written in small
+/// pieces and read in large ones, which processors are slow at.
 bool sameBits(const MeshView& mesh, std::size_t a, std::size_t b) {
     const Vec3 &p = mesh.positions[a], &q = mesh.positions[b], &m = mesh.normals[a], &n = mesh.normals[b];
     const std::uint64_t xy = (pairAt(&p) ^ pairAt(&q)) | (pairAt(&m) ^ pairAt(&n));
@@ -75,8 +75,8 @@ using Floats = float __attribute__((vector_size(16)));
 using Words = std::uint32_t __attribute__((vector_size(16)));
 using Pairs = std::uint64_t __attribute__((vector_size(16)));
 
-/// Hashes of the vertices [begin, end). Vertices that compare equal have equal hashes: adding +0 turns -0 into +0.
-/// Returns whether all of them are tame; large normals and UVs are not taken for tame here either.
+/// Hashes of the vertices [begin, end). Vertices that compare equal have equal hashes: adding +0 turns -0
+/// into +0. Returns whether all of them are tame; large normals and UVs are not taken for tame here either.
 bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std::uint32_t* hashes) {
     const Floats limit = Floats{} + kHugePosition;
     const Words no_sign = Words{} + 0x7fffffffu;
@@ -87,8 +87,7 @@ bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std:
         const Vec3 &p = positions[v], &n = normals[v];
         const Floats z = {p.z, n.z, 0, 0};
         const Floats a = std::bit_cast<Floats>(Pairs{pairAt(&p), pairAt(&n)}) + Floats{};
-        const Floats b =
-            std::bit_cast<Floats>(Pairs{std::bit_cast<Pairs>(z)[0], pairAt(&uvs[v])}) + Floats{};
+        const Floats b = std::bit_cast<Floats>(Pairs{std::bit_cast<Pairs>(z)[0], pairAt(&uvs[v])}) + Floats{};
         tame &= (std::bit_cast<Floats>(std::bit_cast<Words>(a) & no_sign) < limit) &
                 (std::bit_cast<Floats>(std::bit_cast<Words>(b) & no_sign) < limit);
         // Turned against each other, so that signs that change together (mirrored shapes) do not cancel.
@@ -101,8 +100,8 @@ bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std:
     return (tame[0] & tame[1] & tame[2] & tame[3]) != 0;
 }
 
-/// How often each value of the hashes' upper bits occurs: never, once, or more often. Two bits a place: bit 0 says at
-/// least once, bit 1 more often.
+/// How often each value of the hashes' upper bits occurs: never, once, or more often. Two bits a place: bit 0
+/// says at least once, bit 1 more often.
 class Counting {
   public:
     Counting(const Allocator* allocator, std::size_t vertex_count, std::size_t ranges)
@@ -143,11 +142,14 @@ class Counting {
         return taken;
     }
 
-    /// Writes those of the vertices [begin, end) to `list` whose hash another vertex may have. Returns how many.
-    std::size_t repeated(const std::uint32_t* hashes, std::size_t begin, std::size_t end, std::uint32_t* list) const {
+    /// Writes those of the vertices [begin, end) to `list` whose hash another vertex may have. Returns how
+    /// many.
+    std::size_t repeated(const std::uint32_t* hashes, std::size_t begin, std::size_t end,
+                         std::uint32_t* list) const {
         const std::uint8_t* table = table_.data();
         const unsigned shift = 32 - log2_;
-        std::size_t count = 0;  // list[count] is written in any case, and stays when the next one is written behind it
+        std::size_t count =
+            0;  // list[count] is written in any case, and stays when the next one is written behind it
         for (std::size_t v = begin; v < end; ++v) {
             const std::uint32_t place = hashes[v] >> shift;
             list[count] = static_cast<std::uint32_t>(v);
@@ -174,24 +176,32 @@ class Counting {
     Buffer<std::uint8_t> table_;
 };
 
-/// Finds the first equal vertex, the root, of each candidate. First by hashes alone: each task has the candidates of one
-/// range of hashes, and a part of the table. Then the data of each candidate and its root are compared, in order, which
-/// reads memory as it lies. The few that differ from the root of their hash are looked up by their data.
+/// Finds the first equal vertex, the root, of each candidate. First by hashes alone: each task has the
+/// candidates of one range of hashes, and a part of the table. Then the data of each candidate and its root
+/// are compared, in order, which reads memory as it lies. The few that differ from the root of their hash are
+/// looked up by their data.
 class Lookup {
   public:
     /// `candidates` ascending; null: all vertices. roots[i] becomes the root of candidate i.
-    Lookup(const MeshView& mesh, const std::uint32_t* hashes, const std::uint32_t* candidates, std::size_t count,
-           bool all_tame, std::uint32_t* roots)
-        : mesh_(mesh), hashes_(hashes), candidates_(candidates), count_(count), all_tame_(all_tame), roots_(roots) {}
+    Lookup(const MeshView& mesh, const std::uint32_t* hashes, const std::uint32_t* candidates,
+           std::size_t count, bool all_tame, std::uint32_t* roots)
+        : mesh_(mesh),
+          hashes_(hashes),
+          candidates_(candidates),
+          count_(count),
+          all_tame_(all_tame),
+          roots_(roots) {}
 
-    /// `distinct`: about how many different candidates there are. Returns whether equal vertices differ in a zero's sign.
+    /// `distinct`: about how many different candidates there are. Returns whether equal vertices differ in a
+    /// zero's sign.
     bool run(std::size_t distinct, const Allocator* allocator, Parallel& parallel) {
         matchHashes(distinct, allocator, parallel);
         std::atomic<bool> any_mixed{false}, any_different{false};
         parallel.forRanges(count_, kGrain, [&](std::size_t begin, std::size_t end) {
             bool mixed = false, different = false;
             for (std::size_t i = begin; i < end; ++i) {
-                if (i + kBatch < end && roots_[i + kBatch] != vertexOf(i + kBatch)) prefetch(roots_[i + kBatch]);
+                if (i + kBatch < end && roots_[i + kBatch] != vertexOf(i + kBatch))
+                    prefetch(roots_[i + kBatch]);
                 verify(i, mixed, different);
             }
             if (mixed) any_mixed.store(true, std::memory_order_relaxed);
@@ -219,7 +229,8 @@ class Lookup {
         const std::size_t tasks =
             count_ < 2 * kGrain ? 1 : std::min<std::size_t>(parallel.width(), std::size_t{2} * kMostRanges);
         std::size_t slots = std::bit_ceil(2 * distinct / tasks + 4 * kBatch);  // of each task
-        for (bool full = true; full; slots *= 4) {  // when the guess is bad; at 4/3 of the candidates it ends for sure
+        for (bool full = true; full;
+             slots *= 4) {  // when the guess is bad; at 4/3 of the candidates it ends for sure
             Buffer<Slot> table(allocator, tasks * slots);
             std::atomic<std::size_t> done{0};
             parallel.forTasks(tasks, [&](std::size_t task) {
@@ -351,8 +362,9 @@ class VertexWelder {
             numberAll(nodes, of_vertex);
         } else {
             Buffer<std::uint32_t> roots(allocator_, candidate_count);
-            nodes.mixed = Lookup(mesh_, hashes_.data(), of_vertex.data(), candidate_count, all_tame_, roots.data())
-                              .run(candidate_count, allocator_, parallel_);
+            nodes.mixed =
+                Lookup(mesh_, hashes_.data(), of_vertex.data(), candidate_count, all_tame_, roots.data())
+                    .run(candidate_count, allocator_, parallel_);
             numberFew(nodes, of_vertex, roots);
         }
         if (nodes.count < count_) nodes.of_vertex = std::move(of_vertex);
@@ -377,7 +389,8 @@ class VertexWelder {
         all_tame_ = tame;
     }
 
-    /// Counts a sample of the hashes, chosen by their value, so that equal vertices are in it together or not at all.
+    /// Counts a sample of the hashes, chosen by their value, so that equal vertices are in it together or not
+    /// at all.
     [[nodiscard]] std::size_t guessDistinct() {
         constexpr std::uint32_t kShare = 32;
         Counting counting(allocator_, count_ / kShare, 1);
@@ -430,9 +443,11 @@ class VertexWelder {
         }
         nodes.count = count_ - count;
         parallel_.forRanges(count_, kGrain, [&](std::size_t begin, std::size_t end) {
-            const Repeated* r = std::lower_bound(repeated.begin(), repeated.end(), begin,
-                                                 [](const Repeated& a, std::size_t v) { return a.vertex < v; });
-            for (std::size_t v = begin; v < end; ++v) {  // one step past the repeated vertex, which comes below
+            const Repeated* r =
+                std::lower_bound(repeated.begin(), repeated.end(), begin,
+                                 [](const Repeated& a, std::size_t v) { return a.vertex < v; });
+            for (std::size_t v = begin; v < end;
+                 ++v) {  // one step past the repeated vertex, which comes below
                 const std::size_t before = static_cast<std::size_t>(r - repeated.begin());
                 const std::size_t stop = r == repeated.end() ? end : std::min<std::size_t>(r->vertex, end);
                 for (; v < stop; ++v) of_vertex[v] = static_cast<std::uint32_t>(v - before);
@@ -451,8 +466,8 @@ class VertexWelder {
 };
 
 /// Where nodes mix -0 and +0, the reference's representative decides on the bits.
-void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes, const Allocator* allocator,
-                  Parallel& parallel) {
+void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
+                  const Allocator* allocator, Parallel& parallel) {
     listVertices(nodes, allocator);
     Growing<std::uint32_t> different(allocator);
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
@@ -474,10 +489,10 @@ bool usesTameVerticesOnly(const MeshView& mesh, const TriangleList& triangles) {
     return true;
 }
 
-/// Nodes of corners: each with a NaN is alone, and so is each that the reference does not come to weld. The corner that
-/// stands for a node keeps it.
-void weldCorners(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes, const Allocator* allocator,
-                 Parallel& parallel) {
+/// Nodes of corners: each with a NaN is alone, and so is each that the reference does not come to weld. The
+/// corner that stands for a node keeps it.
+void weldCorners(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
+                 const Allocator* allocator, Parallel& parallel) {
     const std::size_t corner_count = mesh.cornerCount();
     nodes.tame = false;
     listVertices(nodes, allocator);

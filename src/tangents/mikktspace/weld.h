@@ -8,22 +8,25 @@
 
 namespace tspace::mikk {
 
-/// Nodes are numbered by their first vertices, ascending. A vertex that no triangle uses has a node as well, which
-/// then may have no corners.
+/// Nodes are numbered by their first vertices, ascending. A vertex that no triangle uses has a node as well,
+/// which then may have no corners.
 struct Nodes {
     std::size_t count = 0;
-    /// No corner has a NaN, an infinity or a huge position. Then equal vertices are one node, whatever the corner.
+    /// No corner has a NaN, an infinity or a huge position. Then equal vertices are one node, whatever the
+    /// corner.
     bool tame = true;
     /// Some node mixes -0 and +0: the node's data are those of vertex(node), not those of any vertex of it.
     bool mixed = false;
-    Buffer<std::uint32_t> of_vertex;  ///< node of each vertex; empty: no two vertices are equal, node == vertex
-    /// Only when not tame, and then in place of of_vertex: node of each corner of the mesh, kNone for corners of
-    /// skipped faces.
+    Buffer<std::uint32_t>
+        of_vertex;  ///< node of each vertex; empty: no two vertices are equal, node == vertex
+    /// Only when not tame, and then in place of of_vertex: node of each corner of the mesh, kNone for corners
+    /// of skipped faces.
     Buffer<std::uint32_t> of_corner;
-    /// One per node: the vertex whose data stand for it. There when `mixed` or not `tame`, and after listVertices;
-    /// empty: node == vertex.
+    /// One per node: the vertex whose data stand for it. There when `mixed` or not `tame`, and after
+    /// listVertices; empty: node == vertex.
     Buffer<std::uint32_t> vertices;
-    /// Only when not tame: the corner that the reference keeps for each node; kNone for nodes without corners.
+    /// Only when not tame: the corner that the reference keeps for each node; kNone for nodes without
+    /// corners.
     Buffer<std::uint32_t> representatives;
 
     [[nodiscard]] std::uint32_t ofVertex(std::uint32_t vertex) const {

@@ -146,7 +146,8 @@ class Cell {
     std::uint8_t* not_welded_;
 };
 
-/// What the reference computes: the box of the corner list but for its first entry, starting from corner 0 of the mesh.
+/// What the reference computes: the box of the corner list but for its first entry, starting from corner 0 of
+/// the mesh.
 Box listedBox(const MeshView& mesh, const TriangleList& triangles) {
     Box box(mesh.positions[mesh.indices[0]]);
     for (std::size_t i = 1; i < 3 * triangles.count; ++i)
@@ -154,7 +155,8 @@ Box listedBox(const MeshView& mesh, const TriangleList& triangles) {
     return box;
 }
 
-/// Whether a vertex is in the corner list. Looks first where it is when vertices are numbered as triangles use them.
+/// Whether a vertex is in the corner list. Looks first where it is when vertices are numbered as triangles
+/// use them.
 bool isListed(std::uint32_t vertex, const MeshView& mesh, const TriangleList& triangles) {
     constexpr std::size_t kStep = 1024;  // entries between looks at what was found
     const std::size_t steps = 3 * triangles.count / kStep + 1;
@@ -171,9 +173,10 @@ bool isListed(std::uint32_t vertex, const MeshView& mesh, const TriangleList& tr
     });
 }
 
-/// The same box. Reading vertices in order is much faster than reading those of the list; nearly always they make the
-/// same box, which is so when vertices on its six sides are in the list. Not for a NaN in the list.
-Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator, Parallel& parallel) {
+/// The same box. Reading vertices in order is much faster than reading those of the list; nearly always they
+/// make the same box, which is so when vertices on its six sides are in the list. Not for a NaN in the list.
+Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator,
+                Parallel& parallel) {
     constexpr std::size_t kBoxed = 512;  // vertices
     constexpr std::size_t kGrain = 64;   // boxes
     if (triangles.corner(0) != 0) return listedBox(mesh, triangles);
@@ -183,7 +186,8 @@ Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const Alloc
     parallel.forRanges(box_count, kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b) {
             Box box = start;
-            for (std::size_t v = b * kBoxed; v < std::min((b + 1) * kBoxed, count); ++v) box.add(mesh.positions[v]);
+            for (std::size_t v = b * kBoxed; v < std::min((b + 1) * kBoxed, count); ++v)
+                box.add(mesh.positions[v]);
             boxes[b] = box;
         }
     });
@@ -205,20 +209,23 @@ Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const Alloc
     return whole;
 }
 
-/// For a quick look at most vertices: cells by a multiplication in place of a division. The two differ by one at most
-/// (their relative difference is a few 2^-24, at values up to 2^11), so cells beside a wanted one are near.
+/// For a quick look at most vertices: cells by a multiplication in place of a division. The two differ by one
+/// at most (their relative difference is a few 2^-24, at values up to 2^11), so cells beside a wanted one are
+/// near.
 class NearCells {
   public:
     NearCells(float low, float high, const std::array<std::uint8_t, kCells>& wanted)
         : low_(low), scale_(static_cast<float>(kCells) / (high - low)) {
         for (std::size_t cell = 0; cell < kCells; ++cell) {
             if (wanted[cell] == 0) continue;
-            for (std::size_t near = cell; near < cell + 3; ++near) near_[near] = 1;  // near_[0] is for cell -1
+            for (std::size_t near = cell; near < cell + 3; ++near)
+                near_[near] = 1;  // near_[0] is for cell -1
         }
         if (!(scale_ <= std::numeric_limits<float>::max())) near_.fill(1);  // no extent, or nearly none
         if (!std::isfinite(low) || !std::isfinite(high - low)) near_.fill(1);
     }
-    /// marks[i] becomes 0 for vertices [begin, end) that are in no wanted cell. Returns whether any may be in one.
+    /// marks[i] becomes 0 for vertices [begin, end) that are in no wanted cell. Returns whether any may be in
+    /// one.
     bool mark(const StridedSpan<const Vec3>& positions, int axis, std::size_t begin, std::size_t end,
               std::uint8_t* marks) const {
         constexpr float kLast = static_cast<float>(kCells - 1);
@@ -248,7 +255,8 @@ WeldOrder::WeldOrder(const MeshView& mesh, const TriangleList& triangles, const 
                      const Allocator* allocator, Parallel& parallel)
     : mesh_(mesh), triangles_(triangles), nodes_(nodes), allocator_(allocator), parallel_(parallel) {
     if (triangles.count == 0) return;
-    const Box box = nodes.tame ? boundingBox(mesh, triangles, allocator, parallel) : listedBox(mesh, triangles);
+    const Box box =
+        nodes.tame ? boundingBox(mesh, triangles, allocator, parallel) : listedBox(mesh, triangles);
     axis_ = box.longestAxis();
     low_ = component(box.low, axis_);
     high_ = component(box.high, axis_);
@@ -268,15 +276,18 @@ Buffer<std::uint32_t> WeldOrder::entriesInCellsOf(std::span<const std::uint32_t>
     Marks in_cells(allocator_, vertex_count);
     parallel_.forRanges((vertex_count + NearCells::kBlock - 1) / NearCells::kBlock, kGrain,
                         [&](std::size_t first_block, std::size_t end_block) {
-        for (std::size_t block = first_block; block < end_block; ++block) {
-            const std::size_t begin = block * NearCells::kBlock, end = std::min(begin + NearCells::kBlock, vertex_count);
-            if (!near.mark(mesh_.positions, axis_, begin, end, in_cells.data())) continue;
-            for (std::size_t v = begin; v < end; ++v) {
-                if (in_cells[v] != 0) in_cells[v] = cell_wanted[cellOf(static_cast<std::uint32_t>(v))];
-            }
-        }
-    });
-    const Buffer<std::uint32_t> found = collectTriangles(mesh_, triangles_, in_cells, 1, allocator_, parallel_);
+                            for (std::size_t block = first_block; block < end_block; ++block) {
+                                const std::size_t begin = block * NearCells::kBlock,
+                                                  end = std::min(begin + NearCells::kBlock, vertex_count);
+                                if (!near.mark(mesh_.positions, axis_, begin, end, in_cells.data())) continue;
+                                for (std::size_t v = begin; v < end; ++v) {
+                                    if (in_cells[v] != 0)
+                                        in_cells[v] = cell_wanted[cellOf(static_cast<std::uint32_t>(v))];
+                                }
+                            }
+                        });
+    const Buffer<std::uint32_t> found =
+        collectTriangles(mesh_, triangles_, in_cells, 1, allocator_, parallel_);
     Growing<std::uint32_t> entries(allocator_);
     entries.reserve(3 * found.size());
     for (const std::uint32_t t : found) {
@@ -301,8 +312,8 @@ void WeldOrder::findAll(std::uint32_t* representatives, std::uint8_t* not_welded
 }
 
 /// `wanted`: one per node; empty: all nodes.
-void WeldOrder::find(const Buffer<std::uint32_t>& entries, const Marks& wanted, std::uint32_t* representatives,
-                     std::uint8_t* not_welded) const {
+void WeldOrder::find(const Buffer<std::uint32_t>& entries, const Marks& wanted,
+                     std::uint32_t* representatives, std::uint8_t* not_welded) const {
     Buffer<std::size_t> cell_begin(allocator_, kCells + 1, std::size_t{0});
     Buffer<std::uint16_t> cells(allocator_, entries.size());
     for (std::size_t i = 0; i < entries.size(); ++i) {

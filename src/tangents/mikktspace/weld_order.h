@@ -16,17 +16,17 @@ namespace tspace::mikk {
 class WeldOrder {
   public:
     /// All must outlive this object.
-    WeldOrder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const Allocator* allocator,
-              Parallel& parallel);
+    WeldOrder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+              const Allocator* allocator, Parallel& parallel);
 
-    /// Sets representatives[node] to the corner that the reference keeps, for all nodes that have corners. `not_welded`
-    /// may be null; else it has one zero byte per corner of the mesh, which becomes 1 where the reference gives up welding
-    /// (positions that are not finite, or so large that a sum of two overflows).
+    /// Sets representatives[node] to the corner that the reference keeps, for all nodes that have corners.
+    /// `not_welded` may be null; else it has one zero byte per corner of the mesh, which becomes 1 where the
+    /// reference gives up welding (positions that are not finite, or so large that a sum of two overflows).
     void findAll(std::uint32_t* representatives, std::uint8_t* not_welded = nullptr) const;
 
-    /// The same for some nodes of tame ones, given by one vertex each. Other elements may be set too, and then are right.
-    /// Linear in the vertices and indices, and in the corners of those cells (of 2048) that hold the nodes, times the
-    /// halvings of a float interval.
+    /// The same for some nodes of tame ones, given by one vertex each. Other elements may be set too, and
+    /// then are right. Linear in the vertices and indices, and in the corners of those cells (of 2048) that
+    /// hold the nodes, times the halvings of a float interval.
     void findSome(std::span<const std::uint32_t> vertices, std::uint32_t* representatives) const;
 
   private:
