@@ -254,9 +254,9 @@ class Lookup {
                 const std::uint32_t vertex = vertexOf(i), hash = hashes_[vertex];
                 items[count] = {hash, vertex, i};
                 count += (std::uint64_t{hash} * tasks) >> 32 == task ? 1 : 0;
-                __builtin_prefetch(&table[hash & mask]);
             }
             if (room < count) return false;
+            for (std::size_t i = 0; i < count; ++i) __builtin_prefetch(&table[items[i].hash & mask]);
             for (std::size_t i = 0; i < count; ++i) {
                 const Item& item = items[i];
                 std::size_t at = item.hash & mask;
