@@ -19,15 +19,16 @@ namespace {
 
 constexpr std::size_t kGrain = 4096;  // nodes
 
-void readNodes(const MeshView& mesh, const Nodes& nodes, GroupedPlan& plan, PoseData& pose,
+void readNodes(const MeshView& mesh, Nodes& nodes, GroupedPlan& plan, PoseData& pose,
                const Allocator* allocator, Parallel& parallel) {
+    listVertices(nodes, allocator);
     plan.node_count = nodes.count;
     plan.node_vertex = Buffer<std::uint32_t>(allocator, nodes.count);
     plan.node_uv = Buffer<Vec2>(allocator, nodes.count);
     pose.positions = Buffer<Vec3>(allocator, nodes.count);
     parallel.forRanges(nodes.count, kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) {
-            const std::uint32_t vertex = mesh.indices[nodes.corner[n]];
+            const std::uint32_t vertex = nodes.vertex(n);
             plan.node_vertex[n] = vertex;
             plan.node_uv[n] = mesh.uvs[vertex];
             pose.positions[n] = mesh.positions[vertex];

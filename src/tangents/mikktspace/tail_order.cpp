@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Step 5: the last bucket of the reference's edge list. To know its order, the reference's first sort (a
-// quicksort with a fixed seed, not stable) must be replayed; but nearly always it can be shown that the order
-// cannot matter.
+// quicksort with a fixed seed, not stable) must be replayed; but nearly always tail_check.cpp shows that the
+// order cannot matter.
 //
-// Half-edges compare by their nodes' representative corners only. A node's representative lies between its
-// first and its last corner, which bounds the last bucket's key without knowing any representative exactly.
+// Half-edges compare by their nodes' representative corners only.
 #include "tangents/mikktspace/tail_order.h"
 
 #include <algorithm>
 #include <bit>
 
 #include "tangents/mikktspace/growing.h"
+#include "tangents/mikktspace/tail_check.h"
 #include "tangents/mikktspace/weld_order.h"
 
 namespace tspace::mikk {
@@ -107,8 +107,8 @@ struct TailEdge {
 
 class TailFinder {
   public:
-    TailFinder(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes, const GroupedPlan& plan,
-               const Allocator* allocator, Parallel& parallel)
+    TailFinder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+               const GroupedPlan& plan, const Allocator* allocator, Parallel& parallel)
         : mesh_(mesh),
           triangles_(triangles),
           nodes_(nodes),
@@ -120,6 +120,7 @@ class TailFinder {
     TailPairs run() {
         TailPairs pairs;
         if (plan_.triangle_count == 0) return pairs;
+        if (!tailMayMatter(mesh_, triangles_, nodes_, allocator_, parallel_)) return pairs;
         findLargestLow();
         collectEdges();
         if (!orderMatters()) return pairs;
@@ -132,123 +133,29 @@ class TailFinder {
     }
 
   private:
-    std::uint32_t representative(std::uint32_t node) const { return nodes_.corner[node]; }
+    std::uint32_t representative(std::uint32_t node) const {
+        return nodes_.tame ? corners_[node] : nodes_.representatives[node];
+    }
 
-    /// Finds the lower end of the last bucket's edges, and makes the representatives of the nodes that matter
-    /// exact.
+    /// Finds the lower end of the last bucket's edges: in each triangle the middle one of the representatives
+    /// is the lower end of its highest edge.
     void findLargestLow() {
-        if (nodes_.exact) {
-            for (std::uint32_t node = 0; node < plan_.node_count; ++node) {
-                forEachNeighbour(node, [&](std::uint32_t other) { offerLow(node, other); });
-            }
-            return;
+        if (nodes_.tame) {
+            corners_ = Buffer<std::uint32_t>(allocator_, nodes_.count, kNone);
+            WeldOrder(mesh_, triangles_, nodes_, allocator_, parallel_).findAll(corners_.data());
         }
-        const Buffer<std::uint32_t> last = lastCorners();
-        const std::uint32_t bound = improveBound(lowerBound(), last);
-        resolve(bound, last);
-        forEachLateEdge(bound, last, [&](std::uint32_t a, std::uint32_t b) { offerLow(a, b); });
-    }
-
-    /// The last corner of each node; 0 for nodes without edges.
-    [[nodiscard]] Buffer<std::uint32_t> lastCorners() const {
-        Buffer<std::uint32_t> last(allocator_, plan_.node_count, 0u);
-        if (plan_.slots.empty()) {
-            for (std::size_t node = 0; node < plan_.node_count; ++node) {
-                const std::uint32_t end = plan_.node_begin[node + 1];
-                if (end > plan_.node_begin[node]) last[node] = plan_.list[end - 1];
-            }
-        } else {  // corners of degenerate triangles count as well, though they have no edges
-            for (std::size_t i = 0; i < 3 * triangles_.count; ++i) {
-                std::uint32_t& latest = last[nodes_.of_corner[triangles_.corner(i)]];
-                latest = std::max(latest, triangles_.corner(i));
-            }
-        }
-        return last;
-    }
-
-    /// body(a, b), in both directions, for edges of which both ends' last corners reach the bound. The edges
-    /// of the last bucket are among them, for any bound that is not above it.
-    template <class Body>
-    void forEachLateEdge(std::uint32_t bound, const Buffer<std::uint32_t>& last, const Body& body) const {
-        for (std::uint32_t node = 0; node < plan_.node_count; ++node) {
-            if (last[node] < bound) continue;
-            forEachNeighbour(node, [&](std::uint32_t other) {
-                if (last[other] >= bound) body(node, other);
-            });
-        }
-    }
-
-    /// Makes the representatives at late edges exact.
-    void resolve(std::uint32_t bound, const Buffer<std::uint32_t>& last) {
-        Buffer<std::uint8_t> wanted(allocator_, plan_.node_count, std::uint8_t{0});
-        bool any = false;
-        forEachLateEdge(bound, last, [&](std::uint32_t a, std::uint32_t b) {
-            for (const std::uint32_t node : {a, b}) {
-                if (representative(node) == last[node]) continue;  // a single corner, or known already
-                wanted[node] = 1;
-                any = true;
-            }
-        });
-        if (any)
-            findRepresentatives(mesh_, triangles_, nodes_, wanted.data(), nullptr, allocator_, parallel_);
-    }
-
-    /// When triangles are in no order, most edges reach the first bound. The exact lower ends of a few that
-    /// may be highest give a far better one.
-    std::uint32_t improveBound(std::uint32_t bound, const Buffer<std::uint32_t>& last) {
-        constexpr std::size_t kEnough = 64;
-        const std::uint32_t end = *std::max_element(last.begin(), last.end());
-        for (const int share : {14, 12, 11, 10, 9, 8, 6, 4}) {
-            const std::uint32_t probe = end - (end >> share);
-            if (probe <= bound) return bound;
-            std::size_t count = 0;
-            forEachLateEdge(probe, last, [&](std::uint32_t, std::uint32_t) { ++count; });
-            if (count < kEnough) continue;
-            resolve(probe, last);
-            forEachLateEdge(probe, last, [&](std::uint32_t a, std::uint32_t b) {
-                bound = std::max(bound, std::min(representative(a), representative(b)));
-            });
-            return bound;
-        }
-        return bound;
-    }
-
-    void offerLow(std::uint32_t node, std::uint32_t other) {
-        if (representative(node) < representative(other) && representative(node) >= low_) {
-            low_ = representative(node);
-            low_node_ = node;
-        }
-    }
-
-    /// body(node) for the two other nodes of each triangle at a node.
-    template <class Body>
-    void forEachNeighbour(std::uint32_t node, const Body& body) const {
-        for (std::uint32_t e = plan_.node_begin[node]; e < plan_.node_begin[node + 1]; ++e) {
-            const std::uint32_t h = plan_.list[e], first = h - h % 3;
-            body(plan_.nodes[first + (h - first + 1) % 3]);
-            body(plan_.nodes[first + (h - first + 2) % 3]);
-        }
-    }
-
-    /// The middle one of a triangle's representatives is the lower end of its highest edge, so that of any
-    /// triangle bounds the last bucket's from below, and first corners in place of representatives can only
-    /// make it smaller. Nodes are numbered by their first corners, so the best triangle can be told from the
-    /// numbers of its nodes.
-    [[nodiscard]] std::uint32_t lowerBound() const {
         const std::uint32_t* n = plan_.nodes.data();
-        std::size_t best = 0;
-        std::uint32_t highest = 0;
         for (std::size_t i = 0; i < 3 * plan_.triangle_count; i += 3) {
-            const std::uint32_t middle = middleOf(n[i], n[i + 1], n[i + 2]);
-            if (middle >= highest) {
-                highest = middle;
-                best = i;
-            }
+            const std::uint32_t r[3] = {representative(n[i]), representative(n[i + 1]),
+                                        representative(n[i + 2])};
+            const std::uint32_t middle = middleOf(r[0], r[1], r[2]);
+            if (middle < low_) continue;
+            low_ = middle;
+            low_node_ = n[i + (r[1] == middle ? 1 : r[2] == middle ? 2 : 0)];
         }
-        return middleOf(representative(n[best]), representative(n[best + 1]), representative(n[best + 2]));
     }
 
-    /// The last bucket lies around one node. The other ends above it were candidates, so they are exact too.
+    /// The last bucket lies around one node.
     void collectEdges() {
         for (std::uint32_t e = plan_.node_begin[low_node_]; e < plan_.node_begin[low_node_ + 1]; ++e) {
             const std::uint32_t h = plan_.list[e], first = h - h % 3;
@@ -276,10 +183,6 @@ class TailFinder {
 
     /// Leaves edges_ in the order in which the reference meets them.
     bool sortAsReference() {
-        if (!nodes_.exact) {
-            findRepresentatives(mesh_, triangles_, nodes_, nullptr, nullptr, allocator_, parallel_);
-            nodes_.exact = true;
-        }
         Buffer<Record> records(allocator_, 3 * plan_.triangle_count);
         for (std::size_t h = 0; h < records.size(); ++h) {
             const std::size_t next = h % 3 == 2 ? h - 2 : h + 1;
@@ -353,8 +256,9 @@ class TailFinder {
 
     const MeshView& mesh_;
     const TriangleList& triangles_;
-    Nodes& nodes_;
+    const Nodes& nodes_;
     const GroupedPlan& plan_;
+    Buffer<std::uint32_t> corners_;  // representatives, where the nodes do not bring them along
     const Allocator* allocator_;
     Parallel& parallel_;
     Growing<TailEdge> edges_;
@@ -390,7 +294,7 @@ void TailPairs::apply(std::uint32_t node, Around& around) const {
     }
 }
 
-TailPairs findTailPairs(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
+TailPairs findTailPairs(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
                         const GroupedPlan& plan, const Allocator* allocator, Parallel& parallel) {
     return TailFinder(mesh, triangles, nodes, plan, allocator, parallel).run();
 }

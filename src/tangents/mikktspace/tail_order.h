@@ -26,8 +26,8 @@ struct TailPairs {
     void apply(std::uint32_t node, Around& around) const;
 };
 
-/// Needs plan.nodes and plan.list as listCorners left it. May make nodes.corner exact.
-TailPairs findTailPairs(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
+/// Needs plan.nodes and plan.list as listCorners left it.
+TailPairs findTailPairs(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
                         const GroupedPlan& plan, const Allocator* allocator, Parallel& parallel);
 
 }  // namespace tspace::mikk

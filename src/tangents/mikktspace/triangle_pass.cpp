@@ -78,7 +78,7 @@ void planCopies(const MeshView& mesh, const TriangleList& list, const Nodes& nod
                 const std::uint32_t other = list.corner(3 * t + (k + j) % 3);
                 if (done[other] == 1 && at(other) == at(to)) from = other;
             }
-            pass.copies.push({to, from != kNone ? from : kMark | nodes.of_corner[to]});
+            pass.copies.push({to, from != kNone ? from : kMark | nodes.of(mesh, to)});
         }
     }
 }
@@ -170,7 +170,7 @@ TrianglePass passTriangles(const MeshView& mesh, const TriangleList& list, const
     TrianglePass pass(allocator);
     plan.nodes = Buffer<std::uint32_t>(allocator, 3 * list.count);
     parallel.forRanges(plan.nodes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) plan.nodes[i] = nodes.of_corner[list.corner(i)];
+        for (std::size_t i = begin; i < end; ++i) plan.nodes[i] = nodes.of(mesh, list.corner(i));
     });
     plan.flags = Buffer<std::uint8_t>(allocator, list.count);
     pose.frames = Buffer<TriangleFrame>(allocator, list.count);

@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: MIT
 // Step 2: welding. The reference sorts corners into cells and compares all of a small cell with each other;
-// here every vertex of the mesh is looked up once in a hash table. The classes are the same; their
-// representative, where it matters, comes from weld_order.cpp.
+// here the vertices of the mesh are hashed. The classes are the same; their representative, where it matters,
+// comes from weld_order.cpp, and so does what the reference does with values that are not finite.
+//
+// Most vertices of an indexed mesh are equal to no other. So each hash counts in a small table, by its upper
+// bits, up to two; only vertices whose place in it counts two can be equal to another, and only they are
+// looked up. Where most vertices are equal to others, all are looked up at once. Threads share nothing: each
+// counts its own vertices, and looks up the vertices of its own range of hashes.
 #include "tangents/mikktspace/weld.h"
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
+#include "core/hash.h"
 #include "core/vec_math.h"
 #include "tangents/mikktspace/grouped_plan.h"
 #include "tangents/mikktspace/growing.h"
@@ -20,8 +28,13 @@ namespace {
 /// The reference adds the ends of intervals of positions: above this the sum may overflow and welding stops.
 constexpr float kHugePosition = 1.6e38f;
 constexpr std::size_t kGrain =
-    8192;  // vertices per task at least: below, starting threads costs more than it saves
-constexpr std::size_t kLookAhead = 48;  // corners; far enough for a table line to arrive from memory
+    16384;  // vertices per task at least: below, starting threads costs more than it saves
+constexpr std::size_t kFew = 4096;           // vertices; so few are all looked up
+constexpr unsigned kMostRanges = 4;          // each has a counting table of its own
+constexpr std::size_t kBlock = 256;          // vertices; their hashes stay in the first cache
+constexpr std::size_t kBatch = 32;           // lookups; all that they touch has to stay in the first cache
+constexpr std::size_t kPlacesPerVertex = 8;  // of a counting table: leaves 1 vertex of 9 to be looked up
+constexpr std::size_t kPlacesPerByte = 4;
 
 struct Vertex {
     Vec3 position, normal;
@@ -34,26 +47,6 @@ bool equal(const Vertex& a, const Vertex& b) {
     return a.position == b.position && a.normal == b.normal && a.uv == b.uv;
 }
 
-struct Bits {
-    std::uint32_t words[8];
-    friend bool operator==(const Bits&, const Bits&) = default;
-};
-static_assert(sizeof(Vertex) == sizeof(Bits));
-
-/// Adding +0 turns -0 into +0, so that vertices which compare equal have equal hashes.
-std::uint32_t hashOf(const Vertex& v) {
-    const Vertex plain{v.position + Vec3{}, v.normal + Vec3{}, {v.uv.x + 0.0f, v.uv.y + 0.0f}};
-    const Bits bits = std::bit_cast<Bits>(plain);
-    std::uint64_t h = 0x9e3779b97f4a7c15u;
-    for (int i = 0; i < 8; i += 2) {
-        h ^= bits.words[i] | std::uint64_t{bits.words[i + 1]} << 32;
-        h *= 0xbf58476d1ce4e5b9u;
-        h ^= h >> 29;
-    }
-    h *= 0x94d049bb133111ebu;
-    return static_cast<std::uint32_t>(h >> 32);
-}
-
 bool isTame(const Vertex& v) {
     const auto& p = v.position;
     const bool small =
@@ -61,120 +54,506 @@ bool isTame(const Vertex& v) {
     return small && isFinite(v.normal) && std::isfinite(v.uv.x) && std::isfinite(v.uv.y);
 }
 
-struct Slot {
-    std::uint32_t hash = 0, node = kNone;
-};
+std::uint64_t pairAt(const void* at) {
+    std::uint64_t pair = 0;
+    std::memcpy(&pair, at, sizeof pair);
+    return pair;
+}
 
-class Welder {
+/// Whether two vertices have the same bits. Words are read as they lie: a copy would be written in small
+/// pieces and read in large ones, which processors are slow at.
+bool sameBits(const MeshView& mesh, std::size_t a, std::size_t b) {
+    const Vec3 &p = mesh.positions[a], &q = mesh.positions[b], &m = mesh.normals[a], &n = mesh.normals[b];
+    const std::uint64_t xy = (pairAt(&p) ^ pairAt(&q)) | (pairAt(&m) ^ pairAt(&n));
+    const std::uint32_t z = (std::bit_cast<std::uint32_t>(p.z) ^ std::bit_cast<std::uint32_t>(q.z)) |
+                            (std::bit_cast<std::uint32_t>(m.z) ^ std::bit_cast<std::uint32_t>(n.z));
+    return (xy | z | (pairAt(&mesh.uvs[a]) ^ pairAt(&mesh.uvs[b]))) == 0;
+}
+
+/// Four floats or words at once, in the compiler's own vectors: scalar code where the target has none.
+using Floats = float __attribute__((vector_size(16)));
+using Words = std::uint32_t __attribute__((vector_size(16)));
+using Pairs = std::uint64_t __attribute__((vector_size(16)));
+
+/// Hashes of the vertices [begin, end). Vertices that compare equal have equal hashes: adding +0 turns -0
+/// into +0. Returns whether all of them are tame; large normals and UVs are not taken for tame here either.
+bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std::uint32_t* hashes) {
+    const Floats limit = Floats{} + kHugePosition;
+    const Words no_sign = Words{} + 0x7fffffffu;
+    auto tame = limit == limit;
+    const StridedSpan<const Vec3> positions = mesh.positions, normals = mesh.normals;
+    const StridedSpan<const Vec2> uvs = mesh.uvs;
+    for (std::size_t v = begin; v < end; ++v) {
+        const Vec3 &p = positions[v], &n = normals[v];
+        const Floats z = {p.z, n.z, 0, 0};
+        const Floats a = std::bit_cast<Floats>(Pairs{pairAt(&p), pairAt(&n)}) + Floats{};
+        const Floats b = std::bit_cast<Floats>(Pairs{std::bit_cast<Pairs>(z)[0], pairAt(&uvs[v])}) + Floats{};
+        tame &= (std::bit_cast<Floats>(std::bit_cast<Words>(a) & no_sign) < limit) &
+                (std::bit_cast<Floats>(std::bit_cast<Words>(b) & no_sign) < limit);
+        // Turned against each other, so that signs that change together (mirrored shapes) do not cancel.
+        const Words turned = std::bit_cast<Words>(b) << 13 | std::bit_cast<Words>(b) >> 19;
+        const Pairs both = std::bit_cast<Pairs>(std::bit_cast<Words>(a) ^ turned);
+        std::uint64_t h = both[0] * 0xbf58476d1ce4e5b9u ^ std::rotl(both[1] * 0x94d049bb133111ebu, 32);
+        h = (h ^ h >> 29) * 0x9e3779b97f4a7c15u;
+        hashes[v] = static_cast<std::uint32_t>(h >> 32);
+    }
+    return (tame[0] & tame[1] & tame[2] & tame[3]) != 0;
+}
+
+/// How often each value of the hashes' upper bits occurs: never, once, or more often. Two bits a place: bit 0
+/// says at least once, bit 1 more often.
+class Counting {
   public:
-    Welder(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator,
-           Parallel& parallel)
-        : mesh_(mesh),
-          triangles_(triangles),
-          allocator_(allocator),
-          hashes_(allocator, mesh.vertexCount()),
-          vertex_node_(allocator, mesh.vertexCount(), kNone),
-          mixed_(allocator) {
-        std::atomic<bool> tame{true};
-        parallel.forRanges(hashes_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-            bool all = true;
-            for (std::size_t v = begin; v < end; ++v) {
-                const Vertex vertex = load(mesh_, v);
-                hashes_[v] = hashOf(vertex);
-                all &= isTame(vertex);
-            }
-            if (!all) tame.store(false, std::memory_order_relaxed);
-        });
-        tame_ = tame.load();
-        // A vertex with a NaN gives a node per corner, and vertices that the reference does not weld too.
-        const std::size_t corners = mesh.cornerCount();
-        const std::size_t most = tame_ ? std::min(corners, mesh.vertexCount()) : corners;
-        nodes_.corner = Buffer<std::uint32_t>(allocator, most);
-        nodes_.of_corner = triangles.corners.empty() ? Buffer<std::uint32_t>(allocator, corners)
-                                                     : Buffer<std::uint32_t>(allocator, corners, kNone);
-        const std::size_t slots = std::bit_ceil(mesh.vertexCount() + mesh.vertexCount() / 2 + 2);
-        table_ = Buffer<Slot>(allocator, slots, Slot{});
-        mask_ = slots - 1;
+    Counting(const Allocator* allocator, std::size_t vertex_count, std::size_t ranges)
+        : log2_(std::clamp<unsigned>(std::bit_width(kPlacesPerVertex * vertex_count), 6, 32)),
+          bytes_(std::size_t{1} << (log2_ - 2)),
+          table_(allocator, bytes_ * ranges) {}
+
+    void clear(std::size_t range) { std::fill_n(table_.data() + range * bytes_, bytes_, std::uint8_t{0}); }
+
+    void add(std::size_t range, const std::uint32_t* hashes, std::size_t count) {
+        std::uint8_t* table = table_.data() + range * bytes_;
+        const unsigned shift = 32 - log2_;  // a copy: bytes that are written might be the member's
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint32_t place = hashes[i] >> shift;
+            std::uint8_t& byte = table[place / kPlacesPerByte];
+            const unsigned once = 1u << 2 * (place % kPlacesPerByte), now = byte;
+            byte = static_cast<std::uint8_t>(now | (now & once) << 1 | once);
+        }
     }
 
-    /// Nodes are numbered in the order in which triangles first use them.
-    Nodes run(Parallel& parallel) {
-        const std::size_t corners = 3 * triangles_.count;
-        for (std::size_t i = 0; i < corners; ++i) {
-            if (i + 2 * kLookAhead < corners) {
-                const std::uint32_t far = mesh_.indices[triangles_.corner(i + 2 * kLookAhead)];
-                __builtin_prefetch(&vertex_node_[far]);
-                __builtin_prefetch(&hashes_[far]);
-                const std::uint32_t ahead = mesh_.indices[triangles_.corner(i + kLookAhead)];
-                if (vertex_node_[ahead] == kNone) __builtin_prefetch(&table_[hashes_[ahead] & mask_]);
+    /// Adds all ranges up in the first one. Returns how many places are taken.
+    std::size_t sum(std::size_t ranges, Parallel& parallel) {
+        std::atomic<std::size_t> taken{0};
+        parallel.forRanges(bytes_ / sizeof(std::uint64_t), kGrain, [&](std::size_t begin, std::size_t end) {
+            constexpr std::uint64_t kOnce = 0x5555555555555555u;
+            std::size_t mine = 0;
+            for (std::size_t i = begin; i < end; ++i) {
+                std::uint64_t total = word(0, i);
+                for (std::size_t r = 1; r < ranges; ++r) {
+                    const std::uint64_t other = word(r, i);
+                    total |= other | (total & other & kOnce) << 1;
+                }
+                if (ranges > 1) std::memcpy(table_.data() + i * sizeof total, &total, sizeof total);
+                mine += pairsSet(total & kOnce);
             }
-            const std::uint32_t corner = triangles_.corner(i);
-            if (!triangles_.corners.empty() && nodes_.of_corner[corner] != kNone) continue;
-            nodes_.of_corner[corner] = nodeOf(corner, mesh_.indices[corner]);
+            taken += mine;
+        });
+        return taken;
+    }
+
+    /// Writes those of the vertices [begin, end) to `list` whose hash another vertex may have. Returns how
+    /// many.
+    std::size_t repeated(const std::uint32_t* hashes, std::size_t begin, std::size_t end,
+                         std::uint32_t* list) const {
+        const std::uint8_t* table = table_.data();
+        const unsigned shift = 32 - log2_;
+        std::size_t count =
+            0;  // list[count] is written in any case, and stays when the next one is written behind it
+        for (std::size_t v = begin; v < end; ++v) {
+            const std::uint32_t place = hashes[v] >> shift;
+            list[count] = static_cast<std::uint32_t>(v);
+            count += table[place / kPlacesPerByte] >> (2 * (place % kPlacesPerByte) + 1) & 1u;
         }
-        if (!tame_) {
-            separateUnwelded(parallel);
-        } else if (!mixed_.empty()) {
-            Buffer<std::uint8_t> wanted(allocator_, nodes_.count, 0);
-            for (const std::uint32_t node : mixed_) wanted[node] = 1;
-            findRepresentatives(mesh_, triangles_, nodes_, wanted.data(), nullptr, allocator_, parallel);
-        }
-        return std::move(nodes_);
+        return count;
     }
 
   private:
-    std::uint32_t newNode(std::uint32_t corner) {
-        nodes_.corner[nodes_.count] = corner;
-        return static_cast<std::uint32_t>(nodes_.count++);
+    /// How many of the bits 0, 2, 4, ... are set. (std::popcount is a call where the target is plain x86-64.)
+    static std::size_t pairsSet(std::uint64_t x) {
+        x = (x & 0x3333333333333333u) + (x >> 2 & 0x3333333333333333u);
+        x = (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0fu;
+        return static_cast<std::size_t>((x * 0x0101010101010101u) >> 56);
+    }
+    [[nodiscard]] std::uint64_t word(std::size_t range, std::size_t i) const {
+        std::uint64_t value = 0;
+        std::memcpy(&value, table_.data() + range * bytes_ + i * sizeof value, sizeof value);
+        return value;
     }
 
-    std::uint32_t nodeOf(std::uint32_t corner, std::uint32_t vertex) {
-        if (vertex_node_[vertex] != kNone) return vertex_node_[vertex];
-        const Vertex data = load(mesh_, vertex);
-        if (!tame_ && !equal(data, data)) return newNode(corner);  // NaN equals nothing, not even itself
-        const std::uint32_t hash = hashes_[vertex];
-        std::size_t i = hash & mask_;
-        for (; table_[i].node != kNone; i = (i + 1) & mask_) {
-            if (table_[i].hash != hash) continue;
-            const Vertex other = load(mesh_, mesh_.indices[nodes_.corner[table_[i].node]]);
-            if (!equal(data, other)) continue;
-            if (!(std::bit_cast<Bits>(data) == std::bit_cast<Bits>(other))) mixed_.push(table_[i].node);
-            return vertex_node_[vertex] = table_[i].node;
+    unsigned log2_;
+    std::size_t bytes_;
+    Buffer<std::uint8_t> table_;
+};
+
+/// Finds the first equal vertex, the root, of each candidate. First by hashes alone: each task has the
+/// candidates of one range of hashes, and a part of the table. Then the data of each candidate and its root
+/// are compared, in order, which reads memory as it lies. The few that differ from the root of their hash are
+/// looked up by their data.
+class Lookup {
+  public:
+    /// `candidates` ascending; null: all vertices. roots[i] becomes the root of candidate i.
+    Lookup(const MeshView& mesh, const std::uint32_t* hashes, const std::uint32_t* candidates,
+           std::size_t count, bool all_tame, std::uint32_t* roots)
+        : mesh_(mesh),
+          hashes_(hashes),
+          candidates_(candidates),
+          count_(count),
+          all_tame_(all_tame),
+          roots_(roots) {}
+
+    /// `distinct`: about how many different candidates there are. Returns whether equal vertices differ in a
+    /// zero's sign.
+    bool run(std::size_t distinct, const Allocator* allocator, Parallel& parallel) {
+        matchHashes(distinct, allocator, parallel);
+        std::atomic<bool> any_mixed{false}, any_different{false};
+        parallel.forRanges(count_, kGrain, [&](std::size_t begin, std::size_t end) {
+            bool mixed = false, different = false;
+            for (std::size_t i = begin; i < end; ++i) {
+                if (i + kBatch < end && roots_[i + kBatch] != vertexOf(i + kBatch))
+                    prefetch(roots_[i + kBatch]);
+                verify(i, mixed, different);
+            }
+            if (mixed) any_mixed.store(true, std::memory_order_relaxed);
+            if (different) any_different.store(true, std::memory_order_relaxed);
+        });
+        bool mixed = any_mixed;
+        if (any_different) matchData(allocator, mixed);
+        return mixed;
+    }
+
+  private:
+    struct Slot {
+        std::uint32_t hash = 0, vertex = kNone;
+    };
+    struct Item {
+        std::uint32_t hash, vertex;
+        std::size_t index;
+    };
+
+    [[nodiscard]] std::uint32_t vertexOf(std::size_t i) const {
+        return candidates_ == nullptr ? static_cast<std::uint32_t>(i) : candidates_[i];
+    }
+
+    void matchHashes(std::size_t distinct, const Allocator* allocator, Parallel& parallel) {
+        const std::size_t tasks =
+            count_ < 2 * kGrain ? 1 : std::min<std::size_t>(parallel.width(), std::size_t{2} * kMostRanges);
+        std::size_t slots = std::bit_ceil(2 * distinct / tasks + 4 * kBatch);  // of each task
+        for (bool full = true; full;
+             slots *= 4) {  // when the guess is bad; at 4/3 of the candidates it ends for sure
+            Buffer<Slot> table(allocator, tasks * slots);
+            std::atomic<std::size_t> done{0};
+            parallel.forTasks(tasks, [&](std::size_t task) {
+                Slot* part = table.data() + task * slots;
+                std::fill_n(part, slots, Slot{});
+                if (matchRange(task, tasks, part, slots)) ++done;
+            });
+            full = done < tasks;
         }
-        table_[i] = {hash, newNode(corner)};
-        return vertex_node_[vertex] = table_[i].node;
     }
 
-    /// Where the reference gives up, each corner stays alone. The corner that stands for the node keeps it.
-    void separateUnwelded(Parallel& parallel) {
-        Buffer<std::uint8_t> not_welded(allocator_, mesh_.cornerCount(), 0);
-        findRepresentatives(mesh_, triangles_, nodes_, nullptr, not_welded.data(), allocator_, parallel);
-        for (std::size_t c = 0; c < nodes_.of_corner.size(); ++c) {
-            const std::uint32_t node = nodes_.of_corner[c];
-            if (not_welded[c] != 0 && node != kNone && nodes_.corner[node] != c) {
-                nodes_.of_corner[c] = newNode(static_cast<std::uint32_t>(c));
+    /// The candidates of one range of hashes. Returns false when the table is too small.
+    bool matchRange(std::size_t task, std::size_t tasks, Slot* table, std::size_t slots) {
+        const std::size_t mask = slots - 1;
+        std::size_t room = slots - slots / 4;
+        Item items[kBatch];
+        for (std::size_t begin = 0; begin < count_; begin += kBatch) {
+            const std::size_t end = std::min(begin + kBatch, count_);
+            std::size_t count = 0;
+            for (std::size_t i = begin; i < end; ++i) {
+                const std::uint32_t vertex = vertexOf(i), hash = hashes_[vertex];
+                items[count] = {hash, vertex, i};
+                count += (std::uint64_t{hash} * tasks) >> 32 == task ? 1 : 0;
+            }
+            if (room < count) return false;
+            for (std::size_t i = 0; i < count; ++i) __builtin_prefetch(&table[items[i].hash & mask]);
+            for (std::size_t i = 0; i < count; ++i) {
+                const Item& item = items[i];
+                std::size_t at = item.hash & mask;
+                while (table[at].vertex != kNone && table[at].hash != item.hash) at = (at + 1) & mask;
+                if (table[at].vertex == kNone) {
+                    table[at] = {item.hash, item.vertex};
+                    --room;
+                }
+                roots_[item.index] = table[at].vertex;
             }
         }
-        nodes_.exact = true;
+        return true;
+    }
+
+    void prefetch(std::uint32_t vertex) const {
+        __builtin_prefetch(&mesh_.positions[vertex]);
+        __builtin_prefetch(&mesh_.normals[vertex]);
+        __builtin_prefetch(&mesh_.uvs[vertex]);
+    }
+
+    void verify(std::size_t i, bool& mixed, bool& different) {
+        const std::uint32_t vertex = vertexOf(i), root = roots_[i];
+        if (root == vertex) return;
+        const bool same = sameBits(mesh_, vertex, root);
+        if (same && all_tame_) return;
+        if (equal(load(mesh_, vertex), load(mesh_, root))) {
+            mixed |= !same;
+        } else {  // NaN too, which equals nothing, not even itself
+            roots_[i] = kNone;
+            different = true;
+        }
+    }
+
+    /// A hash of all bits, for vertices whose first hash is that of others.
+    static std::uint64_t longHash(const Vertex& v) {
+        std::uint64_t hash = foldHash(hashPosition(v.position), hashPosition(v.normal));
+        return foldHash(hash, hashPosition({v.uv.x, v.uv.y, 0}));
+    }
+
+    void matchData(const Allocator* allocator, bool& mixed) {
+        struct Entry {
+            std::uint64_t hash = 0;
+            std::uint32_t vertex = kNone;
+        };
+        const auto different = static_cast<std::size_t>(std::count(roots_, roots_ + count_, kNone));
+        Buffer<Entry> table(allocator, std::bit_ceil(2 * different), Entry{});
+        for (std::size_t i = 0; i < count_; ++i) {
+            if (roots_[i] != kNone) continue;
+            const std::uint32_t vertex = roots_[i] = vertexOf(i);
+            const Vertex data = load(mesh_, vertex);
+            if (!equal(data, data)) continue;
+            const std::uint64_t hash = longHash(data);
+            for (std::size_t at = hash & (table.size() - 1);; at = (at + 1) & (table.size() - 1)) {
+                if (table[at].vertex == kNone) {
+                    table[at] = {hash, vertex};
+                } else {
+                    if (table[at].hash != hash) continue;
+                    if (!equal(data, load(mesh_, table[at].vertex))) continue;
+                    roots_[i] = table[at].vertex;
+                    mixed |= !sameBits(mesh_, vertex, roots_[i]);
+                }
+                break;
+            }
+        }
     }
 
     const MeshView& mesh_;
-    const TriangleList& triangles_;
-    const Allocator* allocator_;
-    Buffer<std::uint32_t> hashes_;
-    Buffer<std::uint32_t> vertex_node_;
-    Growing<std::uint32_t> mixed_;
-    Buffer<Slot> table_;
-    std::size_t mask_ = 0;
-    bool tame_ = true;
-    Nodes nodes_;
+    const std::uint32_t* hashes_;
+    const std::uint32_t* candidates_;
+    std::size_t count_;
+    bool all_tame_;
+    std::uint32_t* roots_;
 };
+
+/// Equal vertices, without regard to triangles.
+class VertexWelder {
+  public:
+    VertexWelder(const MeshView& mesh, const Allocator* allocator, Parallel& parallel)
+        : mesh_(mesh), count_(mesh.vertexCount()), allocator_(allocator), parallel_(parallel) {}
+
+    /// Fills count, of_vertex and mixed. Returns whether all vertices are tame.
+    bool run(Nodes& nodes) {
+        nodes.count = count_;
+        hashes_ = Buffer<std::uint32_t>(allocator_, count_);
+        Buffer<std::uint32_t> of_vertex(allocator_, count_);
+        std::size_t candidate_count = count_, distinct = count_;
+        if (count_ < kFew || mesh_.indices.type == IndexType::none) {
+            hashAll(nullptr, 1);
+            if (count_ >= kFew) distinct = guessDistinct();
+        } else {
+            const std::size_t ranges =
+                std::clamp<std::size_t>(count_ / kGrain, 1, std::min(parallel_.width(), kMostRanges));
+            Counting counting(allocator_, count_, ranges);
+            hashAll(&counting, ranges);
+            distinct = counting.sum(ranges, parallel_);
+            if (distinct >= count_ - count_ / 4) {
+                candidate_count = collectCandidates(counting, ranges, of_vertex.data());
+            }
+        }
+        if (candidate_count == count_) {
+            nodes.mixed = Lookup(mesh_, hashes_.data(), nullptr, count_, all_tame_, of_vertex.data())
+                              .run(distinct, allocator_, parallel_);
+            numberAll(nodes, of_vertex);
+        } else {
+            Buffer<std::uint32_t> roots(allocator_, candidate_count);
+            nodes.mixed =
+                Lookup(mesh_, hashes_.data(), of_vertex.data(), candidate_count, all_tame_, roots.data())
+                    .run(candidate_count, allocator_, parallel_);
+            numberFew(nodes, of_vertex, roots);
+        }
+        if (nodes.count < count_) nodes.of_vertex = std::move(of_vertex);
+        return all_tame_;
+    }
+
+  private:
+    void hashAll(Counting* counting, std::size_t ranges) {
+        if (counting == nullptr) ranges = std::clamp<std::size_t>(count_ / kGrain, 1, parallel_.width());
+        std::atomic<bool> tame{true};
+        parallel_.forTasks(ranges, [&](std::size_t range) {
+            if (counting != nullptr) counting->clear(range);
+            bool all = true;
+            const std::size_t end = count_ * (range + 1) / ranges;
+            for (std::size_t v = count_ * range / ranges; v < end; v += kBlock) {
+                const std::size_t stop = std::min(v + kBlock, end);
+                all &= hashVertices(mesh_, v, stop, hashes_.data());
+                if (counting != nullptr) counting->add(range, hashes_.data() + v, stop - v);
+            }
+            if (!all) tame.store(false, std::memory_order_relaxed);
+        });
+        all_tame_ = tame;
+    }
+
+    /// Counts a sample of the hashes, chosen by their value, so that equal vertices are in it together or not
+    /// at all.
+    [[nodiscard]] std::size_t guessDistinct() {
+        constexpr std::uint32_t kShare = 32;
+        Counting counting(allocator_, count_ / kShare, 1);
+        counting.clear(0);
+        for (std::size_t v = 0; v < count_; ++v) {
+            if (hashes_[v] % kShare == 0) counting.add(0, hashes_.data() + v, 1);
+        }
+        return std::min(count_, kShare * counting.sum(1, parallel_));
+    }
+
+    /// Vertices whose hash may be that of another one, ascending, at the front of `list`. Returns how many.
+    std::size_t collectCandidates(const Counting& counting, std::size_t ranges, std::uint32_t* list) {
+        std::size_t found[kMostRanges] = {};
+        parallel_.forTasks(ranges, [&](std::size_t range) {
+            const std::size_t begin = count_ * range / ranges, end = count_ * (range + 1) / ranges;
+            found[range] = counting.repeated(hashes_.data(), begin, end, list + begin);
+        });
+        std::size_t count = found[0];
+        for (std::size_t range = 1; range < ranges; ++range) {
+            std::copy_n(list + count_ * range / ranges, found[range], list + count);
+            count += found[range];
+        }
+        return count;
+    }
+
+    /// of_vertex holds each vertex's first equal vertex; it becomes the node.
+    void numberAll(Nodes& nodes, Buffer<std::uint32_t>& of_vertex) const {
+        std::uint32_t next = 0;
+        for (std::size_t v = 0; v < count_; ++v) {
+            const std::uint32_t root = of_vertex[v];
+            const std::uint32_t node = of_vertex[root];  // a node already, but for the first vertex itself
+            of_vertex[v] = root == v ? next : node;
+            next += root == v ? 1 : 0;
+        }
+        nodes.count = next;
+    }
+
+    /// of_vertex holds the candidates, `roots` their first equal vertices.
+    void numberFew(Nodes& nodes, Buffer<std::uint32_t>& of_vertex, const Buffer<std::uint32_t>& roots) const {
+        struct Repeated {
+            std::uint32_t vertex, root;
+        };
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < roots.size(); ++i) count += roots[i] != of_vertex[i] ? 1 : 0;
+        if (count == 0) return;
+        Buffer<Repeated> repeated(allocator_, count);
+        count = 0;
+        for (std::size_t i = 0; i < roots.size(); ++i) {
+            if (roots[i] != of_vertex[i]) repeated[count++] = {of_vertex[i], roots[i]};
+        }
+        nodes.count = count_ - count;
+        parallel_.forRanges(count_, kGrain, [&](std::size_t begin, std::size_t end) {
+            const Repeated* r =
+                std::lower_bound(repeated.begin(), repeated.end(), begin,
+                                 [](const Repeated& a, std::size_t v) { return a.vertex < v; });
+            for (std::size_t v = begin; v < end;
+                 ++v) {  // one step past the repeated vertex, which comes below
+                const std::size_t before = static_cast<std::size_t>(r - repeated.begin());
+                const std::size_t stop = r == repeated.end() ? end : std::min<std::size_t>(r->vertex, end);
+                for (; v < stop; ++v) of_vertex[v] = static_cast<std::uint32_t>(v - before);
+                if (v < end) ++r;
+            }
+        });
+        for (const Repeated& r : repeated) of_vertex[r.vertex] = of_vertex[r.root];
+    }
+
+    const MeshView& mesh_;
+    std::size_t count_;
+    const Allocator* allocator_;
+    Parallel& parallel_;
+    Buffer<std::uint32_t> hashes_;
+    bool all_tame_ = true;
+};
+
+/// Where nodes mix -0 and +0, the reference's representative decides on the bits.
+void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
+                  const Allocator* allocator, Parallel& parallel) {
+    listVertices(nodes, allocator);
+    Growing<std::uint32_t> different(allocator);
+    for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
+        const std::uint32_t first = nodes.vertices[nodes.of_vertex[v]];
+        if (!sameBits(mesh, v, first)) different.push(first);
+    }
+    Buffer<std::uint32_t> corners(allocator, nodes.count, kNone);
+    WeldOrder(mesh, triangles, nodes, allocator, parallel)
+        .findSome({different.begin(), different.end()}, corners.data());
+    for (std::size_t node = 0; node < nodes.count; ++node) {
+        if (corners[node] != kNone) nodes.vertices[node] = mesh.indices[corners[node]];
+    }
+}
+
+bool usesTameVerticesOnly(const MeshView& mesh, const TriangleList& triangles) {
+    for (std::size_t i = 0; i < 3 * triangles.count; ++i) {
+        if (!isTame(load(mesh, mesh.indices[triangles.corner(i)]))) return false;
+    }
+    return true;
+}
+
+/// Nodes of corners: each with a NaN is alone, and so is each that the reference does not come to weld. The
+/// corner that stands for a node keeps it.
+void weldCorners(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
+                 const Allocator* allocator, Parallel& parallel) {
+    const std::size_t corner_count = mesh.cornerCount();
+    nodes.tame = false;
+    listVertices(nodes, allocator);
+    nodes.of_corner = Buffer<std::uint32_t>(allocator, corner_count, kNone);
+    nodes.representatives = Buffer<std::uint32_t>(allocator, nodes.count + corner_count, kNone);
+    const auto addNode = [&](std::uint32_t corner) {
+        nodes.representatives[nodes.count] = corner;
+        nodes.of_corner[corner] = static_cast<std::uint32_t>(nodes.count++);
+    };
+    for (std::size_t i = 0; i < 3 * triangles.count; ++i) {
+        const std::uint32_t corner = triangles.corner(i), vertex = mesh.indices[corner];
+        if (nodes.of_corner[corner] != kNone) continue;
+        const Vertex data = load(mesh, vertex);
+        if (!equal(data, data)) {
+            addNode(corner);
+            continue;
+        }
+        const std::uint32_t node = nodes.ofVertex(vertex);
+        nodes.of_corner[corner] = node;
+        if (nodes.representatives[node] == kNone) nodes.representatives[node] = corner;
+    }
+    Buffer<std::uint8_t> not_welded(allocator, corner_count, std::uint8_t{0});
+    WeldOrder(mesh, triangles, nodes, allocator, parallel)
+        .findAll(nodes.representatives.data(), not_welded.data());
+    for (std::size_t c = 0; c < corner_count; ++c) {
+        const std::uint32_t node = nodes.of_corner[c];
+        if (not_welded[c] != 0 && node != kNone && nodes.representatives[node] != c) {
+            addNode(static_cast<std::uint32_t>(c));
+        }
+    }
+    Buffer<std::uint32_t> vertices(allocator, nodes.count);
+    for (std::size_t node = 0; node < nodes.count; ++node) {
+        const std::uint32_t corner = nodes.representatives[node];
+        vertices[node] = corner != kNone ? mesh.indices[corner] : nodes.vertex(node);
+    }
+    nodes.vertices = std::move(vertices);
+    nodes.of_vertex = {};
+}
 
 }  // namespace
 
 Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator,
            Parallel& parallel) {
-    return Welder(mesh, triangles, allocator, parallel).run(parallel);
+    Nodes nodes;
+    const bool all_tame = VertexWelder(mesh, allocator, parallel).run(nodes);
+    if (!all_tame && !usesTameVerticesOnly(mesh, triangles)) {
+        weldCorners(mesh, triangles, nodes, allocator, parallel);
+    } else if (nodes.mixed) {
+        resolveMixed(mesh, triangles, nodes, allocator, parallel);
+    }
+    return nodes;
+}
+
+void listVertices(Nodes& nodes, const Allocator* allocator) {
+    if (nodes.of_vertex.empty() || !nodes.vertices.empty()) return;
+    nodes.vertices = Buffer<std::uint32_t>(allocator, nodes.count);
+    std::size_t next = 0;
+    for (std::size_t v = 0; next < nodes.count; ++v) {
+        nodes.vertices[next] = static_cast<std::uint32_t>(v);
+        next += nodes.of_vertex[v] == next ? 1 : 0;
+    }
 }
 
 }  // namespace tspace::mikk

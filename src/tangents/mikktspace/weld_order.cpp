@@ -8,10 +8,13 @@
 // whatever the input; the work list below stays short because the larger side is always put off.
 #include "tangents/mikktspace/weld_order.h"
 
-#include <atomic>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/vec_math.h"
+#include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/grouped_plan.h"
 
 namespace tspace::mikk {
@@ -64,8 +67,8 @@ struct Range {
 
 class Cell {
   public:
-    Cell(Element* elements, Nodes& nodes, std::uint8_t* not_welded)
-        : elements_(elements), nodes_(nodes), not_welded_(not_welded) {}
+    Cell(Element* elements, std::uint32_t* representatives, std::uint8_t* not_welded)
+        : elements_(elements), representatives_(representatives), not_welded_(not_welded) {}
 
     void run(Range all) {
         Range waiting[64];  // each at most half of the one before
@@ -130,7 +133,7 @@ class Cell {
     /// is kept; going backwards makes the first the last to be written.
     void leaf(Range range) {
         for (std::size_t i = range.end; i-- > range.begin;)
-            nodes_.corner[elements_[i].node] = elements_[i].corner;
+            representatives_[elements_[i].node] = elements_[i].corner;
     }
 
     void giveUp(Range range) {
@@ -139,67 +142,202 @@ class Cell {
     }
 
     Element* elements_;
-    Nodes& nodes_;
+    std::uint32_t* representatives_;
     std::uint8_t* not_welded_;
 };
 
-/// Over the corner list but for its first entry, starting from corner 0 of the mesh: that is what the
-/// reference does, and it shows when the first face is one that is skipped. Else it is the box of all nodes.
-Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes) {
+/// What the reference computes: the box of the corner list but for its first entry, starting from corner 0 of
+/// the mesh.
+Box listedBox(const MeshView& mesh, const TriangleList& triangles) {
     Box box(mesh.positions[mesh.indices[0]]);
-    if (triangles.corner(0) == 0) {
-        for (std::size_t n = 0; n < nodes.count; ++n) box.add(mesh.positions[mesh.indices[nodes.corner[n]]]);
-        return box;
-    }
     for (std::size_t i = 1; i < 3 * triangles.count; ++i)
         box.add(mesh.positions[mesh.indices[triangles.corner(i)]]);
     return box;
 }
 
+/// Whether a vertex is in the corner list. Looks first where it is when vertices are numbered as triangles
+/// use them.
+bool isListed(std::uint32_t vertex, const MeshView& mesh, const TriangleList& triangles) {
+    constexpr std::size_t kStep = 1024;  // entries between looks at what was found
+    const std::size_t steps = 3 * triangles.count / kStep + 1;
+    const std::size_t guess = std::size_t{vertex} * steps / mesh.vertexCount();
+    return withListedVertices(mesh, triangles, [&](auto vertexOf) {
+        for (std::size_t n = 0; n < steps; ++n) {
+            const std::size_t step = (guess + n) % steps;
+            const std::size_t end = std::min((step + 1) * kStep, 3 * triangles.count);
+            std::uint32_t found = 0;
+            for (std::size_t i = step * kStep; i < end; ++i) found |= vertexOf(i) == vertex ? 1u : 0u;
+            if (found != 0) return true;
+        }
+        return false;
+    });
+}
+
+/// The same box. Reading vertices in order is much faster than reading those of the list; nearly always they
+/// make the same box, which is so when vertices on its six sides are in the list. Not for a NaN in the list.
+Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator,
+                Parallel& parallel) {
+    constexpr std::size_t kBoxed = 512;  // vertices
+    constexpr std::size_t kGrain = 64;   // boxes
+    if (triangles.corner(0) != 0) return listedBox(mesh, triangles);
+    const Box start(mesh.positions[mesh.indices[0]]);
+    const std::size_t count = mesh.vertexCount(), box_count = (count + kBoxed - 1) / kBoxed;
+    Buffer<Box> boxes(allocator, box_count);
+    parallel.forRanges(box_count, kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t b = begin; b < end; ++b) {
+            Box box = start;
+            for (std::size_t v = b * kBoxed; v < std::min((b + 1) * kBoxed, count); ++v)
+                box.add(mesh.positions[v]);
+            boxes[b] = box;
+        }
+    });
+    Box whole = start;
+    for (const Box& box : boxes) {
+        whole.add(box.low);
+        whole.add(box.high);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const bool upper : {false, true}) {
+            const auto side = [&](const Box& box) { return component(upper ? box.high : box.low, axis); };
+            if (component(start.low, axis) == side(whole)) continue;  // in the list for sure
+            std::size_t v = 0;
+            while (side(boxes[v / kBoxed]) != side(whole)) v += kBoxed;
+            while (component(mesh.positions[v], axis) != side(whole)) ++v;
+            if (!isListed(static_cast<std::uint32_t>(v), mesh, triangles)) return listedBox(mesh, triangles);
+        }
+    }
+    return whole;
+}
+
+/// For a quick look at most vertices: cells by a multiplication in place of a division. The two differ by one
+/// at most (their relative difference is a few 2^-24, at values up to 2^11), so cells beside a wanted one are
+/// near.
+class NearCells {
+  public:
+    NearCells(float low, float high, const std::array<std::uint8_t, kCells>& wanted)
+        : low_(low), scale_(static_cast<float>(kCells) / (high - low)) {
+        for (std::size_t cell = 0; cell < kCells; ++cell) {
+            if (wanted[cell] == 0) continue;
+            for (std::size_t near = cell; near < cell + 3; ++near)
+                near_[near] = 1;  // near_[0] is for cell -1
+        }
+        if (!(scale_ <= std::numeric_limits<float>::max())) near_.fill(1);  // no extent, or nearly none
+        if (!std::isfinite(low) || !std::isfinite(high - low)) near_.fill(1);
+    }
+    /// marks[i] becomes 0 for vertices [begin, end) that are in no wanted cell. Returns whether any may be in
+    /// one.
+    bool mark(const StridedSpan<const Vec3>& positions, int axis, std::size_t begin, std::size_t end,
+              std::uint8_t* marks) const {
+        constexpr float kLast = static_cast<float>(kCells - 1);
+        std::array<std::int32_t, kBlock> cells;
+        for (std::size_t v = begin; v < end; ++v) {
+            const float q = (component(positions[v], axis) - low_) * scale_;
+            const float inside = q > 0.0f ? q : 0.0f;  // outside are only vertices that no triangle uses
+            cells[v - begin] = static_cast<std::int32_t>(inside < kLast ? inside : kLast);
+        }
+        unsigned any = 0;
+        for (std::size_t v = begin; v < end; ++v) {
+            marks[v] = near_[static_cast<std::size_t>(cells[v - begin]) + 1];
+            any |= marks[v];
+        }
+        return any != 0;
+    }
+    static constexpr std::size_t kBlock = 256;
+
+  private:
+    float low_, scale_;
+    std::array<std::uint8_t, kCells + 2> near_ = {};
+};
+
 }  // namespace
 
-void findRepresentatives(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
-                         const std::uint8_t* wanted, std::uint8_t* not_welded, const Allocator* allocator,
-                         Parallel& parallel) {
-    const std::size_t entries = 3 * triangles.count;
-    if (entries == 0) return;
-    const Box box = boundingBox(mesh, triangles, nodes);
-    const int axis = box.longestAxis();
-    const float low = component(box.low, axis), high = component(box.high, axis);
+WeldOrder::WeldOrder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+                     const Allocator* allocator, Parallel& parallel)
+    : mesh_(mesh), triangles_(triangles), nodes_(nodes), allocator_(allocator), parallel_(parallel) {
+    if (triangles.count == 0) return;
+    const Box box =
+        nodes.tame ? boundingBox(mesh, triangles, allocator, parallel) : listedBox(mesh, triangles);
+    axis_ = box.longestAxis();
+    low_ = component(box.low, axis_);
+    high_ = component(box.high, axis_);
+}
 
-    Buffer<std::uint16_t> node_cell(allocator, nodes.count);
-    Buffer<std::size_t> cell_begin(allocator, kCells + 1, std::size_t{0});
-    Buffer<std::uint8_t> cell_wanted(allocator, kCells, std::uint8_t{0});
-    for (std::size_t node = 0; node < nodes.count; ++node) {
-        const Vec3 p = mesh.positions[mesh.indices[nodes.corner[node]]];
-        const std::size_t cell = cellOf(low, high, component(p, axis));
-        node_cell[node] = static_cast<std::uint16_t>(cell);
-        if (wanted == nullptr || wanted[node] != 0) cell_wanted[cell] = 1;
+std::size_t WeldOrder::cellOf(std::uint32_t vertex) const {
+    return mikk::cellOf(low_, high_, component(mesh_.positions[vertex], axis_));
+}
+
+/// Positions in the corner list.
+Buffer<std::uint32_t> WeldOrder::entriesInCellsOf(std::span<const std::uint32_t> vertices) const {
+    constexpr std::size_t kGrain = 64;  // blocks
+    std::array<std::uint8_t, kCells> cell_wanted = {};
+    for (const std::uint32_t vertex : vertices) cell_wanted[cellOf(vertex)] = 1;
+    const NearCells near(low_, high_, cell_wanted);
+    const std::size_t vertex_count = mesh_.vertexCount();
+    Marks in_cells(allocator_, vertex_count);
+    parallel_.forRanges((vertex_count + NearCells::kBlock - 1) / NearCells::kBlock, kGrain,
+                        [&](std::size_t first_block, std::size_t end_block) {
+                            for (std::size_t block = first_block; block < end_block; ++block) {
+                                const std::size_t begin = block * NearCells::kBlock,
+                                                  end = std::min(begin + NearCells::kBlock, vertex_count);
+                                if (!near.mark(mesh_.positions, axis_, begin, end, in_cells.data())) continue;
+                                for (std::size_t v = begin; v < end; ++v) {
+                                    if (in_cells[v] != 0)
+                                        in_cells[v] = cell_wanted[cellOf(static_cast<std::uint32_t>(v))];
+                                }
+                            }
+                        });
+    const Buffer<std::uint32_t> found =
+        collectTriangles(mesh_, triangles_, in_cells, 1, allocator_, parallel_);
+    Growing<std::uint32_t> entries(allocator_);
+    entries.reserve(3 * found.size());
+    for (const std::uint32_t t : found) {
+        for (std::uint32_t i = 3 * t; i < 3 * t + 3; ++i) {
+            if (in_cells[mesh_.indices[triangles_.corner(i)]] != 0) entries.push(i);
+        }
     }
-    for (std::size_t i = 0; i < entries; ++i) {
-        const std::size_t cell = node_cell[nodes.of_corner[triangles.corner(i)]];
-        if (cell_wanted[cell] != 0) ++cell_begin[cell + 1];
+    return entries.exact();
+}
+
+void WeldOrder::findSome(std::span<const std::uint32_t> vertices, std::uint32_t* representatives) const {
+    if (triangles_.count == 0) return;
+    Marks wanted = noMarks(allocator_, nodes_.count);
+    for (const std::uint32_t vertex : vertices) wanted[nodes_.ofVertex(vertex)] = 1;
+    find(entriesInCellsOf(vertices), wanted, representatives, nullptr);
+}
+
+void WeldOrder::findAll(std::uint32_t* representatives, std::uint8_t* not_welded) const {
+    Buffer<std::uint32_t> all(allocator_, 3 * triangles_.count);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint32_t>(i);
+    find(all, Marks(), representatives, not_welded);
+}
+
+/// `wanted`: one per node; empty: all nodes.
+void WeldOrder::find(const Buffer<std::uint32_t>& entries, const Marks& wanted,
+                     std::uint32_t* representatives, std::uint8_t* not_welded) const {
+    Buffer<std::size_t> cell_begin(allocator_, kCells + 1, std::size_t{0});
+    Buffer<std::uint16_t> cells(allocator_, entries.size());
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const std::size_t cell = cellOf(mesh_.indices[triangles_.corner(entries[i])]);
+        cells[i] = static_cast<std::uint16_t>(cell);
+        ++cell_begin[cell + 1];
     }
     for (std::size_t cell = 0; cell < kCells; ++cell) cell_begin[cell + 1] += cell_begin[cell];
-    Buffer<Element> elements(allocator, cell_begin[kCells]);
-    Buffer<std::size_t> fill(allocator, kCells);
+    Buffer<Element> elements(allocator_, entries.size());
+    Buffer<std::size_t> fill(allocator_, kCells);
     std::copy_n(cell_begin.data(), kCells, fill.data());
-    for (std::size_t i = 0; i < entries; ++i) {
-        const std::uint32_t corner = triangles.corner(i);
-        const std::uint32_t node = nodes.of_corner[corner];
-        const std::size_t cell = node_cell[node];
-        if (cell_wanted[cell] == 0) continue;
-        const bool want = wanted == nullptr || wanted[node] != 0;
-        elements[fill[cell]++] = {mesh.positions[mesh.indices[corner]], corner, node,
-                                  want ? kWanted : kNotWanted};
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const std::uint32_t corner = triangles_.corner(entries[i]), node = nodes_.of(mesh_, corner);
+        const bool want = wanted.empty() || wanted[node] != 0;
+        elements[fill[cells[i]]++] = {mesh_.positions[mesh_.indices[corner]], corner, node,
+                                      want ? kWanted : kNotWanted};
     }
     // Cells share nothing: a node lies in one of them.
-    parallel.forTasks(elements.size() < kCells ? 1 : kCells, [&](std::size_t task) {
+    parallel_.forTasks(elements.size() < kCells ? 1 : kCells, [&](std::size_t task) {
         const std::size_t first = elements.size() < kCells ? 0 : task;
         const std::size_t last = elements.size() < kCells ? kCells : task + 1;
         for (std::size_t cell = first; cell < last; ++cell) {
             if (cell_begin[cell] == cell_begin[cell + 1]) continue;
-            Cell(elements.data(), nodes, not_welded).run({cell_begin[cell], cell_begin[cell + 1]});
+            Cell(elements.data(), representatives, not_welded).run({cell_begin[cell], cell_begin[cell + 1]});
         }
     });
 }

@@ -4,6 +4,8 @@
 // know.
 #pragma once
 
+#include <span>
+
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "tangents/mikktspace/faces.h"
@@ -11,13 +13,37 @@
 
 namespace tspace::mikk {
 
-/// Sets nodes.corner to the representative for each node with wanted[node] != 0 (all nodes when `wanted` is
-/// null). `not_welded` may be null; else it has one zero byte per corner of the mesh, which becomes 1 where
-/// the reference gives up welding (positions that are not finite, or so large that a sum of two overflows).
-/// Linear in the corners of those cells (of 2048) that hold wanted nodes, times the halvings of a float
-/// interval.
-void findRepresentatives(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
-                         const std::uint8_t* wanted, std::uint8_t* not_welded, const Allocator* allocator,
-                         Parallel& parallel);
+class WeldOrder {
+  public:
+    /// All must outlive this object.
+    WeldOrder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+              const Allocator* allocator, Parallel& parallel);
+
+    /// Sets representatives[node] to the corner that the reference keeps, for all nodes that have corners.
+    /// `not_welded` may be null; else it has one zero byte per corner of the mesh, which becomes 1 where the
+    /// reference gives up welding (positions that are not finite, or so large that a sum of two overflows).
+    void findAll(std::uint32_t* representatives, std::uint8_t* not_welded = nullptr) const;
+
+    /// The same for some nodes of tame ones, given by one vertex each. Other elements may be set too, and
+    /// then are right. Linear in the vertices and indices, and in the corners of those cells (of 2048) that
+    /// hold the nodes, times the halvings of a float interval.
+    void findSome(std::span<const std::uint32_t> vertices, std::uint32_t* representatives) const;
+
+  private:
+    using Marks = Buffer<std::uint8_t>;
+
+    [[nodiscard]] std::size_t cellOf(std::uint32_t vertex) const;
+    [[nodiscard]] Buffer<std::uint32_t> entriesInCellsOf(std::span<const std::uint32_t> vertices) const;
+    void find(const Buffer<std::uint32_t>& entries, const Marks& wanted, std::uint32_t* representatives,
+              std::uint8_t* not_welded) const;
+
+    const MeshView& mesh_;
+    const TriangleList& triangles_;
+    const Nodes& nodes_;
+    const Allocator* allocator_;
+    Parallel& parallel_;
+    int axis_ = 0;
+    float low_ = 0, high_ = 0;  // of the grid's cells, on its axis
+};
 
 }  // namespace tspace::mikk
