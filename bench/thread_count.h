@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+namespace tspace::bench {
+
+/// Threads that this program has started so far.
+std::size_t startedThreads();
+
+}  // namespace tspace::bench
