@@ -32,8 +32,9 @@ void runTool(const std::vector<std::string>& arguments) {
 /// Memory rather than a disk, where there is such a folder.
 std::string temporaryFolder() {
     const bool has_memory = std::filesystem::is_directory("/dev/shm");
-    std::string name = (has_memory ? std::filesystem::path("/dev/shm") : std::filesystem::temp_directory_path()) /
-                       "tspace_bench_XXXXXX";
+    std::string name =
+        (has_memory ? std::filesystem::path("/dev/shm") : std::filesystem::temp_directory_path()) /
+        "tspace_bench_XXXXXX";
     return mkdtemp(name.data()) != nullptr ? name : std::string();
 }
 
@@ -44,7 +45,8 @@ RowResult measureFile(const std::string& title, const std::string& model, Lab& l
     if (!std::filesystem::exists(input) || !std::filesystem::exists(lab.tool()) || folder.empty()) {
         return row.note = "not there: " + input + " or the tool", row;
     }
-    // No material of the model needs tangents, so without --all the tool reads it, looks into it, and writes its bytes.
+    // No material of the model needs tangents, so without --all the tool reads it, looks into it, and writes
+    // its bytes.
     const std::string copy = folder + "/copy.glb", result = folder + "/result.glb";
     const std::vector<std::string> unchanged = {lab.tool(), "generate", "--quiet", input, "-o", copy};
     const auto generate = [&](const char* threads) {
@@ -58,12 +60,15 @@ RowResult measureFile(const std::string& title, const std::string& model, Lab& l
     const bool copied = std::filesystem::file_size(copy) == std::filesystem::file_size(input);
     const bool changed = std::filesystem::file_size(result) != std::filesystem::file_size(input);
     std::filesystem::remove_all(folder);
-    if (!copied || !changed) return row.wrong = true, row.note = "the copy is none, or nothing was generated", row;
+    if (!copied || !changed)
+        return row.wrong = true, row.note = "the copy is none, or nothing was generated", row;
 
     const Race::Ratio single = race.ratio(one, base), both = race.ratio(two, base);
     row.one_thread = {single.best, single.low, single.high, 1.5, 0};
     row.two_threads = {both.best, both.low, both.high, {}, 0};
-    const auto ms = [&](std::size_t runner) { return std::to_string(static_cast<int>(1e3 * race.best(runner))); };
+    const auto ms = [&](std::size_t runner) {
+        return std::to_string(static_cast<int>(1e3 * race.best(runner)));
+    };
     row.note = "unchanged " + ms(base) + " ms; generate " + ms(one) + " and " + ms(two) + " ms";
     return row;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Reading as fast as the machine can, writing as plain stores.
 #include "floor.h"
 
 #include <cstring>

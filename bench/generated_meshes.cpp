@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Regular meshes, made from their number of triangles alone.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -34,8 +35,8 @@ Vec3 unit(double x, double y, double z) {
     return toFloat(x / length, y / length, z / length);
 }
 
-/// u of each column: up for `fold` columns, then down at three quarters of the pace, so that it never comes back to
-/// the same value at the seam.
+/// u of each column: up for `fold` columns, then down at three quarters of the pace, so that it never comes
+/// back to the same value at the seam.
 std::vector<float> foldedU(std::uint32_t columns, std::uint32_t fold) {
     std::vector<float> u = {0};
     double value = 0;
@@ -52,7 +53,8 @@ void addTorusVertices(Mesh& mesh, std::uint32_t columns, std::uint32_t rows, std
     const std::vector<float> u = foldedU(columns, fold);
     for (std::uint32_t i = 0; i <= columns; ++i) {
         for (std::uint32_t j = 0; j <= rows; ++j) {
-            const double su = around.sine[i], cu = around.cosine[i], sv = across.sine[j], cv = across.cosine[j];
+            const double su = around.sine[i], cu = around.cosine[i], sv = across.sine[j],
+                         cv = across.cosine[j];
             const double radius = kMinor + kHeight * around.ripple[i] * across.ripple[j];
             const double by_u = kHeight * around.ripple_slope[i] * across.ripple[j];
             const double by_v = kHeight * around.ripple[i] * across.ripple_slope[j];
@@ -129,8 +131,9 @@ Mesh sphereOf(std::size_t triangles) {
         for (std::uint32_t j = 0; j <= rows; ++j) {
             const double ring = j % rows == 0 ? 0 : across.sine[j];
             const Vec3 p = toFloat(ring * around.cosine[i], ring * around.sine[i], -across.cosine[j]);
-            mesh.vertex(p, p, {static_cast<float>(i) / static_cast<float>(columns),
-                               static_cast<float>(j) / static_cast<float>(rows)});
+            mesh.vertex(p, p,
+                        {static_cast<float>(i) / static_cast<float>(columns),
+                         static_cast<float>(j) / static_cast<float>(rows)});
         }
     }
     for (std::uint32_t i = 0; i < columns; ++i) {

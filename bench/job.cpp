@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// One maker for each kind of call.
 #include "job.h"
 
 #include <cstdio>
@@ -35,8 +36,12 @@ void mix(std::uint64_t& hash, const std::vector<T>& values) {
 constexpr struct {
     const char* name;
     Method method;
-} kMethods[] = {{"mikktspace", Method::mikktspace}, {"uniform", Method::uniform}, {"angle", Method::angle},
-                {"area", Method::area},             {"lengyel", Method::lengyel}, {"flat", Method::flat},
+} kMethods[] = {{"mikktspace", Method::mikktspace},
+                {"uniform", Method::uniform},
+                {"angle", Method::angle},
+                {"area", Method::area},
+                {"lengyel", Method::lengyel},
+                {"flat", Method::flat},
                 {"basis", Method::basis}};
 
 Job tangentsJob(const Mesh& mesh, const TangentOptions& options) {
@@ -56,9 +61,9 @@ Job allFieldsJob(const Mesh& mesh) {
     outputs->magnitudes_s.resize(mesh.cornerCount());
     outputs->magnitudes_t.resize(mesh.cornerCount());
     return {outputs, [&mesh, outputs](const Execution& execution) {
-                orDie(generateTangents(mesh.view(), {.execution = execution},
-                                       {outputs->tangents, outputs->bitangents, outputs->magnitudes_s,
-                                        outputs->magnitudes_t}));
+                orDie(generateTangents(
+                    mesh.view(), {.execution = execution},
+                    {outputs->tangents, outputs->bitangents, outputs->magnitudes_s, outputs->magnitudes_t}));
             }};
 }
 
@@ -72,6 +77,24 @@ Job evaluateJob(const Mesh& mesh) {
             }};
 }
 
+/// Asks for a result per vertex, where the library has that.
+template <class Options>
+bool askForVertexDomain(Options& options) {
+    if constexpr (requires { options.domain; }) {
+        options.domain = decltype(options.domain)::vertex;
+        return true;
+    }
+    return false;
+}
+
+Job lengyelVertexJob(const Mesh& mesh) {
+    TangentOptions options{.method = Method::lengyel};
+    if (!askForVertexDomain(options)) return {};
+    Job job = tangentsJob(mesh, options);
+    job.outputs->tangents.resize(mesh.positions.size());
+    return job;
+}
+
 Job normalsJob(const Mesh& mesh) {
     auto outputs = std::make_shared<Outputs>();
     outputs->normals.resize(mesh.cornerCount());
@@ -80,14 +103,25 @@ Job normalsJob(const Mesh& mesh) {
             }};
 }
 
+/// With threads, where the library has that.
+template <class Run>
+Result<SplitResult> split(const Mesh& mesh, const Outputs& outputs, const Run& execution) {
+    const CornerAttribute attributes[] = {cornerAttribute(outputs.tangents)};
+    const std::span<const CornerAttribute> all(attributes);
+    const MeshView view = mesh.view();
+    if constexpr (requires { splitVertices(view.indices, 0, 0, all, execution); }) {
+        return splitVertices(view.indices, view.vertexCount(), view.cornerCount(), all, execution);
+    } else {
+        return splitVertices(view.indices, view.vertexCount(), view.cornerCount(), all);
+    }
+}
+
 Job splitJob(const Mesh& mesh) {
     const Job tangents = tangentsJob(mesh, {});
     tangents.call({});
     auto outputs = tangents.outputs;
-    return {outputs, [&mesh, outputs](const Execution&) {
-                const CornerAttribute attributes[] = {cornerAttribute(outputs->tangents)};
-                outputs->split = orDie(splitVertices(mesh.view().indices, mesh.positions.size(), mesh.cornerCount(),
-                                                     attributes));
+    return {outputs, [&mesh, outputs](const Execution& execution) {
+                outputs->split = orDie(split(mesh, *outputs, execution));
             }};
 }
 
@@ -120,6 +154,7 @@ Job makeJob(const std::string& name, const Mesh& mesh) {
     if (name == "mikktspace_all") return allFieldsJob(mesh);
     if (name == "mikktspace_corrected") return tangentsJob(mesh, {.pairing = Pairing::corrected});
     if (name == "evaluate") return evaluateJob(mesh);
+    if (name == "lengyel_vertex") return lengyelVertexJob(mesh);
     if (name == "normals") return normalsJob(mesh);
     if (name == "split") return splitJob(mesh);
     for (const auto& method : kMethods) {
@@ -132,7 +167,8 @@ Job makeJob(const std::string& name, const Mesh& mesh) {
 const std::vector<std::string>& jobNames() {
     static const std::vector<std::string> names = {
         "mikktspace", "mikktspace_all", "mikktspace_corrected", "evaluate", "uniform", "angle",
-        "area",       "lengyel",        "flat",                 "basis",    "normals", "split"};
+        "area",       "lengyel",        "lengyel_vertex",       "flat",     "basis",   "normals",
+        "split"};
     return names;
 }
 

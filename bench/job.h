@@ -34,14 +34,15 @@ struct Job {
     std::function<void(const Execution&)> call;
 };
 
-/// `mesh` must outlive the job. "mikktspace", "mikktspace_all" (every output), "mikktspace_corrected", "evaluate" (on a
-/// ready plan), "uniform", "angle", "area", "lengyel", "flat", "basis", "normals" (angle-weighted), "split" (by the
-/// tangents of mikktspace; reads no Execution).
+/// `mesh` must outlive the job. "mikktspace", "mikktspace_all" (every output), "mikktspace_corrected",
+/// "evaluate" (on a ready plan), "uniform", "angle", "area", "lengyel", "lengyel_vertex" (a result per
+/// vertex), "flat", "basis", "normals" (angle-weighted), "split" (by the tangents of mikktspace). A job
+/// without outputs where the library does not have it.
 Job makeJob(const std::string& name, const Mesh& mesh);
 const std::vector<std::string>& jobNames();
 
-/// Why a result is wrong, or nothing: other thread counts must give the same bits, and so must another way to the
-/// same result; see check.cpp.
+/// Why a result is wrong, or nothing: other thread counts must give the same bits, and so must another way to
+/// the same result; see check.cpp.
 std::string findError(const std::string& job_name, const Mesh& mesh);
 
 /// Targets by name: "scalar", "sse2", "avx2", "avx512". false where the library has no such choice, or this

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Names to meshes, and what is kept between rows.
 #include <filesystem>
 
 #include "job.h"
@@ -42,7 +43,8 @@ const Mesh& Lab::mesh(const std::string& name) {
         if (name == "small") {
             mesh = std::make_unique<Mesh>(torus(20, 5, 10));
         } else {
-            mesh = std::make_unique<Mesh>(std::filesystem::exists(name) ? modelMesh(name) : generatedMesh(name));
+            mesh =
+                std::make_unique<Mesh>(std::filesystem::exists(name) ? modelMesh(name) : generatedMesh(name));
         }
     }
     return *mesh;

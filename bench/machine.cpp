@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The processor by its own name; compiler and flags as they were at build time.
 #include "machine.h"
 
 #include <fmt/format.h>
@@ -37,8 +38,8 @@ nlohmann::ordered_json machineJson() {
 }
 
 std::string machineText() {
-    return fmt::format("{}, {} cores, {}, {}; tspace {}", cpuName(), std::thread::hardware_concurrency(), kCompiler,
-                       TSPACE_BENCH_FLAGS, TSPACE_VERSION_STRING);
+    return fmt::format("{}, {} cores, {}, {}; tspace {}", cpuName(), std::thread::hardware_concurrency(),
+                       kCompiler, TSPACE_BENCH_FLAGS, TSPACE_VERSION_STRING);
 }
 
 }  // namespace tspace::bench

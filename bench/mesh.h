@@ -18,7 +18,9 @@ struct Mesh {
     std::uint32_t face_size = 3;
 
     [[nodiscard]] MeshView view() const;
-    [[nodiscard]] std::size_t cornerCount() const { return indices.empty() ? positions.size() : indices.size(); }
+    [[nodiscard]] std::size_t cornerCount() const {
+        return indices.empty() ? positions.size() : indices.size();
+    }
     /// Triangles after cutting each face as a fan.
     [[nodiscard]] std::size_t triangleCount() const;
     /// The faces cut as fans, for loops that know only indexed triangles.
@@ -28,9 +30,10 @@ struct Mesh {
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 };
 
-/// A displaced torus of 2 * columns * rows triangles. Its UVs have seams in u and v, where vertices are duplicated,
-/// and u turns round every `fold` columns, so every second band is mirrored and vertices between bands split. One
-/// quad in 200 has a triangle without UV area. Up to 8 triangles (one for each 1000) have two corners at one vertex.
+/// A displaced torus of 2 * columns * rows triangles. Its UVs have seams in u and v, where vertices are
+/// duplicated, and u turns round every `fold` columns, so every second band is mirrored and vertices between
+/// bands split. One quad in 200 has a triangle without UV area. Up to 8 triangles (one for each 1000) have
+/// two corners at one vertex.
 Mesh torus(std::uint32_t columns, std::uint32_t rows, std::uint32_t fold);
 /// About that many triangles, twice as many columns as rows, one half mirrored.
 Mesh torusOf(std::size_t triangles);
@@ -52,8 +55,8 @@ Mesh shuffled(Mesh mesh);
 Mesh hardMesh(const std::string& name, std::size_t triangles);
 std::vector<std::string> hardMeshNames();
 
-/// All triangles of a .glb, .gltf or .obj as one mesh. Polygons of OBJ files stay as they are. Without triangles where
-/// the file cannot be read.
+/// All triangles of a .glb, .gltf or .obj as one mesh. Polygons of OBJ files stay as they are. Without
+/// triangles where the file cannot be read.
 Mesh modelMesh(const std::string& path);
 
 }  // namespace tspace::bench

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Rounds of all runners, and what can be said about them.
 #include "race.h"
 
 #include <algorithm>
@@ -27,7 +28,8 @@ std::size_t Race::add(std::function<void()> body) {
 
 void Race::run(int rounds) {
     for (int round = 0; round < rounds; ++round) {
-        for (Runner& runner : runners_) runner.seconds.push_back(secondsOf(runner.body, runner.calls_per_round));
+        for (Runner& runner : runners_)
+            runner.seconds.push_back(secondsOf(runner.body, runner.calls_per_round));
     }
 }
 
@@ -39,7 +41,8 @@ Race::Ratio Race::ratio(std::size_t runner, std::size_t base) const {
         ratios.push_back(runners_[runner].seconds[i] / runners_[base].seconds[i]);
     }
     std::ranges::sort(ratios);
-    return {best(runner) / best(base), ratios[ratios.size() / 4], ratios[(ratios.size() - 1) - ratios.size() / 4]};
+    return {best(runner) / best(base), ratios[ratios.size() / 4],
+            ratios[(ratios.size() - 1) - ratios.size() / 4]};
 }
 
 }  // namespace tspace::bench

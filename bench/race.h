@@ -10,16 +10,16 @@ namespace tspace::bench {
 
 class Race {
   public:
-    /// Returns the number of this runner. `body` is called once now, to warm up and to see how long it takes: short
-    /// ones run several times a round.
+    /// Returns the number of this runner. `body` is called once now, to warm up and to see how long it takes:
+    /// short ones run several times a round.
     std::size_t add(std::function<void()> body);
     void run(int rounds);
 
     /// Seconds for one call in the best round.
     [[nodiscard]] double best(std::size_t runner) const;
 
-    /// `best` divides the best times, which other load on the machine disturbs least; `low` and `high` are the
-    /// quartiles of the ratios inside each round.
+    /// `best` divides the best times, which other load on the machine disturbs least; `low` and `high` are
+    /// the quartiles of the ratios inside each round.
     struct Ratio {
         double best = 0, low = 0, high = 0;
     };

@@ -35,19 +35,25 @@ struct RowResult {
 /// What all rows share: meshes by name, made once, and checks done once.
 class Lab {
   public:
-    Lab(bool quick, std::string shared_folder, std::string tool)
-        : quick_(quick), shared_(std::move(shared_folder)), tool_(std::move(tool)) {}
+    /// rounds: 0 for the usual number
+    Lab(bool quick, int rounds, std::string shared_folder, std::string tool)
+        : quick_(quick),
+          rounds_(rounds > 0 ? rounds
+                  : quick    ? 5
+                             : 11),
+          shared_(std::move(shared_folder)),
+          tool_(std::move(tool)) {}
 
     [[nodiscard]] bool quick() const { return quick_; }
-    [[nodiscard]] int rounds() const { return quick_ ? 5 : 11; }
+    [[nodiscard]] int rounds() const { return rounds_; }
     /// "1M", or "100k" in a quick run.
     [[nodiscard]] std::string size() const { return quick_ ? "100k" : "1M"; }
     [[nodiscard]] const std::string& tool() const { return tool_; }
     /// A file of the shared test data.
     [[nodiscard]] std::string shared(const std::string& path) const { return shared_ + "/" + path; }
 
-    /// SHAPE_SIZE[_shuffled]: torus, sphere, grid, quads, soup (the torus with unindexed corners) or folds (a torus
-    /// that is mirrored every tenth column), and 10k, 100k, 1M or 8M; or the path of a model.
+    /// SHAPE_SIZE[_shuffled]: torus, sphere, grid, quads, soup (the torus with unindexed corners) or folds (a
+    /// torus that is mirrored every tenth column), and 10k, 100k, 1M or 8M; or the path of a model.
     const Mesh& mesh(const std::string& name);
     /// The indexed triangles that the plain loop takes for it.
     const Mesh& plainMesh(const std::string& name);
@@ -58,6 +64,7 @@ class Lab {
 
   private:
     bool quick_;
+    int rounds_;
     std::string shared_, tool_;
     std::map<std::string, std::unique_ptr<Mesh>> meshes_, plain_meshes_;
     std::map<std::string, std::string> errors_;

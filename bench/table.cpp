@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Rows as Markdown, so that a table can go into a page as it is, and as JSON.
 #include "table.h"
 
 #include <fmt/format.h>
@@ -28,11 +29,18 @@ std::string valueText(const Cell& cell, const std::string& unit) {
     return cell.value ? fmt::format("{:.2f}{}", *cell.value, unit) : std::string();
 }
 
-std::string askedText(const Cell& cell) { return cell.asked ? fmt::format("{:g}", *cell.asked) : std::string(); }
+std::string askedText(const Cell& cell) {
+    return cell.asked ? fmt::format("{:g}", *cell.asked) : std::string();
+}
 
 std::string verdict(const Cell& cell) {
     if (!cell.value || !cell.asked) return {};
     return cell.pass() ? "pass" : "short";
+}
+
+/// One text for both cells; empty where neither has one.
+std::string joined(const std::string& a, const std::string& b) {
+    return a.empty() || b.empty() ? a + b : a + "; " + b;
 }
 
 std::string spreadText(const Cell& cell) {
@@ -43,17 +51,18 @@ std::string nsText(const Cell& cell) { return cell.ns > 0 ? fmt::format("{:.1f}"
 
 void printRow(const RowResult& row) {
     const Cell &a = row.one_thread, &b = row.two_threads;
-    fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", row.title, valueText(a, row.unit),
-               askedText(a), row.wrong ? "WRONG" : verdict(a), nsText(a), spreadText(a), valueText(b, row.unit),
-               askedText(b), verdict(b), nsText(b), spreadText(b), row.note);
+    fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", row.title, valueText(a, row.unit),
+               askedText(a), row.wrong ? "WRONG" : verdict(a), valueText(b, row.unit), askedText(b),
+               verdict(b), joined(nsText(a), nsText(b)), joined(spreadText(a), spreadText(b)), row.note);
     std::fflush(stdout);
 }
 
 void printHead(const char* title) {
-    fmt::print("\n**{}**\n\n"
-               "| what | 1 thread | asked | | ns/triangle | middle half of rounds | 2 threads | asked | | ns/triangle | middle half | |\n"
-               "|---|---|---|---|---|---|---|---|---|---|---|---|\n",
-               title);
+    fmt::print(
+        "\n**{}**\n\n"
+        "| what | 1 thread | asked | | 2 threads | asked | | ns/triangle | middle half of rounds | |\n"
+        "|---|---|---|---|---|---|---|---|---|---|\n",
+        title);
 }
 
 Json cellJson(const Cell& cell) {
@@ -70,9 +79,12 @@ Json cellJson(const Cell& cell) {
 }
 
 Json rowJson(const char* section, const RowResult& row) {
-    return {{"section", section},          {"title", row.title},
-            {"unit", row.unit},            {"oneThread", cellJson(row.one_thread)},
-            {"twoThreads", cellJson(row.two_threads)}, {"note", row.note},
+    return {{"section", section},
+            {"title", row.title},
+            {"unit", row.unit},
+            {"oneThread", cellJson(row.one_thread)},
+            {"twoThreads", cellJson(row.two_threads)},
+            {"note", row.note},
             {"wrong", row.wrong}};
 }
 
@@ -82,7 +94,8 @@ struct Yardsticks {
 };
 
 Yardsticks measureYardsticks(Lab& lab) {
-    const Mesh &natural = lab.mesh("torus_" + lab.size()), &random = lab.mesh("torus_" + lab.size() + "_shuffled");
+    const Mesh &natural = lab.mesh("torus_" + lab.size()),
+               &random = lab.mesh("torus_" + lab.size() + "_shuffled");
     std::vector<Vec4> per_vertex(natural.positions.size()), per_corner(natural.cornerCount());
     Race race;
     race.add([&] { plainLoop(natural, per_vertex); });
@@ -90,7 +103,9 @@ Yardsticks measureYardsticks(Lab& lab) {
     race.add([&] { memoryFloor(natural, per_vertex); });
     race.add([&] { memoryFloor(natural, per_corner); });
     race.run(lab.rounds());
-    const auto ns = [&](std::size_t runner) { return 1e9 * race.best(runner) / static_cast<double>(natural.triangleCount()); };
+    const auto ns = [&](std::size_t runner) {
+        return 1e9 * race.best(runner) / static_cast<double>(natural.triangleCount());
+    };
     return {ns(0), ns(1), ns(2), ns(3)};
 }
 
@@ -115,9 +130,10 @@ int printTable(Lab& lab, const TableOptions& options) {
                    {"floorPerCorner", yard.floor_corner}}},
                  {"rows", Json::array()}};
     if (print) {
-        fmt::print("{}\n\nTorus of {} triangles. Plain loop: {:.1f} ns per triangle, {:.1f} in random order. Memory "
-                   "floor: {:.2f} with a result per vertex, {:.2f} per corner.\n",
-                   machineText(), lab.size(), yard.plain, yard.plain_shuffled, yard.floor_vertex, yard.floor_corner);
+        fmt::print(
+            "{}\n\nTorus of {} triangles. Plain loop: {:.1f} ns per triangle, {:.1f} in random order. Memory "
+            "floor: {:.2f} with a result per vertex, {:.2f} per corner.\n",
+            machineText(), lab.size(), yard.plain, yard.plain_shuffled, yard.floor_vertex, yard.floor_corner);
     }
     bool any = false, wrong = false;
     for (const Section& section : sections) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The table of targets.
 #pragma once
 
 #include <string>
@@ -12,8 +13,8 @@ struct TableOptions {
     std::string json = {};     ///< file, "-" (instead of the table), or empty
 };
 
-/// Measures and prints all rows that match. Returns 1 when a result was wrong, or nothing matched; a row that is
-/// short of its target is no failure.
+/// Measures and prints all rows that match. Returns 1 when a result was wrong, or nothing matched; a row that
+/// is short of its target is no failure.
 int printTable(Lab& lab, const TableOptions& options);
 
 }  // namespace tspace::bench

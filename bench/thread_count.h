@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Whether a call starts threads.
 #pragma once
 
 #include <cstddef>
