@@ -21,16 +21,19 @@ struct Contest {
     bool any_threads = false;  ///< only the default number of threads, in the place of one
 };
 
+/// Two plain loops at once that take so much longer than one did not both have a core.
+constexpr double kBusy = 1.25;
+
 std::string withSize(std::string mesh, const Lab& lab) {
     const std::size_t at = mesh.find("SIZE");
     return at == std::string::npos ? mesh : mesh.replace(at, 4, lab.size());
 }
 
 Cell cell(const Race& race, std::size_t runner, std::size_t base, std::size_t triangles,
-          std::optional<double> asked) {
-    const Race::Ratio ratio = race.ratio(runner, base);
+          std::optional<double> asked, Clock clock) {
+    const Race::Ratio ratio = race.ratio(runner, base, clock);
     return {ratio.best, ratio.low, ratio.high, asked,
-            1e9 * race.best(runner) / static_cast<double>(triangles)};
+            1e9 * race.best(runner, clock) / static_cast<double>(triangles)};
 }
 
 std::string inWords(double ns) {
@@ -96,11 +99,13 @@ RowResult runContest(const std::string& title, const Contest& contest, Lab& lab)
     const std::size_t twice =
         has_two ? race.add([&] { plainLoopTwice(plain_mesh, plain_tangents, other_tangents); }) : plain;
     race.run(lab.rounds());
-    row.one_thread = cell(race, single, plain, triangles, contest.asked_one);
+    row.one_thread = cell(race, single, plain, triangles, contest.asked_one, Clock::processor);
     row.note = "plain " + inWords(1e9 * race.best(plain) / static_cast<double>(triangles)) + " ns";
     if (has_two) {
-        row.two_threads = cell(race, both, plain, triangles, contest.asked_two);
-        row.note += ", two at once " + inWords(race.ratio(twice, plain).best) + "x";
+        row.two_threads = cell(race, both, plain, triangles, contest.asked_two, Clock::wall);
+        const double at_once = race.ratio(twice, plain, Clock::wall).best;
+        row.two_threads.busy = at_once > kBusy;
+        row.note += ", two at once " + inWords(at_once) + "x";
     }
     row.note += remarks(contest, mesh, job, startedThreads() - threads_before);
     return row;
@@ -126,7 +131,8 @@ RowResult runGrowth(const std::string& title, Lab& lab) {
         const std::size_t base = race.add([&] { small_job.call(execution); });
         const std::size_t grown = race.add([&] { large_job.call(execution); });
         race.run(std::max(3, lab.rounds() / 2));
-        Cell result = cell(race, grown, base, large.triangleCount(), 1.35);
+        Cell result = cell(race, grown, base, large.triangleCount(), 1.35,
+                           threads == 1 ? Clock::processor : Clock::wall);
         for (double* value : {&*result.value, &result.low, &result.high}) *value /= times_larger;
         return result;
     };

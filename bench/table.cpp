@@ -35,7 +35,8 @@ std::string askedText(const Cell& cell) {
 
 std::string verdict(const Cell& cell) {
     if (!cell.value || !cell.asked) return {};
-    return cell.pass() ? "pass" : "short";
+    if (cell.pass()) return "pass";
+    return cell.busy ? "busy" : "short";
 }
 
 /// One text for both cells; empty where neither has one.
@@ -70,6 +71,7 @@ Json cellJson(const Cell& cell) {
     if (cell.value) json["value"] = *cell.value;
     if (cell.asked) json["asked"] = *cell.asked;
     if (cell.value && cell.asked) json["pass"] = cell.pass();
+    if (cell.busy) json["busy"] = true;
     if (cell.high > 0) {
         json["low"] = cell.low;
         json["high"] = cell.high;
