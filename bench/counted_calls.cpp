@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// The calls whose instructions the test counts: tspace_counted_calls CASE, under callgrind. One thread, SSE2
+// where the library has a choice, meshes that are the same everywhere: so the count depends on the code and
+// the compiler alone.
+#include <cstdio>
+#include <cstring>
+#include <functional>
+
+#include "job.h"
+
+namespace tspace::bench {
+namespace {
+
+/// callgrind counts while this function runs: a name that it can be told, and never inlined.
+extern "C" [[gnu::noinline]] void tspaceCountedCall(const Job& job, const Execution& execution) {
+    job.call(execution);
+    // Not a tail call, which would leave the function too early.
+    asm volatile("" ::: "memory");
+}
+
+struct Case {
+    const char* name;
+    const char* job;
+    Mesh (*mesh)();
+};
+
+constexpr Case kCases[] = {
+    {"mikktspace_natural_20k", "mikktspace", [] { return torusOf(20000); }},
+    {"mikktspace_shuffled_20k", "mikktspace", [] { return shuffled(torusOf(20000)); }},
+    {"mikktspace_unindexed_10k", "mikktspace", [] { return unindexed(torusOf(10000)); }},
+    {"mikktspace_quads_all_10k", "mikktspace_all", [] { return quadsOf(10000); }},
+    {"evaluate_20k", "evaluate", [] { return torusOf(20000); }},
+    {"angle_20k", "angle", [] { return torusOf(20000); }},
+    {"lengyel_20k", "lengyel", [] { return torusOf(20000); }},
+    {"normals_20k", "normals", [] { return torusOf(20000); }},
+    {"split_20k", "split", [] { return foldsOf(20000); }},
+};
+
+int run(const char* name) {
+    for (const Case& c : kCases) {
+        if (std::strcmp(name, c.name) != 0) continue;
+        const Mesh mesh = c.mesh();
+        const Job job = makeJob(c.job, mesh);
+        Execution execution{.thread_count = 1};
+        forceSimd(execution, "sse2");
+        tspaceCountedCall(job, execution);
+        return 0;
+    }
+    return 2;
+}
+
+}  // namespace
+}  // namespace tspace::bench
+
+int main(int argc, char** argv) {
+    if (argc == 2 && std::strcmp(argv[1], "--compiler") == 0) {
+#ifdef __clang__
+        std::puts("clang " __clang_version__ " " TSPACE_BENCH_FLAGS);
+#else
+        std::puts("gcc " __VERSION__ " " TSPACE_BENCH_FLAGS);
+#endif
+        return 0;
+    }
+    if (argc == 2 && std::strcmp(argv[1], "--list") == 0) {
+        for (const auto& c : tspace::bench::kCases) std::puts(c.name);
+        return 0;
+    }
+    const int result = argc == 2 ? tspace::bench::run(argv[1]) : 2;
+    if (result != 0) std::fputs("usage: tspace_counted_calls CASE|--list|--compiler\n", stderr);
+    return result;
+}

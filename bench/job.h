@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// The calls that are measured, by name.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "mesh.h"
+#include "tspace/normals.h"
+#include "tspace/split.h"
+#include "tspace/tangents.h"
+
+namespace tspace::bench {
+
+/// What a call writes.
+struct Outputs {
+    std::vector<Vec4> tangents = {};
+    std::vector<Vec3> bitangents = {}, normals = {};
+    std::vector<float> magnitudes_s = {}, magnitudes_t = {};
+    SplitResult split = {};
+};
+
+/// A hash of all bits.
+std::uint64_t hashOf(const Outputs& outputs);
+std::uint64_t hashOf(const Mesh& mesh);
+
+struct Job {
+    std::shared_ptr<Outputs> outputs;
+    /// Ends the program when the library reports an error.
+    std::function<void(const Execution&)> call;
+};
+
+/// `mesh` must outlive the job. "mikktspace", "mikktspace_all" (every output), "mikktspace_corrected",
+/// "evaluate" (on a ready plan), "uniform", "angle", "area", "lengyel", "lengyel_vertex" (a result per
+/// vertex), "flat", "basis", "normals" (angle-weighted), "split" (by the tangents of mikktspace). A job
+/// without outputs where the library does not have it.
+Job makeJob(const std::string& name, const Mesh& mesh);
+const std::vector<std::string>& jobNames();
+
+/// Why a result is wrong, or nothing: other thread counts must give the same bits, and so must another way to
+/// the same result; see check.cpp.
+std::string findError(const std::string& job_name, const Mesh& mesh);
+
+/// Targets by name: "scalar", "sse2", "avx2", "avx512". false where the library has no such choice, or this
+/// machine no such instructions.
+template <class Any>
+bool forceSimd(Any& execution, const std::string& target) {
+    if constexpr (requires { execution.simd; }) {
+        using Target = std::remove_reference_t<decltype(execution.simd)>;
+        if (target == "scalar") return execution.simd = Target::scalar, true;
+#if defined(__x86_64__)
+        if (target == "sse2") return execution.simd = Target::sse2, true;
+        if (target == "avx2" && __builtin_cpu_supports("avx2")) return execution.simd = Target::avx2, true;
+        if (target == "avx512" && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+            __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl")) {
+            return execution.simd = Target::avx512, true;
+        }
+#endif
+    }
+    return false;
+}
+
+}  // namespace tspace::bench

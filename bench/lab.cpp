@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Names to meshes, and what is kept between rows.
+#include <filesystem>
+
+#include "job.h"
+#include "rows.h"
+
+namespace tspace::bench {
+
+namespace {
+
+std::size_t trianglesOf(const std::string& size) {
+    if (size == "8M") return 8000000;
+    if (size == "1M") return 1000000;
+    if (size == "100k") return 100000;
+    if (size == "20k") return 20000;
+    if (size == "10k") return 10000;
+    return 0;
+}
+
+/// Without triangles where the name is not one.
+Mesh generatedMesh(const std::string& name) {
+    const std::size_t first = name.find('_'), second = name.find('_', first + 1);
+    if (first == std::string::npos) return {};
+    const std::string shape = name.substr(0, first);
+    const std::size_t triangles = trianglesOf(name.substr(first + 1, second - first - 1));
+    if (triangles == 0) return {};
+    Mesh mesh;
+    if (shape == "torus" || shape == "soup") mesh = torusOf(triangles);
+    if (shape == "sphere") mesh = sphereOf(triangles);
+    if (shape == "grid") mesh = gridOf(triangles);
+    if (shape == "quads") mesh = quadsOf(triangles);
+    if (shape == "folds") mesh = foldsOf(triangles);
+    if (second != std::string::npos && name.substr(second) == "_shuffled") mesh = shuffled(std::move(mesh));
+    return shape == "soup" ? unindexed(mesh) : mesh;
+}
+
+}  // namespace
+
+const Mesh& Lab::mesh(const std::string& name) {
+    std::unique_ptr<Mesh>& mesh = meshes_[name];
+    if (!mesh) {
+        if (name == "small") {
+            mesh = std::make_unique<Mesh>(torus(20, 5, 10));
+        } else {
+            mesh =
+                std::make_unique<Mesh>(std::filesystem::exists(name) ? modelMesh(name) : generatedMesh(name));
+        }
+    }
+    return *mesh;
+}
+
+const Mesh& Lab::plainMesh(const std::string& name) {
+    if (name.starts_with("soup_")) return mesh("torus_" + name.substr(5));
+    const Mesh& whole = mesh(name);
+    if (whole.face_sizes.empty() && whole.face_size == 3) return whole;
+    std::unique_ptr<Mesh>& plain = plain_meshes_[name];
+    if (!plain) plain = std::make_unique<Mesh>(whole.triangulated());
+    return *plain;
+}
+
+const std::string& Lab::error(const std::string& job, const std::string& mesh_name) {
+    const auto [at, is_new] = errors_.try_emplace(job + "/" + mesh_name);
+    if (is_new) at->second = findError(job, mesh(mesh_name));
+    return at->second;
+}
+
+void Lab::forgetMeshes() {
+    meshes_.clear();
+    plain_meshes_.clear();
+}
+
+}  // namespace tspace::bench

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// The rows of the table: what is asked, and how it is measured.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh.h"
+#include "tspace/execution.h"
+
+namespace tspace::bench {
+
+/// One measured number of a row.
+struct Cell {
+    std::optional<double> value = {};
+    double low = 0, high = 0;     ///< quartiles over rounds, for ratios of times
+    std::optional<double> asked;  ///< at most this
+    double ns = 0;                ///< per triangle, for times
+    bool busy = false;  ///< other work held the second core, so two threads could not show what they do
+
+    [[nodiscard]] bool pass() const { return !value || !asked || *value <= *asked; }
+};
+
+struct RowResult {
+    std::string title = {};
+    std::string unit = "x";
+    Cell one_thread = {}, two_threads = {};
+    std::string note = {};
+    bool wrong = false;  ///< a result was not what it has to be; `note` says why
+};
+
+/// What all rows share: meshes by name, made once, and checks done once.
+class Lab {
+  public:
+    /// rounds: 0 for the usual number
+    Lab(bool quick, int rounds, std::string shared_folder, std::string tool)
+        : quick_(quick),
+          rounds_(rounds > 0 ? rounds
+                  : quick    ? 5
+                             : 11),
+          shared_(std::move(shared_folder)),
+          tool_(std::move(tool)) {}
+
+    [[nodiscard]] bool quick() const { return quick_; }
+    [[nodiscard]] int rounds() const { return rounds_; }
+    /// "1M", or "100k" in a quick run.
+    [[nodiscard]] std::string size() const { return quick_ ? "100k" : "1M"; }
+    [[nodiscard]] const std::string& tool() const { return tool_; }
+    /// A file of the shared test data.
+    [[nodiscard]] std::string shared(const std::string& path) const { return shared_ + "/" + path; }
+
+    /// SHAPE_SIZE[_shuffled]: torus, sphere, grid, quads, soup (the torus with unindexed corners) or folds (a
+    /// torus that is mirrored every tenth column), and 10k, 100k, 1M or 8M; or the path of a model.
+    const Mesh& mesh(const std::string& name);
+    /// The indexed triangles that the plain loop takes for it.
+    const Mesh& plainMesh(const std::string& name);
+    /// findError, once for each job and mesh.
+    const std::string& error(const std::string& job, const std::string& mesh);
+    /// Gives the memory of all meshes back.
+    void forgetMeshes();
+
+  private:
+    bool quick_;
+    int rounds_;
+    std::string shared_, tool_;
+    std::map<std::string, std::unique_ptr<Mesh>> meshes_, plain_meshes_;
+    std::map<std::string, std::string> errors_;
+};
+
+struct Row {
+    std::string title;
+    std::function<RowResult(Lab&)> measure;
+};
+
+std::vector<Row> speedRows();
+std::vector<Row> fileRows();
+std::vector<Row> memoryRows();
+std::vector<Row> worstCaseRows();
+
+}  // namespace tspace::bench

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// The table of targets.
+#pragma once
+
+#include <string>
+
+#include "rows.h"
+
+namespace tspace::bench {
+
+struct TableOptions {
+    std::string pattern = {};  ///< regular expression on titles and sections; empty: all
+    std::string json = {};     ///< file, "-" (instead of the table), or empty
+};
+
+/// Measures and prints all rows that match. Returns 1 when a result was wrong, or nothing matched; a row that
+/// is short of its target is no failure.
+int printTable(Lab& lab, const TableOptions& options);
+
+}  // namespace tspace::bench
