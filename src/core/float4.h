@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -20,6 +19,10 @@ using Float4 = float __attribute__((vector_size(16)));
 using Mask4 =
     std::int32_t __attribute__((vector_size(16)));        ///< per lane all bits or none, from a comparison
 using Double2 = double __attribute__((vector_size(16)));  ///< here a carrier of two pairs of floats
+
+// As they lie in arrays: at any multiple of 4 bytes, and over any type.
+using Float4InMemory = float __attribute__((vector_size(16), aligned(4), may_alias));
+using PairInMemory = double __attribute__((aligned(4), may_alias));
 
 inline Float4 splat(float f) { return Float4{f, f, f, f}; }
 inline Float4 abs4(Float4 v) { return std::bit_cast<Float4>(std::bit_cast<Mask4>(v) & 0x7fffffff); }
@@ -46,30 +49,27 @@ inline Float4 sqrt4(Float4 v) {
 #endif
 }
 
-inline Float4 loadFloat4(const float* p) {
-    Float4 v;
-    std::memcpy(&v, p, sizeof v);
-    return v;
-}
-inline void storeFloat4(float* p, Float4 v) { std::memcpy(p, &v, sizeof v); }
+inline Float4 loadFloat4(const float* p) { return *reinterpret_cast<const Float4InMemory*>(p); }
+inline void storeFloat4(float* p, Float4 v) { *reinterpret_cast<Float4InMemory*>(p) = v; }
 
 /// Two floats in the lower half, zero in the upper one; and back.
 inline Float4 loadPair(const float* p) {
-    double pair;
-    std::memcpy(&pair, p, sizeof pair);
-    return std::bit_cast<Float4>(Double2{pair, 0.0});
+    return std::bit_cast<Float4>(Double2{*reinterpret_cast<const PairInMemory*>(p), 0.0});
 }
 inline void storePair(float* p, Float4 v) {
-    const double pair = std::bit_cast<Double2>(v)[0];
-    std::memcpy(p, &pair, sizeof pair);
+    *reinterpret_cast<PairInMemory*>(p) = std::bit_cast<Double2>(v)[0];
 }
 inline Float4 joinPairs(const float* low, const float* high) {
-    double a, b;
-    std::memcpy(&a, low, sizeof a);
-    std::memcpy(&b, high, sizeof b);
-    return std::bit_cast<Float4>(Double2{a, b});
+    return std::bit_cast<Float4>(
+        Double2{*reinterpret_cast<const PairInMemory*>(low), *reinterpret_cast<const PairInMemory*>(high)});
 }
 inline Float4 upperPair(Float4 v) { return __builtin_shufflevector(v, v, 2, 3, 2, 3); }
+
+/// The first three lanes.
+inline void storeVec3(Vec3& to, Float4 v) {
+    storePair(&to.x, v);
+    to.z = upperPair(v)[0];
+}
 
 /// One array per component, four vectors.
 struct Vec2x4 {

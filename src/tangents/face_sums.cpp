@@ -13,44 +13,12 @@ namespace tspace {
 
 namespace {
 
-constexpr std::size_t kBlock = 64;  ///< triangles
-constexpr std::size_t kBlockGrain = 256;
+constexpr std::size_t kBlock = VertexRanges::kBlock;
 
 // A determinant a - b is taken from single precision when |a - b| > (|a| + |b|) / 32. Its terms are off by
 // 3 roundings each, so it is then good to 100 roundings (6e-6) at worst and its sign is certain.
 constexpr float kLeastShare = 1.0f / 32;
 constexpr float kLeast = 1e-30f, kGreatest = 1e30f;  // far enough from the ends of float for all that follows
-
-/// A bit for each range that one of the vertices is in.
-std::uint64_t namedRanges(const std::uint32_t* v, std::size_t count, unsigned shift) {
-    std::uint32_t any = v[0], all = v[0];
-    for (std::size_t i = 0; i < count; ++i) {
-        any |= v[i];
-        all &= v[i];
-    }
-    std::uint64_t bits = std::uint64_t{1} << (v[0] >> shift);
-    if ((any ^ all) >> shift == 0) return bits;  // mostly so, and without a loop over bits
-    for (std::size_t i = 1; i < count; ++i) bits |= std::uint64_t{1} << (v[i] >> shift);
-    return bits;
-}
-
-/// Vertices of the triangles of one block, as 32-bit numbers.
-class BlockIndices {
-  public:
-    explicit BlockIndices(const IndexView& view) : view_(view) {}
-
-    /// Valid until the next call.
-    const std::uint32_t* get(std::size_t first_triangle, std::size_t count) {
-        const std::size_t first = 3 * first_triangle;
-        if (view_.type == IndexType::u32) return static_cast<const std::uint32_t*>(view_.data) + first;
-        for (std::size_t i = 0; i < 3 * count; ++i) widened_[i] = view_[first + i];
-        return widened_;
-    }
-
-  private:
-    IndexView view_;
-    std::uint32_t widened_[3 * kBlock];
-};
 
 /// Elements of a vertex array. With a stride that the compiler knows an address is one instruction.
 template <class T, bool kTight>
@@ -244,60 +212,41 @@ TriangleCounts& TriangleCounts::operator+=(const TriangleCounts& other) {
 }
 
 FaceSums::FaceSums(const IndexedPlan& plan, StridedSpan<const Vec3> positions, VertexSum* sums, float* visits)
-    : plan_(plan), positions_(positions), sums_(sums), visits_(visits) {}
+    : plan_(plan), positions_(positions), sums_(sums), visits_(visits), ranges_(plan.vertex_count) {}
 
 void FaceSums::cutIntoRanges(unsigned wanted, const Allocator* allocator, Parallel& parallel) {
-    const std::size_t most = std::clamp(wanted, 1u, kMostRanges);
-    range_shift_ = 0;
-    while (((plan_.vertex_count - 1) >> range_shift_) >= most) ++range_shift_;
-    range_count_ = static_cast<unsigned>((plan_.vertex_count - 1) >> range_shift_) + 1;
-    const std::size_t triangle_count = plan_.triangleCount();
-    const std::size_t block_count = (triangle_count + kBlock - 1) / kBlock;
-    ranges_of_blocks_ = Buffer<std::uint64_t>(allocator, block_count);
-    parallel.forRanges(block_count, kBlockGrain, [&](std::size_t begin, std::size_t end) {
-        BlockIndices indices(plan_.triangle_vertices);
-        for (std::size_t block = begin; block < end; ++block) {
-            const std::size_t count = std::min(kBlock, triangle_count - block * kBlock);
-            const std::uint32_t* v = indices.get(block * kBlock, count);
-            ranges_of_blocks_[block] = namedRanges(v, 3 * count, range_shift_);
-        }
-    });
-}
-
-VertexRange FaceSums::range(unsigned index) const {
-    const std::uint64_t size = std::uint64_t{1} << range_shift_;
-    const auto edge = [&](std::uint64_t i) {
-        return static_cast<std::uint32_t>(std::min<std::uint64_t>(i * size, plan_.vertex_count));
+    const auto vertices = [&](std::size_t first, std::size_t count, std::uint32_t* buffer) {
+        return blockVertices(plan_.triangle_vertices, first, count, buffer);
     };
-    return {edge(index), edge(index + 1)};
+    ranges_.cut(wanted, plan_.triangleCount(), vertices, allocator, parallel);
 }
 
-TriangleCounts FaceSums::sum(unsigned range_index) const {
-    const VertexRange range = this->range(range_index);
+TriangleCounts FaceSums::sum(unsigned index) const {
+    const VertexRange range = ranges_.range(index);
     std::fill(sums_ + range.begin, sums_ + range.end, VertexSum::untouched());
     if (visits_ != nullptr) std::fill(visits_ + range.begin, visits_ + range.end, 0.0f);
 
     TriangleCounts counts;
-    BlockIndices indices(plan_.triangle_vertices);
     const auto walk = [&](const auto& whole, const auto& part) {
+        std::uint32_t buffer[3 * kBlock];
         const std::size_t triangle_count = plan_.triangleCount();
-        const std::uint64_t bit = std::uint64_t{1} << range_index;
         for (std::size_t first = 0, block = 0; first < triangle_count; first += kBlock, ++block) {
-            const std::uint64_t ranges = ranges_of_blocks_.empty() ? bit : ranges_of_blocks_[block];
-            if ((ranges & bit) == 0) continue;
+            if (!ranges_.names(block, index)) continue;
             const std::size_t count = std::min(kBlock, triangle_count - first);
-            if (ranges == bit)
-                whole.add(indices.get(first, count), count, counts);
+            const std::uint32_t* const v = blockVertices(plan_.triangle_vertices, first, count, buffer);
+            if (ranges_.namesOnly(block, index))
+                whole.add(v, count, counts);
             else
-                part.add(indices.get(first, count), count, counts);
+                part.add(v, count, counts);
         }
     };
     const SumArrays arrays{positions_, plan_.uvs, sums_, visits_};
     if (visits_ == nullptr && positions_.stride_bytes == sizeof(Vec3) &&
-        plan_.uvs.stride_bytes == sizeof(Vec2))
+        plan_.uvs.stride_bytes == sizeof(Vec2)) {
         walk(BlockSum<true, true>(arrays, range), BlockSum<false, true>(arrays, range));
-    else
+    } else {
         walk(BlockSum<true, false>(arrays, range), BlockSum<false, false>(arrays, range));
+    }
     return counts;
 }
 

@@ -201,14 +201,15 @@ void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOut
     }
     const VertexFrames frames(sums.data(), visits.data(), pose.normals, plan.sign_factor,
                               per_corner ? extras.output() : out);
-    std::array<TriangleCounts, FaceSums::kMostRanges> triangle_counts;
-    std::array<VertexCounts, FaceSums::kMostRanges> vertex_counts;
-    parallel.forTasks(faces.rangeCount(), [&](std::size_t task) {
+    const unsigned range_count = faces.ranges().count();
+    std::array<TriangleCounts, VertexRanges::kMostRanges> triangle_counts;
+    std::array<VertexCounts, VertexRanges::kMostRanges> vertex_counts;
+    parallel.forTasks(range_count, [&](std::size_t task) {
         const auto range = static_cast<unsigned>(task);
         triangle_counts[task] = faces.sum(range);
-        vertex_counts[task] = frames.write(faces.range(range), per_corner);
+        vertex_counts[task] = frames.write(faces.ranges().range(range), per_corner);
     });
-    for (unsigned task = 0; task < faces.rangeCount(); ++task) {
+    for (unsigned task = 0; task < range_count; ++task) {
         report.degenerate_triangle_count += triangle_counts[task].degenerate;
         report.degenerate_uv_count += triangle_counts[task].degenerate_uv;
         report.mirrored_count += triangle_counts[task].mirrored;
