@@ -8,7 +8,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
+#include "core/angle.h"
 #include "core/float4.h"
 #include "core/sum_ranges.h"
 #include "core/vec_math.h"
@@ -24,17 +26,39 @@ constexpr std::size_t kGrain = 16384;
 constexpr std::size_t kWorthThreads =
     16384;  ///< triangles; below that starting a thread takes longer than it saves
 
-// Below this fraction of the weights a sum is what rounding left of normals that cancel.
-constexpr double kVanished = 1e-10;
+// Below the first fraction of the weights a sum is what rounding left of normals that cancel. Below the second
+// it may be what the rounding of single-precision angles left: it is then taken again, in double.
+constexpr double kVanished = 1e-10, kDoubtful = 1e-5;
 
 using Double2InMemory = double __attribute__((vector_size(16), aligned(8), may_alias));
 
-/// The weighted sum of the unit normals at a point. Later its place holds four floats: the normal, and -0
-/// when the sum vanished.
+/// The weighted sum of the unit normals at a point. Later its place holds four floats: the normal, and a mark
+/// whose sign is set when there is none.
 struct PointSum {
     double x, y, z, weights;
 
-    [[nodiscard]] float* floats() { return reinterpret_cast<float*>(this); }  // for functions of float4.h
+    /// Writes the unit mean, or the mark when the mean is not above `least`; returns which.
+    bool finish(double least, float* floats) const {
+        const double length = std::sqrt(x * x + y * y + z * z);
+        if (length > least * weights) [[likely]] {
+            const Vec3 unit = toFloat((1.0 / length) * DVec3{x, y, z});
+            storeFloat4(floats, Float4{unit.x, unit.y, unit.z, 0.0f});
+            return true;
+        }
+        storeFloat4(floats, Float4{0.0f, 0.0f, 0.0f, -0.0f});
+        return false;
+    }
+    // For the functions of float4.h.
+    [[nodiscard]] float* floats() { return reinterpret_cast<float*>(this); }
+    [[nodiscard]] const float* floats() const { return reinterpret_cast<const float*>(this); }
+
+    /// Has the mark although something was added.
+    [[nodiscard]] bool isDoubtful() const { return isMarked(loadFloat4(floats())) && weights > 0; }
+    static bool isMarked(Float4 normal) { return (laneBits(std::bit_cast<Mask4>(normal)) & 8) != 0; }
+
+    // A doubtful place can also hold a number.
+    void setNumber(std::size_t number) { weights = static_cast<double>(number + 1); }
+    [[nodiscard]] std::size_t number() const { return static_cast<std::size_t>(weights) - 1; }
 };
 
 /// The angle whose cotangent is c, in [0, pi], to 2e-7 of itself. Straight-line code. The polynomial is
@@ -148,14 +172,17 @@ class TriangleSmoother {
             };
             ranges_.cut(parallel_.width(), triangle_count_, points, allocator_, parallel_);
         }
-        std::array<std::uint64_t, VertexRanges::kMostRanges> degenerate{};
+        std::array<std::uint64_t, VertexRanges::kMostRanges> degenerate{}, doubtful{};
         parallel_.forTasks(ranges_.count(), [&](std::size_t task) {
             const auto index = static_cast<unsigned>(task);
             degenerate[task] = sum(index);
-            finish(ranges_.range(index));
+            doubtful[task] = finish(ranges_.range(index));
         });
         NormalReport report{triangle_count_, 0, 0};
         for (const std::uint64_t count : degenerate) report.degenerate_face_count += count;
+        if (const auto count = std::accumulate(doubtful.begin(), doubtful.end(), std::uint64_t{0}); count != 0) {
+            sumDoubtful(count);
+        }
         report.fallback_corner_count =
             sumRanges(parallel_, triangle_count_, kGrain,
                       [&](std::size_t begin, std::size_t end) { return writeCorners(begin, end); });
@@ -244,17 +271,52 @@ class TriangleSmoother {
 
     static void addPair(double* sum, Double2 term) { *reinterpret_cast<Double2InMemory*>(sum) += term; }
 
-    /// Turns sums into unit normals. Sums of products of floats neither overflow nor vanish when squared.
-    void finish(VertexRange range) {
+    /// Turns sums into unit normals and returns how many are doubtful. Sums of products of floats neither
+    /// overflow nor vanish when squared.
+    std::uint64_t finish(VertexRange range) {
+        std::uint64_t doubtful = 0;
         for (std::uint32_t p = range.begin; p < range.end; ++p) {
-            const PointSum s = sums_[p];
-            const double length = std::sqrt(s.x * s.x + s.y * s.y + s.z * s.z);
-            Float4 normal{0.0f, 0.0f, 0.0f, -0.0f};
-            if (length > kVanished * s.weights) [[likely]] {
-                const Vec3 unit = toFloat((1.0 / length) * DVec3{s.x, s.y, s.z});
-                normal = Float4{unit.x, unit.y, unit.z, 0.0f};
+            const PointSum sum = sums_[p];
+            doubtful += sum.finish(kDoubtful, sums_[p].floats()) || sum.weights == 0 ? 0 : 1;
+        }
+        return doubtful;
+    }
+
+    /// Takes the sums again that are marked, with angles in double.
+    void sumDoubtful(std::uint64_t count) {
+        Buffer<PointSum> exact(allocator_, count, PointSum{});
+        std::size_t number = 0;
+        for (PointSum& place : sums_) {
+            if (place.isDoubtful()) place.setNumber(number++);
+        }
+        parallel_.forTasks(ranges_.count(), [&](std::size_t task) {
+            const auto index = static_cast<unsigned>(task);
+            const VertexRange range = ranges_.range(index);
+            for (std::size_t t = 0; t < triangle_count_; ++t) {
+                if (ranges_.names(t / kBlock, index)) addExactly(t, range, exact);
             }
-            storeFloat4(sums_[p].floats(), normal);
+            for (std::uint32_t p = range.begin; p < range.end; ++p) {
+                if (sums_[p].isDoubtful()) exact[sums_[p].number()].finish(kVanished, sums_[p].floats());
+            }
+        });
+    }
+
+    void addExactly(std::size_t triangle, VertexRange range, Buffer<PointSum>& exact) const {
+        std::uint32_t buffer[3], point_buffer[3];
+        const std::uint32_t* const v = blockVertices(mesh_.indices, triangle, 1, buffer);
+        const std::uint32_t* const points = pointsOf(v, 1, point_buffer);
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (points[k] - range.begin >= range.end - range.begin || !sums_[points[k]].isDoubtful()) continue;
+            const DVec3 here = toDouble(mesh_.positions[v[k]]);
+            const DVec3 e1 = toDouble(mesh_.positions[v[(k + 1) % 3]]) - here;
+            const DVec3 e2 = toDouble(mesh_.positions[v[(k + 2) % 3]]) - here;
+            const DVec3 turn = cross(e1, e2);
+            const double size = length(turn);
+            if (!(size > 0) || !std::isfinite(size)) return;
+            const double weight = (by_angle_ ? polarAngle(dot(e1, e2), size) : 1) * (by_area_ ? size : 1);
+            PointSum& sum = exact[sums_[points[k]].number()];
+            const DVec3 term = (weight * factor_ / size) * turn;
+            sum = {sum.x + term.x, sum.y + term.y, sum.z + term.z, sum.weights + weight};
         }
     }
 
@@ -270,7 +332,7 @@ class TriangleSmoother {
                 const Float4 normal = loadFloat4(sums_[points[i]].floats());
                 Vec3& to = out_[3 * first + i];
                 storeVec3(to, normal);
-                if ((laneBits(std::bit_cast<Mask4>(normal)) & 8) != 0) [[unlikely]] {
+                if (PointSum::isMarked(normal)) [[unlikely]] {
                     to = ownNormal(first + i / 3);
                     ++substitutes;
                 }
