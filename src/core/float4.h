@@ -41,6 +41,26 @@ inline unsigned laneBits(Mask4 mask) {
 #endif
 }
 
+/// Per lane a where the mask is set, else b.
+inline Float4 select4(Mask4 mask, Float4 a, Float4 b) {
+    return std::bit_cast<Float4>((mask & std::bit_cast<Mask4>(a)) | (~mask & std::bit_cast<Mask4>(b)));
+}
+/// a < b ? a : b and a > b ? a : b.
+inline Float4 min4(Float4 a, Float4 b) {
+#ifdef __SSE2__
+    return std::bit_cast<Float4>(_mm_min_ps(std::bit_cast<__m128>(a), std::bit_cast<__m128>(b)));
+#else
+    return select4(a < b, a, b);
+#endif
+}
+inline Float4 max4(Float4 a, Float4 b) {
+#ifdef __SSE2__
+    return std::bit_cast<Float4>(_mm_max_ps(std::bit_cast<__m128>(a), std::bit_cast<__m128>(b)));
+#else
+    return select4(a > b, a, b);
+#endif
+}
+
 inline Float4 sqrt4(Float4 v) {
 #ifdef __SSE2__
     return std::bit_cast<Float4>(_mm_sqrt_ps(std::bit_cast<__m128>(v)));

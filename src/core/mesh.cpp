@@ -46,12 +46,20 @@ Error checkFaces(const MeshView& mesh) {
 /// bit set exactly when i < limit.
 template <class Index>
 bool allBelow(const Index* indices, std::size_t count, std::uint32_t limit) {
-    std::uint32_t below = 0x80000000u;
-    for (std::size_t c = 0; c < count; ++c) {
-        const std::uint32_t index = indices[c];
-        below &= (index - limit) & ~index;
+    constexpr std::size_t kLanes = 16;
+    std::uint32_t below[kLanes];
+    std::fill_n(below, kLanes, 0x80000000u);
+    std::size_t c = 0;
+    for (; c + kLanes <= count; c += kLanes) {
+        for (std::size_t i = 0; i < kLanes; ++i) {
+            const std::uint32_t index = indices[c + i];
+            below[i] &= (index - limit) & ~index;
+        }
     }
-    return below != 0;
+    std::uint32_t all = 0x80000000u;
+    for (const std::uint32_t lane : below) all &= lane;
+    for (; c < count; ++c) all &= (indices[c] - limit) & ~std::uint32_t{indices[c]};
+    return all != 0;
 }
 
 bool allBelow(const IndexView& indices, std::size_t vertex_count) {

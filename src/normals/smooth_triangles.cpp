@@ -8,6 +8,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <numeric>
 
 #include "core/angle.h"
@@ -26,8 +28,8 @@ constexpr std::size_t kGrain = 16384;
 constexpr std::size_t kWorthThreads =
     16384;  ///< triangles; below that starting a thread takes longer than it saves
 
-// Below the first fraction of the weights a sum is what rounding left of normals that cancel. Below the second
-// it may be what the rounding of single-precision angles left: it is then taken again, in double.
+// Below the first fraction of the weights a sum is what rounding left of normals that cancel. Below the
+// second it may be what the rounding of single-precision angles left: it is then taken again, in double.
 constexpr double kVanished = 1e-10, kDoubtful = 1e-5;
 
 using Double2InMemory = double __attribute__((vector_size(16), aligned(8), may_alias));
@@ -61,26 +63,21 @@ struct PointSum {
     [[nodiscard]] std::size_t number() const { return static_cast<std::size_t>(weights) - 1; }
 };
 
-/// The angle whose cotangent is c, in [0, pi], to 2e-7 of itself. Straight-line code. The polynomial is
+/// The angle whose cotangent is c, in [0, pi], to 2e-7 of itself. The polynomial is
 /// (atan(t) - t) / t^3 in t^2, interpolated at the Chebyshev points of [0, 1]; it is good to 2e-9.
-inline float angleOfCotangent(float c) {
-    const float a = std::fabs(c);
-    const bool steep = a > 1.0f;
-    const float t = (steep ? 1.0f : a) / (steep ? a : 1.0f);
-    const float q = t * t;
-    float p = -2.386997316e-03f;
-    p = p * q + 1.350777142e-02f;
-    p = p * q + -3.587153898e-02f;
-    p = p * q + 6.250169444e-02f;
-    p = p * q + -8.656880430e-02f;
-    p = p * q + 1.103376412e-01f;
-    p = p * q + -1.427856875e-01f;
-    p = p * q + 1.999973933e-01f;
-    p = p * q + -3.333333173e-01f;
-    const float atan = t + t * (q * p);
+inline Float4 angleOfCotangent(Float4 c) {
+    constexpr float kPolynomial[] = {-2.386997316e-03f, 1.350777142e-02f,  -3.587153898e-02f,
+                                     6.250169444e-02f,  -8.656880430e-02f, 1.103376412e-01f,
+                                     -1.427856875e-01f, 1.999973933e-01f,  -3.333333173e-01f};
     constexpr float kHalfPi = 1.57079632679489662f, kPi = 3.14159265358979324f;
-    const float angle = steep ? atan : kHalfPi - atan;
-    return c < 0.0f ? kPi - angle : angle;
+    const Float4 one = splat(1.0f), size = abs4(c);
+    const Float4 t = min4(size, one) / max4(size, one);
+    const Float4 q = t * t;
+    Float4 p = splat(kPolynomial[0]);
+    for (std::size_t i = 1; i < std::size(kPolynomial); ++i) p = p * q + splat(kPolynomial[i]);
+    const Float4 atan = t + t * (q * p);
+    const Float4 angle = select4(size > one, atan, splat(kHalfPi) - atan);
+    return select4(c < splat(0.0f), splat(kPi) - angle, angle);
 }
 
 /// The triangles of a block that a task adds, and what it computes of them: one array per component.
@@ -142,7 +139,9 @@ void computeAngles(bool by_angle, std::size_t count, BlockFaces& block) {
             std::fill_n(angle, count, 1.0f);
             continue;
         }
-        for (std::size_t i = 0; i < count; ++i) angle[i] = angleOfCotangent(angle[i]);
+        for (std::size_t i = 0; i < count; i += 4) {
+            storeFloat4(angle + i, angleOfCotangent(loadFloat4(angle + i)));
+        }
     }
 }
 
@@ -180,7 +179,8 @@ class TriangleSmoother {
         });
         NormalReport report{triangle_count_, 0, 0};
         for (const std::uint64_t count : degenerate) report.degenerate_face_count += count;
-        if (const auto count = std::accumulate(doubtful.begin(), doubtful.end(), std::uint64_t{0}); count != 0) {
+        if (const auto count = std::accumulate(doubtful.begin(), doubtful.end(), std::uint64_t{0});
+            count != 0) {
             sumDoubtful(count);
         }
         report.fallback_corner_count =
@@ -253,6 +253,7 @@ class TriangleSmoother {
         const auto isInRange = [&](std::uint32_t point) {
             return kWhole || point - range.begin < range.end - range.begin;
         };
+        PointSum* const sums = sums_.data();
         std::uint64_t degenerate = 0;
         for (std::size_t i = 0; i < count; ++i, points += 3) {
             const Double2 xy{block.normal[0][i], block.normal[1][i]};
@@ -260,7 +261,7 @@ class TriangleSmoother {
             for (std::size_t k = 0; k < 3; ++k) {
                 if (!isInRange(points[k])) continue;
                 const double angle = block.angle[k][i];
-                PointSum& place = sums_[points[k]];
+                PointSum& place = sums[points[k]];
                 addPair(&place.x, Double2{angle, angle} * xy);
                 addPair(&place.z, Double2{angle, angle} * z_size);
             }
@@ -275,9 +276,10 @@ class TriangleSmoother {
     /// overflow nor vanish when squared.
     std::uint64_t finish(VertexRange range) {
         std::uint64_t doubtful = 0;
-        for (std::uint32_t p = range.begin; p < range.end; ++p) {
-            const PointSum sum = sums_[p];
-            doubtful += sum.finish(kDoubtful, sums_[p].floats()) || sum.weights == 0 ? 0 : 1;
+        PointSum* const end = sums_.data() + range.end;
+        for (PointSum* place = sums_.data() + range.begin; place != end; ++place) {
+            const PointSum sum = *place;
+            doubtful += sum.finish(kDoubtful, place->floats()) || sum.weights == 0 ? 0 : 1;
         }
         return doubtful;
     }
@@ -306,7 +308,8 @@ class TriangleSmoother {
         const std::uint32_t* const v = blockVertices(mesh_.indices, triangle, 1, buffer);
         const std::uint32_t* const points = pointsOf(v, 1, point_buffer);
         for (std::size_t k = 0; k < 3; ++k) {
-            if (points[k] - range.begin >= range.end - range.begin || !sums_[points[k]].isDoubtful()) continue;
+            if (points[k] - range.begin >= range.end - range.begin || !sums_[points[k]].isDoubtful())
+                continue;
             const DVec3 here = toDouble(mesh_.positions[v[k]]);
             const DVec3 e1 = toDouble(mesh_.positions[v[(k + 1) % 3]]) - here;
             const DVec3 e2 = toDouble(mesh_.positions[v[(k + 2) % 3]]) - here;
@@ -327,15 +330,27 @@ class TriangleSmoother {
         for (std::size_t first = begin; first < end; first += kBlock) {
             const std::size_t count = std::min(kBlock, end - first);
             const std::uint32_t* v = blockVertices(mesh_.indices, first, count, buffer);
-            const std::uint32_t* points = pointsOf(v, count, buffer);
-            for (std::size_t i = 0; i < 3 * count; ++i) {
-                const Float4 normal = loadFloat4(sums_[points[i]].floats());
-                Vec3& to = out_[3 * first + i];
-                storeVec3(to, normal);
-                if (PointSum::isMarked(normal)) [[unlikely]] {
-                    to = ownNormal(first + i / 3);
-                    ++substitutes;
-                }
+            if (points_.empty())
+                substitutes += writeBlock<false>(first, v, count);
+            else
+                substitutes += writeBlock<true>(first, v, count);
+        }
+        return substitutes;
+    }
+
+    template <bool kMapped>
+    std::uint64_t writeBlock(std::size_t first, const std::uint32_t* v, std::size_t count) {
+        const PointSum* const sums = sums_.data();
+        const std::uint32_t* const points = points_.data();
+        const std::size_t stride = out_.stride_bytes;
+        auto* to = reinterpret_cast<std::byte*>(&out_[3 * first]);
+        std::uint64_t substitutes = 0;
+        for (std::size_t i = 0; i < 3 * count; ++i, to += stride) {
+            const Float4 normal = loadFloat4(sums[kMapped ? points[v[i]] : v[i]].floats());
+            storeVec3(*reinterpret_cast<Vec3*>(to), normal);
+            if (PointSum::isMarked(normal)) [[unlikely]] {
+                *reinterpret_cast<Vec3*>(to) = ownNormal(first + i / 3);
+                ++substitutes;
             }
         }
         return substitutes;

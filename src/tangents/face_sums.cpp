@@ -37,10 +37,10 @@ class Elements {
 
 /// dP/du and dP/dv of four triangles, as VertexSum holds them.
 struct Derivatives4 {
-    Float4 head[4];         ///< per triangle s.x s.y s.z t.x
-    Float4 tail[4];         ///< per triangle t.y t.z, and two lanes without meaning
-    unsigned safe = 0;      ///< bits of the triangles for which all this holds
-    unsigned mirrored = 0;  ///< bits of those with negative determinant
+    Float4 head[4];       ///< per triangle s.x s.y s.z t.x
+    Float4 tail[4];       ///< per triangle t.y t.z, and two lanes without meaning
+    Mask4 mirrored = {};  ///< of the triangles with negative determinant
+    unsigned safe = 0;    ///< bits of the triangles for which all this holds
 };
 
 /// `v` are the vertices of four triangles.
@@ -78,7 +78,7 @@ template <class Positions, class Uvs>
 
     Derivatives4 result;
     result.safe = laneBits(safe);
-    result.mirrored = laneBits(std::bit_cast<Mask4>(determinant));
+    result.mirrored = determinant < splat(0.0f);
     result.head[0] = s.x + splat(0.0f);  // never -0, see VertexSum
     result.head[1] = s.y;
     result.head[2] = s.z;
@@ -90,8 +90,6 @@ template <class Positions, class Uvs>
     result.tail[3] = upperPair(result.tail[2]);
     return result;
 }
-
-inline unsigned countBits(unsigned four_bits) { return 0x4332322132212110u >> (4 * four_bits) & 15; }
 
 struct SumArrays {
     StridedSpan<const Vec3> positions;
@@ -115,16 +113,18 @@ class BlockSum {
 
     void add(const std::uint32_t* v, std::size_t triangle_count, TriangleCounts& counts) const {
         std::size_t i = 0;
+        Mask4 mirrored = {};  // minus a count per lane
         for (; i + 4 <= triangle_count; i += 4) {
             if (!namesAny(v + 3 * i)) continue;
             const Derivatives4 d = derivatives(v + 3 * i, positions_, uvs_);
             if (d.safe == 15) [[likely]] {
-                if (d.mirrored != 0) counts.mirrored += countBits(d.mirrored & owned(v + 3 * i));
+                mirrored += d.mirrored & owned(v + 3 * i);
                 for (unsigned k = 0; k < 4; ++k) addTriangle(v + 3 * (i + k), d.head[k], d.tail[k]);
             } else {
                 addSome(v + 3 * i, 4, counts);
             }
         }
+        counts.mirrored -= static_cast<std::int64_t>(mirrored[0]) + mirrored[1] + mirrored[2] + mirrored[3];
         if (i == triangle_count) return;
         std::uint32_t last[12];  // what is missing of the four repeats the first one, and is not added
         for (std::size_t k = 0; k < 12; ++k) last[k] = v[3 * i + (k < 3 * (triangle_count - i) ? k : k % 3)];
@@ -140,12 +140,9 @@ class BlockSum {
         for (unsigned k = 0; k < 12 && !kWhole; ++k) any |= isInRange(v[k]);
         return any;
     }
-    /// Bits of those of four triangles whose first vertex is in the range.
-    [[nodiscard]] unsigned owned(const std::uint32_t* v) const {
-        if (kWhole) return 15;
-        unsigned bits = 0;
-        for (unsigned k = 0; k < 4; ++k) bits |= isInRange(v[3 * k]) ? 1u << k : 0;
-        return bits;
+    /// Those of four triangles whose first vertex is in the range.
+    [[nodiscard]] Mask4 owned(const std::uint32_t* v) const {
+        return Mask4{-isInRange(v[0]), -isInRange(v[3]), -isInRange(v[6]), -isInRange(v[9])};
     }
 
     [[gnu::always_inline]] void addAt(std::uint32_t vertex, Float4 head, Float4 tail) const {
@@ -168,7 +165,7 @@ class BlockSum {
                 addUnsafe(v + 3 * k, counts);
                 continue;
             }
-            if (isInRange(v[3 * k])) counts.mirrored += d.mirrored >> k & 1;
+            if (isInRange(v[3 * k])) counts.mirrored += d.mirrored[k] != 0 ? 1 : 0;
             addTriangle(v + 3 * k, d.head[k], d.tail[k]);
         }
     }
