@@ -29,8 +29,8 @@ constexpr std::size_t kWorthThreads =
     16384;  ///< triangles; below that starting a thread takes longer than it saves
 
 // Below the first fraction of the weights a sum is what rounding left of normals that cancel. Below the
-// second it may be what the rounding of single-precision angles left: it is then taken again, in double.
-constexpr double kVanished = 1e-10, kDoubtful = 1e-5;
+// second it shows how single-precision angles were rounded: it is then taken again, with angles in double.
+constexpr double kVanished = 1e-10, kDoubtful = 1e-2;
 
 using Double2InMemory = double __attribute__((vector_size(16), aligned(8), may_alias));
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t kFree = ~std::uint32_t{0};
 constexpr std::size_t kBatch = 32;             ///< vertices whose places are fetched into the cache together
-constexpr std::size_t kWorthThreads = 65'536;  ///< vertices; below, sharing costs more than it saves
+constexpr std::size_t kWorthThreads = 32768;  ///< vertices; below, sharing costs more than it saves
 
 struct Key {
     std::uint32_t x, y, z;
