@@ -3,6 +3,7 @@
 // Based on: Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001.
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 #include "core/float4.h"
 #include "core/sum_ranges.h"
@@ -46,9 +47,8 @@ class VertexFrames {
         std::uint32_t v = range.begin;
         for (; range.end - v >= 4; v += 4) {
             Four four = frames(&sums_[v], 1, {&normals_[v], 4, normals_.stride_bytes});
-            if (four.safe == 15 && !has_extras_ && !mark) [[likely]] {
-                const StridedSpan<Vec4> to{&out_.tangents[v], 4, out_.tangents.stride_bytes};
-                for (std::size_t i = 0; i < 4; ++i) storeFloat4(&to[i].x, four.tangents[i]);
+            if (four.safe == 15 && !has_extras_) [[likely]] {
+                store(v, four, mark);
                 counts.used += 4;
             } else {
                 finish(v, 4, four, mark, counts);
@@ -100,6 +100,18 @@ class VertexFrames {
         result.tangents[3] = std::bit_cast<Float4>(sign_bit ^ std::bit_cast<Mask4>(splat(sign_factor_)));
         transpose4(result.tangents[0], result.tangents[1], result.tangents[2], result.tangents[3]);
         return result;
+    }
+
+    void store(std::uint32_t v, const Four& four, bool mark) const {
+        if (mark) {
+            for (std::uint32_t i = 0; i < 4; ++i) {
+                storeFloat4(sums_[v + i].s, four.tangents[i]);
+                defaultMark(sums_[v + i]) = 0.0f;
+            }
+            return;
+        }
+        const StridedSpan<Vec4> to{&out_.tangents[v], 4, out_.tangents.stride_bytes};
+        for (std::size_t i = 0; i < 4; ++i) storeFloat4(&to[i].x, four.tangents[i]);
     }
 
     /// Writes `count` vertices: from `four`, and in double what frames() could not do.
@@ -171,17 +183,32 @@ void copyToCorners(const IndexedPlan& plan, const T* from, const StridedSpan<T>&
     }
 }
 
-/// Returns how many corners hold the default.
-std::uint64_t copyTangents(const IndexedPlan& plan, VertexSum* places, const StridedSpan<Vec4>& to,
-                           std::size_t begin, std::size_t end) {
+/// Copies the tangents of used corners; returns how many of them are defaults. vertexOf(c): the vertex of a
+/// corner.
+template <class VertexOf>
+std::uint64_t copyTangents(const IndexedPlan& plan, VertexSum* places, const StridedSpan<Vec4>& out,
+                           std::size_t begin, std::size_t end, const VertexOf& vertexOf) {
+    const std::uint8_t* const used = plan.corner_used.data();
+    const std::size_t stride = out.stride_bytes;
+    auto* to = reinterpret_cast<std::byte*>(&out[begin]);
     std::uint64_t defaults = 0;
-    for (std::size_t c = begin; c < end; ++c) {
-        if (!plan.isUsed(c)) continue;
-        VertexSum& place = places[plan.corner_vertices[c]];
-        storeFloat4(&to[c].x, loadFloat4(place.s));
+    for (std::size_t c = begin; c < end; ++c, to += stride) {
+        if (used != nullptr && used[c] == 0) continue;
+        VertexSum& place = places[vertexOf(c)];
+        storeFloat4(&reinterpret_cast<Vec4*>(to)->x, loadFloat4(place.s));
         defaults += defaultMark(place) != 0 ? 1 : 0;
     }
     return defaults;
+}
+
+std::uint64_t copyTangents(const IndexedPlan& plan, VertexSum* places, const StridedSpan<Vec4>& out,
+                           std::size_t begin, std::size_t end) {
+    const IndexView& view = plan.corner_vertices;
+    if (view.type != IndexType::u32) {
+        return copyTangents(plan, places, out, begin, end, [&](std::size_t c) { return view[c]; });
+    }
+    const auto* const vertices = static_cast<const std::uint32_t*>(view.data);
+    return copyTangents(plan, places, out, begin, end, [=](std::size_t c) { return vertices[c]; });
 }
 
 }  // namespace
