@@ -25,8 +25,8 @@ namespace {
 
 constexpr std::size_t kBlock = VertexRanges::kBlock;
 constexpr std::size_t kGrain = 16384;
-constexpr std::size_t kWorthThreads =
-    16384;  ///< triangles; below that starting a thread takes longer than it saves
+// In triangles. An estimate, from some 50 us for a thread to start; not yet measured on idle cores.
+constexpr std::size_t kWorthThreads = 16384;
 
 // Below the first fraction of the weights a sum is what rounding left of normals that cancel. Below the
 // second it shows how single-precision angles were rounded: it is then taken again, with angles in double.

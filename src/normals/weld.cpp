@@ -14,8 +14,9 @@ namespace tspace {
 namespace {
 
 constexpr std::uint32_t kFree = ~std::uint32_t{0};
-constexpr std::size_t kBatch = 32;             ///< vertices whose places are fetched into the cache together
-constexpr std::size_t kWorthThreads = 32768;  ///< vertices; below, sharing costs more than it saves
+constexpr std::size_t kBatch = 32;  ///< vertices whose places are fetched into the cache together
+// In vertices. An estimate, from some 50 us for a thread to start; not yet measured on idle cores.
+constexpr std::size_t kWorthThreads = 32768;
 
 struct Key {
     std::uint32_t x, y, z;

@@ -15,8 +15,8 @@ namespace tspace {
 namespace {
 
 constexpr std::size_t kGrain = 16384;
-constexpr std::size_t kWorthThreads =
-    32768;  ///< triangles; below that starting a thread takes longer than it saves
+// In triangles. An estimate, from some 50 us for a thread to start; not yet measured on idle cores.
+constexpr std::size_t kWorthThreads = 32768;
 
 // Single precision is enough when Gram-Schmidt leaves a sixteenth of the length, and when the volume that
 // decides the sign is not just rounding (about 2^-18 of the product of lengths).
