@@ -41,6 +41,14 @@ enum class Ngons : std::uint32_t {
     skip = 1,         ///< as the reference: nothing is computed, outputs are 0
 };
 
+/// What one entry of the outputs belongs to.
+enum class OutputDomain : std::uint32_t {
+    corner = 0,
+    /// One entry per vertex of the mesh: `lengyel` and `basis`, whose results are the same at all corners of a vertex.
+    /// Every entry has the bits that the vertex's corners would get. Vertices that no used face names get 0.
+    vertex = 1,
+};
+
 struct TangentOptions {
     Method method = Method::mikktspace;
     /// Degrees, meant for 0..360; `mikktspace` only. Faces of one group whose tangents (or bitangents) differ by this
@@ -49,6 +57,7 @@ struct TangentOptions {
     float angular_threshold_deg = 180.0f;
     Pairing pairing = Pairing::reference;  ///< `mikktspace` only
     Ngons ngons = Ngons::triangulate;
+    OutputDomain domain = OutputDomain::corner;  ///< `vertex` for `lengyel` and `basis` only
     Convention convention = {};  ///< decides the stored sign; the default stores the raw one, as the reference does
     Execution execution = {};
 };
@@ -61,15 +70,15 @@ struct TangentReport {
     std::uint64_t mirrored_count = 0;             ///< triangles with negative UV area
     std::uint64_t skipped_face_count = 0;         ///< faces for which nothing was computed
     std::uint64_t group_count = 0;                ///< groups: sets of corners that share one tangent
-    std::uint64_t default_corner_count = 0;       ///< corners that no face gives a tangent: they hold the method's default
-    std::uint64_t not_finite_count = 0;           ///< corners whose tangent has a NaN or infinity
+    std::uint64_t default_corner_count = 0;       ///< outputs that no face gives a tangent: they hold the method's default
+    std::uint64_t not_finite_count = 0;           ///< outputs whose tangent has a NaN or infinity
     /// `mikktspace`: the input drives the reference itself into quadratic time, so its last step was left out. Either its
     /// sort (with Pairing::reference): the corrected pairing was used for the last bucket; only crafted inputs do this.
     /// Or its angular test: a group of more than 4096 faces whose tangents spread too far was not split.
     bool reference_order_abandoned = false;
 };
 
-/// Where results go: one entry per corner. Only `tangents` is required; empty spans are not written.
+/// Where results go: one entry per corner (or vertex, see OutputDomain). Only `tangents` is required; empty spans are not written.
 struct TangentOutput {
     /// xyz: unit tangent; w: sign (+1 or -1), `B = w * cross(N, T)` in the chosen convention.
     StridedSpan<Vec4> tangents = {};
@@ -97,6 +106,8 @@ class TangentPlan {
 
     [[nodiscard]] std::size_t vertexCount() const;
     [[nodiscard]] std::size_t cornerCount() const;
+    /// Entries of every output: cornerCount(), or vertexCount() with OutputDomain::vertex.
+    [[nodiscard]] std::size_t outputCount() const;
     [[nodiscard]] Method method() const;
     /// Bytes held by the plan.
     [[nodiscard]] std::size_t memoryBytes() const;
@@ -112,11 +123,13 @@ class TangentPlan {
 /// Tangents for a mesh in one call: planTangents, then evaluateTangents on the mesh's own pose.
 ///
 /// mesh      positions; normals (all methods); UVs (all methods but `basis`)
-/// out       spans of mesh.cornerCount() entries; must not overlap the inputs or each other
+/// out       spans of mesh.cornerCount() entries (mesh.vertexCount() with OutputDomain::vertex); must not overlap the
+///           inputs or each other
 /// Corners of faces with fewer than 3 corners (and of n-gons with Ngons::skip) get 0 in every output.
 /// Errors: those of validate(); missingAttribute, countMismatch (outputs), nullData, invalidOption, outOfMemory;
 /// tooLarge also for more than 715,827,882 triangles (mikktspace, uniform, angle, area).
-/// Linear in the number of corners whatever the input (fans, books, collapsed faces). Thread-safe.
+/// Linear in the number of corners whatever the input (fans, books, collapsed faces). Scratch memory of `lengyel` on a
+/// mesh of triangles: 24 bytes per vertex. Thread-safe.
 /// Same bits for any thread count and SIMD target.
 Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out);
 

@@ -248,7 +248,8 @@ typedef struct tspace_NormalReport {
  * mesh      not null; positions and indices are used
  * out       3 floats per corner; count = tspace_cornerCount(mesh)
  * Errors: those of tspace_validate; COUNT_MISMATCH, INVALID_OPTION, OUT_OF_MEMORY.
- * O(corners), about 40 bytes per corner of scratch memory. */
+ * O(corners). Scratch memory: about 18 bytes per triangle for a mesh of triangles without hard edges, else
+ * about 40 bytes per corner. */
 tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_NormalOptions* options,
                                         tspace_Span out, tspace_NormalReport* report,
                                         tspace_Error* error) TSPACE_NOEXCEPT;
@@ -279,6 +280,14 @@ enum {
     TSPACE_NGONS_SKIP = 1         /* nothing is computed, outputs are 0 */
 };
 
+/* What one entry of the outputs belongs to. */
+typedef uint32_t tspace_OutputDomain;
+enum {
+    TSPACE_DOMAIN_CORNER = 0,
+    TSPACE_DOMAIN_VERTEX = 1 /* LENGYEL and BASIS only: one entry per vertex of the mesh, the one that its corners
+                              * would get; 0 for vertices that no used face names */
+};
+
 typedef struct tspace_TangentOptions {
     uint32_t struct_size;
     tspace_Method method;
@@ -288,6 +297,7 @@ typedef struct tspace_TangentOptions {
     float angular_threshold_deg;
     tspace_Pairing pairing; /* mikktspace only */
     tspace_Ngons ngons;
+    tspace_OutputDomain domain;
     tspace_Convention convention; /* decides the stored sign */
     tspace_Execution execution;
 } tspace_TangentOptions;
@@ -304,11 +314,11 @@ typedef struct tspace_TangentReport {
     uint64_t mirrored_count;            /* triangles with negative UV area */
     uint64_t skipped_face_count;        /* faces for which nothing was computed */
     uint64_t group_count;               /* sets of corners that share one tangent */
-    uint64_t default_corner_count; /* corners that no face gives a tangent: they hold the method's default */
-    uint64_t not_finite_count;     /* corners whose tangent has a NaN or infinity */
+    uint64_t default_corner_count; /* outputs that no face gives a tangent: they hold the method's default */
+    uint64_t not_finite_count;     /* outputs whose tangent has a NaN or infinity */
 } tspace_TangentReport;
 
-/* Where results go: one entry per corner. Only tangents is required; empty spans are not written. */
+/* Where results go: one entry per corner (or vertex, see tspace_OutputDomain). Only tangents is required; empty spans are not written. */
 typedef struct tspace_TangentOutput {
     uint32_t struct_size;
     uint32_t reserved;
@@ -320,7 +330,7 @@ typedef struct tspace_TangentOutput {
 
 /* Computes tangents for a mesh in one call.
  * mesh      not null; positions and normals are used, and UVs by all methods but BASIS
- * out       not null; spans of tspace_cornerCount(mesh) entries
+ * out       not null; spans of tspace_cornerCount(mesh) entries (or as many as vertices: DOMAIN_VERTEX)
  * Corners of faces with fewer than 3 corners (and of n-gons with NGONS_SKIP) get 0 in every output.
  * Errors: those of tspace_validate; MISSING_ATTRIBUTE, COUNT_MISMATCH, INVALID_OPTION, OUT_OF_MEMORY.
  * Linear in the number of corners whatever the input. docs/methods has a page for each method. */
@@ -362,6 +372,7 @@ typedef struct tspace_TangentPlanInfo {
     tspace_Method method;
     size_t vertex_count;
     size_t corner_count;
+    size_t output_count; /* entries of every output: corners or vertices */
     size_t memory_bytes; /* held by the plan */
 } tspace_TangentPlanInfo;
 

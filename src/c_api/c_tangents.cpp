@@ -31,6 +31,7 @@ static_assert(TSPACE_METHOD_FLAT == static_cast<std::uint32_t>(Method::flat));
 static_assert(TSPACE_METHOD_BASIS == static_cast<std::uint32_t>(Method::basis));
 static_assert(TSPACE_PAIRING_CORRECTED == static_cast<std::uint32_t>(Pairing::corrected));
 static_assert(TSPACE_NGONS_SKIP == static_cast<std::uint32_t>(Ngons::skip));
+static_assert(TSPACE_DOMAIN_VERTEX == static_cast<std::uint32_t>(OutputDomain::vertex));
 
 Error checkOptions(const tspace_TangentOptions* given) {
     if (given == nullptr) return {ErrorCode::ok};
@@ -39,6 +40,7 @@ Error checkOptions(const tspace_TangentOptions* given) {
                       [&] { return checkChoice(options.method, TSPACE_METHOD_BASIS, "method"); },
                       [&] { return checkChoice(options.pairing, TSPACE_PAIRING_CORRECTED, "pairing"); },
                       [&] { return checkChoice(options.ngons, TSPACE_NGONS_SKIP, "ngons"); },
+                      [&] { return checkChoice(options.domain, TSPACE_DOMAIN_VERTEX, "domain"); },
                       [&] { return checkConvention(options.convention); },
                       [&] { return checkExecution(options.execution); });
 }
@@ -49,6 +51,7 @@ TangentOptions toOptions(const tspace_TangentOptions& options, const Hooks& hook
     if (options.angular_threshold_deg != 0.0f) result.angular_threshold_deg = options.angular_threshold_deg;
     result.pairing = static_cast<Pairing>(options.pairing);
     result.ngons = static_cast<Ngons>(options.ngons);
+    result.domain = static_cast<OutputDomain>(options.domain);
     result.convention = toConvention(options.convention);
     result.execution = hooks.execution();
     return result;
@@ -156,6 +159,7 @@ tspace_ErrorCode tspace_describeTangentPlan(const tspace_TangentPlan* plan, tspa
         info->method = static_cast<tspace_Method>(plan->plan->method());
         info->vertex_count = plan->plan->vertexCount();
         info->corner_count = plan->plan->cornerCount();
+        info->output_count = plan->plan->outputCount();
         info->memory_bytes = plan->plan->memoryBytes();
         return Done{};
     });

@@ -2,6 +2,7 @@
 // Validation of meshes and spans at the border.
 #include "tspace/mesh.h"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -39,6 +40,41 @@ Error checkFaces(const MeshView& mesh) {
                                               " corners, but there are " + std::to_string(corners)};
     }
     return fine();
+}
+
+/// Without a branch, so that the loop becomes SIMD. For i < 2^31 and limit <= 2^31, i - limit has its highest
+/// bit set exactly when i < limit.
+template <class Index>
+bool allBelow(const Index* indices, std::size_t count, std::uint32_t limit) {
+    constexpr std::size_t kLanes = 16;
+    std::uint32_t below[kLanes];
+    std::fill_n(below, kLanes, 0x80000000u);
+    std::size_t c = 0;
+    for (; c + kLanes <= count; c += kLanes) {
+        for (std::size_t i = 0; i < kLanes; ++i) {
+            const std::uint32_t index = indices[c + i];
+            below[i] &= (index - limit) & ~index;
+        }
+    }
+    std::uint32_t all = 0x80000000u;
+    for (const std::uint32_t lane : below) all &= lane;
+    for (; c < count; ++c) all &= (indices[c] - limit) & ~std::uint32_t{indices[c]};
+    return all != 0;
+}
+
+bool allBelow(const IndexView& indices, std::size_t vertex_count) {
+    const auto limit = static_cast<std::uint32_t>(std::min<std::size_t>(vertex_count, 0x80000000u));
+    switch (indices.type) {
+        case IndexType::u8:
+            return allBelow(static_cast<const std::uint8_t*>(indices.data), indices.count, limit);
+        case IndexType::u16:
+            return allBelow(static_cast<const std::uint16_t*>(indices.data), indices.count, limit);
+        case IndexType::u32:
+            return allBelow(static_cast<const std::uint32_t*>(indices.data), indices.count, limit);
+        case IndexType::none:
+            break;
+    }
+    return true;
 }
 
 Error check(const MeshView& mesh) {
@@ -101,15 +137,14 @@ Error checkIndices(const IndexView& indices, std::size_t vertex_count) {
         e.code != ErrorCode::ok) {
         return e;
     }
-    for (std::size_t c = 0; c < indices.count; ++c) {
-        if (indices[c] >= vertex_count) {
-            return {ErrorCode::indexOutOfRange,
-                    "index " + std::to_string(indices[c]) + " of corner " + std::to_string(c) +
-                        " is not below the " + std::to_string(vertex_count) + " vertices",
-                    c};
-        }
-    }
-    return fine();
+    if (allBelow(indices, vertex_count)) return fine();
+    std::size_t c = 0;
+    while (c < indices.count && indices[c] < vertex_count) ++c;
+    if (c == indices.count) return fine();
+    return {ErrorCode::indexOutOfRange,
+            "index " + std::to_string(indices[c]) + " of corner " + std::to_string(c) + " is not below the " +
+                std::to_string(vertex_count) + " vertices",
+            c};
 }
 
 Result<Done> validate(const MeshView& mesh) {

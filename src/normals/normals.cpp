@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "core/sum_ranges.h"
 #include "core/unit.h"
+#include "normals/smooth_triangles.h"
 #include "normals/smoothing.h"
 #include "normals/topology.h"
 #include "normals/weighting.h"
@@ -199,6 +200,7 @@ Result<NormalReport> generateNormals(const MeshView& mesh, const NormalOptions& 
         if (Result<Done> valid = validate(mesh); !valid) return std::move(valid).error();
         if (Error e = checkOptions(mesh, options, out); e.code != ErrorCode::ok) return e;
         Parallel parallel(options.execution);
+        if (canSmoothTriangles(mesh, options)) return smoothTriangles(mesh, options, out, parallel);
         return Averager(mesh, options, out, parallel).run(options.weld_positions);
     });
 }

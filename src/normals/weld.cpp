@@ -1,43 +1,116 @@
 // SPDX-License-Identifier: MIT
-// Welding by hash buckets, each sorted by position: no bucket, however full, costs more than sorting it.
+// Welding by a hash table of vertices; and, for input that defeats the hash, by sorting.
 #include "normals/weld.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <compare>
 
-#include "core/hash.h"
 #include "tspace/vec.h"
 
 namespace tspace {
 
 namespace {
 
-constexpr std::size_t kGrain = 4096;
+constexpr std::uint32_t kFree = ~std::uint32_t{0};
+constexpr std::size_t kBatch = 32;  ///< vertices whose places are fetched into the cache together
+// In vertices. An estimate, from some 50 us for a thread to start; not yet measured on idle cores.
+constexpr std::size_t kWorthThreads = 32768;
 
 struct Key {
     std::uint32_t x, y, z;
     friend auto operator<=>(const Key&, const Key&) = default;
 };
 
-std::uint32_t bitsOf(float f) { return std::bit_cast<std::uint32_t>(f == 0 ? 0.0f : f); }
+std::uint32_t bitsOf(float f) { return std::bit_cast<std::uint32_t>(f + 0.0f); }  // -0 as +0
 
 Key keyOf(const Vec3& p) { return {bitsOf(p.x), bitsOf(p.y), bitsOf(p.z)}; }
 
 bool hasNan(const Vec3& p) { return p.x != p.x || p.y != p.y || p.z != p.z; }
 
-void weldBucket(StridedSpan<const Vec3> positions, std::uint32_t* begin, std::uint32_t* end,
-                std::uint32_t* lowest) {
-    if (end - begin > 1) {
-        std::sort(begin, end, [&](std::uint32_t a, std::uint32_t b) {
-            const auto order = keyOf(positions[a]) <=> keyOf(positions[b]);
-            return order != 0 ? order < 0 : a < b;
-        });
+/// Good enough for meshes, and cheaper than hashPosition: every bit of the position reaches the high bits.
+std::uint64_t hashOf(const Vec3& p) {
+    const std::uint64_t xy = bitsOf(p.x) | std::uint64_t{bitsOf(p.y)} << 32;
+    std::uint64_t h = (xy ^ bitsOf(p.z) * 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
+    h = (h ^ h >> 32) * 0x94d049bb133111ebu;
+    return h ^ h >> 29;
+}
+
+/// Linear probing over a power of two of places, cut into one part per task by the highest bits of the hash.
+/// A place holds a vertex, and in the bits that vertices leave free some of its hash: so another vertex's
+/// position is hardly ever read in vain. Vertices come in order, so the one that is found is the lowest.
+class WeldTable {
+  public:
+    WeldTable(StridedSpan<const Vec3> positions, unsigned part_bits, const Allocator* allocator)
+        : positions_(positions),
+          part_bits_(part_bits),
+          vertex_mask_(static_cast<std::uint32_t>(std::bit_ceil(positions.count + 1) - 1)),
+          places_(allocator, std::bit_ceil(std::max<std::size_t>(2 * positions.count, 64)), kFree),
+          part_mask_((places_.size() >> part_bits) - 1) {}
+
+    /// False when the vertices of this part collide more than chance explains.
+    bool weldPart(std::size_t part, std::uint32_t* lowest) {
+        std::uint32_t* const places = places_.data() + part * (part_mask_ + 1);
+        std::size_t steps = 16 * positions_.count + 1024;
+        std::uint32_t entries[kBatch];
+        std::uint32_t homes[kBatch];
+        for (std::size_t first = 0; first < positions_.count; first += kBatch) {
+            const std::size_t end = std::min(first + kBatch, positions_.count);
+            std::size_t count = 0;
+            for (std::size_t v = first; v < end; ++v) {
+                const std::uint64_t hash = hashOf(positions_[v]);
+                const auto mark = static_cast<std::uint32_t>(hash >> 26) & ~vertex_mask_;
+                entries[count] = mark | static_cast<std::uint32_t>(v);
+                homes[count] = static_cast<std::uint32_t>(hash & part_mask_);
+                __builtin_prefetch(places + homes[count], 1);
+                count += part_bits_ == 0 || hash >> (64 - part_bits_) == part ? 1 : 0;
+            }
+            for (std::size_t i = 0; i < count; ++i) {
+                if (!insert(places, entries[i], homes[i], steps, lowest)) return false;
+            }
+        }
+        return true;
     }
-    for (const std::uint32_t* v = begin; v != end; ++v) {
-        const bool same =
-            v != begin && !hasNan(positions[*v]) && keyOf(positions[*v]) == keyOf(positions[v[-1]]);
-        lowest[*v] = same ? lowest[v[-1]] : *v;
+
+  private:
+    bool insert(std::uint32_t* places, std::uint32_t entry, std::size_t place, std::size_t& steps,
+                std::uint32_t* lowest) const {
+        const std::uint32_t vertex = entry & vertex_mask_;
+        const Vec3& here = positions_[vertex];
+        lowest[vertex] = vertex;
+        if (hasNan(here)) return true;
+        for (; places[place] != kFree; place = (place + 1) & part_mask_) {
+            const std::uint32_t other = places[place];
+            if (((other ^ entry) & ~vertex_mask_) == 0 && positions_[other & vertex_mask_] == here) {
+                lowest[vertex] = other & vertex_mask_;
+                return true;
+            }
+            if (--steps == 0) return false;  // also the end of a part that is full
+        }
+        places[place] = entry;
+        return true;
+    }
+
+    StridedSpan<const Vec3> positions_;
+    unsigned part_bits_;
+    std::uint32_t vertex_mask_;  ///< bits that hold a vertex; all of them are set in no vertex
+    Buffer<std::uint32_t> places_;
+    std::size_t part_mask_;
+};
+
+/// O(n log n) whatever the input.
+void weldBySorting(StridedSpan<const Vec3> positions, const Allocator* allocator, std::uint32_t* lowest) {
+    Buffer<std::uint32_t> order(allocator, positions.count);
+    for (std::size_t v = 0; v < positions.count; ++v) order[v] = static_cast<std::uint32_t>(v);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        const auto relation = keyOf(positions[a]) <=> keyOf(positions[b]);
+        return relation != 0 ? relation < 0 : a < b;
+    });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const std::uint32_t v = order[i];
+        const bool same = i > 0 && positions[v] == positions[order[i - 1]];
+        lowest[v] = same ? lowest[order[i - 1]] : v;
     }
 }
 
@@ -45,24 +118,18 @@ void weldBucket(StridedSpan<const Vec3> positions, std::uint32_t* begin, std::ui
 
 Buffer<std::uint32_t> weldPositions(StridedSpan<const Vec3> positions, const Allocator* allocator,
                                     Parallel& parallel) {
-    const std::size_t count = positions.count;
-    const std::size_t bucket_count = std::bit_ceil(std::max<std::size_t>(count, 1));
-    const auto bucketOf = [&](std::size_t v) { return hashPosition(positions[v]) & (bucket_count - 1); };
-
-    Buffer<std::uint32_t> ends(allocator, bucket_count + 1, 0);
-    for (std::size_t v = 0; v < count; ++v) ++ends[bucketOf(v) + 1];
-    for (std::size_t b = 0; b < bucket_count; ++b) ends[b + 1] += ends[b];
-    Buffer<std::uint32_t> order(allocator, count);
-    for (std::size_t v = 0; v < count; ++v) order[ends[bucketOf(v)]++] = static_cast<std::uint32_t>(v);
-
-    // Filling has moved each bucket's begin to its end, which is where the next one began.
-    Buffer<std::uint32_t> lowest(allocator, count);
-    parallel.forRanges(bucket_count, kGrain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t b = first; b < last; ++b) {
-            std::uint32_t* const begin = order.data() + (b == 0 ? 0 : ends[b - 1]);
-            weldBucket(positions, begin, order.data() + ends[b], lowest.data());
-        }
-    });
+    Buffer<std::uint32_t> lowest(allocator, positions.count);
+    const bool shared = parallel.width() > 1 && positions.count >= kWorthThreads;
+    const unsigned part_bits =
+        shared ? std::min(6u, static_cast<unsigned>(std::bit_width(parallel.width() - 1))) : 0;
+    std::atomic<bool> crowded{false};
+    {
+        WeldTable table(positions, part_bits, allocator);
+        parallel.forTasks(std::size_t{1} << part_bits, [&](std::size_t part) {
+            if (!table.weldPart(part, lowest.data())) crowded = true;
+        });
+    }
+    if (crowded) weldBySorting(positions, allocator, lowest.data());
     return lowest;
 }
 

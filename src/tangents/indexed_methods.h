@@ -27,15 +27,19 @@ struct Derivatives {
 /// `sign_factor`. Never gives a NaN.
 CornerFrame makeCornerFrame(const Derivatives& derivatives, const Vec3& normal, float sign_factor);
 
-/// Writes the outputs that are asked for.
-void writeCorner(const TangentOutput& out, std::size_t corner, const CornerFrame& frame);
+/// The length of sum / count as a float, which a mean of floats can exceed only by its rounding.
+float meanLength(const DVec3& sum, double count);
 
-/// Each writes the corners that are used and returns how many of them hold the default.
-std::uint64_t evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out,
-                              const Allocator* allocator, Parallel& parallel);
-std::uint64_t evaluateFlat(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out,
-                           Parallel& parallel);
-std::uint64_t evaluateBasis(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out,
-                            Parallel& parallel);
+/// Writes the outputs that are asked for; the second all but the tangent.
+void writeFrame(const TangentOutput& out, std::size_t entry, const CornerFrame& frame);
+void writeExtras(const TangentOutput& out, std::size_t entry, const CornerFrame& frame);
+
+/// Each writes the used outputs and sets the counts of `report` that it knows and the plan does not.
+void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out,
+                     const Allocator* allocator, Parallel& parallel, TangentReport& report);
+void evaluateFlat(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out, Parallel& parallel,
+                  TangentReport& report);
+void evaluateBasis(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out,
+                   const Allocator* allocator, Parallel& parallel, TangentReport& report);
 
 }  // namespace tspace

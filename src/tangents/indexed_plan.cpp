@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Planning for lengyel, flat and basis: faces cut to triangles, vertices of corners, and what can be counted
-// early.
+// Planning for lengyel, flat and basis: faces cut to triangles, and what can be counted early.
 #include "tangents/indexed_plan.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <vector>
 
@@ -29,12 +29,12 @@ class FaceCutter {
   public:
     explicit FaceCutter(const MeshView& mesh) : mesh_(mesh) {}
 
-    /// Writes 3 * (size - 2) corners of the mesh.
-    void cut(std::size_t first_corner, std::uint32_t size, std::uint32_t* triangles) {
-        const std::size_t written = 3 * (std::size_t{size} - 2);
+    /// Writes 3 * (size - 2) vertices and returns the end of what it wrote.
+    std::uint32_t* cut(std::size_t first_corner, std::uint32_t size, std::uint32_t* triangles) {
+        std::uint32_t* const end = triangles + 3 * (std::size_t{size} - 2);
         if (size == 3) {
-            for (std::uint32_t i = 0; i < 3; ++i) triangles[i] = static_cast<std::uint32_t>(first_corner) + i;
-            return;
+            for (std::uint32_t i = 0; i < 3; ++i) triangles[i] = mesh_.indices[first_corner + i];
+            return end;
         }
         positions_.resize(size);
         uvs_.resize(mesh_.uvs.empty() ? 0 : size);
@@ -44,7 +44,8 @@ class FaceCutter {
             if (!uvs_.empty()) uvs_[i] = mesh_.uvs[vertex];
         }
         cutPolygon(positions_.data(), uvs_.empty() ? nullptr : uvs_.data(), size, triangles, scratch_);
-        for (std::size_t i = 0; i < written; ++i) triangles[i] += static_cast<std::uint32_t>(first_corner);
+        for (std::uint32_t* t = triangles; t != end; ++t) *t = mesh_.indices[first_corner + *t];
+        return end;
     }
 
   private:
@@ -54,6 +55,12 @@ class FaceCutter {
     PolygonScratch scratch_;
 };
 
+bool hasOnlyTriangles(const MeshView& mesh) {
+    if (mesh.face_sizes.empty()) return mesh.face_size == 3;
+    return std::all_of(mesh.face_sizes.begin(), mesh.face_sizes.end(),
+                       [](std::uint32_t s) { return s == 3; });
+}
+
 void cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator, IndexedPlan& plan) {
     std::size_t triangle_count = 0;
     forEachFace(mesh, [&](std::size_t, std::size_t, std::uint32_t size) {
@@ -62,60 +69,68 @@ void cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator, Ind
         else
             ++plan.report.skipped_face_count;
     });
-    plan.triangles = Buffer<std::uint32_t>(allocator, 3 * triangle_count);
-    plan.corner_used = Buffer<std::uint8_t>(allocator, plan.face_corner_count, 0);
-    plan.report.triangle_count = triangle_count;
+    const std::size_t corner_count = mesh.cornerCount();
+    plan.cut_triangles = Buffer<std::uint32_t>(allocator, 3 * triangle_count);
+    if (plan.report.skipped_face_count != 0)
+        plan.corner_used = Buffer<std::uint8_t>(allocator, corner_count, 0);
+    plan.face_begins = Buffer<std::uint32_t>(allocator, mesh.faceCount() + 1);
 
     FaceCutter cutter(mesh);
-    std::uint32_t* end = plan.triangles.data();
-    forEachFace(mesh, [&](std::size_t, std::size_t first_corner, std::uint32_t size) {
-        if (!isUsed(size, ngons)) return;
-        std::fill_n(plan.corner_used.data() + first_corner, size, std::uint8_t{1});
-        cutter.cut(first_corner, size, end);
-        end += 3 * (std::size_t{size} - 2);
-    });
-}
-
-void keepFaces(const MeshView& mesh, const Allocator* allocator, IndexedPlan& plan) {
-    plan.face_begins = Buffer<std::uint32_t>(allocator, mesh.faceCount() + 1);
-    forEachFace(mesh, [&](std::size_t face, std::size_t first_corner, std::uint32_t) {
+    std::uint32_t* end = plan.cut_triangles.data();
+    forEachFace(mesh, [&](std::size_t face, std::size_t first_corner, std::uint32_t size) {
         plan.face_begins[face] = static_cast<std::uint32_t>(first_corner);
+        if (!isUsed(size, ngons)) return;
+        if (!plan.corner_used.empty())
+            std::fill_n(plan.corner_used.data() + first_corner, size, std::uint8_t{1});
+        end = cutter.cut(first_corner, size, end);
     });
-    plan.face_begins[mesh.faceCount()] = static_cast<std::uint32_t>(plan.face_corner_count);
+    plan.face_begins[mesh.faceCount()] = static_cast<std::uint32_t>(corner_count);
+    plan.triangle_vertices = {plan.cut_triangles.data(), plan.cut_triangles.size(), IndexType::u32};
 }
 
-void countUvs(IndexedPlan& plan) {
-    for (std::size_t i = 0; i < plan.triangles.size(); i += 3) {
-        const auto uv = [&](std::size_t k) { return plan.uvs[plan.corner_vertices[plan.triangles[i + k]]]; };
-        const double determinant = uvFrame({}, {}, {}, uv(0), uv(1), uv(2)).determinant;
-        if (!hasUvArea(determinant))
-            ++plan.report.degenerate_uv_count;
-        else if (determinant < 0)
-            ++plan.report.mirrored_count;
-    }
+void keepIndices(const Allocator* allocator, Parallel& parallel, IndexedPlan& plan) {
+    const IndexView from = plan.corner_vertices;
+    plan.kept_vertices = Buffer<std::uint32_t>(allocator, from.count);
+    parallel.forRanges(from.count, kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) plan.kept_vertices[c] = from[c];
+    });
+    plan.corner_vertices = {plan.kept_vertices.data(), from.count, IndexType::u32};
 }
 
-/// A face for flat; for the others a vertex that a used corner names.
-void countGroups(const Allocator* allocator, IndexedPlan& plan) {
-    if (plan.method == Method::flat) {
-        plan.report.group_count = plan.face_begins.size() - 1 - plan.report.skipped_face_count;
-        return;
-    }
-    Buffer<std::uint8_t> seen(allocator, plan.vertex_count, 0);
-    for (std::size_t c = 0; c < plan.face_corner_count; ++c) {
-        if (plan.corner_used[c] == 0 || seen[plan.corner_vertices[c]] != 0) continue;
-        seen[plan.corner_vertices[c]] = 1;
-        ++plan.report.group_count;
-    }
+void keepUvs(const Allocator* allocator, Parallel& parallel, IndexedPlan& plan) {
+    plan.kept_uvs = Buffer<Vec2>(allocator, plan.uvs.count);
+    parallel.forRanges(plan.uvs.count, kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) plan.kept_uvs[v] = plan.uvs[v];
+    });
+    plan.uvs = {plan.kept_uvs.data(), plan.kept_uvs.size()};
+}
+
+void countUvs(Parallel& parallel, IndexedPlan& plan) {
+    std::atomic<std::uint64_t> degenerate{0}, mirrored{0};
+    parallel.forRanges(plan.triangleCount(), kGrain, [&](std::size_t begin, std::size_t end) {
+        std::uint64_t without_area = 0, negative = 0;
+        for (std::size_t i = 3 * begin; i < 3 * end; i += 3) {
+            const auto uv = [&](std::size_t k) { return plan.uvs[plan.triangle_vertices[i + k]]; };
+            const double determinant = uvFrame({}, {}, {}, uv(0), uv(1), uv(2)).determinant;
+            if (!hasUvArea(determinant))
+                ++without_area;
+            else if (determinant < 0)
+                ++negative;
+        }
+        degenerate.fetch_add(without_area, std::memory_order_relaxed);
+        mirrored.fetch_add(negative, std::memory_order_relaxed);
+    });
+    plan.report.degenerate_uv_count = degenerate;
+    plan.report.mirrored_count = mirrored;
 }
 
 std::uint64_t countDegenerate(const IndexedPlan& plan, const Pose& pose, Parallel& parallel) {
-    return sumRanges(parallel, plan.triangles.size() / 3, kGrain, [&](std::size_t begin, std::size_t end) {
+    return sumRanges(parallel, plan.triangleCount(), kGrain, [&](std::size_t begin, std::size_t end) {
         std::uint64_t count = 0;
         for (std::size_t i = 3 * begin; i < 3 * end; i += 3) {
-            const Vec3& a = pose.positions[plan.corner_vertices[plan.triangles[i]]];
-            const Vec3& b = pose.positions[plan.corner_vertices[plan.triangles[i + 1]]];
-            const Vec3& c = pose.positions[plan.corner_vertices[plan.triangles[i + 2]]];
+            const Vec3& a = pose.positions[plan.triangle_vertices[i]];
+            const Vec3& b = pose.positions[plan.triangle_vertices[i + 1]];
+            const Vec3& c = pose.positions[plan.triangle_vertices[i + 2]];
             if (a == b || b == c || c == a) ++count;
         }
         return count;
@@ -123,54 +138,65 @@ std::uint64_t countDegenerate(const IndexedPlan& plan, const Pose& pose, Paralle
 }
 
 void clearUnusedCorners(const IndexedPlan& plan, const TangentOutput& out) {
-    if (plan.report.skipped_face_count == 0) return;
-    for (std::size_t c = 0; c < plan.face_corner_count; ++c) {
-        if (plan.corner_used[c] == 0) writeCorner(out, c, {});
+    if (plan.domain == OutputDomain::vertex) return;
+    for (std::size_t c = 0; c < plan.corner_used.size(); ++c) {
+        if (plan.corner_used[c] == 0) writeFrame(out, c, {});
     }
 }
 
 }  // namespace
 
 std::size_t IndexedPlan::memoryBytes() const {
-    return 4 * (corner_vertices.size() + triangles.size() + face_begins.size()) + corner_used.size() +
-           sizeof(Vec2) * uvs.size();
+    return 4 * (face_begins.size() + cut_triangles.size() + kept_vertices.size()) + corner_used.size() +
+           sizeof(Vec2) * kept_uvs.size();
 }
 
-IndexedPlan planIndexed(const MeshView& mesh, const TangentOptions& options, Parallel& parallel) {
+IndexedPlan planIndexed(const MeshView& mesh, const TangentOptions& options, Parallel& parallel,
+                        PlanUse use) {
     const Allocator* const allocator = options.execution.allocator;
     IndexedPlan plan;
     plan.method = options.method;
+    plan.domain = options.domain;
     plan.sign_factor = signFactor(options.convention);
     plan.vertex_count = mesh.vertexCount();
-    plan.face_corner_count = mesh.cornerCount();
-    plan.corner_vertices = Buffer<std::uint32_t>(allocator, plan.face_corner_count);
-    parallel.forRanges(plan.face_corner_count, kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) plan.corner_vertices[c] = mesh.indices[c];
-    });
-    cutFaces(mesh, options.ngons, allocator, plan);
-    if (plan.method != Method::basis) {
-        plan.uvs = Buffer<Vec2>(allocator, plan.vertex_count);
-        for (std::size_t v = 0; v < plan.vertex_count; ++v) plan.uvs[v] = mesh.uvs[v];
-        countUvs(plan);
+    plan.face_count = mesh.faceCount();
+    plan.corner_vertices = mesh.indices;
+    plan.corner_vertices.count = mesh.cornerCount();
+    if (plan.method != Method::basis) plan.uvs = mesh.uvs;
+    if (use == PlanUse::kept) {
+        keepIndices(allocator, parallel, plan);
+        keepUvs(allocator, parallel, plan);
     }
-    if (plan.method == Method::flat) keepFaces(mesh, allocator, plan);
-    countGroups(allocator, plan);
+    if (hasOnlyTriangles(mesh))
+        plan.triangle_vertices = plan.corner_vertices;
+    else
+        cutFaces(mesh, options.ngons, allocator, plan);
+    plan.report.triangle_count = plan.triangleCount();
+    if (plan.method == Method::flat) {
+        countUvs(parallel, plan);
+        plan.report.group_count = plan.face_count - plan.report.skipped_face_count;
+    }
     return plan;
 }
 
 TangentReport evaluateIndexed(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out,
                               const Allocator* allocator, Parallel& parallel) {
-    TangentReport report = plan.report;
-    report.degenerate_triangle_count = countDegenerate(plan, pose, parallel);
     clearUnusedCorners(plan, out);
-    if (plan.method == Method::basis) {
-        report.default_corner_count = evaluateBasis(plan, pose, out, parallel);
-    } else if (plan.method == Method::flat) {
-        report.default_corner_count = evaluateFlat(plan, pose, out, parallel);
-    } else {
-        report.default_corner_count = evaluateLengyel(plan, pose, out, allocator, parallel);
+    TangentReport report = plan.report;
+    if (plan.method == Method::lengyel) {
+        evaluateLengyel(plan, pose, out, allocator, parallel, report);
+        return report;
     }
+    report.degenerate_triangle_count = countDegenerate(plan, pose, parallel);
+    if (plan.method == Method::basis)
+        evaluateBasis(plan, pose, out, allocator, parallel, report);
+    else
+        evaluateFlat(plan, pose, out, parallel, report);
     return report;
+}
+
+float meanLength(const DVec3& sum, double count) {
+    return static_cast<float>(std::min(length(sum) / count, double{std::numeric_limits<float>::max()}));
 }
 
 CornerFrame makeCornerFrame(const Derivatives& d, const Vec3& normal, float sign_factor) {
@@ -188,22 +214,22 @@ CornerFrame makeCornerFrame(const Derivatives& d, const Vec3& normal, float sign
         if (!normalize(b)) b = {0, 1, 0};
     }
     const Vec3 tangent = toFloat(t);
-    // A mean of floats can be longer than the largest float only by its rounding.
-    const auto magnitude = [](double l) {
-        return static_cast<float>(std::min(l, double{std::numeric_limits<float>::max()}));
-    };
     return {{tangent.x, tangent.y, tangent.z, sign},
             toFloat(b_sign * b),
-            magnitude(length(d.s)),
-            magnitude(length(d.t)),
+            meanLength(d.s, 1),
+            meanLength(d.t, 1),
             false};
 }
 
-void writeCorner(const TangentOutput& out, std::size_t corner, const CornerFrame& frame) {
-    out.tangents[corner] = frame.tangent;
-    if (!out.bitangents.empty()) out.bitangents[corner] = frame.bitangent;
-    if (!out.magnitudes_s.empty()) out.magnitudes_s[corner] = frame.magnitude_s;
-    if (!out.magnitudes_t.empty()) out.magnitudes_t[corner] = frame.magnitude_t;
+void writeFrame(const TangentOutput& out, std::size_t entry, const CornerFrame& frame) {
+    out.tangents[entry] = frame.tangent;
+    writeExtras(out, entry, frame);
+}
+
+void writeExtras(const TangentOutput& out, std::size_t entry, const CornerFrame& frame) {
+    if (!out.bitangents.empty()) out.bitangents[entry] = frame.bitangent;
+    if (!out.magnitudes_s.empty()) out.magnitudes_s[entry] = frame.magnitude_s;
+    if (!out.magnitudes_t.empty()) out.magnitudes_t[entry] = frame.magnitude_t;
 }
 
 }  // namespace tspace

@@ -18,6 +18,7 @@ struct TangentPlan::State {
     Method method = Method::mikktspace;
     std::size_t vertex_count = 0;
     std::size_t corner_count = 0;
+    std::size_t output_count = 0;
 };
 
 namespace {
@@ -34,6 +35,11 @@ Error checkOptions(const TangentOptions& options) {
     }
     if (options.pairing > Pairing::corrected) return {ErrorCode::invalidOption, "unknown pairing"};
     if (options.ngons > Ngons::skip) return {ErrorCode::invalidOption, "unknown treatment of n-gons"};
+    if (options.domain > OutputDomain::vertex) return {ErrorCode::invalidOption, "unknown output domain"};
+    if (options.domain == OutputDomain::vertex && options.method != Method::lengyel &&
+        options.method != Method::basis) {
+        return {ErrorCode::invalidOption, "only lengyel and basis have one result per vertex"};
+    }
     return {ErrorCode::ok, {}};
 }
 
@@ -52,10 +58,14 @@ Error checkInput(const MeshView& mesh, const TangentOptions& options) {
     return {ErrorCode::ok, {}};
 }
 
-Error checkOutput(const TangentOutput& out, std::size_t corner_count) {
-    if (Error e = checkSpan(out.tangents, corner_count, "tangents"); e.code != ErrorCode::ok) return e;
+std::size_t outputCount(const MeshView& mesh, const TangentOptions& options) {
+    return options.domain == OutputDomain::vertex ? mesh.vertexCount() : mesh.cornerCount();
+}
+
+Error checkOutput(const TangentOutput& out, std::size_t output_count) {
+    if (Error e = checkSpan(out.tangents, output_count, "tangents"); e.code != ErrorCode::ok) return e;
     const auto optional = [&](const auto& span, const char* name) {
-        return span.empty() ? Error{ErrorCode::ok, {}} : checkSpan(span, corner_count, name);
+        return span.empty() ? Error{ErrorCode::ok, {}} : checkSpan(span, output_count, name);
     };
     if (Error e = optional(out.bitangents, "bitangents"); e.code != ErrorCode::ok) return e;
     if (Error e = optional(out.magnitudes_s, "magnitudes_s"); e.code != ErrorCode::ok) return e;
@@ -81,6 +91,7 @@ TangentPlan::~TangentPlan() = default;
 
 std::size_t TangentPlan::vertexCount() const { return state_->vertex_count; }
 std::size_t TangentPlan::cornerCount() const { return state_->corner_count; }
+std::size_t TangentPlan::outputCount() const { return state_->output_count; }
 Method TangentPlan::method() const { return state_->method; }
 std::size_t TangentPlan::memoryBytes() const {
     return std::visit([](const auto& plan) { return plan.memoryBytes(); }, state_->plan);
@@ -90,12 +101,13 @@ Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOption
                                        const TangentOutput& out) {
     return atBorder([&]() -> Result<TangentReport> {
         if (Error e = checkInput(mesh, options); e.code != ErrorCode::ok) return e;
-        if (Error e = checkOutput(out, mesh.cornerCount()); e.code != ErrorCode::ok) return e;
+        if (Error e = checkOutput(out, outputCount(mesh, options)); e.code != ErrorCode::ok) return e;
         Parallel parallel(options.execution);
         const Allocator* allocator = options.execution.allocator;
         const Pose pose{mesh.positions, mesh.normals};
         if (!isGrouped(options.method)) {
-            return evaluateIndexed(planIndexed(mesh, options, parallel), pose, out, allocator, parallel);
+            const IndexedPlan plan = planIndexed(mesh, options, parallel, PlanUse::once);
+            return evaluateIndexed(plan, pose, out, allocator, parallel);
         }
         mikk::PoseData data;
         const mikk::GroupedPlan plan = mikk::planGrouped(mesh, options, parallel, data);
@@ -111,6 +123,7 @@ Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& opt
         state->method = options.method;
         state->vertex_count = mesh.vertexCount();
         state->corner_count = mesh.cornerCount();
+        state->output_count = outputCount(mesh, options);
         if (isGrouped(options.method)) {
             mikk::PoseData unused;
             state->plan = mikk::planGrouped(mesh, options, parallel, unused);
@@ -126,7 +139,7 @@ Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose
     return atBorder([&]() -> Result<TangentReport> {
         const TangentPlan::State& state = plan.state();
         if (Error e = checkPose(pose, state.vertex_count); e.code != ErrorCode::ok) return e;
-        if (Error e = checkOutput(out, state.corner_count); e.code != ErrorCode::ok) {
+        if (Error e = checkOutput(out, state.output_count); e.code != ErrorCode::ok) {
             if (e.code == ErrorCode::countMismatch) e.code = ErrorCode::planMismatch;
             return e;
         }

@@ -91,6 +91,37 @@ TEST(CApi, GivesTheTangentsOfTheCppApiForEveryMethod) {
     }
 }
 
+TEST(CApi, GivesTangentsPerVertexAsTheCppApi) {
+    const RandomMesh mesh(3, 60);
+    const std::size_t vertex_count = mesh.view().vertexCount();
+    ASSERT_NE(vertex_count, mesh.cornerCount());
+    const tspace_Mesh c_mesh = mesh.c();
+    tspace_Pose pose;
+    TSPACE_INIT(pose);
+    pose.positions = c_mesh.positions;
+    pose.normals = c_mesh.normals;
+    for (const Method method : {Method::lengyel, Method::basis}) {
+        Outputs cpp(vertex_count), c(vertex_count);
+        ASSERT_TRUE(
+            generateTangents(mesh.view(), {.method = method, .domain = OutputDomain::vertex}, cpp.view()));
+        tspace_TangentOptions options;
+        TSPACE_INIT(options);
+        options.method = static_cast<tspace_Method>(method);
+        options.domain = TSPACE_DOMAIN_VERTEX;
+        tspace_TangentPlan* plan = nullptr;
+        ASSERT_EQ(TSPACE_OK, tspace_planTangents(&c_mesh, &options, &plan, nullptr));
+        tspace_TangentPlanInfo info;
+        TSPACE_INIT(info);
+        ASSERT_EQ(TSPACE_OK, tspace_describeTangentPlan(plan, &info, nullptr));
+        EXPECT_EQ(info.output_count, vertex_count);
+        EXPECT_EQ(info.corner_count, mesh.cornerCount());
+        const tspace_TangentOutput out = c.c();
+        EXPECT_EQ(TSPACE_OK, tspace_evaluateTangents(plan, &pose, &out, nullptr, nullptr, nullptr));
+        expectSame(cpp, c);
+        tspace_destroyTangentPlan(plan);
+    }
+}
+
 TEST(CApi, DefaultsOfTangentsAreThoseOfCpp) {
     const RandomMesh mesh(2, 60);
     Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount()), zeroed(mesh.cornerCount());

@@ -172,6 +172,8 @@ TEST_F(CErrors, RefuseChoicesThatDoNotExist) {
     expectRefused([](auto& o) { o.method = 7; });
     expectRefused([](auto& o) { o.pairing = 2; });
     expectRefused([](auto& o) { o.ngons = 2; });
+    expectRefused([](auto& o) { o.domain = 2; });
+    expectRefused([](auto& o) { o.domain = TSPACE_DOMAIN_VERTEX; });  // not with mikktspace
     expectRefused([](auto& o) { o.convention.v_axis = 2; });
     expectRefused([](auto& o) { o.convention.green = 2; });
     expectRefused([](auto& o) { o.convention.stored_sign = 2; });

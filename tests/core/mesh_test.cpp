@@ -43,6 +43,27 @@ TEST_F(MeshBorder, NamesTheCornerWhoseIndexIsOutOfRange) {
     EXPECT_FALSE(result.error().message.empty());
 }
 
+TEST_F(MeshBorder, FindsTheOneBadIndexOfEveryWidthAtEveryPlace) {
+    const auto expectFound = [&](auto index, auto bad) {
+        for (std::size_t at = 0; at < 66; ++at) {
+            std::vector<decltype(index)> many(66, index);
+            mesh.indices = IndexView(std::span<const decltype(index)>(many));
+            ASSERT_EQ(code(), ErrorCode::ok);
+            many[at] = bad;
+            const Result<Done> result = validate(mesh);
+            ASSERT_FALSE(result);
+            EXPECT_EQ(result.error().code, ErrorCode::indexOutOfRange);
+            EXPECT_EQ(result.error().element, at);
+        }
+    };
+    for (const std::uint8_t bad : {std::uint8_t{4}, std::uint8_t{255}}) expectFound(std::uint8_t{3}, bad);
+    for (const std::uint16_t bad : {std::uint16_t{4}, std::uint16_t{0xffff}})
+        expectFound(std::uint16_t{3}, bad);
+    for (const std::uint32_t bad : {4u, 0x7fffffffu, 0x80000000u, 0x80000003u, 0xffffffffu}) {
+        expectFound(std::uint32_t{3}, bad);
+    }
+}
+
 TEST_F(MeshBorder, RejectsVertexArraysOfDifferentLength) {
     mesh.normals.count = 3;
     EXPECT_EQ(code(), ErrorCode::countMismatch);

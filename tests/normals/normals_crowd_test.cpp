@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <random>
 
+#include "normals/weld.h"
 #include "support/simple_mesh.h"
 #include "tspace/normals.h"
 
@@ -132,6 +134,61 @@ TEST(Threads, DoNotChangeABit) {
                 ASSERT_EQ(std::memcmp(one.data(), many.data(), one.size() * sizeof(Vec3)), 0) << threads;
             }
         }
+    }
+}
+
+TEST(Threads, DoNotChangeABitOfTriangles) {
+    // Many vertices per position, collapsed triangles, and some seen from both sides, whose means vanish.
+    std::mt19937 random(9);
+    SimpleMesh mesh;
+    for (int v = 0; v < 70'000; ++v) {
+        const auto coordinate = [&] { return static_cast<float>(random() % 24); };
+        const float x = coordinate(), y = coordinate();
+        mesh.positions.push_back({x, y, coordinate()});
+    }
+    for (std::uint32_t f = 0; f < 40'000; ++f) {
+        const auto vertex = [&] { return static_cast<std::uint32_t>(random() % 60'000); };
+        const std::uint32_t a = vertex(), b = vertex(), c = vertex();
+        mesh.indices.insert(mesh.indices.end(), {a, b, c});
+    }
+    for (std::uint32_t v = 60'000; v + 3 <= 70'000; v += 3) {
+        mesh.indices.insert(mesh.indices.end(), {v, v + 1, v + 2, v, v + 2, v + 1});
+    }
+    for (const bool weld : {false, true}) {
+        for (const NormalWeighting weighting : {NormalWeighting::angle, NormalWeighting::area}) {
+            NormalOptions options{
+                .weighting = weighting, .weld_positions = weld, .execution = {.thread_count = 1}};
+            NormalReport one_report, report;
+            const std::vector<Vec3> one = normalsOf(mesh.view(), options, &one_report);
+            if (!weld) {
+                EXPECT_GT(one_report.fallback_corner_count, 10'000u);
+            }
+            for (const unsigned threads : {2u, 3u, 8u}) {
+                options.execution.thread_count = threads;
+                const std::vector<Vec3> many = normalsOf(mesh.view(), options, &report);
+                ASSERT_EQ(std::memcmp(one.data(), many.data(), one.size() * sizeof(Vec3)), 0) << threads;
+                EXPECT_EQ(report.degenerate_face_count, one_report.degenerate_face_count);
+                EXPECT_EQ(report.fallback_corner_count, one_report.fallback_corner_count);
+            }
+        }
+    }
+}
+
+/// Positions whose hashes a table could not tell apart would make it quadratic; here is what can be had
+/// without knowing the hash.
+TEST(Welding, FindsTheLowestOfManyVerticesAtFewPositions) {
+    constexpr std::uint32_t kCount = 200'001;
+    SimpleMesh mesh;
+    for (std::uint32_t v = 0; v < kCount; ++v) {
+        const float nan = std::numeric_limits<float>::quiet_NaN();
+        mesh.positions.push_back(v % 3 == 0   ? Vec3{0, 0, 0}
+                                 : v % 3 == 1 ? Vec3{1, 0, -0.0f}
+                                              : Vec3{nan, 1, 0});
+    }
+    Parallel one(Execution{.thread_count = 1}), four(Execution{.thread_count = 4});
+    for (Parallel* parallel : {&one, &four}) {
+        const Buffer<std::uint32_t> lowest = weldPositions(mesh.positions, nullptr, *parallel);
+        for (std::uint32_t v = 0; v < kCount; ++v) ASSERT_EQ(lowest[v], v % 3 == 2 ? v : v % 3);
     }
 }
 

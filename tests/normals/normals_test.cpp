@@ -262,6 +262,23 @@ TEST(Fallbacks, ReplaceWhatHasNoMean) {
     EXPECT_EQ(report.fallback_corner_count, 12u);
 }
 
+TEST(Fallbacks, ReplaceAMeanWhoseAnglesAddUpToNothing) {
+    // At vertex 0 one triangle looks up, and two that share its angle look down.
+    for (const Vec3 middle : {Vec3{1, 1, 0}, Vec3{2, 1, 0}, Vec3{1, 2, 0}, Vec3{3, 1, 0}, Vec3{5, 7, 0}}) {
+        SimpleMesh mesh;
+        mesh.positions = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, middle};
+        mesh.indices = {0, 1, 2, 0, 3, 1, 0, 2, 3};
+        for (const bool as_faces : {false, true}) {  // with sizes of faces it is computed in another way
+            if (as_faces) mesh.face_sizes = {3, 3, 3};
+            std::vector<Vec3> out(9);
+            ASSERT_TRUE(generateNormals(mesh.view(), {}, out));
+            EXPECT_EQ(out[0], (Vec3{0, 0, 1}));
+            EXPECT_EQ(out[3], (Vec3{0, 0, -1}));
+            EXPECT_EQ(out[6], (Vec3{0, 0, -1}));
+        }
+    }
+}
+
 TEST(Fallbacks, GiveADegenerateFaceTheMeanOfTheOthers) {
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}};

@@ -137,6 +137,81 @@ RC_GTEST_PROP(IndexedProperty, LengyelGivesAllCornersOfAVertexOneFrame, ()) {
     }
 }
 
+/// The plan with what is in it for good, and the one that is used up within a call, for both domains.
+RC_GTEST_PROP(IndexedProperty, VertexDomainAndPlanGiveTheBitsOfTheOneCallPerCorner, ()) {
+    SimpleMesh mesh = randomMesh(randomInt(3, 7));
+    if (randomInt(0, 2) == 0) {
+        mesh.face_sizes.clear();
+        mesh.indices.resize(mesh.indices.size() / 3 * 3);
+    }
+    const MeshView view = mesh.view();
+    const std::size_t corners = view.cornerCount(), vertices = view.vertexCount();
+    for (const Method method : {Method::lengyel, Method::basis}) {
+        for (const bool all_fields : {false, true}) {
+            const auto outputs = [&](std::size_t count) {
+                return Outputs{std::vector<Vec4>(count), std::vector<Vec3>(count), std::vector<float>(count),
+                               std::vector<float>(count)};
+            };
+            const auto spans = [&](Outputs& o) {
+                return all_fields ? TangentOutput{o.tangents, o.bitangents, o.magnitudes_s, o.magnitudes_t}
+                                  : TangentOutput{.tangents = o.tangents};
+            };
+            Outputs one_call = outputs(corners), per_vertex = outputs(vertices), planned = outputs(corners),
+                    planned_per_vertex = outputs(vertices);
+            TangentOptions options{.method = method, .execution = {.thread_count = 1}};
+            const auto corner_report = generateTangents(view, options, spans(one_call));
+            const auto corner_plan = planTangents(view, options);
+            options.domain = OutputDomain::vertex;
+            const auto vertex_report = generateTangents(view, options, spans(per_vertex));
+            const auto vertex_plan = planTangents(view, options);
+            RC_ASSERT(corner_report && vertex_report && corner_plan && vertex_plan);
+            RC_ASSERT(vertex_plan->outputCount() == vertices && corner_plan->outputCount() == corners);
+            const Pose pose{view.positions, view.normals};
+            RC_ASSERT(evaluateTangents(*corner_plan, pose, spans(planned)).ok());
+            RC_ASSERT(evaluateTangents(*vertex_plan, pose, spans(planned_per_vertex)).ok());
+            RC_ASSERT(one_call.tangents == planned.tangents && one_call.bitangents == planned.bitangents);
+            RC_ASSERT(one_call.magnitudes_s == planned.magnitudes_s);
+            RC_ASSERT(per_vertex.tangents == planned_per_vertex.tangents);
+            RC_ASSERT(corner_report->group_count == vertex_report->group_count);
+            RC_ASSERT(corner_report->mirrored_count == vertex_report->mirrored_count);
+            for (std::size_t c = 0; c < corners; ++c) {
+                const std::uint32_t v = mesh.indices[c];
+                RC_ASSERT(one_call.tangents[c] == per_vertex.tangents[v]);
+                RC_ASSERT(one_call.bitangents[c] == per_vertex.bitangents[v]);
+                RC_ASSERT(one_call.magnitudes_s[c] == per_vertex.magnitudes_s[v]);
+                RC_ASSERT(one_call.magnitudes_t[c] == per_vertex.magnitudes_t[v]);
+            }
+        }
+    }
+}
+
+/// Four triangles are computed at a time: what stands beside a triangle must not matter.
+RC_GTEST_PROP(IndexedProperty, LengyelGivesATriangleItsOwnBits, ()) {
+    SimpleMesh mesh;
+    const int count = randomInt(1, 12);
+    const auto vertex = [&](bool garbage) {
+        mesh.positions.push_back(garbage ? randomGarbageVec3() : randomVec3());
+        mesh.normals.push_back(garbage ? randomGarbageVec3() : randomUnit());
+        const float u = garbage ? randomGarbage() : randomVec2().x;
+        mesh.uvs.push_back({u, garbage ? randomGarbage() : randomVec2().y});
+        return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+    };
+    for (int f = 0; f < count; ++f) {
+        const bool garbage = randomInt(0, 3) == 0;
+        const std::uint32_t a = vertex(garbage), b = vertex(garbage);
+        mesh.addFace({a, b, vertex(garbage)});
+    }
+    const Outputs all = tangentsOf(mesh.view(), Method::lengyel);
+    for (std::size_t f = 0; f < static_cast<std::size_t>(count); ++f) {
+        SimpleMesh one = mesh;
+        one.face_sizes = {3};
+        one.indices.assign(mesh.indices.begin() + 3 * static_cast<std::ptrdiff_t>(f),
+                           mesh.indices.begin() + 3 * static_cast<std::ptrdiff_t>(f + 1));
+        const Outputs alone = tangentsOf(one.view(), Method::lengyel);
+        for (std::size_t k = 0; k < 3; ++k) RC_ASSERT(alone.tangents[k] == all.tangents[3 * f + k]);
+    }
+}
+
 RC_GTEST_PROP(IndexedProperty, FlatTriangleIsItsFaceFrameMadeOrthogonal, ()) {
     const SimpleMesh mesh = randomMesh(3);
     const Outputs out = tangentsOf(mesh.view(), Method::flat);

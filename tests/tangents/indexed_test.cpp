@@ -2,9 +2,11 @@
 // lengyel, flat and basis, through their plan.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <new>
 #include <random>
 
 #include "support/simple_mesh.h"
@@ -33,7 +35,7 @@ Outputs tangentsOf(const MeshView& mesh, const TangentOptions& options) {
                 {}};
     Parallel parallel(options.execution);
     const IndexedPlan plan = planIndexed(mesh, options, parallel);
-    EXPECT_GT(plan.memoryBytes(), 4 * corners);
+    EXPECT_GE(plan.memoryBytes(), 4 * corners);
     out.report = evaluateIndexed(plan, {mesh.positions, mesh.normals},
                                  {out.tangents, out.bitangents, out.magnitudes_s, out.magnitudes_t}, nullptr,
                                  parallel);
@@ -219,6 +221,119 @@ TEST(Reports, CountGroupsAsFacesForFlatAndAsUsedVerticesElse) {
     EXPECT_EQ(tangentsOf(mesh.view(), {.method = Method::flat}).report.group_count, 2u);
 }
 
+TEST(VertexDomain, GivesUnusedVerticesZeroAndCountsOutputs) {
+    SimpleMesh mesh = square();
+    mesh.positions.resize(7);
+    mesh.normals.resize(7, {0, 0, 1});
+    mesh.uvs.resize(7);
+    mesh.addFace({4, 5});     // ignored
+    mesh.addFace({0, 1, 6});  // collapses in UV: vertex 6 is used, but has no tangent
+    mesh.uvs[6] = mesh.uvs[0];
+    for (const Method method : {Method::lengyel, Method::basis}) {
+        std::vector<Vec4> tangents(7, Vec4{9, 9, 9, 9});
+        std::vector<Vec3> bitangents(7, Vec3{9, 9, 9});
+        const auto report = generateTangents(mesh.view(), {.method = method, .domain = OutputDomain::vertex},
+                                             {.tangents = tangents, .bitangents = bitangents});
+        ASSERT_TRUE(report);
+        EXPECT_EQ(report->group_count, 5u);
+        EXPECT_EQ(report->default_corner_count, method == Method::lengyel ? 1u : 0u);
+        for (const std::size_t v : {4u, 5u}) {
+            EXPECT_EQ(tangents[v], Vec4{});
+            EXPECT_EQ(bitangents[v], Vec3{});
+        }
+        EXPECT_EQ(tangents[6], (Vec4{1, 0, 0, 1}));
+        EXPECT_EQ(tangents[0], (Vec4{1, 0, 0, 1}));
+    }
+}
+
+TEST(VertexDomain, IsRefusedForMethodsThatMaySplitAVertex) {
+    const SimpleMesh mesh = square();
+    std::vector<Vec4> tangents(4);
+    const auto codeOf = [&](Method method, OutputDomain domain, std::size_t count) {
+        const StridedSpan<Vec4> out(tangents.data(), count);
+        const auto result =
+            generateTangents(mesh.view(), {.method = method, .domain = domain}, {.tangents = out});
+        return result ? ErrorCode::ok : result.error().code;
+    };
+    for (const Method method :
+         {Method::mikktspace, Method::uniform, Method::angle, Method::area, Method::flat}) {
+        EXPECT_EQ(codeOf(method, OutputDomain::vertex, 4), ErrorCode::invalidOption);
+    }
+    EXPECT_EQ(codeOf(Method::lengyel, static_cast<OutputDomain>(2), 4), ErrorCode::invalidOption);
+    EXPECT_EQ(codeOf(Method::lengyel, OutputDomain::vertex, 3), ErrorCode::countMismatch);
+    EXPECT_EQ(codeOf(Method::lengyel, OutputDomain::vertex, 4), ErrorCode::ok);
+}
+
+TEST(OneCall, CopiesNeitherIndicesNorUvs) {
+    struct Count {
+        std::size_t live = 0, peak = 0;
+    } count;
+    const Allocator allocator{[](void* user, std::size_t bytes, std::size_t alignment) -> void* {
+                                  auto& c = *static_cast<Count*>(user);
+                                  c.peak = std::max(c.peak, c.live += bytes);
+                                  return ::operator new(bytes, std::align_val_t(alignment));
+                              },
+                              [](void* user, void* memory, std::size_t bytes, std::size_t alignment) {
+                                  static_cast<Count*>(user)->live -= bytes;
+                                  ::operator delete(memory, std::align_val_t(alignment));
+                              },
+                              &count};
+    SimpleMesh mesh = square();
+    mesh.face_sizes.clear();
+    std::vector<Vec4> tangents(6);
+    for (const OutputDomain domain : {OutputDomain::corner, OutputDomain::vertex}) {
+        const StridedSpan<Vec4> out(tangents.data(), domain == OutputDomain::vertex ? 4 : 6);
+        count.peak = 0;
+        ASSERT_TRUE(generateTangents(mesh.view(),
+                                     {.method = Method::lengyel,
+                                      .domain = domain,
+                                      .execution = {.thread_count = 1, .allocator = &allocator}},
+                                     {.tangents = out}));
+        EXPECT_EQ(count.peak, 4 * 24u);  // a sum per vertex
+    }
+    EXPECT_EQ(count.live, 0u);
+}
+
+TEST(Lengyel, LosesNoDigitsAtExtremeScales) {
+    // Single precision must give way where it would overflow, vanish, or cancel.
+    const SimpleMesh plain = square();
+    for (const float space : {1e-30f, 1.0f, 1e25f}) {
+        for (const float texture : {1e-18f, 1e-6f, 1.0f, 1e12f}) {
+            SimpleMesh mesh = plain;
+            for (Vec3& p : mesh.positions) p = {space * p.x, space * p.y, 0};
+            for (Vec2& uv : mesh.uvs) uv = {texture * uv.x, texture * uv.y};
+            const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel});
+            for (std::size_t c = 0; c < 6; ++c) {
+                const double expected = 0.5 * (double{space} / texture);
+                if (expected < 1e-37 || expected > 1e37) continue;  // outside of float
+                EXPECT_EQ(out.tangents[c], (Vec4{1, 0, 0, 1})) << space << " " << texture;
+                EXPECT_NEAR(out.magnitudes_s[c] / expected, 1, 1e-5) << space << " " << texture;
+            }
+        }
+    }
+}
+
+TEST(Lengyel, TellsSliversOfTheUvMapFromCollinearUvs) {
+    SimpleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.normals.assign(3, {0, 0, 1});
+    mesh.addFace({0, 1, 2});
+    for (const int bits : {0, 8, 16, 22}) {
+        const float height = std::ldexp(1.0f, -bits);
+        // s = (1, 1 + height) turned by the diagonal; the determinant is exactly `height`.
+        mesh.uvs = {{0, 0}, {1, 1}, {1, 1 + height}};
+        const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel});
+        // dP/du = ((1 + h) E1 - E2) / h, dP/dv = (E2 - E1) / h
+        const double x = 1 + double{height}, l = std::sqrt(x * x + 1);
+        expectNear(xyz(out.tangents[0]), {static_cast<float>(x / l), static_cast<float>(-1 / l), 0}, 2e-7);
+        EXPECT_NEAR(out.magnitudes_s[0] * height / l, 1, 1e-5) << bits;
+        EXPECT_EQ(out.report.mirrored_count, 0u);
+        mesh.uvs[2] = {1 + height, 1 + height};
+        EXPECT_EQ(tangentsOf(mesh.view(), {.method = Method::lengyel}).report.degenerate_uv_count, 1u)
+            << bits;
+    }
+}
+
 TEST(Plan, EvaluatesAnotherPoseWithItsOwnUvs) {
     const SimpleMesh rest = square();
     SimpleMesh bent = rest;
@@ -260,7 +375,7 @@ TEST(Plan, RunsOutOfMemoryByItsOwnExceptionOnly) {
             ASSERT_LT(failures, 20);
         }
     }
-    EXPECT_GT(failures, 5);
+    EXPECT_GT(failures, 3);
 }
 
 TEST(Threads, DoNotChangeABit) {

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// The common case by a shorter way: triangles without hard edges, where a point has one normal.
+#pragma once
+
+#include <cstdint>
+
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "tspace/normals.h"
+
+namespace tspace {
+
+/// Whether smoothTriangles does this: a mesh of triangles, all weightings but flat and max, no
+/// crease, no groups.
+bool canSmoothTriangles(const MeshView& mesh, const NormalOptions& options);
+
+/// The result of generateNormals. The mesh has been validated. Scratch memory: 36 bytes per vertex, and while
+/// vertices are welded 12 to 20. Throws OutOfMemory.
+NormalReport smoothTriangles(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out,
+                             Parallel& parallel);
+
+}  // namespace tspace
