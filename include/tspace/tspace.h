@@ -442,13 +442,15 @@ typedef struct tspace_SplitResult {
  * vertex_count     number of old vertices
  * corner_count     length of every attribute; equals indices->count unless there are none
  * attributes       attribute_count entries; may be null when that is 0
+ * execution        null: default
  * result           not null; *result is null after an error. Free it with tspace_destroySplitResult.
  * Errors: NULL_DATA, COUNT_MISMATCH, INDEX_OUT_OF_RANGE, STRIDE_TOO_SMALL, TOO_LARGE, INVALID_OPTION,
  *         OUT_OF_MEMORY.
  * O(corners) expected. The result holds 4 bytes per corner and 8 per new vertex. */
 tspace_ErrorCode tspace_splitVertices(const tspace_Indices* indices, size_t vertex_count, size_t corner_count,
                                       const tspace_CornerAttribute* attributes, size_t attribute_count,
-                                      tspace_SplitResult** result, tspace_Error* error) TSPACE_NOEXCEPT;
+                                      const tspace_Execution* execution, tspace_SplitResult** result,
+                                      tspace_Error* error) TSPACE_NOEXCEPT;
 
 /* Frees a result of tspace_splitVertices. Null is allowed. */
 void tspace_destroySplitResult(tspace_SplitResult* result) TSPACE_NOEXCEPT;

@@ -2,10 +2,12 @@
 // Validation of meshes and spans at the border.
 #include "tspace/mesh.h"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
 #include "core/border.h"
+#include "core/typed_indices.h"
 
 namespace tspace {
 
@@ -39,6 +41,25 @@ Error checkFaces(const MeshView& mesh) {
                                               " corners, but there are " + std::to_string(corners)};
     }
     return fine();
+}
+
+/// The first corner whose index is not below `vertex_count`, or indices.count. Blocks without a branch per corner
+/// let the compiler use vectors.
+std::size_t firstOutOfRange(const IndexView& indices, std::size_t vertex_count) {
+    constexpr std::size_t kBlock = 256;
+    const auto limit = static_cast<std::uint32_t>(std::min<std::size_t>(vertex_count, 0xffffffffu));
+    return withIndices(indices, [&](auto vertexOf) {
+        for (std::size_t begin = 0; begin < indices.count; begin += kBlock) {
+            const std::size_t end = std::min(begin + kBlock, indices.count);
+            std::uint32_t outside = 0;
+            for (std::size_t c = begin; c < end; ++c) outside |= vertexOf(c) >= limit ? 1u : 0u;
+            if (outside == 0) continue;
+            std::size_t c = begin;
+            while (vertexOf(c) < limit) ++c;
+            return c;
+        }
+        return indices.count;
+    });
 }
 
 Error check(const MeshView& mesh) {
@@ -101,13 +122,11 @@ Error checkIndices(const IndexView& indices, std::size_t vertex_count) {
         e.code != ErrorCode::ok) {
         return e;
     }
-    for (std::size_t c = 0; c < indices.count; ++c) {
-        if (indices[c] >= vertex_count) {
-            return {ErrorCode::indexOutOfRange,
-                    "index " + std::to_string(indices[c]) + " of corner " + std::to_string(c) +
-                        " is not below the " + std::to_string(vertex_count) + " vertices",
-                    c};
-        }
+    if (const std::size_t c = firstOutOfRange(indices, vertex_count); c < indices.count) {
+        return {ErrorCode::indexOutOfRange,
+                "index " + std::to_string(indices[c]) + " of corner " + std::to_string(c) +
+                    " is not below the " + std::to_string(vertex_count) + " vertices",
+                c};
     }
     return fine();
 }

@@ -18,6 +18,7 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "core/sum_ranges.h"
+#include "core/typed_indices.h"
 #include "core/vec_math.h"
 
 namespace tspace {
@@ -281,15 +282,17 @@ class Sanitizer {
     }
 
     [[nodiscard]] bool isFine(std::size_t block) const {
-        bool fine = true;
-        forEachFaceOf(block, [&](std::size_t first, std::uint32_t size) {
-            const float sign = tangents_[first].w;
-            for (std::size_t c = first; c < first + size; ++c) {
-                const Vec4& tangent = tangents_[c];
-                fine &= isSurelySound(tangent, mesh_.normals[mesh_.indices[c]]) & (tangent.w == sign);
-            }
+        return withIndices(mesh_.indices, [&](auto vertexOf) {
+            bool fine = true;
+            forEachFaceOf(block, [&](std::size_t first, std::uint32_t size) {
+                const float sign = tangents_[first].w;
+                for (std::size_t c = first; c < first + size; ++c) {
+                    const Vec4& tangent = tangents_[c];
+                    fine &= isSurelySound(tangent, mesh_.normals[vertexOf(c)]) & (tangent.w == sign);
+                }
+            });
+            return fine;
         });
-        return fine;
     }
 
     /// body(first_corner, corner_count, counts) for each face that scan() did not clear; faces are independent.

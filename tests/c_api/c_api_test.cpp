@@ -190,7 +190,7 @@ TEST(CApi, SplitsAndTriangulatesAsTheCppApi) {
     const tspace_CornerAttribute c_attribute = {attribute.data, 0, 4, 1e-5f};
     tspace_SplitResult* split = nullptr;
     ASSERT_EQ(TSPACE_OK, tspace_splitVertices(&c_mesh.indices, mesh.positions.size(), mesh.cornerCount(),
-                                              &c_attribute, 1, &split, nullptr));
+                                              &c_attribute, 1, nullptr, &split, nullptr));
     EXPECT_EQ(expected->indices, std::vector(split->indices, split->indices + split->corner_count));
     EXPECT_EQ(expected->source_vertices,
               std::vector(split->source_vertices, split->source_vertices + split->vertex_count));
@@ -212,7 +212,7 @@ TEST(CApi, SplitsWithoutIndices) {
     const float values[3] = {1, 2, 3};
     const tspace_CornerAttribute attribute = {values, 0, 1, 0};
     tspace_SplitResult* split = nullptr;
-    ASSERT_EQ(TSPACE_OK, tspace_splitVertices(nullptr, 3, 3, &attribute, 1, &split, nullptr));
+    ASSERT_EQ(TSPACE_OK, tspace_splitVertices(nullptr, 3, 3, &attribute, 1, nullptr, &split, nullptr));
     EXPECT_EQ(split->vertex_count, 3u);
     EXPECT_EQ(split->indices[2], 2u);
     tspace_destroySplitResult(split);
