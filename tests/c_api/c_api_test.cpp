@@ -281,6 +281,32 @@ TEST(CApi, UsesTheCallersExecutorAndAllocator) {
     EXPECT_EQ(memory.live, 0u);
 }
 
+TEST(CApi, AnArenaServesASecondCallFromWhatItHolds) {
+    const RandomMesh mesh(8, 600);
+    Outputs expected(mesh.cornerCount()), c(mesh.cornerCount());
+    ASSERT_TRUE(generateTangents(mesh.view(), {}, expected.view()));
+    tspace_Arena* arena = nullptr;
+    ASSERT_EQ(TSPACE_OK, tspace_createArena(&arena, nullptr));
+    EXPECT_EQ(tspace_arenaHeldBytes(arena), 0u);
+    tspace_TangentOptions options;
+    TSPACE_INIT(options);
+    options.execution.allocator = tspace_arenaAllocator(arena);
+    const tspace_Mesh c_mesh = mesh.c();
+    const tspace_TangentOutput out = c.c();
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr));
+    expectSame(expected, c);
+    const std::size_t held = tspace_arenaHeldBytes(arena);
+    EXPECT_GT(held, 0u);
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr));
+    expectSame(expected, c);
+    EXPECT_EQ(tspace_arenaHeldBytes(arena), held);
+    tspace_trimArena(arena);
+    EXPECT_EQ(tspace_arenaHeldBytes(arena), 0u);
+    tspace_destroyArena(arena);
+    tspace_destroyArena(nullptr);
+    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_createArena(nullptr, nullptr));
+}
+
 TEST(CApi, APlanOutlivesTheStructsItWasMadeWith) {
     const RandomMesh mesh(7, 60);
     Outputs expected(mesh.cornerCount()), c(mesh.cornerCount());
