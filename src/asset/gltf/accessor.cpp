@@ -119,9 +119,9 @@ SparsePart readSparse(const Document& document, const Json& object, const Access
     return sparse;
 }
 
-/// The bytes of a view. Its range was checked against the declared length, which the data has unless it is
-/// absent.
-const std::uint8_t* viewBytes(const Document& document, std::size_t index) {
+/// Bytes of a view, `count` from `offset`. Its range was checked against the declared length, which the data has
+/// unless it is absent.
+const std::uint8_t* viewBytes(const Document& document, std::size_t index, std::size_t offset, std::size_t count) {
     const BufferView view = readBufferView(document, index);
     const Buffer& buffer = document.buffers[view.buffer];
     if (buffer.source == BufferSource::absent && view.byte_count > 0) {
@@ -132,7 +132,7 @@ const std::uint8_t* viewBytes(const Document& document, std::size_t index) {
                 : "the buffer view lies in a buffer without data",
             join("/bufferViews", index));
     }
-    return buffer.bytes.data() + view.begin;
+    return buffer.bytes.range(view.begin + offset, count).data();
 }
 
 std::uint32_t unsignedAt(const std::uint8_t* bytes, ComponentType type) {
@@ -152,8 +152,11 @@ std::uint32_t unsignedAt(const std::uint8_t* bytes, ComponentType type) {
 void applySparse(const Document& document, const Accessor& accessor, Bytes& elements) {
     const SparsePart& sparse = *accessor.sparse;
     if (sparse.count == 0) return;
-    const std::uint8_t* indices = viewBytes(document, sparse.index_view) + sparse.index_offset;
-    const std::uint8_t* values = viewBytes(document, sparse.value_view) + sparse.value_offset;
+    const std::uint8_t* indices = viewBytes(document, sparse.index_view, sparse.index_offset,
+                                            sparse.count * bytesOf(sparse.index_type));
+    const std::uint8_t* values =
+        viewBytes(document, sparse.value_view, sparse.value_offset,
+                  (sparse.count - 1) * accessor.element_bytes + accessor.data_bytes);
     for (std::size_t i = 0; i < sparse.count; ++i) {
         const std::uint32_t at = unsignedAt(indices + i * bytesOf(sparse.index_type), sparse.index_type);
         if (at >= accessor.count) {
@@ -320,8 +323,12 @@ Bytes copyElements(const Document& document, const Accessor& accessor) {
     }
     const std::uint8_t* source = nullptr;
     if (accessor.view && accessor.count > 0)
-        source = viewBytes(document, *accessor.view) + accessor.byte_offset;
-    Bytes elements(accessor.count * accessor.element_bytes);
+        source = viewBytes(document, *accessor.view, accessor.byte_offset,
+                           (accessor.count - 1) * accessor.stride + accessor.data_bytes);
+    // Zeros only where something stays unset.
+    const bool covers_all = source != nullptr && accessor.data_bytes == accessor.element_bytes;
+    Bytes elements = covers_all ? Bytes(accessor.count * accessor.element_bytes)
+                                : Bytes(accessor.count * accessor.element_bytes, 0);
     if (source != nullptr && accessor.stride == accessor.element_bytes) {
         std::memcpy(elements.data(), source,
                     (accessor.count - 1) * accessor.element_bytes + accessor.data_bytes);
