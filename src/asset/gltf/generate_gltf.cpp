@@ -7,22 +7,26 @@
 #include "asset/gltf/compute_pools.h"
 #include "asset/gltf/container.h"
 #include "asset/gltf/generate_plan.h"
+#include "core/parallel.h"
 
 namespace tspace::gltf {
 
 namespace {
 
-/// Pools are computed together up to this many corners, because their results wait for each other in memory.
-constexpr std::size_t kCornersTogether = 3'000'000;
+/// Pools are computed together up to this many corners for each thread: enough to do, and not too much that waits in
+/// memory for its turn to be written.
+constexpr std::size_t kCornersPerThread = 500'000;
 
 void tell(const GenerateOptions& options, const char* what, std::uint64_t done, std::uint64_t total) {
     if (options.progress) options.progress(what, done, total);
 }
 
 /// How many of the pools, one at least, are computed together.
-std::size_t countTogether(std::span<const Pool> pools) {
+std::size_t countTogether(std::span<const Pool> pools, const Execution& execution) {
+    const unsigned width = Parallel(execution).width();
+    const std::size_t most = width == 1 ? 0 : kCornersPerThread * width;
     std::size_t count = 0, corners = 0;
-    while (count < pools.size() && (count == 0 || corners + pools[count].corner_count <= kCornersTogether)) {
+    while (count < pools.size() && (count == 0 || corners + pools[count].corner_count <= most)) {
         corners += pools[count++].corner_count;
     }
     return count;
@@ -49,7 +53,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     for (const Pool& pool : plan.pools) total += pool.corner_count;
     for (std::span<const Pool> rest = plan.pools; !rest.empty();) {
         tell(options, "computing tangents", done, total);
-        const std::span<const Pool> pools = rest.first(countTogether(rest));
+        const std::span<const Pool> pools = rest.first(countTogether(rest, options.tangents.execution));
         rest = rest.subspan(pools.size());
         std::vector<PoolFrames> frames = computePools(document, primitives, pools, options, plan.reports);
         for (std::size_t i = 0; i < pools.size(); ++i) {
