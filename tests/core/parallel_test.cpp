@@ -10,6 +10,11 @@
 #include <thread>
 #include <vector>
 
+#include "tspace/normals.h"
+#include "tspace/sanitize.h"
+#include "tspace/split.h"
+#include "tspace/tangents.h"
+
 namespace tspace {
 namespace {
 
@@ -96,6 +101,48 @@ TEST(Parallel, UsesTheCallersExecutor) {
     });
     EXPECT_EQ(runs, 1);
     for (const int n : seen) ASSERT_EQ(n, 1);
+}
+
+TEST(Parallel, IsNotUsedForAMeshOf200Triangles) {
+    std::vector<Vec3> positions, normals;
+    std::vector<Vec2> uvs;
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t y = 0; y <= 10; ++y) {
+        for (std::uint32_t x = 0; x <= 10; ++x) {
+            positions.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(x * y % 3)});
+            normals.push_back({0, 0, 1});
+            uvs.push_back({static_cast<float>(x % 7), static_cast<float>(y)});
+            if (x == 10 || y == 10) continue;
+            const std::uint32_t a = 11 * y + x;
+            indices.insert(indices.end(), {a, a + 1, a + 12, a, a + 12, a + 11});
+        }
+    }
+    MeshView mesh;
+    mesh.positions = positions;
+    mesh.normals = normals;
+    mesh.uvs = uvs;
+    mesh.indices = IndexView(std::span<const std::uint32_t>(indices));
+    int runs = 0;
+    const Executor executor{.run =
+                                [](void* user, std::size_t count, void (*task)(void*, std::size_t), void* context) {
+                                    ++*static_cast<int*>(user);
+                                    for (std::size_t i = 0; i < count; ++i) task(context, i);
+                                },
+                            .user = &runs,
+                            .concurrency = 8};
+    const Execution execution{.executor = &executor};
+    std::vector<Vec3> made_normals(indices.size());
+    ASSERT_TRUE(generateNormals(mesh, {.crease_angle_deg = 30, .execution = execution}, made_normals));
+    for (const Method method : {Method::mikktspace, Method::lengyel, Method::uniform, Method::angle, Method::area,
+                                Method::flat, Method::basis}) {
+        std::vector<Vec4> tangents(indices.size());
+        ASSERT_TRUE(generateTangents(mesh, {.method = method, .execution = execution}, {.tangents = tangents}));
+        tangents[7] = {};
+        ASSERT_TRUE(sanitizeTangents(mesh, tangents, {.execution = execution}));
+        const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec4>(tangents));
+        ASSERT_TRUE(splitVertices(mesh.indices, positions.size(), indices.size(), {&attribute, 1}, execution));
+    }
+    EXPECT_EQ(runs, 0);
 }
 
 }  // namespace
