@@ -41,7 +41,7 @@ int main(void) {
     /* Corners that disagree get a vertex of their own. */
     tspace_CornerAttribute attribute = {&tangents[0][0], 0, 4, 0.0f};
     tspace_SplitResult* split = NULL;
-    if (tspace_splitVertices(&mesh.indices, VERTICES, CORNERS, &attribute, 1, &split, &error) != TSPACE_OK)
+    if (tspace_splitVertices(&mesh.indices, VERTICES, CORNERS, &attribute, 1, NULL, &split, &error) != TSPACE_OK)
         return fail(&error);
     for (size_t v = 0; v < split->vertex_count; ++v) {
         const float* t = tangents[split->source_corners[v]];

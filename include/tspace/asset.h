@@ -27,6 +27,8 @@ using Progress = std::function<void(const char* what, std::uint64_t done, std::u
 struct GenerateOptions {
     bool all = false;        ///< also primitives whose material needs no tangents
     bool overwrite = false;  ///< replace tangents that are there; false: only add missing ones
+    /// Its execution serves the whole file: primitives are computed at the same time, and normals and sanitize run where
+    /// their primitive does. With an allocator one primitive follows the other.
     TangentOptions tangents{.convention = conventions::gltf};
     /// For primitives without normals. The default is what glTF asks of a client.
     NormalOptions normals{.weighting = NormalWeighting::flat};

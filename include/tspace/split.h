@@ -53,9 +53,10 @@ struct SplitResult {
 /// indices       the old vertex of each corner (type none: corner c uses vertex c)
 /// vertex_count  number of old vertices
 /// corner_count  length of every attribute; equals indices.count unless type is none
+/// execution     threads; scratch memory is only needed where a vertex becomes more than 8
 /// Errors: nullData, countMismatch, indexOutOfRange, strideTooSmall, tooLarge, invalidOption, outOfMemory.
-/// O(corners) expected, exact or tolerant. Thread-safe.
+/// O(corners) expected, exact or tolerant. Thread-safe; same result for any thread count.
 Result<SplitResult> splitVertices(const IndexView& indices, std::size_t vertex_count, std::size_t corner_count,
-                                  std::span<const CornerAttribute> attributes);
+                                  std::span<const CornerAttribute> attributes, const Execution& execution = {});
 
 }  // namespace tspace

@@ -155,6 +155,29 @@ typedef struct tspace_Execution {
     uint32_t thread_count;             /* 0: as many as there are cores; 1: the calling thread only */
 } tspace_Execution;
 
+/* Memory that is kept from call to call: from the second call on, no page is taken from the system. For one call at
+ * a time, so one for each thread that makes calls. It must outlive the plans whose memory it holds. */
+typedef struct tspace_Arena tspace_Arena;
+
+/* Makes an arena, which holds nothing at first.
+ * arena     not null; *arena is null after an error. End it with tspace_destroyArena.
+ * Errors: NULL_DATA, OUT_OF_MEMORY. */
+tspace_ErrorCode tspace_createArena(tspace_Arena** arena, tspace_Error* error) TSPACE_NOEXCEPT;
+
+/* For tspace_Execution.allocator; valid as long as the arena. `arena` is not null. */
+const tspace_Allocator* tspace_arenaAllocator(const tspace_Arena* arena) TSPACE_NOEXCEPT;
+
+/* Bytes that the arena holds, in use or not: about the most that was in use at one time, and up to 2 MiB. `arena` is
+ * not null. */
+size_t tspace_arenaHeldBytes(const tspace_Arena* arena) TSPACE_NOEXCEPT;
+
+/* Gives back what lies behind the last allocation in use; between calls without plans, everything. `arena` is not
+ * null. */
+void tspace_trimArena(tspace_Arena* arena) TSPACE_NOEXCEPT;
+
+/* Frees an arena. Null is allowed. */
+void tspace_destroyArena(tspace_Arena* arena) TSPACE_NOEXCEPT;
+
 /* Where v = 0 lies in the texture. */
 typedef uint32_t tspace_VAxis;
 enum {
@@ -453,13 +476,15 @@ typedef struct tspace_SplitResult {
  * vertex_count     number of old vertices
  * corner_count     length of every attribute; equals indices->count unless there are none
  * attributes       attribute_count entries; may be null when that is 0
+ * execution        null: default
  * result           not null; *result is null after an error. Free it with tspace_destroySplitResult.
  * Errors: NULL_DATA, COUNT_MISMATCH, INDEX_OUT_OF_RANGE, STRIDE_TOO_SMALL, TOO_LARGE, INVALID_OPTION,
  *         OUT_OF_MEMORY.
  * O(corners) expected. The result holds 4 bytes per corner and 8 per new vertex. */
 tspace_ErrorCode tspace_splitVertices(const tspace_Indices* indices, size_t vertex_count, size_t corner_count,
                                       const tspace_CornerAttribute* attributes, size_t attribute_count,
-                                      tspace_SplitResult** result, tspace_Error* error) TSPACE_NOEXCEPT;
+                                      const tspace_Execution* execution, tspace_SplitResult** result,
+                                      tspace_Error* error) TSPACE_NOEXCEPT;
 
 /* Frees a result of tspace_splitVertices. Null is allowed. */
 void tspace_destroySplitResult(tspace_SplitResult* result) TSPACE_NOEXCEPT;

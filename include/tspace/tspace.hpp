@@ -2,6 +2,7 @@
 // Everything in the C++ API of the core library.
 #pragma once
 
+#include "tspace/arena.h"
 #include "tspace/convention.h"
 #include "tspace/execution.h"
 #include "tspace/frame.h"

@@ -44,7 +44,7 @@ AtomicOutput::~AtomicOutput() {
 }
 
 void AtomicOutput::add(const fs::path& requested,
-                       std::initializer_list<std::span<const std::uint8_t>> pieces) {
+                       std::span<const std::span<const std::uint8_t>> pieces) {
     // A link keeps being a link: what it points at is replaced.
     std::error_code error;
     const fs::path target = fs::is_symlink(requested, error) ? fs::weakly_canonical(requested) : requested;

@@ -23,7 +23,11 @@ class AtomicOutput {
 
     /// Writes `pieces` one after the other to a temporary file beside `target`. Missing folders are created.
     void add(const std::filesystem::path& target,
-             std::initializer_list<std::span<const std::uint8_t>> pieces);
+             std::span<const std::span<const std::uint8_t>> pieces);
+    void add(const std::filesystem::path& target,
+             std::initializer_list<std::span<const std::uint8_t>> pieces) {
+        add(target, std::span(pieces.begin(), pieces.size()));
+    }
     void add(const std::filesystem::path& target, std::span<const std::uint8_t> bytes) {
         add(target, {bytes});
     }

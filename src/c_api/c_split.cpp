@@ -45,14 +45,19 @@ Result<std::vector<CornerAttribute>> toAttributes(const tspace_CornerAttribute* 
 
 tspace_ErrorCode tspace_splitVertices(const tspace_Indices* indices, size_t vertex_count, size_t corner_count,
                                       const tspace_CornerAttribute* attributes, size_t attribute_count,
-                                      tspace_SplitResult** result, tspace_Error* error) noexcept {
+                                      const tspace_Execution* execution, tspace_SplitResult** result,
+                                      tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
         if (result == nullptr) return Error{ErrorCode::nullData, "result is null"};
         *result = nullptr;
         const Result<std::vector<CornerAttribute>> converted = toAttributes(attributes, attribute_count);
         if (!converted) return converted.error();
+        const tspace_Execution given = execution == nullptr ? tspace_Execution{} : *execution;
+        if (Error e = checkExecution(given); e.code != ErrorCode::ok) return e;
+        const Hooks hooks(given);
         const IndexView view = indices == nullptr ? IndexView() : toIndices(*indices);
-        Result<SplitResult> split = splitVertices(view, vertex_count, corner_count, *converted);
+        Result<SplitResult> split =
+            splitVertices(view, vertex_count, corner_count, *converted, hooks.execution());
         if (!split) return split.error();
         auto owned = std::make_unique<OwnedSplit>();
         owned->result = std::move(*split);

@@ -3,6 +3,7 @@
 #include "core/parallel.h"
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -10,42 +11,66 @@
 
 namespace tspace {
 
+namespace {
+
+/// How long a thread looks out for the next loop (or the last task of this one) before it sleeps. Waking a sleeping
+/// thread takes about this long, and the loops of one call follow each other quickly.
+constexpr std::chrono::microseconds kLookOut{40};
+
+void pauseBriefly() {
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
+#endif
+}
+
+}  // namespace
+
+/// Loops are open to helpers while their caller works on them. A helper that comes late finds the loop closed, and
+/// nobody waits for it.
 class Parallel::Pool {
   public:
-    explicit Pool(unsigned helper_count) {
-        helpers_.reserve(helper_count);
-        for (unsigned i = 0; i < helper_count; ++i) {
-            try {
-                helpers_.emplace_back([this] { serve(); });
-            } catch (...) {
-                break;  // no more threads (or memory for them): the ones there are, and the caller, do the work
-            }
-        }
-    }
+    explicit Pool(bool looks_out) : look_out_(looks_out ? kLookOut : kLookOut.zero()) {}
 
     ~Pool() {
         {
             const std::lock_guard lock(mutex_);
             stopping_ = true;
+            calls_.fetch_add(1, std::memory_order_release);
         }
         wake_.notify_all();
         for (std::thread& helper : helpers_) helper.join();
     }
 
+    void startHelpers(std::size_t count) {
+        try {
+            helpers_.reserve(count);
+            while (helpers_.size() < count) helpers_.emplace_back([this] { serve(); });
+        } catch (...) {
+            // No more threads (or memory for them): the ones there are, and the caller, do the work.
+        }
+    }
+
     void run(std::size_t count, void (*task)(void*, std::size_t), void* context) {
+        bool anyone_sleeps;
         {
             const std::lock_guard lock(mutex_);
             task_ = task;
             context_ = context;
             count_ = count;
             next_.store(0, std::memory_order_relaxed);
-            busy_ = helpers_.size();
-            ++generation_;
+            is_open_ = true;
+            calls_.fetch_add(1, std::memory_order_release);
+            anyone_sleeps = sleeping_ > 0;
         }
-        wake_.notify_all();
+        if (anyone_sleeps) wake_.notify_all();
         work();
         std::unique_lock lock(mutex_);
-        idle_.wait(lock, [this] { return busy_ == 0; });
+        is_open_ = false;
+        if (working_.load(std::memory_order_relaxed) == 0) return;
+        lock.unlock();
+        lookOut([this] { return working_.load(std::memory_order_acquire) == 0; });
+        lock.lock();
+        idle_.wait(lock, [this] { return working_.load(std::memory_order_relaxed) == 0; });
     }
 
   private:
@@ -53,31 +78,51 @@ class Parallel::Pool {
         for (std::size_t i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count_;) task_(context_, i);
     }
 
+    template <class Condition>
+    void lookOut(Condition&& condition) const {
+        const auto end = std::chrono::steady_clock::now() + look_out_;
+        while (!condition() && std::chrono::steady_clock::now() < end) {
+            for (int i = 0; i < 16; ++i) pauseBriefly();
+        }
+    }
+
     void serve() {
         std::size_t seen = 0;
         std::unique_lock lock(mutex_);
         while (true) {
-            wake_.wait(lock, [&] { return stopping_ || generation_ != seen; });
+            lock.unlock();
+            lookOut([&] { return calls_.load(std::memory_order_acquire) != seen; });
+            lock.lock();
+            ++sleeping_;
+            wake_.wait(lock, [&] { return calls_.load(std::memory_order_relaxed) != seen; });
+            --sleeping_;
+            seen = calls_.load(std::memory_order_relaxed);
             if (stopping_) return;
-            seen = generation_;
+            if (!is_open_) continue;
+            working_.fetch_add(1, std::memory_order_relaxed);
             lock.unlock();
             work();
             lock.lock();
-            if (--busy_ == 0) idle_.notify_one();
+            if (working_.fetch_sub(1, std::memory_order_release) == 1) idle_.notify_one();
         }
     }
 
+    const std::chrono::microseconds look_out_;
     std::vector<std::thread> helpers_;
     std::mutex mutex_;
     std::condition_variable wake_;
     std::condition_variable idle_;
+    // Changed under the mutex only, and never while a helper works.
     void (*task_)(void*, std::size_t) = nullptr;
     void* context_ = nullptr;
     std::size_t count_ = 0;
-    std::atomic<std::size_t> next_{0};
-    std::size_t busy_ = 0;
-    std::size_t generation_ = 0;
+    bool is_open_ = false;
     bool stopping_ = false;
+    std::size_t sleeping_ = 0;
+    // Also changed under the mutex, but looked at without it.
+    std::atomic<std::size_t> calls_{0};
+    std::atomic<std::size_t> working_{0};
+    std::atomic<std::size_t> next_{0};
 };
 
 Parallel::Parallel(const Execution& execution) {
@@ -98,7 +143,9 @@ void Parallel::run(std::size_t count, void (*task)(void*, std::size_t), void* co
         executor_->run(executor_->user, count, task, context);
         return;
     }
-    if (!pool_) pool_ = std::make_unique<Pool>(width_ - 1);
+    // More threads than cores would only take time from each other while they look out.
+    if (!pool_) pool_ = std::make_unique<Pool>(width_ <= std::thread::hardware_concurrency());
+    pool_->startHelpers(std::min<std::size_t>(width_, count) - 1);
     pool_->run(count, task, context);
 }
 

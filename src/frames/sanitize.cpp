@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Mends broken tangents: finds the broken corners, looks for sound ones at their positions, then writes face
-// by face. Based on: Gram-Schmidt; Duff et al. 2017 where only the normal is left.
+// Mends broken tangents: a quick scan finds the blocks of faces where something may be wrong; in these it finds
+// the broken corners, looks for sound ones at their positions, then writes face by face.
+// Based on: Gram-Schmidt; Duff et al. 2017 where only the normal is left.
 #include "tspace/sanitize.h"
 
 #include <algorithm>
@@ -16,6 +17,8 @@
 #include "core/hash.h"
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "core/sum_ranges.h"
+#include "core/typed_indices.h"
 #include "core/vec_math.h"
 
 namespace tspace {
@@ -30,7 +33,9 @@ constexpr double kParallelSine = 0.017452406437283512;
 /// leaves less than 1.5e-7, so what was written once is not written again.
 constexpr double kOrthogonalTolerance = 5e-7;
 
-constexpr std::size_t kFacesPerTask = 4096;
+/// Few enough that single broken faces, spread over a mesh, leave most blocks out of the slow work.
+constexpr std::size_t kFacesPerBlock = 64;
+constexpr std::size_t kBlocksPerTask = 64;
 constexpr std::uint32_t kNone = 0xffffffffu;
 
 enum class Cause : std::uint8_t {
@@ -142,6 +147,18 @@ bool isOrthonormal(const Vec3& tangent, const DVec3& n) {
     return std::abs(length(t) - 1) <= kOrthogonalTolerance && std::abs(dot(n, t)) <= kOrthogonalTolerance;
 }
 
+/// True only for tangents that causeOf calls sound, with a normal that has a direction. Cheap; all limits lie inside
+/// of the exact ones by far more than floats round.
+bool isSurelySound(const Vec4& tangent, const Vec3& n) {
+    constexpr float kSquareTolerance = 9.9e-4f;     // below 2 * kUnitTolerance
+    constexpr float kSquareCosine = 0.99f;          // of 5.7 degrees
+    constexpr float kLeast = 1e-20f, kMost = 1e20f;  // squares of components neither vanish nor overflow
+    const Vec3 t = xyz(tangent);
+    const float nn = dot(n, n), nt = dot(n, t);
+    return (std::fabs(dot(t, t) - 1) <= kSquareTolerance) & (nn >= kLeast) & (nn <= kMost) &
+           (nt * nt <= kSquareCosine * nn) & (std::fabs(tangent.w) == 1.0f);
+}
+
 /// The first sound tangent at each of the positions that were asked for.
 class SoundPositions {
   public:
@@ -160,6 +177,10 @@ class SoundPositions {
         if (slot.corner == kNone || slot.is_filled) return;
         slot.tangent = tangent;
         slot.is_filled = true;
+    }
+
+    [[nodiscard]] bool isAsked(const Vec3& position) const {
+        return position == position && slots_[slotOf(position)].corner != kNone;
     }
 
     /// Null when there is none.
@@ -199,50 +220,89 @@ bool equalsItself(const Vec3& v) { return v == v; }
 class Sanitizer {
   public:
     Sanitizer(const MeshView& mesh, StridedSpan<Vec4> tangents, const SanitizeOptions& options)
-        : mesh_(mesh),
-          tangents_(tangents),
-          options_(options),
-          parallel_(options.execution),
-          causes_(options.execution.allocator, mesh.cornerCount(), Cause::sound),
-          seeks_(options.execution.allocator, mesh.cornerCount(), std::uint8_t{0}) {
-        cutIntoTasks();
+        : mesh_(mesh), tangents_(tangents), options_(options), parallel_(options.execution) {
+        cutIntoBlocks();
     }
 
     SanitizeReport run() {
-        forEachFaceInTasks(
+        if (!scan()) return {};
+        const Allocator* allocator = options_.execution.allocator;
+        causes_ = Buffer<Cause>(allocator, mesh_.cornerCount(), Cause::sound);
+        seeks_ = Buffer<std::uint8_t>(allocator, mesh_.cornerCount(), std::uint8_t{0});
+        forEachSuspect(
             [this](std::size_t first, std::uint32_t size, Counts& counts) { detect(first, size, counts); });
-        SoundPositions positions(options_.execution.allocator, counts_.seekers());
+        SoundPositions positions(allocator, counts_.seekers());
         if (counts_.seekers() != 0) lookAtPositions(positions);
-        forEachFaceInTasks([&](std::size_t first, std::uint32_t size, Counts& counts) {
+        forEachSuspect([&](std::size_t first, std::uint32_t size, Counts& counts) {
             mend(first, size, positions, counts);
         });
         return counts_.report();
     }
 
   private:
-    struct Task {
-        std::size_t first_face, first_corner;
-    };
-
-    void cutIntoTasks() {
+    void cutIntoBlocks() {
         const std::size_t faces = mesh_.faceCount();
-        tasks_ = Buffer<Task>(options_.execution.allocator, (faces + kFacesPerTask - 1) / kFacesPerTask);
+        const Allocator* allocator = options_.execution.allocator;
+        suspects_ = Buffer<std::uint8_t>(allocator, (faces + kFacesPerBlock - 1) / kFacesPerBlock);
+        if (mesh_.face_sizes.empty()) return;
+        block_corners_ = Buffer<std::uint32_t>(allocator, suspects_.size());
         forEachFace(mesh_, [&](std::size_t face, std::size_t first, std::uint32_t) {
-            if (face % kFacesPerTask == 0) tasks_[face / kFacesPerTask] = {face, first};
+            if (face % kFacesPerBlock == 0) {
+                block_corners_[face / kFacesPerBlock] = static_cast<std::uint32_t>(first);
+            }
         });
     }
 
-    /// body(first_corner, corner_count, counts) for each face with at least 3 corners; faces are independent.
+    /// body(first_corner, corner_count) for each face of the block with at least 3 corners.
     template <class Body>
-    void forEachFaceInTasks(Body&& body) {
-        parallel_.forTasks(tasks_.size(), [&](std::size_t task) {
+    void forEachFaceOf(std::size_t block, Body&& body) const {
+        const std::size_t begin = block * kFacesPerBlock;
+        const std::size_t end = std::min(begin + kFacesPerBlock, mesh_.faceCount());
+        std::size_t first = block_corners_.empty() ? begin * mesh_.face_size : block_corners_[block];
+        for (std::size_t face = begin; face < end; ++face) {
+            const std::uint32_t size = faceSize(mesh_, face);
+            if (size >= 3) body(first, size);
+            first += size;
+        }
+    }
+
+    /// Marks the blocks in which something may have to be counted or changed; false when there is none.
+    bool scan() {
+        const std::uint64_t found =
+            sumRanges(parallel_, suspects_.size(), kBlocksPerTask, [this](std::size_t begin, std::size_t end) {
+                std::uint64_t count = 0;
+                for (std::size_t block = begin; block < end; ++block) {
+                    const bool fine = !options_.orthogonalize_all && isFine(block);
+                    suspects_[block] = fine ? 0 : 1;
+                    count += fine ? 0 : 1;
+                }
+                return count;
+            });
+        return found != 0;
+    }
+
+    [[nodiscard]] bool isFine(std::size_t block) const {
+        return withIndices(mesh_.indices, [&](auto vertexOf) {
+            bool fine = true;
+            forEachFaceOf(block, [&](std::size_t first, std::uint32_t size) {
+                const float sign = tangents_[first].w;
+                for (std::size_t c = first; c < first + size; ++c) {
+                    const Vec4& tangent = tangents_[c];
+                    fine &= isSurelySound(tangent, mesh_.normals[vertexOf(c)]) & (tangent.w == sign);
+                }
+            });
+            return fine;
+        });
+    }
+
+    /// body(first_corner, corner_count, counts) for each face that scan() did not clear; faces are independent.
+    template <class Body>
+    void forEachSuspect(Body&& body) {
+        parallel_.forRanges(suspects_.size(), kBlocksPerTask, [&](std::size_t begin, std::size_t end) {
             Counts counts;
-            const std::size_t end = std::min(tasks_[task].first_face + kFacesPerTask, mesh_.faceCount());
-            std::size_t first = tasks_[task].first_corner;
-            for (std::size_t face = tasks_[task].first_face; face < end; ++face) {
-                const std::uint32_t size = faceSize(mesh_, face);
-                if (size >= 3) body(first, size, counts);
-                first += size;
+            for (std::size_t block = begin; block < end; ++block) {
+                if (suspects_[block] == 0) continue;
+                forEachFaceOf(block, [&](std::size_t first, std::uint32_t size) { body(first, size, counts); });
             }
             counts_.add(counts);
         });
@@ -286,14 +346,24 @@ class Sanitizer {
         }
     }
 
-    void lookAtPositions(SoundPositions& positions) const {
-        for (std::size_t c = 0; c < seeks_.size(); ++c) {
-            if (seeks_[c] != 0) positions.ask(positionAt(c), static_cast<std::uint32_t>(c));
+    void lookAtPositions(SoundPositions& positions) {
+        for (std::size_t block = 0; block < suspects_.size(); ++block) {
+            if (suspects_[block] == 0) continue;
+            forEachFaceOf(block, [&](std::size_t first, std::uint32_t size) {
+                for (std::size_t c = first; c < first + size; ++c) {
+                    if (seeks_[c] != 0) positions.ask(positionAt(c), static_cast<std::uint32_t>(c));
+                }
+            });
         }
+        // Few positions are asked for, so vertices are sorted out before corners are offered in their order.
+        Buffer<std::uint8_t> is_asked(options_.execution.allocator, mesh_.vertexCount());
+        parallel_.forRanges(is_asked.size(), kBlocksPerTask * kFacesPerBlock, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t v = begin; v < end; ++v) is_asked[v] = positions.isAsked(mesh_.positions[v]) ? 1 : 0;
+        });
         forEachFace(mesh_, [&](std::size_t, std::size_t first, std::uint32_t size) {
             if (size < 3) return;
             for (std::size_t c = first; c < first + size; ++c) {
-                if (causes_[c] == Cause::sound && equalsItself(positionAt(c))) {
+                if (is_asked[mesh_.indices[c]] != 0 && causes_[c] == Cause::sound) {
                     positions.offer(positionAt(c), tangents_[c]);
                 }
             }
@@ -354,9 +424,10 @@ class Sanitizer {
     StridedSpan<Vec4> tangents_;
     const SanitizeOptions& options_;
     Parallel parallel_;
+    Buffer<std::uint8_t> suspects_;        ///< one per block
+    Buffer<std::uint32_t> block_corners_;  ///< each block's first corner; empty when all faces have one size
     Buffer<Cause> causes_;
     Buffer<std::uint8_t> seeks_;
-    Buffer<Task> tasks_;
     SharedCounts counts_;
 };
 

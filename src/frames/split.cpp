@@ -1,245 +1,218 @@
 // SPDX-License-Identifier: MIT
-// Duplicates vertices whose corners disagree.
+// Duplicates vertices whose corners disagree: the first corner of each vertex, then all corners that equal it, then
+// the few others one by one.
 #include "tspace/split.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
+#include <numeric>
+#include <utility>
 
 #include "core/border.h"
-#include "core/hash.h"
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "core/typed_indices.h"
+#include "frames/variants.h"
 
 namespace tspace {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kNone = kNoCorner;
+constexpr std::size_t kCornersPerTask = 1 << 13;
+/// Fewer tasks are done sooner than threads are started.
+constexpr std::size_t kTasksForThreads = 16;
+/// Corners whose first corners are fetched together, so that memory answers for all of them at once.
+constexpr std::size_t kBlock = 64;
 
-/// A vertex's first variants are compared one by one; only later ones are worth an index.
-constexpr std::uint32_t kScannedVariants = 8;
+template <class Word>
+Word differingBits(const std::byte* a, const std::byte* b) {
+    Word x, y;
+    std::memcpy(&x, a, sizeof x);
+    std::memcpy(&y, b, sizeof y);
+    return x ^ y;
+}
 
-/// Cells are wider than the tolerance by more than the rounding of x / width, so that two values that are
-/// equal within the tolerance never lie two cells apart.
-constexpr double kCellMargin = 1.0 + 1.0 / (1 << 20);
+/// Whether the bits of `Count` floats are the same, without a branch.
+template <std::uint32_t Count>
+bool sameBits(const std::byte* a, const std::byte* b) {
+    std::uint64_t differing = 0;
+    for (std::size_t k = 0; k + 2 <= Count; k += 2) differing |= differingBits<std::uint64_t>(a + 4 * k, b + 4 * k);
+    if (Count % 2 != 0) differing |= differingBits<std::uint32_t>(a + 4 * (Count - 1), b + 4 * (Count - 1));
+    return differing == 0;
+}
 
-/// Further than this many cells from 0, floats lie more than 100 tolerances apart: only equal values match.
-constexpr double kMostCells = 4294967296.0;
-
-/// An open-addressing table from (node, key) to a number.
-class NodeTable {
+/// Exact attributes with these numbers of components, in this order.
+template <std::uint32_t... Counts>
+class ExactAttributes {
   public:
-    /// The slot's value; kNone when there is no such entry.
-    [[nodiscard]] std::uint32_t find(std::uint32_t node, std::uint64_t key) const {
-        return entries_.empty() ? kNone : entries_[slotOf(node, key)].value;
+    explicit ExactAttributes(std::span<const CornerAttribute> attributes) {
+        std::copy(attributes.begin(), attributes.end(), attributes_.begin());
     }
-
-    /// The entry's value, to be read and set; kNone when it was just made.
-    std::uint32_t& at(std::uint32_t node, std::uint64_t key) {
-        if (2 * (used_ + 1) > entries_.size()) grow();
-        Entry& entry = entries_[slotOf(node, key)];
-        if (entry.node == kNone) {
-            entry.node = node;
-            entry.key = key;
-            ++used_;
-        }
-        return entry.value;
+    static bool fits(std::span<const CornerAttribute> attributes) {
+        constexpr std::array<std::uint32_t, sizeof...(Counts)> counts{Counts...};
+        return std::equal(attributes.begin(), attributes.end(), counts.begin(), counts.end(),
+                          [](const CornerAttribute& attribute, std::uint32_t count) {
+                              return attribute.component_count == count && attribute.tolerance == 0.0f;
+                          });
+    }
+    [[nodiscard]] bool areEqual(std::uint32_t corner, std::uint32_t other) const {
+        std::size_t i = 0;
+        std::uint32_t different = 0;
+        ((different |= sameBits<Counts>(at(i, corner), at(i, other)) ? 0u : 1u, ++i), ...);
+        return different == 0;
+    }
+    void fetch(std::uint32_t corner) const {
+        for (std::size_t i = 0; i < sizeof...(Counts); ++i) __builtin_prefetch(at(i, corner));
     }
 
   private:
-    struct Entry {
-        std::uint64_t key = 0;
-        std::uint32_t node = kNone;
-        std::uint32_t value = kNone;
-    };
-
-    [[nodiscard]] std::size_t slotOf(std::uint32_t node, std::uint64_t key) const {
-        const std::size_t mask = entries_.size() - 1;
-        std::size_t slot = foldHash(mixBits(node), key) & mask;
-        while (entries_[slot].node != kNone && (entries_[slot].node != node || entries_[slot].key != key)) {
-            slot = (slot + 1) & mask;
-        }
-        return slot;
+    [[nodiscard]] const std::byte* at(std::size_t i, std::uint32_t corner) const {
+        return reinterpret_cast<const std::byte*>(attributes_[i].data) + corner * attributes_[i].stride_bytes;
     }
-
-    void grow() {
-        std::vector<Entry> old(entries_.empty() ? 64 : 2 * entries_.size());
-        old.swap(entries_);
-        for (const Entry& entry : old) {
-            if (entry.node != kNone) entries_[slotOf(entry.node, entry.key)] = entry;
-        }
-    }
-
-    std::vector<Entry> entries_;
-    std::size_t used_ = 0;
+    std::array<CornerAttribute, sizeof...(Counts)> attributes_;
 };
 
-class Splitter {
+/// Any attributes.
+class AnyAttributes {
   public:
-    explicit Splitter(std::span<const CornerAttribute> attributes) : attributes_(attributes) {}
-
-    SplitResult split(const IndexView& indices, std::size_t vertex_count, std::size_t corner_count) {
-        result_.indices.resize(corner_count);
-        result_.source_corners.assign(vertex_count, kNoCorner);
-        result_.source_vertices.resize(vertex_count);
-        for (std::size_t v = 0; v < vertex_count; ++v)
-            result_.source_vertices[v] = static_cast<std::uint32_t>(v);
-        next_.assign(vertex_count, kNone);
-        for (std::size_t c = 0; c < corner_count; ++c) {
-            result_.indices[c] = variantOf(static_cast<std::uint32_t>(c), indices[c]);
-        }
-        return std::move(result_);
-    }
-
-  private:
-    /// The new vertex for a corner of `vertex`: its earliest variant that equals the corner, made if there is
-    /// none.
-    std::uint32_t variantOf(std::uint32_t corner, std::uint32_t vertex) {
-        if (result_.source_corners[vertex] == kNoCorner) {
-            result_.source_corners[vertex] = corner;
-            return vertex;
-        }
-        std::uint32_t variant = vertex;
-        for (std::uint32_t scanned = 1;; ++scanned) {
-            if (areEqual(corner, result_.source_corners[variant])) return variant;
-            if (scanned == kScannedVariants) break;
-            if (next_[variant] == kNone) {
-                const std::uint32_t added = append(corner, vertex);
-                next_[variant] = added;
-                return added;
-            }
-            variant = next_[variant];
-        }
-        if (const std::uint32_t found = findIndexed(corner, vertex); found != kNone) return found;
-        const std::uint32_t added = append(corner, vertex);
-        addToIndex(corner, vertex, added);
-        return added;
-    }
-
-    std::uint32_t append(std::uint32_t corner, std::uint32_t vertex) {
-        const auto added = static_cast<std::uint32_t>(result_.source_vertices.size());
-        result_.source_vertices.push_back(vertex);
-        result_.source_corners.push_back(corner);
-        next_.push_back(kNone);
-        return added;
-    }
-
-    static const float* values(const CornerAttribute& attribute, std::uint32_t corner) {
-        return reinterpret_cast<const float*>(reinterpret_cast<const std::byte*>(attribute.data) +
-                                              corner * attribute.stride_bytes);
-    }
-
+    explicit AnyAttributes(std::span<const CornerAttribute> attributes) : attributes_(attributes) {}
     [[nodiscard]] bool areEqual(std::uint32_t corner, std::uint32_t other) const {
         for (const CornerAttribute& attribute : attributes_) {
-            const float* a = values(attribute, corner);
-            const float* b = values(attribute, other);
-            if (std::memcmp(a, b, attribute.component_count * sizeof(float)) == 0) continue;
-            if (attribute.tolerance == 0.0f) return false;
+            const float* a = cornerValues(attribute, corner);
+            const float* b = cornerValues(attribute, other);
             for (std::uint32_t k = 0; k < attribute.component_count; ++k) {
                 if (std::bit_cast<std::uint32_t>(a[k]) == std::bit_cast<std::uint32_t>(b[k])) continue;
-                if (!(std::abs(double{a[k]} - double{b[k]}) <= double{attribute.tolerance})) return false;
+                return equalCorners(attributes_, corner, other);
             }
         }
         return true;
     }
+    void fetch(std::uint32_t corner) const {
+        for (const CornerAttribute& attribute : attributes_) __builtin_prefetch(cornerValues(attribute, corner));
+    }
 
-    // The index of later variants is a tree whose edges live in one table. The first level is the old vertex
-    // with the bits of all exact attributes; then comes one level for each component of the others, keyed by
-    // its cell on a line cut into cells as wide as the tolerance. A leaf is a list, linked by next_, of
-    // variants that nearly always has one entry. A look-up follows the three neighbouring cells on each
-    // level, as far as there are any; the number of variants that can lie around one point is bounded, so the
-    // cost per corner is too.
+  private:
+    std::span<const CornerAttribute> attributes_;
+};
 
-    static constexpr std::uint32_t kRoot = 0;
+class Splitter {
+  public:
+    Splitter(std::span<const CornerAttribute> attributes, std::size_t vertex_count, std::size_t corner_count,
+             const Execution& execution)
+        : attributes_(attributes),
+          vertex_count_(vertex_count),
+          parallel_(execution),
+          pending_(execution.allocator, (corner_count + kCornersPerTask - 1) / kCornersPerTask),
+          variants_(attributes, result_, execution.allocator) {
+        resizeAtOnce(result_.indices, corner_count, corner_count);
+        // Room for some copies costs nothing until it is used.
+        resizeAtOnce(result_.source_corners, vertex_count, vertex_count + vertex_count / 8, kNoCorner);
+    }
 
-    [[nodiscard]] std::uint64_t exactKey(std::uint32_t corner, std::uint32_t vertex) const {
-        std::uint64_t hash = vertex;
-        for (const CornerAttribute& attribute : attributes_) {
-            if (attribute.tolerance != 0.0f) continue;
-            const float* a = values(attribute, corner);
-            for (std::uint32_t k = 0; k < attribute.component_count; ++k) {
-                hash = foldHash(hash, std::bit_cast<std::uint32_t>(a[k]));
+    SplitResult split(const IndexView& indices) {
+        withIndices(indices, [&](auto vertexOf) {
+            // Backwards, so that the first corner of a vertex is the one that stays.
+            for (std::size_t c = result_.indices.size(); c-- > 0;) {
+                result_.source_corners[vertexOf(c)] = static_cast<std::uint32_t>(c);
+            }
+            using Tangents = ExactAttributes<4>;
+            using Normals = ExactAttributes<3>;
+            using Both = ExactAttributes<3, 4>;
+            if (Tangents::fits(attributes_)) return splitAll(vertexOf, Tangents(attributes_));
+            if (Normals::fits(attributes_)) return splitAll(vertexOf, Normals(attributes_));
+            if (Both::fits(attributes_)) return splitAll(vertexOf, Both(attributes_));
+            splitAll(vertexOf, AnyAttributes(attributes_));
+        });
+        writeSources(indices);
+        return std::move(result_);
+    }
+
+  private:
+    static void resizeAtOnce(std::vector<std::uint32_t>& values, std::size_t count, std::size_t capacity,
+                             std::uint32_t value = 0) {
+        values.reserve(capacity);
+        askForPages(values.data(), count * sizeof(std::uint32_t));
+        values.resize(count, value);
+    }
+
+    template <class VertexOf, class Attributes>
+    void splitAll(VertexOf vertexOf, const Attributes& attributes) {
+        if (parallel_.width() == 1 || pending_.size() < kTasksForThreads) {
+            // One after the other, while the corners are in the cache.
+            for (std::size_t task = 0; task < pending_.size(); ++task) {
+                compare(task, vertexOf, attributes);
+                resolve(task, vertexOf);
+            }
+            return;
+        }
+        parallel_.forTasks(pending_.size(), [&](std::size_t task) { compare(task, vertexOf, attributes); });
+        for (std::size_t task = 0; task < pending_.size(); ++task) {
+            for (std::uint32_t corner = pending_[task]; corner != kNone; corner = result_.indices[corner]) {
+                attributes.fetch(corner);
+            }
+            resolve(task, vertexOf);
+        }
+    }
+
+    /// Gives corners that equal the first one of their vertex this vertex, and lists the others.
+    template <class VertexOf, class Attributes>
+    void compare(std::size_t task, VertexOf vertexOf, const Attributes& attributes) {
+        const std::size_t end = std::min((task + 1) * kCornersPerTask, result_.indices.size());
+        std::uint32_t first = kNone, last = kNone;
+        for (std::size_t begin = task * kCornersPerTask; begin < end; begin += kBlock) {
+            const std::size_t count = std::min(kBlock, end - begin);
+            std::array<std::uint32_t, kBlock> first_corners, different;
+            for (std::size_t i = 0; i < count; ++i) {
+                first_corners[i] = result_.source_corners[vertexOf(begin + i)];
+                attributes.fetch(first_corners[i]);
+            }
+            std::size_t different_count = 0;
+            for (std::size_t i = 0; i < count; ++i) {
+                const auto corner = static_cast<std::uint32_t>(begin + i);
+                result_.indices[corner] = vertexOf(corner);
+                different[different_count] = corner;
+                different_count += attributes.areEqual(corner, first_corners[i]) ? 0 : 1;
+            }
+            for (std::size_t i = 0; i < different_count; ++i) {
+                (last == kNone ? first : result_.indices[last]) = different[i];
+                last = different[i];
             }
         }
-        return hash;
+        if (last != kNone) result_.indices[last] = kNone;
+        pending_[task] = first;
     }
 
-    /// Where a component lies on its line. A value far out, or not finite, has a key of its own that no cell
-    /// has.
-    struct Cell {
-        std::uint64_t key;
-        bool has_neighbors;
-    };
-
-    static Cell cellOf(float value, float tolerance) {
-        const double cells = double{value} / (double{tolerance} * kCellMargin);
-        if (!(std::abs(cells) < kMostCells)) {
-            return {0x7ff8000000000000u | std::bit_cast<std::uint32_t>(value), false};
-        }
-        const auto towards_zero = static_cast<std::int64_t>(cells);
-        const std::int64_t floor = towards_zero - (static_cast<double>(towards_zero) > cells ? 1 : 0);
-        return {static_cast<std::uint64_t>(floor), true};
-    }
-
-    /// body(component, tolerance) for each component of the tolerant attributes.
-    template <class Body>
-    void forEachTolerant(std::uint32_t corner, Body&& body) const {
-        for (const CornerAttribute& attribute : attributes_) {
-            if (attribute.tolerance == 0.0f) continue;
-            const float* a = values(attribute, corner);
-            for (std::uint32_t k = 0; k < attribute.component_count; ++k) body(a[k], attribute.tolerance);
+    /// Task after task, because copies are numbered in corner order.
+    template <class VertexOf>
+    void resolve(std::size_t task, VertexOf vertexOf) {
+        if (pending_[task] == kNone) return;
+        if (result_.source_vertices.empty()) variants_.prepare();
+        for (std::uint32_t corner = pending_[task]; corner != kNone;) {
+            const std::uint32_t next = result_.indices[corner];
+            result_.indices[corner] = variants_.variantOf(corner, vertexOf(corner));
+            corner = next;
         }
     }
 
-    void addToIndex(std::uint32_t corner, std::uint32_t vertex, std::uint32_t variant) {
-        // A value is the number of a node, or on the last level the variant that the leaf's list starts with.
-        std::uint32_t* value = &edges_.at(kRoot, exactKey(corner, vertex));
-        forEachTolerant(corner, [&](float component, float tolerance) {
-            if (*value == kNone) *value = ++node_count_;
-            const std::uint32_t node = *value;
-            value = &edges_.at(node, cellOf(component, tolerance).key);
-        });
-        next_[variant] = *value;
-        *value = variant;
-    }
-
-    [[nodiscard]] std::uint32_t findIndexed(std::uint32_t corner, std::uint32_t vertex) {
-        reached_.clear();
-        if (const std::uint32_t node = edges_.find(kRoot, exactKey(corner, vertex)); node != kNone) {
-            reached_.push_back(node);
-        }
-        forEachTolerant(corner, [&](float component, float tolerance) {
-            further_.clear();
-            for (const std::uint32_t node : reached_) follow(node, component, tolerance);
-            reached_.swap(further_);
-        });
-        std::uint32_t earliest = kNone;
-        for (std::uint32_t variant : reached_) {
-            for (; variant != kNone; variant = next_[variant]) {
-                if (variant < earliest && areEqual(corner, result_.source_corners[variant]))
-                    earliest = variant;
-            }
-        }
-        return earliest;
-    }
-
-    void follow(std::uint32_t node, float component, float tolerance) {
-        const auto visit = [&](std::uint64_t key) {
-            if (const std::uint32_t value = edges_.find(node, key); value != kNone) further_.push_back(value);
-        };
-        const Cell cell = cellOf(component, tolerance);
-        visit(cell.key);
-        if (!cell.has_neighbors) return;
-        visit(cell.key - 1);
-        visit(cell.key + 1);
+    void writeSources(const IndexView& indices) {
+        std::vector<std::uint32_t>& sources = result_.source_vertices;
+        if (sources.empty()) resizeAtOnce(sources, vertex_count_, vertex_count_);
+        std::iota(sources.begin(), sources.begin() + static_cast<std::ptrdiff_t>(vertex_count_), 0u);
+        for (std::size_t v = vertex_count_; v < sources.size(); ++v) sources[v] = indices[result_.source_corners[v]];
     }
 
     std::span<const CornerAttribute> attributes_;
+    std::size_t vertex_count_;
+    Parallel parallel_;
+    /// For each task the first corner that differs from the first one of its vertex; the rest of them is a list
+    /// through result_.indices.
+    Buffer<std::uint32_t> pending_;
     SplitResult result_;
-    /// The vertex's next variant among the scanned ones; the leaf's next one among the indexed ones.
-    std::vector<std::uint32_t> next_;
-    NodeTable edges_;
-    std::uint32_t node_count_ = kRoot;
-    std::vector<std::uint32_t> reached_, further_;
+    Variants variants_;
 };
 
 Error checkAttributes(std::span<const CornerAttribute> attributes, std::size_t corner_count) {
@@ -283,11 +256,12 @@ Error check(const IndexView& indices, std::size_t vertex_count, std::size_t corn
 }  // namespace
 
 Result<SplitResult> splitVertices(const IndexView& indices, std::size_t vertex_count,
-                                  std::size_t corner_count, std::span<const CornerAttribute> attributes) {
+                                  std::size_t corner_count, std::span<const CornerAttribute> attributes,
+                                  const Execution& execution) {
     return atBorder([&]() -> Result<SplitResult> {
         if (Error e = check(indices, vertex_count, corner_count, attributes); e.code != ErrorCode::ok)
             return e;
-        return Splitter(attributes).split(indices, vertex_count, corner_count);
+        return Splitter(attributes, vertex_count, corner_count, execution).split(indices);
     });
 }
 

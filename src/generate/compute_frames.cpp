@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Normals, tangents, sanitize and split for all primitives of one vertex pool.
-#include <numeric>
 #include <utility>
 
 #include "core/border.h"
@@ -16,20 +15,32 @@ constexpr std::uint32_t kNoSlot = 0xffffffffu;
 
 std::span<const std::uint32_t> spanOf(const std::vector<std::uint32_t>& values) { return values; }
 
-/// One primitive as a mesh of its own: a pool is often shared by many primitives that each use a small part
-/// of it, and what the methods do per vertex should cost in proportion to that part.
+/// One primitive as a mesh of its own. Its arrays are those of the pool, or own ones: a pool is often shared by many
+/// primitives that each use a small part of it, and what the methods do per vertex should cost in proportion to that
+/// part.
 struct LocalMesh {
-    std::vector<Vec3> positions, normals;
-    std::vector<Vec2> uvs;
-    std::vector<std::uint32_t> indices;
+    std::span<const Vec3> positions, normals;
+    std::span<const Vec2> uvs;
+    std::span<const std::uint32_t> indices;
     std::span<const std::uint32_t> face_sizes;
+
+    std::vector<Vec3> own_positions, own_normals;
+    std::vector<Vec2> own_uvs;
+    std::vector<std::uint32_t> own_indices;
+
+    void useOwnIndices() { indices = own_indices; }
+    void useOwnVertices() {
+        positions = own_positions;
+        normals = own_normals;
+        uvs = own_uvs;
+    }
 
     [[nodiscard]] MeshView view() const {
         MeshView mesh;
-        mesh.positions = positions;
-        mesh.normals = normals;
-        mesh.uvs = uvs;
-        mesh.indices = IndexView(spanOf(indices));
+        mesh.positions = StridedSpan<const Vec3>(positions);
+        mesh.normals = StridedSpan<const Vec3>(normals);
+        mesh.uvs = StridedSpan<const Vec2>(uvs);
+        mesh.indices = IndexView(indices);
         mesh.face_sizes = face_sizes;
         return mesh;
     }
@@ -46,11 +57,21 @@ MeshView viewInPool(const VertexPool& pool, const PrimitiveGeometry& primitive) 
 }
 
 template <class T>
-std::vector<T> gather(const std::vector<T>& values, const std::vector<std::uint32_t>& sources) {
+std::vector<T> gather(std::span<const T> values, const std::vector<std::uint32_t>& sources) {
     std::vector<T> result;
     if (values.empty()) return result;
     result.reserve(sources.size());
     for (const std::uint32_t source : sources) result.push_back(values[source]);
+    return result;
+}
+
+/// The normals of corners; any, where no corner uses the vertex.
+std::vector<Vec3> gatherNormals(const std::vector<Vec3>& normals, const std::vector<std::uint32_t>& corners) {
+    std::vector<Vec3> result;
+    result.reserve(corners.size());
+    for (const std::uint32_t corner : corners) {
+        result.push_back(corner == kNoCorner ? Vec3{0, 0, 1} : normals[corner]);
+    }
     return result;
 }
 
@@ -73,8 +94,7 @@ class FrameComputer {
           options_(inFileCoordinates(options)),
           reports_(reports),
           generates_normals_(pool.normals.empty()),
-          generates_tangents_(options.tangents.method == Method::basis || !pool.uvs.empty()),
-          local_of_vertex_(pool.positions.size(), kNoSlot) {}
+          generates_tangents_(options.tangents.method == Method::basis || !pool.uvs.empty()) {}
 
     Result<PoolFrames> compute() {
         for (std::size_t p = 0; p < primitives_.size(); ++p) {
@@ -91,11 +111,11 @@ class FrameComputer {
     Result<Done> computePrimitive(const PrimitiveGeometry& primitive, PrimitiveReport& report) {
         if (Result<Done> valid = validate(viewInPool(pool_, primitive)); !valid) return valid;
         if (primitive.indices.empty()) {
-            triangles_.emplace_back();
+            corner_counts_.push_back(0);
             return Done{};
         }
         LocalMesh mesh = localMesh(primitive);
-        std::vector<std::uint32_t> vertices = primitive.indices;
+        std::vector<std::uint32_t> cut_vertices;
         std::vector<Vec3> normals;
         if (generates_normals_) {
             if (Result<Done> done = computeNormals(primitive, mesh, normals, report); !done) return done;
@@ -103,38 +123,55 @@ class FrameComputer {
         if (!mesh.face_sizes.empty()) {
             Result<Triangulation> triangles = triangulate(mesh.view());
             if (!triangles) return std::move(triangles).error();
-            mesh.indices = gather(mesh.indices, triangles->corners);
-            vertices = gather(vertices, triangles->corners);
-            normals = gather(normals, triangles->corners);
+            mesh.own_indices = gather(mesh.indices, triangles->corners);
+            mesh.useOwnIndices();
+            cut_vertices = gather(spanOf(primitive.indices), triangles->corners);
+            normals = gather(std::span<const Vec3>(normals), triangles->corners);
             mesh.face_sizes = {};
         }
         std::vector<Vec4> tangents;
         if (generates_tangents_) {
             if (Result<Done> done = computeTangents(mesh, tangents, report); !done) return done;
         }
+        const bool is_cut = !primitive.face_sizes.empty();
+        const std::vector<std::uint32_t>& vertices = is_cut ? cut_vertices : primitive.indices;
         report.triangle_count = vertices.size() / 3;
-        return append(vertices, normals, tangents);
+        return append(vertices, std::move(normals), std::move(tangents));
+    }
+
+    LocalMesh localMesh(const PrimitiveGeometry& primitive) {
+        LocalMesh mesh;
+        mesh.face_sizes = primitive.face_sizes;
+        if (primitives_.size() > 1 || pool_.positions.size() > primitive.indices.size()) {
+            takeUsedPart(primitive, mesh);
+            return mesh;
+        }
+        mesh.positions = pool_.positions;
+        mesh.normals = pool_.normals;
+        mesh.uvs = pool_.uvs;
+        mesh.indices = primitive.indices;
+        return mesh;
     }
 
     /// The used part of the pool, vertices in order of first use.
-    LocalMesh localMesh(const PrimitiveGeometry& primitive) {
+    void takeUsedPart(const PrimitiveGeometry& primitive, LocalMesh& mesh) {
+        local_of_vertex_.resize(pool_.positions.size(), kNoSlot);
         std::vector<std::uint32_t> sources;
-        LocalMesh mesh;
-        mesh.indices.reserve(primitive.indices.size());
+        mesh.own_indices.reserve(primitive.indices.size());
         for (const std::uint32_t vertex : primitive.indices) {
             std::uint32_t& local = local_of_vertex_[vertex];
             if (local == kNoSlot) {
                 local = static_cast<std::uint32_t>(sources.size());
                 sources.push_back(vertex);
             }
-            mesh.indices.push_back(local);
+            mesh.own_indices.push_back(local);
         }
         for (const std::uint32_t vertex : sources) local_of_vertex_[vertex] = kNoSlot;
-        mesh.positions = gather(pool_.positions, sources);
-        mesh.normals = gather(pool_.normals, sources);
-        mesh.uvs = gather(pool_.uvs, sources);
-        mesh.face_sizes = primitive.face_sizes;
-        return mesh;
+        mesh.own_positions = gather(std::span<const Vec3>(pool_.positions), sources);
+        mesh.own_normals = gather(std::span<const Vec3>(pool_.normals), sources);
+        mesh.own_uvs = gather(std::span<const Vec2>(pool_.uvs), sources);
+        mesh.useOwnIndices();
+        mesh.useOwnVertices();
     }
 
     /// Normals per corner, and in the mesh one per vertex: vertices with several normals are split first, so
@@ -151,12 +188,15 @@ class FrameComputer {
 
         const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec3>(normals));
         Result<SplitResult> split =
-            splitVertices(mesh.view().indices, mesh.positions.size(), mesh.indices.size(), {&attribute, 1});
+            splitVertices(mesh.view().indices, mesh.positions.size(), mesh.indices.size(), {&attribute, 1},
+                          options_.normals.execution);
         if (!split) return std::move(split).error();
-        mesh.positions = gather(mesh.positions, split->source_vertices);
-        mesh.uvs = gather(mesh.uvs, split->source_vertices);
-        mesh.normals = gather(normals, split->source_corners);
-        mesh.indices = std::move(split->indices);
+        mesh.own_positions = gather(mesh.positions, split->source_vertices);
+        mesh.own_uvs = gather(mesh.uvs, split->source_vertices);
+        mesh.own_normals = gatherNormals(normals, split->source_corners);
+        mesh.own_indices = std::move(split->indices);
+        mesh.useOwnIndices();
+        mesh.useOwnVertices();
         return Done{};
     }
 
@@ -173,18 +213,24 @@ class FrameComputer {
         return Done{};
     }
 
-    Result<Done> append(const std::vector<std::uint32_t>& vertices, const std::vector<Vec3>& normals,
-                        const std::vector<Vec4>& tangents) {
-        const std::size_t first = indices_.size();
-        if (first + vertices.size() > kMaxCorners) {
+    Result<Done> append(const std::vector<std::uint32_t>& vertices, std::vector<Vec3>&& normals,
+                        std::vector<Vec4>&& tangents) {
+        if (indices_.size() + vertices.size() > kMaxCorners) {
             return Error{ErrorCode::tooLarge,
                          "the primitives that share these vertices have more than 2^31-1 corners"};
         }
         indices_.insert(indices_.end(), vertices.begin(), vertices.end());
-        normals_.insert(normals_.end(), normals.begin(), normals.end());
-        tangents_.insert(tangents_.end(), tangents.begin(), tangents.end());
-        triangles_.emplace_back(vertices.size());
-        std::iota(triangles_.back().begin(), triangles_.back().end(), static_cast<std::uint32_t>(first));
+        if (normals_.empty()) {
+            normals_ = std::move(normals);
+        } else {
+            normals_.insert(normals_.end(), normals.begin(), normals.end());
+        }
+        if (tangents_.empty()) {
+            tangents_ = std::move(tangents);
+        } else {
+            tangents_.insert(tangents_.end(), tangents.begin(), tangents.end());
+        }
+        corner_counts_.push_back(vertices.size());
         return Done{};
     }
 
@@ -192,17 +238,14 @@ class FrameComputer {
         std::vector<CornerAttribute> attributes;
         if (!normals_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec3>(normals_)));
         if (!tangents_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec4>(tangents_)));
-        Result<SplitResult> split =
-            splitVertices(IndexView(spanOf(indices_)), pool_.positions.size(), indices_.size(), attributes);
+        Result<SplitResult> split = splitVertices(IndexView(spanOf(indices_)), pool_.positions.size(), indices_.size(),
+                                                  attributes, options_.tangents.execution);
         if (!split) return std::move(split).error();
 
         PoolFrames frames;
         frames.normals_generated = generates_normals_;
-        frames.indices = std::move(triangles_);
-        for (std::vector<std::uint32_t>& corners : frames.indices) {
-            for (std::uint32_t& corner : corners) corner = split->indices[corner];
-        }
-        if (generates_normals_) writeNormals(*split, frames);
+        cutIndices(std::move(split->indices), frames);
+        if (generates_normals_) frames.normals = gatherNormals(normals_, split->source_corners);
         if (generates_tangents_) writeTangents(*split, frames);
         for (PrimitiveReport& report : reports_) {
             report.vertices_before = pool_.positions.size();
@@ -212,10 +255,17 @@ class FrameComputer {
         return frames;
     }
 
-    void writeNormals(const SplitResult& split, PoolFrames& frames) const {
-        frames.normals.reserve(split.vertexCount());
-        for (const std::uint32_t corner : split.source_corners) {
-            frames.normals.push_back(corner == kNoCorner ? Vec3{0, 0, 1} : normals_[corner]);
+    /// To each primitive its own.
+    void cutIndices(std::vector<std::uint32_t>&& indices, PoolFrames& frames) const {
+        if (corner_counts_.size() == 1) {
+            frames.indices.push_back(std::move(indices));
+            return;
+        }
+        auto begin = indices.begin();
+        for (const std::size_t count : corner_counts_) {
+            const auto end = begin + static_cast<std::ptrdiff_t>(count);
+            frames.indices.emplace_back(begin, end);
+            begin = end;
         }
     }
 
@@ -239,14 +289,13 @@ class FrameComputer {
     std::span<PrimitiveReport> reports_;
     bool generates_normals_;
     bool generates_tangents_;
-    std::vector<std::uint32_t> local_of_vertex_;
+    std::vector<std::uint32_t> local_of_vertex_;  ///< all kNoSlot between primitives
 
-    // All corners of all primitives, what was computed for them, and per primitive the triangles of these
-    // corners.
+    // All corners of all primitives, what was computed for them, and how many of them each primitive has.
     std::vector<std::uint32_t> indices_;
     std::vector<Vec3> normals_;
     std::vector<Vec4> tangents_;
-    std::vector<std::vector<std::uint32_t>> triangles_;
+    std::vector<std::size_t> corner_counts_;
 };
 
 Error checkPool(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,

@@ -89,7 +89,7 @@ TEST(Accessor, PadsColumnsOfSmallMatrices) {
         {"MAT2", 5121, 8}, {"MAT3", 5121, 12}, {"MAT3", 5123, 24}, {"MAT4", 5126, 64}, {"MAT2", 5123, 8}};
     for (const auto& test : cases) {
         GltfBuilder builder;
-        builder.addView(Bytes(test.bytes));
+        builder.addView(Bytes(test.bytes, 0));
         builder.json()["accessors"].push_back(
             {{"bufferView", 0}, {"componentType", test.component_type}, {"count", 1}, {"type", test.type}});
         EXPECT_EQ(readAccessor(parse(builder), 0).element_bytes, test.bytes) << test.type;
@@ -205,14 +205,14 @@ TEST(Accessor, NeedsNoPaddingBehindTheLastColumnOfMatrices) {
     GltfBuilder builder;
     builder.addAccessor(two, 5121, "MAT3", 2);
     const Document document = parse(builder);
-    Bytes padded = two;
+    Bytes padded(two.begin(), two.end());
     padded.push_back(0);
     EXPECT_EQ(copyElements(document, readAccessor(document, 0)), padded);
     const Extent extent = extentOf(document, readAccessor(document, 0));
     EXPECT_EQ(extent.end - extent.begin, two.size());
 
     GltfBuilder short_of_one;
-    short_of_one.addAccessor(Bytes(two.begin(), two.end() - 1), 5121, "MAT3", 2);
+    short_of_one.addAccessor(std::vector<std::uint8_t>(two.begin(), two.end() - 1), 5121, "MAT3", 2);
     EXPECT_EQ(errorOf([&] { parse(short_of_one); }).place, "/accessors/0");
 }
 

@@ -14,8 +14,8 @@ namespace tspace::test {
 
 using gltf::Json;
 
-template <class T>
-Bytes bytesOfValues(const std::vector<T>& values) {
+template <class T, class Allocator = std::allocator<T>>
+Bytes bytesOfValues(const std::vector<T, Allocator>& values) {
     const auto* first = reinterpret_cast<const std::uint8_t*>(values.data());
     return Bytes(first, first + values.size() * sizeof(T));
 }
@@ -37,8 +37,8 @@ class GltfBuilder {
         bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
         return json_["bufferViews"].size() - 1;
     }
-    template <class T>
-    std::size_t addAccessor(const std::vector<T>& values, int component_type, const std::string& type,
+    template <class T, class Allocator = std::allocator<T>>
+    std::size_t addAccessor(const std::vector<T, Allocator>& values, int component_type, const std::string& type,
                             std::size_t count) {
         const std::size_t view = addView(bytesOfValues(values));
         json_["accessors"].push_back(

@@ -181,9 +181,8 @@ class Comparison {
     static Bytes imageBytes(const Document& document, const Json& image) {
         if (image.contains("bufferView")) {
             const auto view = readBufferView(document, image["bufferView"].get<std::size_t>());
-            const auto begin =
-                document.buffers[view.buffer].bytes.begin() + static_cast<std::ptrdiff_t>(view.begin);
-            return Bytes(begin, begin + static_cast<std::ptrdiff_t>(view.byte_count));
+            const auto bytes = document.buffers[view.buffer].bytes.range(view.begin, view.byte_count);
+            return Bytes(bytes.begin(), bytes.end());
         }
         const auto& uri = image.at("uri").get_ref<const std::string&>();
         if (uriKind(uri) == UriKind::data) return decodeDataUri(uri, "").bytes;

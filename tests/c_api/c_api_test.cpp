@@ -221,7 +221,7 @@ TEST(CApi, SplitsAndTriangulatesAsTheCppApi) {
     const tspace_CornerAttribute c_attribute = {attribute.data, 0, 4, 1e-5f};
     tspace_SplitResult* split = nullptr;
     ASSERT_EQ(TSPACE_OK, tspace_splitVertices(&c_mesh.indices, mesh.positions.size(), mesh.cornerCount(),
-                                              &c_attribute, 1, &split, nullptr));
+                                              &c_attribute, 1, nullptr, &split, nullptr));
     EXPECT_EQ(expected->indices, std::vector(split->indices, split->indices + split->corner_count));
     EXPECT_EQ(expected->source_vertices,
               std::vector(split->source_vertices, split->source_vertices + split->vertex_count));
@@ -243,7 +243,7 @@ TEST(CApi, SplitsWithoutIndices) {
     const float values[3] = {1, 2, 3};
     const tspace_CornerAttribute attribute = {values, 0, 1, 0};
     tspace_SplitResult* split = nullptr;
-    ASSERT_EQ(TSPACE_OK, tspace_splitVertices(nullptr, 3, 3, &attribute, 1, &split, nullptr));
+    ASSERT_EQ(TSPACE_OK, tspace_splitVertices(nullptr, 3, 3, &attribute, 1, nullptr, &split, nullptr));
     EXPECT_EQ(split->vertex_count, 3u);
     EXPECT_EQ(split->indices[2], 2u);
     tspace_destroySplitResult(split);
@@ -310,6 +310,32 @@ TEST(CApi, UsesTheCallersExecutorAndAllocator) {
     EXPECT_GT(run_count, 0);
     EXPECT_GT(memory.given, 0u);
     EXPECT_EQ(memory.live, 0u);
+}
+
+TEST(CApi, AnArenaServesASecondCallFromWhatItHolds) {
+    const RandomMesh mesh(8, 600);
+    Outputs expected(mesh.cornerCount()), c(mesh.cornerCount());
+    ASSERT_TRUE(generateTangents(mesh.view(), {}, expected.view()));
+    tspace_Arena* arena = nullptr;
+    ASSERT_EQ(TSPACE_OK, tspace_createArena(&arena, nullptr));
+    EXPECT_EQ(tspace_arenaHeldBytes(arena), 0u);
+    tspace_TangentOptions options;
+    TSPACE_INIT(options);
+    options.execution.allocator = tspace_arenaAllocator(arena);
+    const tspace_Mesh c_mesh = mesh.c();
+    const tspace_TangentOutput out = c.c();
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr));
+    expectSame(expected, c);
+    const std::size_t held = tspace_arenaHeldBytes(arena);
+    EXPECT_GT(held, 0u);
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr));
+    expectSame(expected, c);
+    EXPECT_EQ(tspace_arenaHeldBytes(arena), held);
+    tspace_trimArena(arena);
+    EXPECT_EQ(tspace_arenaHeldBytes(arena), 0u);
+    tspace_destroyArena(arena);
+    tspace_destroyArena(nullptr);
+    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_createArena(nullptr, nullptr));
 }
 
 TEST(CApi, APlanOutlivesTheStructsItWasMadeWith) {

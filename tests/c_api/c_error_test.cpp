@@ -133,7 +133,7 @@ TEST_F(CErrors, RefuseNullWhereSomethingIsNeeded) {
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_planTangents(&c_mesh, nullptr, nullptr, nullptr));
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA,
               tspace_evaluateTangents(nullptr, &pose, &out, nullptr, nullptr, nullptr));
-    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_splitVertices(nullptr, 3, 3, nullptr, 1, nullptr, nullptr));
+    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_splitVertices(nullptr, 3, 3, nullptr, 1, nullptr, nullptr, nullptr));
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_triangulate(&c_mesh, nullptr, nullptr));
     tspace_Convention convention;
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_findConvention(nullptr, &convention, nullptr));
@@ -158,7 +158,7 @@ TEST_F(CErrors, SetResultsToNull) {
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_triangulate(&c_mesh, &cut, nullptr));
     EXPECT_EQ(nullptr, cut);
     auto* split = reinterpret_cast<tspace_SplitResult*>(&c_mesh);
-    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_splitVertices(nullptr, 3, 3, nullptr, 1, &split, nullptr));
+    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_splitVertices(nullptr, 3, 3, nullptr, 1, nullptr, &split, nullptr));
     EXPECT_EQ(nullptr, split);
 }
 

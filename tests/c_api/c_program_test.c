@@ -119,7 +119,7 @@ static void checkSplit(float tangents[8][4]) {
     tspace_Mesh mesh = makeMesh();
     tspace_CornerAttribute attribute = {&tangents[0][0], 0, 4, 0.0f};
     tspace_SplitResult* split = NULL;
-    CHECK(tspace_splitVertices(&mesh.indices, 6, 8, &attribute, 1, &split, NULL) == TSPACE_OK);
+    CHECK(tspace_splitVertices(&mesh.indices, 6, 8, &attribute, 1, NULL, &split, NULL) == TSPACE_OK);
     CHECK(split->vertex_count == 8 && split->corner_count == 8);
     CHECK(split->source_vertices[5] == 5 && split->source_vertices[6] == 1 && split->source_vertices[7] == 4);
     CHECK(split->source_corners[6] == 4 && split->indices[4] == 6);

@@ -20,9 +20,10 @@ CornerAttribute floats(const std::vector<float>& values, float tolerance = 0.0f,
     return {values.data(), components * sizeof(float), components, tolerance};
 }
 
-SplitResult split(const Indices& indices, std::size_t vertex_count, std::vector<CornerAttribute> attributes) {
+SplitResult split(const Indices& indices, std::size_t vertex_count, std::vector<CornerAttribute> attributes,
+                  const Execution& execution = {}) {
     Result<SplitResult> result = splitVertices(IndexView(std::span<const std::uint32_t>(indices)),
-                                               vertex_count, indices.size(), attributes);
+                                               vertex_count, indices.size(), attributes, execution);
     EXPECT_TRUE(result.ok());
     return *std::move(result);
 }
@@ -161,15 +162,19 @@ RandomCorners anyCorners() {
     const auto corners = *rc::gen::inRange<std::size_t>(0, 200);
     const auto last = static_cast<std::uint32_t>(r.vertex_count);
     r.indices = *rc::gen::container<Indices>(corners, rc::gen::inRange<std::uint32_t>(0, last));
-    const auto count = *rc::gen::inRange<std::size_t>(0, 4);
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto components = *rc::gen::inRange<std::size_t>(1, 4);
+    using Layout = std::vector<std::size_t>;
+    const auto any_layout =
+        *rc::gen::container<Layout>(*rc::gen::inRange<std::size_t>(0, 4), rc::gen::inRange<std::size_t>(1, 6));
+    // Some layouts are common, and have code of their own when they are exact.
+    const auto layout = *rc::gen::element(any_layout, any_layout, Layout{3}, Layout{4}, Layout{3, 4});
+    const bool all_exact = *rc::gen::arbitrary<bool>();
+    for (const std::size_t components : layout) {
         const int steps = *rc::gen::inRange(1, 12);
         r.values.push_back(*rc::gen::container<std::vector<float>>(
             components * corners, rc::gen::map(rc::gen::inRange(-steps, steps + 1), [](int k) {
                 return k == 11 ? std::nanf("") : (k == -11 ? HUGE_VALF : 0.1f * static_cast<float>(k));
             })));
-        const float tolerance = *rc::gen::element(0.0f, 1e-3f, 0.1f, 0.15f, 0.31f);
+        const float tolerance = all_exact ? 0.0f : *rc::gen::element(0.0f, 1e-3f, 0.1f, 0.15f, 0.31f);
         r.attributes.push_back(floats(r.values.back(), tolerance, static_cast<std::uint32_t>(components)));
         if (corners == 0) r.attributes.back().data = nullptr;
     }
@@ -205,6 +210,46 @@ RC_GTEST_PROP(Split, FindsNothingLeftToSplitInItsResult, ()) {
     const SplitResult twice = split(once.indices, once.vertexCount(), r.attributes);
     RC_ASSERT(twice.indices == once.indices);
     RC_ASSERT(twice.vertexCount() == once.vertexCount());
+}
+
+RC_GTEST_PROP(Split, GivesTheSameResultForAnyThreadCount, ()) {
+    const std::size_t vertex_count = 60000, corner_count = 300000;
+    std::uint32_t state = *rc::gen::arbitrary<std::uint32_t>();
+    const auto next = [&state](std::uint32_t limit) {
+        state = state * 1664525u + 1013904223u;
+        return static_cast<std::uint32_t>(std::uint64_t{state} * limit >> 32);
+    };
+    const std::uint32_t kinds = *rc::gen::element(1u, 2u, 20u);
+    Indices indices(corner_count);
+    std::vector<float> values(4 * corner_count, 0.5f);
+    for (std::size_t c = 0; c < corner_count; ++c) {
+        indices[c] = next(static_cast<std::uint32_t>(vertex_count));
+        if (next(10) == 0) values[4 * c + next(4)] = static_cast<float>(next(kinds));
+    }
+    const std::vector<CornerAttribute> attributes{floats(values, *rc::gen::element(0.0f, 1e-3f), 4)};
+    const SplitResult serial = split(indices, vertex_count, attributes, {.thread_count = 1});
+    for (const unsigned threads : {2u, 5u}) {
+        RC_ASSERT(equalResults(serial, split(indices, vertex_count, attributes, {.thread_count = threads})));
+    }
+}
+
+TEST(Split, StartsNoThreadForASmallMesh) {
+    int runs = 0;
+    const Executor executor{.run = [](void* user, std::size_t count, void (*task)(void*, std::size_t),
+                                      void* context) {
+                                ++*static_cast<int*>(user);
+                                for (std::size_t i = 0; i < count; ++i) task(context, i);
+                            },
+                            .user = &runs,
+                            .concurrency = 8};
+    std::vector<float> values(3 * 5000);
+    Indices indices(values.size());
+    for (std::size_t c = 0; c < values.size(); ++c) {
+        indices[c] = static_cast<std::uint32_t>(c % 2500);
+        values[c] = static_cast<float>(c % 2);
+    }
+    split(indices, 2500, {floats(values)}, {.executor = &executor});
+    EXPECT_EQ(runs, 0);
 }
 
 /// In quadratic time each of these would take minutes and meet the test's time limit.

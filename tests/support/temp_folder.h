@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -41,7 +42,7 @@ class TempFolder {
         std::ofstream(file, std::ios::binary) << bytes;
         return file.string();
     }
-    std::string write(const std::string& relative, const std::vector<std::uint8_t>& bytes) const {
+    std::string write(const std::string& relative, std::span<const std::uint8_t> bytes) const {
         return write(relative, std::string(bytes.begin(), bytes.end()));
     }
     [[nodiscard]] std::string read(const std::string& relative) const {

@@ -2,6 +2,10 @@
 // Starts the command that the command line asks for.
 #include <exception>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "arguments.h"
 #include "commands.h"
 #include "console.h"
@@ -17,9 +21,20 @@ ExitCode run(int argc, char** argv) {
     return std::get<ExitCode>(arguments);
 }
 
+/// Memory that one primitive gave back serves the next one. By default large blocks go back to the system at once, and
+/// each page of the next one has to be cleared again.
+void keepFreedMemory() {
+#ifdef __GLIBC__
+    constexpr int kMostAllowed = 32 << 20;
+    mallopt(M_MMAP_THRESHOLD, kMostAllowed);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    keepFreedMemory();
     try {
         return static_cast<int>(run(argc, argv));
     } catch (const std::exception& defect) {

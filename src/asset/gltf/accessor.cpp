@@ -119,9 +119,9 @@ SparsePart readSparse(const Document& document, const Json& object, const Access
     return sparse;
 }
 
-/// The bytes of a view. Its range was checked against the declared length, which the data has unless it is
-/// absent.
-const std::uint8_t* viewBytes(const Document& document, std::size_t index) {
+/// Bytes of a view, `count` from `offset`. Its range was checked against the declared length, which the data has
+/// unless it is absent.
+const std::uint8_t* viewBytes(const Document& document, std::size_t index, std::size_t offset, std::size_t count) {
     const BufferView view = readBufferView(document, index);
     const Buffer& buffer = document.buffers[view.buffer];
     if (buffer.source == BufferSource::absent && view.byte_count > 0) {
@@ -132,7 +132,7 @@ const std::uint8_t* viewBytes(const Document& document, std::size_t index) {
                 : "the buffer view lies in a buffer without data",
             join("/bufferViews", index));
     }
-    return buffer.bytes.data() + view.begin;
+    return buffer.bytes.range(view.begin + offset, count).data();
 }
 
 std::uint32_t unsignedAt(const std::uint8_t* bytes, ComponentType type) {
@@ -149,19 +149,49 @@ std::uint32_t unsignedAt(const std::uint8_t* bytes, ComponentType type) {
     return value;
 }
 
-void applySparse(const Document& document, const Accessor& accessor, Bytes& elements) {
+void applySparse(const Document& document, const Accessor& accessor, std::uint8_t* elements) {
     const SparsePart& sparse = *accessor.sparse;
     if (sparse.count == 0) return;
-    const std::uint8_t* indices = viewBytes(document, sparse.index_view) + sparse.index_offset;
-    const std::uint8_t* values = viewBytes(document, sparse.value_view) + sparse.value_offset;
+    const std::uint8_t* indices = viewBytes(document, sparse.index_view, sparse.index_offset,
+                                            sparse.count * bytesOf(sparse.index_type));
+    const std::uint8_t* values =
+        viewBytes(document, sparse.value_view, sparse.value_offset,
+                  (sparse.count - 1) * accessor.element_bytes + accessor.data_bytes);
     for (std::size_t i = 0; i < sparse.count; ++i) {
         const std::uint32_t at = unsignedAt(indices + i * bytesOf(sparse.index_type), sparse.index_type);
         if (at >= accessor.count) {
             failAt("the sparse index " + std::to_string(at) + " is out of range",
                    accessor.place() + "/sparse/indices");
         }
-        std::memcpy(elements.data() + at * accessor.element_bytes, values + i * accessor.element_bytes,
+        std::memcpy(elements + at * accessor.element_bytes, values + i * accessor.element_bytes,
                     accessor.data_bytes);
+    }
+}
+
+/// Where the elements lie; null for those that are all zero. Fails where there are none, and for an unknown type.
+const std::uint8_t* elementSource(const Document& document, const Accessor& accessor) {
+    if (accessor.component_count == 0) {
+        failAt("the accessor type " + inQuotes(accessor.type) + " does not exist",
+               join(accessor.place(), "type"));
+    }
+    if (!accessor.view && accessor.count > kMaxZeroElements) {
+        failFile(ErrorCode::unsupportedFile,
+                 "an accessor without data claims " + std::to_string(accessor.count) + " elements",
+                 join(accessor.place(), "count"));
+    }
+    if (!accessor.view || accessor.count == 0) return nullptr;
+    return viewBytes(document, *accessor.view, accessor.byte_offset,
+                     (accessor.count - 1) * accessor.stride + accessor.data_bytes);
+}
+
+/// Copies elements from their stride to one behind the other.
+void pack(const Accessor& accessor, const std::uint8_t* source, std::uint8_t* elements) {
+    if (accessor.stride == accessor.element_bytes) {
+        std::memcpy(elements, source, (accessor.count - 1) * accessor.element_bytes + accessor.data_bytes);
+        return;
+    }
+    for (std::size_t i = 0; i < accessor.count; ++i) {
+        std::memcpy(elements + i * accessor.element_bytes, source + i * accessor.stride, accessor.data_bytes);
     }
 }
 
@@ -208,13 +238,16 @@ std::vector<Vec> decodeVec(const Document& document, const Accessor& accessor, c
                    std::to_string(components) + " components",
                place);
     }
-    const Bytes elements = copyElements(document, accessor);
-    std::vector<Vec> result(accessor.count);
-    if (result.empty()) return result;
     if (accessor.component == ComponentType::f32) {
-        std::memcpy(static_cast<void*>(result.data()), elements.data(), elements.size());
+        const std::uint8_t* source = elementSource(document, accessor);
+        std::vector<Vec> result(accessor.count);
+        auto* out = reinterpret_cast<std::uint8_t*>(result.data());
+        if (source != nullptr) pack(accessor, source, out);
+        if (accessor.sparse) applySparse(document, accessor, out);
         return result;
     }
+    const Bytes elements = copyElements(document, accessor);
+    std::vector<Vec> result(accessor.count);
     const std::size_t bytes = bytesOf(accessor.component);
     auto* out = reinterpret_cast<float*>(result.data());
     for (std::size_t i = 0; i < accessor.count * components; ++i) {
@@ -309,29 +342,13 @@ bool hasData(const Document& document, const Accessor& accessor) {
 }
 
 Bytes copyElements(const Document& document, const Accessor& accessor) {
-    if (accessor.component_count == 0) {
-        failAt("the accessor type " + inQuotes(accessor.type) + " does not exist",
-               join(accessor.place(), "type"));
-    }
-    if (!accessor.view && accessor.count > kMaxZeroElements) {
-        failFile(ErrorCode::unsupportedFile,
-                 "an accessor without data claims " + std::to_string(accessor.count) + " elements",
-                 join(accessor.place(), "count"));
-    }
-    const std::uint8_t* source = nullptr;
-    if (accessor.view && accessor.count > 0)
-        source = viewBytes(document, *accessor.view) + accessor.byte_offset;
-    Bytes elements(accessor.count * accessor.element_bytes);
-    if (source != nullptr && accessor.stride == accessor.element_bytes) {
-        std::memcpy(elements.data(), source,
-                    (accessor.count - 1) * accessor.element_bytes + accessor.data_bytes);
-    } else if (source != nullptr) {
-        for (std::size_t i = 0; i < accessor.count; ++i) {
-            std::memcpy(elements.data() + i * accessor.element_bytes, source + i * accessor.stride,
-                        accessor.data_bytes);
-        }
-    }
-    if (accessor.sparse) applySparse(document, accessor, elements);
+    const std::uint8_t* source = elementSource(document, accessor);
+    // Zeros only where something stays unset.
+    const bool covers_all = source != nullptr && accessor.data_bytes == accessor.element_bytes;
+    Bytes elements = covers_all ? Bytes(accessor.count * accessor.element_bytes)
+                                : Bytes(accessor.count * accessor.element_bytes, 0);
+    if (source != nullptr) pack(accessor, source, elements.data());
+    if (accessor.sparse) applySparse(document, accessor, elements.data());
     return elements;
 }
 

@@ -116,10 +116,10 @@ class Applier {
             }
         }
         for (const auto& [index, users] : slots) {
-            const ElementData data =
+            ElementData data =
                 gather(document_, readAccessor(document_, index), frames_.source_vertices);
             const bool alone = editor_.accessorUses(index) == users.size();
-            const std::size_t stored = editor_.store(data, alone ? std::optional(index) : std::nullopt);
+            const std::size_t stored = editor_.store(std::move(data), alone ? std::optional(index) : std::nullopt);
             if (!alone) keepName(index, stored);
             for (const Slot& slot : users) {
                 attributesOf(slot.primitive, slot.target)[slot.name] = stored;
@@ -151,7 +151,7 @@ class Applier {
         }
         const bool alone =
             first.indices && editor_.accessorUses(*first.indices) == geometry.primitives.size();
-        const std::size_t stored = editor_.store(data, alone ? first.indices : std::nullopt);
+        const std::size_t stored = editor_.store(std::move(data), alone ? first.indices : std::nullopt);
         for (const std::size_t number : geometry.primitives) {
             Json& object = editor_.primitive(primitives_[number].mesh, primitives_[number].index);
             object["indices"] = stored;
@@ -161,11 +161,11 @@ class Applier {
         }
     }
 
-    void setAttribute(const char* name, const ElementData& data) {
+    void setAttribute(const char* name, ElementData&& data) {
         const Primitive& first = primitives_[pool_.primitives[0]];
         const auto old = first.find(name);
         const bool alone = old && editor_.accessorUses(*old) == pool_.primitives.size();
-        const std::size_t stored = editor_.store(data, alone ? old : std::nullopt);
+        const std::size_t stored = editor_.store(std::move(data), alone ? old : std::nullopt);
         for (const std::size_t number : pool_.primitives) {
             attributesOf(number, -1)[name] = stored;
             editor_.moveUse(primitives_[number].find(name), stored);
@@ -174,7 +174,7 @@ class Applier {
 
     /// Returns false when the tangents in the file have these very bits already.
     bool setTangents(bool split) {
-        const ElementData data = floatVectors(frames_.tangents);
+        ElementData data = floatVectors(frames_.tangents);
         const auto index = primitives_[pool_.primitives[0]].find("TANGENT");
         if (index && pool_.has_tangents && !split) {
             const Accessor old = readAccessor(document_, *index);
@@ -186,7 +186,7 @@ class Applier {
                 }
             }
         }
-        setAttribute("TANGENT", data);
+        setAttribute("TANGENT", std::move(data));
         return true;
     }
 

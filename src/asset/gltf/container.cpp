@@ -73,12 +73,9 @@ Buffer& binBuffer(Document& document) {
     return document.buffers[0];
 }
 
-std::size_t appendAligned(Buffer& buffer, const Bytes& bytes, std::size_t alignment) {
-    buffer.bytes.resize((buffer.bytes.size() + alignment - 1) / alignment * alignment);
-    const std::size_t begin = buffer.bytes.size();
-    buffer.bytes.insert(buffer.bytes.end(), bytes.begin(), bytes.end());
+std::size_t appendAligned(Buffer& buffer, Bytes bytes, std::size_t alignment) {
     buffer.edited = true;
-    return begin;
+    return buffer.bytes.append(std::move(bytes), alignment);
 }
 
 struct Moved {
@@ -99,7 +96,8 @@ void joinBuffers(Document& document) {
     Json old_entries = document.json["buffers"];
     std::vector<Buffer> old = std::move(document.buffers);
     std::vector<Moved> moved(old.size());
-    document.buffers.assign(1, {});
+    document.buffers.clear();
+    document.buffers.emplace_back();
     Buffer& bin = document.buffers[0];
     bin.source = BufferSource::bin;
     bin.own = true;
@@ -107,12 +105,12 @@ void joinBuffers(Document& document) {
     for (std::size_t i = 0; i < old.size(); ++i) {
         if (old[i].source == BufferSource::absent) continue;
         if (entries.empty()) entries.push_back(old_entries[i]);
-        moved[i] = {0, appendAligned(bin, old[i].bytes, kJoinAlignment)};
+        moved[i] = {0, appendAligned(bin, old[i].bytes.joined(), kJoinAlignment)};
         old[i].bytes = {};
     }
     if (entries.empty()) {
         entries.push_back(Json::object());
-        bin.bytes.resize(kJoinAlignment);  // glTF has no empty buffers
+        bin.bytes = BufferBytes(Bytes(kJoinAlignment, 0));  // glTF has no empty buffers
     }
     entries[0].erase("uri");
     entries[0]["byteLength"] = bin.bytes.size();
@@ -300,10 +298,11 @@ void writeDocument(Document& document, const OutputTarget& target, AtomicOutput&
         const GlbFrame frame =
             frameGlb(text, has_bin ? std::optional(document.buffers[0].bytes.size()) : std::nullopt,
                      document.extra_chunks);
-        const std::span<const std::uint8_t> bin =
-            has_bin ? std::span<const std::uint8_t>(document.buffers[0].bytes)
-                    : std::span<const std::uint8_t>();
-        output.add(target.path, {frame.head, bin, frame.tail});
+        std::vector<std::span<const std::uint8_t>> pieces;
+        if (has_bin) pieces = document.buffers[0].bytes.pieces();
+        pieces.insert(pieces.begin(), frame.head);
+        pieces.push_back(frame.tail);
+        output.add(target.path, pieces);
     } else {
         for (std::size_t i = 0; i < document.buffers.size(); ++i) {
             const Buffer& buffer = document.buffers[i];
@@ -311,12 +310,12 @@ void writeDocument(Document& document, const OutputTarget& target, AtomicOutput&
             Json& uri = document.json["buffers"][i]["uri"];
             const auto& old = uri.get_ref<const std::string&>();
             const std::string mime = old.substr(5, old.find_first_of(";,") - 5);
-            uri = encodeDataUri(mime.empty() ? "application/octet-stream" : mime, buffer.bytes);
+            uri = encodeDataUri(mime.empty() ? "application/octet-stream" : mime, buffer.bytes.joined());
         }
         output.add(target.path, bytesOf(writeJson(document.json, document.style)));
         for (const Buffer& buffer : document.buffers) {
             if (buffer.source == BufferSource::file && buffer.own && (buffer.edited || !target.in_place)) {
-                output.add(folderOf(target.path) / buffer.path, buffer.bytes);
+                output.add(folderOf(target.path) / buffer.path, buffer.bytes.pieces());
             }
         }
     }
@@ -329,7 +328,7 @@ void writeUnchanged(const Document& document, const OutputTarget& target, Atomic
     output.add(target.path, document.file_bytes);
     for (const Buffer& buffer : document.buffers) {
         if (buffer.source == BufferSource::file && buffer.own && !target.same_folder) {
-            output.add(folderOf(target.path) / buffer.path, buffer.bytes);
+            output.add(folderOf(target.path) / buffer.path, buffer.bytes.pieces());
         }
     }
     copyNamedFiles(document, target, output, warnings);

@@ -114,27 +114,30 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
                      join(place, "byteLength"));
         }
         buffer.source = BufferSource::bin;
-        buffer.bytes.assign(glb->bin->begin(), glb->bin->begin() + static_cast<std::ptrdiff_t>(length));
+        const auto begin = static_cast<std::size_t>(glb->bin->data() - document.file_bytes.data());
+        buffer.bytes = BufferBytes(std::span(document.file_bytes).subspan(begin, length));
         return buffer;
     }
     if (!uri->is_string()) failFile(ErrorCode::invalidFile, "'uri' is not a string", join(place, "uri"));
     const auto& text = uri->get_ref<const std::string&>();
+    Bytes bytes;
     if (uriKind(text) == UriKind::data) {
         buffer.source = BufferSource::dataUri;
-        buffer.bytes = decodeDataUri(text, join(place, "uri")).bytes;
+        bytes = decodeDataUri(text, join(place, "uri")).bytes;
     } else {
         buffer.source = BufferSource::file;
         buffer.path = resolveUri(document.folder, text, document.options.allow_external, join(place, "uri"));
-        buffer.bytes = readFile(buffer.path, join(place, "uri"));
-        document.input_bytes += buffer.bytes.size();
+        bytes = readFile(buffer.path, join(place, "uri"));
+        document.input_bytes += bytes.size();
     }
-    if (length > buffer.bytes.size()) {
+    if (length > bytes.size()) {
         failFile(ErrorCode::invalidFile,
                  "the buffer says " + std::to_string(length) + " bytes, but its data has " +
-                     std::to_string(buffer.bytes.size()),
+                     std::to_string(bytes.size()),
                  join(place, "byteLength"));
     }
-    buffer.bytes.resize(length);
+    bytes.resize(length);
+    buffer.bytes = BufferBytes(std::move(bytes));
     return buffer;
 }
 

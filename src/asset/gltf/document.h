@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asset/file_io.h"
+#include "asset/gltf/buffer_bytes.h"
 #include "asset/gltf/glb.h"
 #include "asset/gltf/json.h"
 #include "tspace/asset.h"
@@ -26,7 +27,7 @@ enum class BufferSource {
 
 struct Buffer {
     BufferSource source = BufferSource::absent;
-    Bytes bytes = {};                 ///< exactly `byteLength` of them, unless absent
+    BufferBytes bytes = {};           ///< exactly `byteLength` of them, unless absent
     std::filesystem::path path = {};  ///< the file, for BufferSource::file
     /// The output stores these bytes itself (BIN, data URI, a file named after the output), so they may be
     /// edited. Other files belong to the input and are never changed.
@@ -38,7 +39,7 @@ struct Document {
     std::filesystem::path path = {};
     std::filesystem::path folder = {};
     Container container = Container::gltf;
-    Bytes file_bytes = {};  ///< the model file as it was read
+    Bytes file_bytes = {};  ///< the model file as it was read; BIN lies in it, and is edited there
     Json json = {};
     JsonStyle style = {};
     std::vector<Buffer> buffers = {};  ///< one per entry of /buffers

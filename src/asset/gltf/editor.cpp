@@ -67,7 +67,10 @@ bool Editor::canOverwrite(const Accessor& accessor) const {
 void Editor::overwrite(const Accessor& accessor, const Bytes& elements) {
     const BufferView view = readBufferView(document_, *accessor.view);
     Buffer& buffer = document_.buffers[view.buffer];
-    std::uint8_t* to = buffer.bytes.data() + view.begin + accessor.byte_offset;
+    std::uint8_t* to = buffer.bytes
+                           .range(view.begin + accessor.byte_offset,
+                                  (accessor.count - 1) * accessor.stride + accessor.data_bytes)
+                           .data();
     for (std::size_t i = 0; i < accessor.count; ++i) {
         std::memcpy(to + i * accessor.stride, elements.data() + i * accessor.element_bytes,
                     accessor.element_bytes);
@@ -102,31 +105,24 @@ std::size_t Editor::targetBuffer() {
     return *target_buffer_;
 }
 
-std::size_t Editor::appendBytes(std::size_t index, const Bytes& bytes, std::size_t element_bytes,
-                                std::size_t stride) {
+std::size_t Editor::appendBytes(std::size_t index, Bytes bytes, std::size_t element_bytes, std::size_t stride) {
     Buffer& buffer = document_.buffers[index];
-    buffer.bytes.resize((buffer.bytes.size() + 3) / 4 * 4);
-    const std::size_t begin = buffer.bytes.size();
-    if (stride == element_bytes) {
-        buffer.bytes.insert(buffer.bytes.end(), bytes.begin(), bytes.end());
-    } else {
-        const std::size_t count = bytes.size() / element_bytes;
-        buffer.bytes.resize(begin + count * stride);
-        for (std::size_t i = 0; i < count; ++i) {
-            std::memcpy(buffer.bytes.data() + begin + i * stride, bytes.data() + i * element_bytes,
-                        element_bytes);
-        }
-    }
     buffer.edited = true;
-    return begin;
+    if (stride == element_bytes) return buffer.bytes.append(std::move(bytes), 4);
+    const std::size_t count = bytes.size() / element_bytes;
+    Bytes spread(count * stride, 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        std::memcpy(spread.data() + i * stride, bytes.data() + i * element_bytes, element_bytes);
+    }
+    return buffer.bytes.append(std::move(spread), 4);
 }
 
-std::size_t Editor::storeView(const ElementData& data, std::optional<std::size_t> replaces) {
+std::size_t Editor::storeView(ElementData&& data, std::optional<std::size_t> replaces) {
     // Vertex attributes start at multiples of 4 bytes each; indices are packed.
     const std::size_t stride =
         data.target == kVertexTarget ? (data.element_bytes + 3) / 4 * 4 : data.element_bytes;
     const std::size_t buffer = targetBuffer();
-    const std::size_t begin = appendBytes(buffer, data.bytes, data.element_bytes, stride);
+    const std::size_t begin = appendBytes(buffer, std::move(data.bytes), data.element_bytes, stride);
     Json& views = editableRootArray(document_, "bufferViews");
     const std::size_t index = replaces ? *replaces : views.size();
     if (!replaces) {
@@ -146,7 +142,7 @@ std::size_t Editor::storeView(const ElementData& data, std::optional<std::size_t
     return index;
 }
 
-std::size_t Editor::store(const ElementData& data, std::optional<std::size_t> replaces) {
+std::size_t Editor::store(ElementData&& data, std::optional<std::size_t> replaces) {
     changed_ = true;
     std::optional<std::size_t> old_view;
     if (replaces) {
@@ -165,7 +161,7 @@ std::size_t Editor::store(const ElementData& data, std::optional<std::size_t> re
             }
         }
     }
-    const std::size_t view = storeView(data, old_view);
+    const std::size_t view = storeView(std::move(data), old_view);
     Json& accessors = editableRootArray(document_, "accessors");
     const std::size_t index = replaces ? *replaces : accessors.size();
     if (!replaces) {

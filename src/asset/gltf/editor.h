@@ -46,9 +46,9 @@ class Editor {
     /// Only for float vectors. Bounds are brought up to date where the accessor has them.
     void overwrite(const Accessor& accessor, const Bytes& elements);
 
-    /// Makes an accessor for `data`. `replaces`: an accessor that nothing else uses; its entry is re-used.
+    /// Makes an accessor for `data`, whose bytes it takes. `replaces`: an accessor that nothing else uses; its entry is re-used.
     /// Returns its index.
-    std::size_t store(const ElementData& data, std::optional<std::size_t> replaces);
+    std::size_t store(ElementData&& data, std::optional<std::size_t> replaces);
 
     /// JSON of a primitive or accessor, to change it.
     Json& primitive(std::size_t mesh, std::size_t index);
@@ -61,9 +61,8 @@ class Editor {
 
   private:
     std::size_t targetBuffer();
-    std::size_t appendBytes(std::size_t buffer, const Bytes& bytes, std::size_t element_bytes,
-                            std::size_t stride);
-    std::size_t storeView(const ElementData& data, std::optional<std::size_t> replaces);
+    std::size_t appendBytes(std::size_t buffer, Bytes bytes, std::size_t element_bytes, std::size_t stride);
+    std::size_t storeView(ElementData&& data, std::optional<std::size_t> replaces);
     [[nodiscard]] bool ownsView(const Accessor& accessor) const;
 
     Document& document_;

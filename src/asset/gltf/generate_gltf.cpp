@@ -2,47 +2,34 @@
 // The glTF pipeline: load, plan, compute pool by pool, put the frames in, write.
 #include "asset/gltf/generate_gltf.h"
 
-#include <algorithm>
-
 #include "asset/file_error.h"
 #include "asset/gltf/apply_frames.h"
+#include "asset/gltf/compute_pools.h"
 #include "asset/gltf/container.h"
 #include "asset/gltf/generate_plan.h"
-#include "generate/primitive.h"
+#include "core/parallel.h"
 
 namespace tspace::gltf {
 
 namespace {
 
-PoolFrames computePool(const Document& document, std::span<const Primitive> primitives, const Pool& pool,
-                       const GenerateOptions& options, std::span<PrimitiveReport> reports) {
-    const Primitive& first = primitives[pool.primitives[0]];
-    VertexPool vertices;
-    vertices.positions = readVec3(document, first, "POSITION");
-    if (pool.has_normals) vertices.normals = readVec3(document, first, "NORMAL");
-    if (pool.uses_uvs) vertices.uvs = readUvs(document, first, pool.uv_set);
-    std::vector<PrimitiveGeometry> geometries;
-    std::vector<PrimitiveReport> computed;
-    for (const PoolGeometry& geometry : pool.geometries) {
-        geometries.emplace_back().indices = readTriangleCorners(document, primitives[geometry.primitives[0]]);
-        computed.push_back(reports[geometry.primitives[0]]);
-    }
-    PoolFrames frames = valueOrThrow(computeFrames(vertices, geometries, options, computed));
-    if (frames.tangents.size() != frames.source_vertices.size()) {
-        failFile(ErrorCode::internal, "no tangents were computed", first.place());
-    }
-    for (std::size_t i = 0; i < pool.geometries.size(); ++i) {
-        for (const std::size_t number : pool.geometries[i].primitives) {
-            reports[number].normals = computed[i].normals;
-            reports[number].tangents = computed[i].tangents;
-            reports[number].sanitize = computed[i].sanitize;
-        }
-    }
-    return frames;
-}
+/// Pools are computed together up to this many corners for each thread: enough to do, and not too much that waits in
+/// memory for its turn to be written.
+constexpr std::size_t kCornersPerThread = 500'000;
 
 void tell(const GenerateOptions& options, const char* what, std::uint64_t done, std::uint64_t total) {
     if (options.progress) options.progress(what, done, total);
+}
+
+/// How many of the pools, one at least, are computed together.
+std::size_t countTogether(std::span<const Pool> pools, const Execution& execution) {
+    const unsigned width = Parallel(execution).width();
+    const std::size_t most = width == 1 ? 0 : kCornersPerThread * width;
+    std::size_t count = 0, corners = 0;
+    while (count < pools.size() && (count == 0 || corners + pools[count].corner_count <= most)) {
+        corners += pools[count++].corner_count;
+    }
+    return count;
 }
 
 GenerateReport generate(const std::string& input, const std::string& output_path,
@@ -64,11 +51,16 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     Editor editor(document, freeFileName(document, target, ".tspace.bin"));
     std::uint64_t total = 0, done = 0;
     for (const Pool& pool : plan.pools) total += pool.corner_count;
-    for (const Pool& pool : plan.pools) {
+    for (std::span<const Pool> rest = plan.pools; !rest.empty();) {
         tell(options, "computing tangents", done, total);
-        const PoolFrames frames = computePool(document, primitives, pool, options, plan.reports);
-        applyFrames(editor, document, primitives, pool, frames, plan.reports);
-        done += pool.corner_count;
+        const std::span<const Pool> pools = rest.first(countTogether(rest, options.tangents.execution));
+        rest = rest.subspan(pools.size());
+        std::vector<PoolFrames> frames = computePools(document, primitives, pools, options, plan.reports);
+        for (std::size_t i = 0; i < pools.size(); ++i) {
+            applyFrames(editor, document, primitives, pools[i], frames[i], plan.reports);
+            frames[i] = {};
+            done += pools[i].corner_count;
+        }
     }
     tell(options, "computing tangents", total, total);
     editor.finish();

@@ -174,15 +174,9 @@ void cutBuffer(Document& document, std::size_t buffer, std::span<const ByteRange
         }
     }
     Buffer& data = document.buffers[buffer];
-    Bytes kept;
-    std::size_t from = 0;
-    for (const ByteRange& cut : cuts) {
-        kept.insert(kept.end(), data.bytes.begin() + static_cast<std::ptrdiff_t>(from),
-                    data.bytes.begin() + static_cast<std::ptrdiff_t>(cut.begin));
-        from = cut.end;
-    }
-    kept.insert(kept.end(), data.bytes.begin() + static_cast<std::ptrdiff_t>(from), data.bytes.end());
-    data.bytes = std::move(kept);
+    std::vector<ByteCut> byte_cuts;
+    for (const ByteRange& cut : cuts) byte_cuts.push_back({cut.begin, cut.end});
+    data.bytes.cut(byte_cuts);
     data.edited = true;
 }
 

@@ -64,7 +64,7 @@ class BufferBuilder {
 
     /// `target` 0: none.
     std::size_t addView(const void* data, std::size_t byte_count, int target) {
-        bytes_.resize((bytes_.size() + 3) / 4 * 4);
+        bytes_.resize((bytes_.size() + 3) / 4 * 4, 0);
         Json view = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", byte_count}};
         if (target != 0) view["target"] = target;
         const auto* first = static_cast<const std::uint8_t*>(data);

@@ -247,8 +247,8 @@ TEST(Obj, ImagesBesideTheOutputAreNamedAndOthersAreEmbedded) {
     EXPECT_EQ(embedded.document.json["images"][0]["mimeType"], "image/png");
     const std::size_t view = embedded.document.json["images"][0]["bufferView"];
     const gltf::BufferView range = gltf::readBufferView(embedded.document, view);
-    const auto first = embedded.document.buffers[0].bytes.begin() + static_cast<std::ptrdiff_t>(range.begin);
-    EXPECT_EQ(std::string(first, first + static_cast<std::ptrdiff_t>(range.byte_count)), kPng);
+    const auto image = embedded.document.buffers[0].bytes.range(range.begin, range.byte_count);
+    EXPECT_EQ(std::string(image.begin(), image.end()), kPng);
 
     ASSERT_TRUE(
         generateFile((folder.path() / "in/model.obj").string(), (folder.path() / "in/model.gltf").string()));

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Large pools one after the other, each on all threads; then the others, each on one thread.
+#include "asset/gltf/compute_pools.h"
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "asset/file_error.h"
+#include "core/parallel.h"
+#include "tspace/arena.h"
+
+namespace tspace::gltf {
+
+namespace {
+
+/// Fewer corners are done sooner than threads are started.
+constexpr std::size_t kCornersForThreads = 3000;
+
+PoolFrames computePool(const Document& document, std::span<const Primitive> primitives, const Pool& pool,
+                       const GenerateOptions& options, std::span<PrimitiveReport> reports) {
+    const Primitive& first = primitives[pool.primitives[0]];
+    VertexPool vertices;
+    vertices.positions = readVec3(document, first, "POSITION");
+    if (pool.has_normals) vertices.normals = readVec3(document, first, "NORMAL");
+    if (pool.uses_uvs) vertices.uvs = readUvs(document, first, pool.uv_set);
+    std::vector<PrimitiveGeometry> geometries;
+    std::vector<PrimitiveReport> computed;
+    for (const PoolGeometry& geometry : pool.geometries) {
+        geometries.emplace_back().indices = readTriangleCorners(document, primitives[geometry.primitives[0]]);
+        computed.push_back(reports[geometry.primitives[0]]);
+    }
+    PoolFrames frames = valueOrThrow(computeFrames(vertices, geometries, options, computed));
+    if (frames.tangents.size() != frames.source_vertices.size()) {
+        failFile(ErrorCode::internal, "no tangents were computed", first.place());
+    }
+    for (std::size_t i = 0; i < pool.geometries.size(); ++i) {
+        for (const std::size_t number : pool.geometries[i].primitives) {
+            reports[number].normals = computed[i].normals;
+            reports[number].tangents = computed[i].tangents;
+            reports[number].sanitize = computed[i].sanitize;
+        }
+    }
+    return frames;
+}
+
+/// As many arenas as pools are computed at one time.
+class Arenas {
+  public:
+    std::unique_ptr<Arena> take() {
+        const std::lock_guard lock(mutex_);
+        if (idle_.empty()) return std::make_unique<Arena>();
+        std::unique_ptr<Arena> arena = std::move(idle_.back());
+        idle_.pop_back();
+        return arena;
+    }
+    void giveBack(std::unique_ptr<Arena> arena) {
+        const std::lock_guard lock(mutex_);
+        idle_.push_back(std::move(arena));
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Arena>> idle_;
+};
+
+void setExecution(GenerateOptions& options, const Execution& execution) {
+    options.tangents.execution = options.normals.execution = options.sanitize_options.execution = execution;
+}
+
+}  // namespace
+
+std::vector<PoolFrames> computePools(const Document& document, std::span<const Primitive> primitives,
+                                     std::span<const Pool> pools, const GenerateOptions& options,
+                                     std::span<PrimitiveReport> reports) {
+    std::vector<PoolFrames> frames(pools.size());
+    std::vector<std::exception_ptr> failures(pools.size());
+    const Execution& execution = options.tangents.execution;
+    Arenas arenas;
+    const auto compute = [&](std::size_t i, const Execution& given) noexcept {
+        try {
+            GenerateOptions own = options;
+            Execution with_memory = given;
+            std::unique_ptr<Arena> arena;
+            if (given.allocator == nullptr) {
+                arena = arenas.take();
+                with_memory.allocator = arena->allocator();
+            }
+            setExecution(own, with_memory);
+            frames[i] = computePool(document, primitives, pools[i], own, reports);
+            if (arena) arenas.giveBack(std::move(arena));
+        } catch (...) {
+            failures[i] = std::current_exception();
+        }
+    };
+
+    Parallel parallel(execution);
+    std::size_t total = 0;
+    for (const Pool& pool : pools) total += pool.corner_count;
+    // A caller's allocator is called from one thread only.
+    const bool one_by_one = execution.allocator != nullptr || total < kCornersForThreads;
+    std::vector<std::size_t> others;
+    for (std::size_t i = 0; i < pools.size(); ++i) {
+        if (one_by_one || pools[i].corner_count > total / parallel.width()) {
+            compute(i, execution);
+        } else {
+            others.push_back(i);
+        }
+    }
+    // The largest first, so that no thread is left alone with one at the end.
+    std::stable_sort(others.begin(), others.end(),
+                     [&](std::size_t a, std::size_t b) { return pools[a].corner_count > pools[b].corner_count; });
+    parallel.forTasks(others.size(), [&](std::size_t task) { compute(others[task], Execution{.thread_count = 1}); });
+    for (const std::exception_ptr& failure : failures) {
+        if (failure) std::rethrow_exception(failure);
+    }
+    return frames;
+}
+
+}  // namespace tspace::gltf

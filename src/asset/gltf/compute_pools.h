@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Frames for pools of a glTF file, several pools at the same time.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "asset/gltf/generate_plan.h"
+#include "generate/primitive.h"
+
+namespace tspace::gltf {
+
+/// Frames of each pool, in their order. Fills normals, tangents and sanitize of the reports of their primitives.
+/// Throws what the first pool with an error throws. Which threads work on what changes no bit.
+std::vector<PoolFrames> computePools(const Document& document, std::span<const Primitive> primitives,
+                                     std::span<const Pool> pools, const GenerateOptions& options,
+                                     std::span<PrimitiveReport> reports);
+
+}  // namespace tspace::gltf

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "asset/gltf/buffer_bytes.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace tspace::gltf {
+namespace {
+
+Bytes anyBytes() {
+    const auto values = *rc::gen::arbitrary<std::vector<std::uint8_t>>();
+    return Bytes(values.begin(), values.end());
+}
+
+Bytes flat(const std::vector<std::span<const std::uint8_t>>& pieces) {
+    Bytes all;
+    for (const auto& piece : pieces) all.insert(all.end(), piece.begin(), piece.end());
+    return all;
+}
+
+RC_GTEST_PROP(BufferBytes, HoldsWhatAnArrayWouldHold, ()) {
+    Bytes outside = anyBytes();
+    Bytes expected = outside;
+    BufferBytes bytes(std::span<std::uint8_t>{outside});
+    std::vector<std::size_t> begins, counts;
+    const auto steps = *rc::gen::inRange(0, 6);
+    for (int step = 0; step < steps; ++step) {
+        const Bytes added = anyBytes();
+        const auto alignment = *rc::gen::element<std::size_t>(1, 4, 8);
+        expected.resize((expected.size() + alignment - 1) / alignment * alignment, 0);
+        begins.push_back(expected.size());
+        counts.push_back(added.size());
+        expected.insert(expected.end(), added.begin(), added.end());
+        RC_ASSERT(bytes.append(added, alignment) == begins.back());
+    }
+    RC_ASSERT(bytes.size() == expected.size());
+    RC_ASSERT(bytes.joined() == expected);
+    RC_ASSERT(flat(bytes.pieces()) == expected);
+    for (std::size_t i = 0; i < begins.size(); ++i) {
+        const auto range = bytes.range(begins[i], counts[i]);
+        RC_ASSERT(std::equal(range.begin(), range.end(),
+                             expected.begin() + static_cast<std::ptrdiff_t>(begins[i])));
+    }
+
+    auto ends = *rc::gen::container<std::vector<std::size_t>>(
+        2 * *rc::gen::inRange<std::size_t>(0, 5), rc::gen::inRange<std::size_t>(0, expected.size() + 1));
+    std::sort(ends.begin(), ends.end());
+    std::vector<ByteCut> cuts;
+    for (std::size_t i = 0; i < ends.size(); i += 2) cuts.push_back({ends[i], ends[i + 1]});
+    for (auto cut = cuts.rbegin(); cut != cuts.rend(); ++cut) {
+        expected.erase(expected.begin() + static_cast<std::ptrdiff_t>(cut->begin),
+                       expected.begin() + static_cast<std::ptrdiff_t>(cut->end));
+    }
+    bytes.cut(cuts);
+    RC_ASSERT(bytes.size() == expected.size());
+    RC_ASSERT(bytes.joined() == expected);
+}
+
+TEST(BufferBytes, AreWrittenWhereTheyLie) {
+    Bytes outside{1, 2, 3, 4};
+    BufferBytes bytes(std::span<std::uint8_t>{outside});
+    bytes.append({5, 6}, 1);
+    bytes.range(1, 2)[0] = 20;
+    bytes.range(5, 1)[0] = 60;
+    EXPECT_EQ(outside, (Bytes{1, 20, 3, 4}));
+    EXPECT_EQ(bytes.joined(), (Bytes{1, 20, 3, 4, 5, 60}));
+}
+
+TEST(BufferBytes, StayWhereTheyAreWhenMoved) {
+    BufferBytes bytes(Bytes{1, 2, 3});
+    const std::uint8_t* place = std::as_const(bytes).range(0, 3).data();
+    const BufferBytes moved = std::move(bytes);
+    EXPECT_EQ(moved.range(0, 3).data(), place);
+}
+
+}  // namespace
+}  // namespace tspace::gltf
