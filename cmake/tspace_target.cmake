@@ -20,12 +20,16 @@ endfunction()
 # The core promises the same bits everywhere: no contraction to FMA, no relaxed arithmetic. errno of sqrt is never read.
 function(tspace_configure_core target)
     target_compile_options(${target} PRIVATE -ffp-contract=off -fno-fast-math -fno-math-errno -fno-trapping-math)
+    if(TSPACE_SIMD_X86)
+        target_compile_definitions(${target} PRIVATE TSPACE_SIMD_X86)
+    endif()
 endfunction()
 
 # A second library from the core's sources with other optimisation flags, to prove that the bits do not change.
 function(tspace_core_variant target)
     get_target_property(sources tspace SOURCES)
     add_library(${target} STATIC EXCLUDE_FROM_ALL ${sources})
+    tspace_simd_flags("${sources}")
     tspace_configure_target(${target})
     tspace_configure_core(${target})
     target_compile_options(${target} PRIVATE ${ARGN})

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace tspace {
 
@@ -23,11 +24,22 @@ struct Allocator {
     void* user = nullptr;
 };
 
+/// The instructions that the hot loops use. Results have the same bits with all of them.
+enum class SimdTarget : std::uint32_t {
+    best = 0,    ///< the best that this CPU has
+    scalar = 1,  ///< no SIMD
+    sse2 = 2,    ///< x86-64 without anything else
+    avx2 = 3,
+    avx512 = 4,  ///< AVX-512 F and DQ
+};
+
 /// Passed by value inside option structs. What it points to must outlive the call (and a plan made with it).
 struct Execution {
     unsigned thread_count = 0;             ///< 0: as many as there are cores; 1: the calling thread only
     const Executor* executor = nullptr;    ///< null: std::thread, started and joined within the call
     const Allocator* allocator = nullptr;  ///< null: operator new; only for scratch memory and plans
+    /// For tests and measurements. What this CPU lacks is replaced by the best below it.
+    SimdTarget simd = SimdTarget::best;
 };
 
 }  // namespace tspace

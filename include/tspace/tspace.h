@@ -147,12 +147,23 @@ typedef struct tspace_Allocator {
     void* user;
 } tspace_Allocator;
 
+/* The instructions that the hot loops use. */
+typedef uint32_t tspace_SimdTarget;
+enum {
+    TSPACE_SIMD_BEST = 0, /* the best that this CPU has */
+    TSPACE_SIMD_SCALAR = 1,
+    TSPACE_SIMD_SSE2 = 2, /* x86-64 without anything else */
+    TSPACE_SIMD_AVX2 = 3,
+    TSPACE_SIMD_AVX512 = 4 /* F and DQ */
+};
+
 /* Where work runs and where its memory comes from. Neither changes a bit of any result. The structs are read
  * during the call only; the functions in them, and `user`, must outlive a plan that was made with them. */
 typedef struct tspace_Execution {
     const tspace_Executor* executor;   /* null: threads started and joined within the call */
     const tspace_Allocator* allocator; /* null: operator new. For scratch memory and plans */
     uint32_t thread_count;             /* 0: as many as there are cores; 1: the calling thread only */
+    tspace_SimdTarget simd;            /* for tests and measurements; what the CPU lacks is replaced by the best below it */
 } tspace_Execution;
 
 /* Memory that is kept from call to call: from the second call on, no page is taken from the system. For one call at

@@ -112,7 +112,8 @@ Error checkExecution(const tspace_Execution& execution) {
     return {ErrorCode::ok};
 }
 
-Hooks::Hooks(const tspace_Execution& execution) : thread_count_(execution.thread_count) {
+Hooks::Hooks(const tspace_Execution& execution)
+    : thread_count_(execution.thread_count), simd_(static_cast<SimdTarget>(execution.simd)) {
     if (const tspace_Executor* executor = execution.executor; executor != nullptr) {
         executor_ = {executor->run, executor->user, std::max(executor->concurrency, 1u)};
     }
@@ -123,7 +124,7 @@ Hooks::Hooks(const tspace_Execution& execution) : thread_count_(execution.thread
 
 Execution Hooks::execution() const {
     return {thread_count_, executor_.run != nullptr ? &executor_ : nullptr,
-            allocator_.allocate != nullptr ? &allocator_ : nullptr};
+            allocator_.allocate != nullptr ? &allocator_ : nullptr, simd_};
 }
 
 }  // namespace tspace::c_api

@@ -101,6 +101,7 @@ class Hooks {
     Executor executor_;
     Allocator allocator_;
     unsigned thread_count_ = 0;
+    SimdTarget simd_ = SimdTarget::best;
 };
 
 }  // namespace tspace::c_api

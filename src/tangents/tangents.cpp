@@ -9,12 +9,13 @@
 #include "core/border.h"
 #include "core/parallel.h"
 #include "tangents/indexed_plan.h"
-#include "tangents/mikktspace/grouped_plan.h"
+#include "tangents/mikktspace/evaluation_plan.h"
+#include "tangents/mikktspace/generate.h"
 
 namespace tspace {
 
 struct TangentPlan::State {
-    std::variant<IndexedPlan, mikk::GroupedPlan> plan;
+    std::variant<IndexedPlan, mikk::EvaluationPlan> plan;
     Method method = Method::mikktspace;
     std::size_t vertex_count = 0;
     std::size_t corner_count = 0;
@@ -109,9 +110,7 @@ Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOption
             const IndexedPlan plan = planIndexed(mesh, options, parallel, PlanUse::once);
             return evaluateIndexed(plan, pose, out, allocator, parallel);
         }
-        mikk::PoseData data;
-        const mikk::GroupedPlan plan = mikk::planGrouped(mesh, options, parallel, data);
-        return mikk::evaluateGrouped(plan, pose, data, out, allocator, parallel);
+        return mikk::generateGrouped(mesh, options, out, parallel);
     });
 }
 
@@ -125,8 +124,7 @@ Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& opt
         state->corner_count = mesh.cornerCount();
         state->output_count = outputCount(mesh, options);
         if (isGrouped(options.method)) {
-            mikk::PoseData unused;
-            state->plan = mikk::planGrouped(mesh, options, parallel, unused);
+            state->plan = mikk::planGrouped(mesh, options, parallel);
         } else {
             state->plan = planIndexed(mesh, options, parallel);
         }
@@ -148,9 +146,7 @@ Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose
         if (const auto* indexed = std::get_if<IndexedPlan>(&state.plan)) {
             return evaluateIndexed(*indexed, pose, out, allocator, parallel);
         }
-        const auto& grouped = *std::get_if<mikk::GroupedPlan>(&state.plan);
-        const mikk::PoseData data = mikk::readPose(grouped, pose, allocator, parallel);
-        return mikk::evaluateGrouped(grouped, pose, data, out, allocator, parallel);
+        return mikk::evaluateGroups(*std::get_if<mikk::EvaluationPlan>(&state.plan), pose, out, execution, parallel);
     });
 }
 

@@ -97,10 +97,10 @@ class Cutter {
 }  // namespace
 
 std::uint64_t countTriangles(const MeshView& mesh, Ngons ngons) {
+    if (mesh.face_sizes.empty())
+        return isUsed(mesh.face_size, ngons) ? std::uint64_t{mesh.faceCount()} * (mesh.face_size - 2) : 0;
     std::uint64_t count = 0;
-    forEachFace(mesh, [&](std::size_t, std::size_t, std::uint32_t size) {
-        if (isUsed(size, ngons)) count += size - 2;
-    });
+    for (const std::uint32_t size : mesh.face_sizes) count += isUsed(size, ngons) ? size - 2 : 0;
     return count;
 }
 

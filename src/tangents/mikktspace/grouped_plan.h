@@ -41,8 +41,7 @@ struct TriangleFrame {
     float mag_s = 0, mag_t = 0;
 };
 
-/// The part of an evaluation that belongs to one pose. planGrouped leaves it behind for the evaluation that
-/// follows.
+/// What the angular test needs of the mesh's own pose.
 struct PoseData {
     Buffer<Vec3> positions;        ///< one per node
     Buffer<TriangleFrame> frames;  ///< one per triangle
@@ -59,6 +58,10 @@ struct Copy {
     std::uint32_t to = 0, from = 0;  ///< corners of the mesh
 };
 
+struct Nodes;
+struct TriangleList;
+
+/// Filled step by step; evaluation_plan.h has what remains in the end.
 struct GroupedPlan {
     Method method = Method::mikktspace;
     float sign_factor = 1.0f;       ///< what the sign of the UV determinant is multiplied with
@@ -71,9 +74,11 @@ struct GroupedPlan {
     Buffer<std::uint32_t> slots;  ///< one per tricorner, or empty: slot == tricorner
     Buffer<std::uint8_t> flags;   ///< one per triangle: TriangleFlag
     std::size_t node_count = 0;
+    /// Nodes from this one on only lend their data to triangles: they have no list, no groups and no results.
+    std::size_t listed_count = 0;
     Buffer<std::uint32_t> node_vertex;  ///< the vertex whose data stands for the node
     Buffer<Vec2> node_uv;
-    Buffer<std::uint32_t> node_begin;  ///< node_count + 1: ranges of `list`
+    Buffer<std::uint32_t> node_begin;  ///< listed_count + 1: ranges of `list`
     /// Tricorners node by node; within a node group by group in the order the reference opens them, within a
     /// group ascending. Tricorners without a group come last.
     Buffer<std::uint32_t> list;
@@ -94,22 +99,23 @@ struct GroupedPlan {
     [[nodiscard]] std::uint32_t slot(std::uint32_t tricorner) const {
         return slots.empty() ? tricorner : slots[tricorner] & kValue;
     }
-    [[nodiscard]] std::size_t memoryBytes() const;
 };
 
 /// How many triangles the faces of a mesh are cut into.
 std::uint64_t countTriangles(const MeshView& mesh, Ngons ngons);
 
-/// Makes the plan of a validated mesh with normals and UVs and at most kMaxTricorners. `pose` gets what the
-/// evaluation of the mesh's own pose can use. Throws OutOfMemory.
-GroupedPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Parallel& parallel,
-                        PoseData& pose);
+struct EvaluationPlan;
 
-/// Node positions and triangle frames of a pose.
-PoseData readPose(const GroupedPlan& plan, const Pose& pose, const Allocator* allocator, Parallel& parallel);
+/// Whether Pairing::reference is asked for and can make a difference.
+bool needsReferenceOrder(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
+                         const Nodes& nodes, Parallel& parallel);
 
-/// Evaluates one pose into checked outputs and completes the plan's report. Throws OutOfMemory.
-TangentReport evaluateGrouped(const GroupedPlan& plan, const Pose& pose, const PoseData& data,
-                              const TangentOutput& out, const Allocator* allocator, Parallel& parallel);
+/// Plans a validated mesh with normals and UVs and at most kMaxTricorners. Throws OutOfMemory.
+EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Parallel& parallel);
+
+/// The same from triangles that are cut and nodes that are known, for the first `listed_count` nodes. With
+/// Pairing::reference these must be all; it is meant for what needsReferenceOrder. `nodes` may become exact.
+EvaluationPlan planNodes(const MeshView& mesh, const TangentOptions& options, TriangleList triangles,
+                         Nodes& nodes, std::size_t listed_count, Parallel& parallel);
 
 }  // namespace tspace::mikk

@@ -57,7 +57,7 @@ class Grouper {
 
     void run(Parallel& parallel) {
         findAnyNodes();
-        parallel.forRanges(plan_.node_count, kGrain, [&](std::size_t begin, std::size_t end) {
+        parallel.forRanges(plan_.listed_count, kGrain, [&](std::size_t begin, std::size_t end) {
             std::uint64_t groups = 0;
             for (std::size_t node = begin; node < end; ++node) {
                 if (node + kLookAhead < end) fetch(node + kLookAhead);
@@ -96,8 +96,11 @@ class Grouper {
         for (std::size_t t = 0; t < plan_.triangle_count; ++t) {
             if ((plan_.flags[t] & kAny) == 0) continue;
             if (any_node_.empty())
-                any_node_ = Buffer<std::uint8_t>(allocator_, plan_.node_count, std::uint8_t{0});
-            for (std::size_t k = 0; k < 3; ++k) any_node_[plan_.nodes[3 * t + k]] = 1;
+                any_node_ = Buffer<std::uint8_t>(allocator_, plan_.listed_count, std::uint8_t{0});
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (const std::uint32_t node = plan_.nodes[3 * t + k]; node < plan_.listed_count)
+                    any_node_[node] = 1;
+            }
         }
     }
 
@@ -138,11 +141,11 @@ class Grouper {
     /// Nodes of many triangles: few at most, one after the other, with memory for the largest.
     void groupLarge() {
         std::uint32_t most = 0;
-        for (std::size_t node = 0; node < plan_.node_count; ++node) most = std::max(most, size(node));
+        for (std::size_t node = 0; node < plan_.listed_count; ++node) most = std::max(most, size(node));
         if (most <= kSmallNode) return;
         makeScratch(most);
         Buffer<std::uint32_t> links(allocator_, 3 * std::size_t{most});
-        for (std::size_t node = 0; node < plan_.node_count; ++node) {
+        for (std::size_t node = 0; node < plan_.listed_count; ++node) {
             if (size(node) <= kSmallNode || touchesAny(node)) continue;
             Around around = link(node, links.data(), links.data() + most);
             std::uint32_t* group = links.data() + 2 * std::size_t{most};
@@ -177,8 +180,8 @@ class Grouper {
     void groupAny() {
         std::size_t nodes = 0, members = 0;
         std::uint32_t most = 0;
-        Buffer<std::uint32_t> place(allocator_, plan_.node_count);
-        for (std::size_t node = 0; node < plan_.node_count; ++node) {
+        Buffer<std::uint32_t> place(allocator_, plan_.listed_count);
+        for (std::size_t node = 0; node < plan_.listed_count; ++node) {
             if (any_node_[node] == 0) continue;
             place[node] = static_cast<std::uint32_t>(nodes++);
             members += size(node);
@@ -194,7 +197,7 @@ class Grouper {
         std::uint32_t *left = links.data(), *right = left + members, *group = right + members;
         std::fill_n(group, members, kNone);
         std::size_t begin = 0;
-        for (std::size_t node = 0; node < plan_.node_count; ++node) {
+        for (std::size_t node = 0; node < plan_.listed_count; ++node) {
             if (any_node_[node] == 0) continue;
             states[place[node]] = {begin, 0, 0};
             link(node, left + begin, right + begin);
@@ -202,7 +205,7 @@ class Grouper {
         }
         for (std::size_t h = 0; h < 3 * plan_.triangle_count; ++h) {
             const std::uint32_t node = plan_.nodes[h];
-            if (any_node_[node] == 0) continue;
+            if (node >= plan_.listed_count || any_node_[node] == 0) continue;
             State& state = states[place[node]];
             const std::uint32_t seed = state.cursor++;
             std::uint32_t* groups = group + state.begin;
@@ -214,7 +217,7 @@ class Grouper {
             spread(seed, left + state.begin, groups, joins);
             spread(seed, right + state.begin, groups, joins);
         }
-        for (std::size_t node = 0; node < plan_.node_count; ++node) {
+        for (std::size_t node = 0; node < plan_.listed_count; ++node) {
             if (any_node_[node] == 0) continue;
             const State& state = states[place[node]];
             sortByGroup(list(node), size(node), group + state.begin, state.groups, scratch_.data(),

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/acos.h"
 #include "core/vec_math.h"
 
 namespace tspace::mikk {
@@ -42,20 +41,11 @@ inline void flattenLanes(const Lanes3& n, Lanes3& v, std::size_t count) {
         const float x = v.x[i] - along * n.x[i], y = v.y[i] - along * n.y[i], z = v.z[i] - along * n.z[i];
         const float scale = 1.0f / std::sqrt(x * x + y * y + z * z);
         // All three are compared, without a branch.
-        const int sound = int{std::fabs(x) > FLT_MIN} | int{std::fabs(y) > FLT_MIN} | int{std::fabs(z) > FLT_MIN};
+        const int sound =
+            int{std::fabs(x) > FLT_MIN} | int{std::fabs(y) > FLT_MIN} | int{std::fabs(z) > FLT_MIN};
         v.x[i] = sound != 0 ? scale * x : x;
         v.y[i] = sound != 0 ? scale * y : y;
         v.z[i] = sound != 0 ? scale * z : z;
-    }
-}
-
-/// The cosine between unit vectors, kept in [-1, 1]; NaN stays.
-inline float cosineOf(float c) { return c > 1.0f ? 1.0f : c < -1.0f ? -1.0f : c; }
-
-inline void angleLanes(const Lanes3& a, const Lanes3& b, float* angle, std::size_t count) {
-    const std::size_t end = wholeGroups(count);
-    for (std::size_t i = 0; i < end; ++i) {
-        angle[i] = arcCosine(cosineOf(a.x[i] * b.x[i] + a.y[i] * b.y[i] + a.z[i] * b.z[i]));
     }
 }
 

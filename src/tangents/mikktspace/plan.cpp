@@ -3,12 +3,14 @@
 #include <algorithm>
 
 #include "tangents/mikktspace/corner_lists.h"
+#include "tangents/mikktspace/evaluation_plan.h"
 #include "tangents/mikktspace/faces.h"
 #include "tangents/mikktspace/grouped_plan.h"
 #include "tangents/mikktspace/groups.h"
 #include "tangents/mikktspace/growing.h"
 #include "tangents/mikktspace/slot_writes.h"
 #include "tangents/mikktspace/splits.h"
+#include "tangents/mikktspace/tail_check.h"
 #include "tangents/mikktspace/tail_order.h"
 #include "tangents/mikktspace/triangle_pass.h"
 #include "tangents/mikktspace/weld.h"
@@ -48,23 +50,39 @@ void resolveCopies(const GroupedPlan& plan, TrianglePass& pass) {
 
 }  // namespace
 
-GroupedPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Parallel& parallel,
-                        PoseData& pose) {
+EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Parallel& parallel) {
+    const Allocator* allocator = options.execution.allocator;
+    TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
+    Nodes nodes = weld(mesh, triangles, allocator, parallel);
+    TangentOptions needed = options;
+    if (!needsReferenceOrder(mesh, options, triangles, nodes, parallel)) needed.pairing = Pairing::corrected;
+    return planNodes(mesh, needed, std::move(triangles), nodes, nodes.count, parallel);
+}
+
+bool needsReferenceOrder(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
+                         const Nodes& nodes, Parallel& parallel) {
+    return options.method == Method::mikktspace && options.pairing == Pairing::reference &&
+           tailMayMatter(mesh, triangles, nodes, options.execution.allocator, parallel);
+}
+
+EvaluationPlan planNodes(const MeshView& mesh, const TangentOptions& options, TriangleList triangles,
+                         Nodes& nodes, std::size_t listed_count, Parallel& parallel) {
     const Allocator* allocator = options.execution.allocator;
     const bool is_mikktspace = options.method == Method::mikktspace;
     GroupedPlan plan;
     plan.method = options.method;
-    // The UV determinant speaks of the side that cross(P1-P0, P2-P0) points to; the sign must speak of N's side.
+    // The UV determinant speaks of the side that cross(P1-P0, P2-P0) points to; the sign must speak of N's
+    // side.
     plan.bitangent_factor = signFactor(options.convention);
     plan.sign_factor = plan.bitangent_factor * normalFactor(options.convention);
     plan.vertex_count = mesh.vertexCount();
     plan.corner_count = mesh.cornerCount();
 
-    TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
     plan.skipped_corners = std::move(triangles.skipped_corners);
     plan.report.triangle_count = triangles.count;
     plan.report.skipped_face_count = triangles.skipped_face_count;
-    Nodes nodes = weld(mesh, triangles, allocator, parallel);
+    plan.listed_count = listed_count;
+    PoseData pose;
     readNodes(mesh, nodes, plan, pose, allocator, parallel);
     TrianglePass pass = passTriangles(mesh, triangles, nodes, plan, pose, allocator, parallel);
     listCorners(plan, allocator);
@@ -81,15 +99,8 @@ GroupedPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Par
                    parallel);
     }
     planSlotWrites(plan, pass, allocator);
-    return plan;
-}
-
-std::size_t GroupedPlan::memoryBytes() const {
-    const auto bytes = [](const auto& buffer) { return buffer.size() * sizeof(*buffer.data()); };
-    return sizeof(*this) + bytes(nodes) + bytes(slots) + bytes(flags) + bytes(node_vertex) + bytes(node_uv) +
-           bytes(node_begin) + bytes(list) + bytes(split_groups) + bytes(split_rows) + bytes(split_leaders) +
-           bytes(conflicts) + bytes(conflict_order) + bytes(default_corners) + bytes(skipped_corners) +
-           bytes(copies);
+    pose = {};
+    return makeEvaluationPlan(std::move(plan), mesh, allocator, parallel);
 }
 
 }  // namespace tspace::mikk

@@ -96,7 +96,7 @@ void planSlotWrites(GroupedPlan& plan, TrianglePass& pass, const Allocator* allo
     defaults.reserve(pass.copies.size());
     for (std::size_t i = 0; i < 3 * plan.triangle_count; ++i) {
         const std::uint32_t slot = plan.slot(static_cast<std::uint32_t>(i));
-        if (result_of[slot] != kNone) continue;
+        if (result_of[slot] != kNone || plan.nodes[i] >= plan.listed_count) continue;
         result_of[slot] = kDefault;
         defaults.push(slot);
     }

@@ -235,12 +235,12 @@ class Splitter {
 
 void findSplits(GroupedPlan& plan, float threshold_cosine, const Pose& pose, const PoseData& data,
                 const Buffer<std::uint32_t>& faces, const Allocator* allocator, Parallel& parallel) {
-    Buffer<std::uint8_t> suspects(allocator, plan.node_count, std::uint8_t{0});
-    parallel.forRanges(plan.node_count, kGrain, [&](std::size_t begin, std::size_t end) {
+    Buffer<std::uint8_t> suspects(allocator, plan.listed_count, std::uint8_t{0});
+    parallel.forRanges(plan.listed_count, kGrain, [&](std::size_t begin, std::size_t end) {
         SuspectFinder(plan, threshold_cosine, pose, data, suspects).run(begin, end);
     });
     Splitter splitter(plan, threshold_cosine, pose, data, faces, allocator);
-    for (std::size_t node = 0; node < plan.node_count; ++node) {
+    for (std::size_t node = 0; node < plan.listed_count; ++node) {
         if (suspects[node] != 0) splitter.node(static_cast<std::uint32_t>(node));
     }
     splitter.finish();

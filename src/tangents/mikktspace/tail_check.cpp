@@ -32,8 +32,11 @@ namespace tspace::mikk {
 namespace {
 
 constexpr std::size_t kFirstTail = 2048;  // triangles; in a mesh in natural order, a few rows
-constexpr std::size_t kLonger = 8;        // times, when that was not enough
-constexpr std::size_t kFirstEdges = 64;   // that are worked out before a better bound is known
+constexpr std::size_t kShortTail = 32;    // for meshes of few triangles
+constexpr std::size_t kFew = 16384;
+constexpr std::size_t kLonger = 16;      // times, when that was not enough
+constexpr std::size_t kFirstEdges = 64;  // that are worked out before a better bound is known
+constexpr std::size_t kMostEdges = 512;
 
 /// A half-edge with both ends in S.
 struct LateEdge {
@@ -54,11 +57,11 @@ class TailCheck {
           edges_(allocator) {}
 
     bool run() {
-        for (std::size_t length = kFirstTail;; length *= kLonger) {
+        for (std::size_t length = triangles_.count < kFew ? kShortTail : kFirstTail;; length *= kLonger) {
             const std::size_t begin = tailOf(length);
             collectEdges(begin);
             const std::uint32_t first_corner = firstCorner(begin);
-            if (findLargestKey(first_corner) && key_ >= first_corner) break;
+            if (findLargestKey(first_corner, begin == 0) && key_ >= first_corner) break;
             if (begin == 0) return false;  // no edge at all
         }
         return bucketMatters();
@@ -137,16 +140,24 @@ class TailCheck {
 
     /// L, if it is not below F; else anything below F. Returns false when there is no edge. All edges whose
     /// bound is L are exact afterwards.
-    bool findLargestKey(std::uint32_t first_corner) {
+    bool findLargestKey(std::uint32_t first_corner, bool is_whole_list) {
         if (edges_.empty()) return false;
         const auto higher = [&](const LateEdge& a, const LateEdge& b) { return bound(a) > bound(b); };
         Marks exact = noMarks(allocator_, nodes_.count);
-        const std::size_t first = std::min(kFirstEdges, edges_.size());
-        std::nth_element(edges_.begin(), edges_.begin() + (first - 1), edges_.end(), higher);
-        workOut(bound(edges_[first - 1]), exact);
         key_ = 0;
-        for (const LateEdge& e : edges_) {
-            if (exact[e.from] != 0 && exact[e.to] != 0) key_ = std::max(key_, bound(e));
+        // In a mesh without order one edge in thirty or so has its key at the end, so a few are tried, and
+        // some more. (Each time all vertices are read.) Then it is as well to make the end of the list
+        // longer.
+        std::size_t step = kFirstEdges;
+        for (std::size_t done = 0; done < edges_.size() && key_ < first_corner; step *= 8) {
+            if (step > kMostEdges && !is_whole_list) return false;
+            const std::size_t end = is_whole_list ? edges_.size() : std::min(done + step, edges_.size());
+            std::nth_element(edges_.begin() + done, edges_.begin() + (end - 1), edges_.end(), higher);
+            workOut(bound(edges_[end - 1]), exact);
+            for (const LateEdge& e : edges_) {
+                if (exact[e.from] != 0 && exact[e.to] != 0) key_ = std::max(key_, bound(e));
+            }
+            done = end;
         }
         workOut(std::max(key_, first_corner), exact);
         for (const LateEdge& e : edges_) {

@@ -10,7 +10,6 @@
 #include <bit>
 
 #include "tangents/mikktspace/growing.h"
-#include "tangents/mikktspace/tail_check.h"
 #include "tangents/mikktspace/weld_order.h"
 
 namespace tspace::mikk {
@@ -120,7 +119,6 @@ class TailFinder {
     TailPairs run() {
         TailPairs pairs;
         if (plan_.triangle_count == 0) return pairs;
-        if (!tailMayMatter(mesh_, triangles_, nodes_, allocator_, parallel_)) return pairs;
         findLargestLow();
         collectEdges();
         if (!orderMatters()) return pairs;

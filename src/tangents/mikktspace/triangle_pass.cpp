@@ -71,7 +71,7 @@ void planCopies(const MeshView& mesh, const TriangleList& list, const Nodes& nod
         if (plan.flags[t] != kDegenerate) continue;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t to = list.corner(3 * t + k);
-            if (done[to] != 0) continue;
+            if (done[to] != 0 || nodes.of(mesh, to) >= plan.listed_count) continue;
             done[to] = 2;
             std::uint32_t from = kNone;
             for (std::size_t j = 1; j < 3 && from == kNone; ++j) {

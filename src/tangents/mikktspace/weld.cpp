@@ -16,6 +16,7 @@
 #include <cstring>
 
 #include "core/hash.h"
+#include "core/repeated_hashes.h"
 #include "core/vec_math.h"
 #include "tangents/mikktspace/grouped_plan.h"
 #include "tangents/mikktspace/growing.h"
@@ -30,11 +31,9 @@ constexpr float kHugePosition = 1.6e38f;
 constexpr std::size_t kGrain =
     16384;  // vertices per task at least: below, starting threads costs more than it saves
 constexpr std::size_t kFew = 4096;           // vertices; so few are all looked up
-constexpr unsigned kMostRanges = 4;          // each has a counting table of its own
+constexpr std::size_t kPlacesPerVertex = 8;  // of a counting table: leaves 1 vertex of 9 to be looked up
 constexpr std::size_t kBlock = 256;          // vertices; their hashes stay in the first cache
 constexpr std::size_t kBatch = 32;           // lookups; all that they touch has to stay in the first cache
-constexpr std::size_t kPlacesPerVertex = 8;  // of a counting table: leaves 1 vertex of 9 to be looked up
-constexpr std::size_t kPlacesPerByte = 4;
 
 struct Vertex {
     Vec3 position, normal;
@@ -100,82 +99,6 @@ bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std:
     return (tame[0] & tame[1] & tame[2] & tame[3]) != 0;
 }
 
-/// How often each value of the hashes' upper bits occurs: never, once, or more often. Two bits a place: bit 0
-/// says at least once, bit 1 more often.
-class Counting {
-  public:
-    Counting(const Allocator* allocator, std::size_t vertex_count, std::size_t ranges)
-        : log2_(std::clamp<unsigned>(std::bit_width(kPlacesPerVertex * vertex_count), 6, 32)),
-          bytes_(std::size_t{1} << (log2_ - 2)),
-          table_(allocator, bytes_ * ranges) {}
-
-    void clear(std::size_t range) { std::fill_n(table_.data() + range * bytes_, bytes_, std::uint8_t{0}); }
-
-    void add(std::size_t range, const std::uint32_t* hashes, std::size_t count) {
-        std::uint8_t* table = table_.data() + range * bytes_;
-        const unsigned shift = 32 - log2_;  // a copy: bytes that are written might be the member's
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t place = hashes[i] >> shift;
-            std::uint8_t& byte = table[place / kPlacesPerByte];
-            const unsigned once = 1u << 2 * (place % kPlacesPerByte), now = byte;
-            byte = static_cast<std::uint8_t>(now | (now & once) << 1 | once);
-        }
-    }
-
-    /// Adds all ranges up in the first one. Returns how many places are taken.
-    std::size_t sum(std::size_t ranges, Parallel& parallel) {
-        std::atomic<std::size_t> taken{0};
-        parallel.forRanges(bytes_ / sizeof(std::uint64_t), kGrain, [&](std::size_t begin, std::size_t end) {
-            constexpr std::uint64_t kOnce = 0x5555555555555555u;
-            std::size_t mine = 0;
-            for (std::size_t i = begin; i < end; ++i) {
-                std::uint64_t total = word(0, i);
-                for (std::size_t r = 1; r < ranges; ++r) {
-                    const std::uint64_t other = word(r, i);
-                    total |= other | (total & other & kOnce) << 1;
-                }
-                if (ranges > 1) std::memcpy(table_.data() + i * sizeof total, &total, sizeof total);
-                mine += pairsSet(total & kOnce);
-            }
-            taken += mine;
-        });
-        return taken;
-    }
-
-    /// Writes those of the vertices [begin, end) to `list` whose hash another vertex may have. Returns how
-    /// many.
-    std::size_t repeated(const std::uint32_t* hashes, std::size_t begin, std::size_t end,
-                         std::uint32_t* list) const {
-        const std::uint8_t* table = table_.data();
-        const unsigned shift = 32 - log2_;
-        std::size_t count =
-            0;  // list[count] is written in any case, and stays when the next one is written behind it
-        for (std::size_t v = begin; v < end; ++v) {
-            const std::uint32_t place = hashes[v] >> shift;
-            list[count] = static_cast<std::uint32_t>(v);
-            count += table[place / kPlacesPerByte] >> (2 * (place % kPlacesPerByte) + 1) & 1u;
-        }
-        return count;
-    }
-
-  private:
-    /// How many of the bits 0, 2, 4, ... are set. (std::popcount is a call where the target is plain x86-64.)
-    static std::size_t pairsSet(std::uint64_t x) {
-        x = (x & 0x3333333333333333u) + (x >> 2 & 0x3333333333333333u);
-        x = (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0fu;
-        return static_cast<std::size_t>((x * 0x0101010101010101u) >> 56);
-    }
-    [[nodiscard]] std::uint64_t word(std::size_t range, std::size_t i) const {
-        std::uint64_t value = 0;
-        std::memcpy(&value, table_.data() + range * bytes_ + i * sizeof value, sizeof value);
-        return value;
-    }
-
-    unsigned log2_;
-    std::size_t bytes_;
-    Buffer<std::uint8_t> table_;
-};
-
 /// Finds the first equal vertex, the root, of each candidate. First by hashes alone: each task has the
 /// candidates of one range of hashes, and a part of the table. Then the data of each candidate and its root
 /// are compared, in order, which reads memory as it lies. The few that differ from the root of their hash are
@@ -227,7 +150,9 @@ class Lookup {
 
     void matchHashes(std::size_t distinct, const Allocator* allocator, Parallel& parallel) {
         const std::size_t tasks =
-            count_ < 2 * kGrain ? 1 : std::min<std::size_t>(parallel.width(), std::size_t{2} * kMostRanges);
+            count_ < 2 * kGrain
+                ? 1
+                : std::min<std::size_t>(parallel.width(), std::size_t{2} * RepeatedHashes::kMostRanges);
         std::size_t slots = std::bit_ceil(2 * distinct / tasks + 4 * kBatch);  // of each task
         for (bool full = true; full;
              slots *= 4) {  // when the guess is bad; at 4/3 of the candidates it ends for sure
@@ -347,13 +272,13 @@ class VertexWelder {
             hashAll(nullptr, 1);
             if (count_ >= kFew) distinct = guessDistinct();
         } else {
-            const std::size_t ranges =
-                std::clamp<std::size_t>(count_ / kGrain, 1, std::min(parallel_.width(), kMostRanges));
-            Counting counting(allocator_, count_, ranges);
+            const std::size_t ranges = RepeatedHashes::rangesFor(count_, parallel_);
+            RepeatedHashes counting(kPlacesPerVertex, allocator_, count_, ranges);
             hashAll(&counting, ranges);
             distinct = counting.sum(ranges, parallel_);
             if (distinct >= count_ - count_ / 4) {
-                candidate_count = collectCandidates(counting, ranges, of_vertex.data());
+                candidate_count =
+                    counting.collect(hashes_.data(), count_, ranges, of_vertex.data(), parallel_);
             }
         }
         if (candidate_count == count_) {
@@ -372,7 +297,7 @@ class VertexWelder {
     }
 
   private:
-    void hashAll(Counting* counting, std::size_t ranges) {
+    void hashAll(RepeatedHashes* counting, std::size_t ranges) {
         if (counting == nullptr) ranges = std::clamp<std::size_t>(count_ / kGrain, 1, parallel_.width());
         std::atomic<bool> tame{true};
         parallel_.forTasks(ranges, [&](std::size_t range) {
@@ -393,27 +318,12 @@ class VertexWelder {
     /// at all.
     [[nodiscard]] std::size_t guessDistinct() {
         constexpr std::uint32_t kShare = 32;
-        Counting counting(allocator_, count_ / kShare, 1);
+        RepeatedHashes counting(kPlacesPerVertex, allocator_, count_ / kShare, 1);
         counting.clear(0);
         for (std::size_t v = 0; v < count_; ++v) {
             if (hashes_[v] % kShare == 0) counting.add(0, hashes_.data() + v, 1);
         }
         return std::min(count_, kShare * counting.sum(1, parallel_));
-    }
-
-    /// Vertices whose hash may be that of another one, ascending, at the front of `list`. Returns how many.
-    std::size_t collectCandidates(const Counting& counting, std::size_t ranges, std::uint32_t* list) {
-        std::size_t found[kMostRanges] = {};
-        parallel_.forTasks(ranges, [&](std::size_t range) {
-            const std::size_t begin = count_ * range / ranges, end = count_ * (range + 1) / ranges;
-            found[range] = counting.repeated(hashes_.data(), begin, end, list + begin);
-        });
-        std::size_t count = found[0];
-        for (std::size_t range = 1; range < ranges; ++range) {
-            std::copy_n(list + count_ * range / ranges, found[range], list + count);
-            count += found[range];
-        }
-        return count;
     }
 
     /// of_vertex holds each vertex's first equal vertex; it becomes the node.

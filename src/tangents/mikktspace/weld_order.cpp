@@ -65,6 +65,14 @@ struct Range {
     std::size_t begin, end;
 };
 
+/// `wanted`: one per node; empty: all nodes.
+Element elementOf(std::uint32_t entry, const MeshView& mesh, const TriangleList& triangles,
+                  const Nodes& nodes, const Marks& wanted) {
+    const std::uint32_t corner = triangles.corner(entry), node = nodes.of(mesh, corner);
+    const bool want = wanted.empty() || wanted[node] != 0;
+    return {mesh.positions[mesh.indices[corner]], corner, node, want ? kWanted : kNotWanted};
+}
+
 class Cell {
   public:
     Cell(Element* elements, std::uint32_t* representatives, std::uint8_t* not_welded)
@@ -314,6 +322,10 @@ void WeldOrder::findAll(std::uint32_t* representatives, std::uint8_t* not_welded
 /// `wanted`: one per node; empty: all nodes.
 void WeldOrder::find(const Buffer<std::uint32_t>& entries, const Marks& wanted,
                      std::uint32_t* representatives, std::uint8_t* not_welded) const {
+    if (entries.size() < kCells) {
+        findInFew(entries, wanted, representatives, not_welded);
+        return;
+    }
     Buffer<std::size_t> cell_begin(allocator_, kCells + 1, std::size_t{0});
     Buffer<std::uint16_t> cells(allocator_, entries.size());
     for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -325,21 +337,31 @@ void WeldOrder::find(const Buffer<std::uint32_t>& entries, const Marks& wanted,
     Buffer<Element> elements(allocator_, entries.size());
     Buffer<std::size_t> fill(allocator_, kCells);
     std::copy_n(cell_begin.data(), kCells, fill.data());
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-        const std::uint32_t corner = triangles_.corner(entries[i]), node = nodes_.of(mesh_, corner);
-        const bool want = wanted.empty() || wanted[node] != 0;
-        elements[fill[cells[i]]++] = {mesh_.positions[mesh_.indices[corner]], corner, node,
-                                      want ? kWanted : kNotWanted};
-    }
+    for (std::size_t i = 0; i < entries.size(); ++i)
+        elements[fill[cells[i]]++] = elementOf(entries[i], mesh_, triangles_, nodes_, wanted);
     // Cells share nothing: a node lies in one of them.
-    parallel_.forTasks(elements.size() < kCells ? 1 : kCells, [&](std::size_t task) {
-        const std::size_t first = elements.size() < kCells ? 0 : task;
-        const std::size_t last = elements.size() < kCells ? kCells : task + 1;
-        for (std::size_t cell = first; cell < last; ++cell) {
-            if (cell_begin[cell] == cell_begin[cell + 1]) continue;
-            Cell(elements.data(), representatives, not_welded).run({cell_begin[cell], cell_begin[cell + 1]});
-        }
+    parallel_.forTasks(kCells, [&](std::size_t cell) {
+        if (cell_begin[cell] == cell_begin[cell + 1]) return;
+        Cell(elements.data(), representatives, not_welded).run({cell_begin[cell], cell_begin[cell + 1]});
     });
+}
+
+/// The same where most cells are empty.
+void WeldOrder::findInFew(const Buffer<std::uint32_t>& entries, const Marks& wanted,
+                          std::uint32_t* representatives, std::uint8_t* not_welded) const {
+    Buffer<std::uint64_t> by_cell(allocator_, entries.size());  // cell, then place in the list
+    for (std::size_t i = 0; i < entries.size(); ++i)
+        by_cell[i] = std::uint64_t{cellOf(mesh_.indices[triangles_.corner(entries[i])])} << 32 | i;
+    std::sort(by_cell.begin(), by_cell.end());
+    Buffer<Element> elements(allocator_, entries.size());
+    for (std::size_t i = 0; i < entries.size(); ++i)
+        elements[i] = elementOf(entries[by_cell[i] & 0xffffffffu], mesh_, triangles_, nodes_, wanted);
+    for (std::size_t begin = 0; begin < entries.size();) {
+        std::size_t end = begin + 1;
+        while (end < entries.size() && by_cell[end] >> 32 == by_cell[begin] >> 32) ++end;
+        Cell(elements.data(), representatives, not_welded).run({begin, end});
+        begin = end;
+    }
 }
 
 }  // namespace tspace::mikk

@@ -36,6 +36,8 @@ class WeldOrder {
     [[nodiscard]] Buffer<std::uint32_t> entriesInCellsOf(std::span<const std::uint32_t> vertices) const;
     void find(const Buffer<std::uint32_t>& entries, const Marks& wanted, std::uint32_t* representatives,
               std::uint8_t* not_welded) const;
+    void findInFew(const Buffer<std::uint32_t>& entries, const Marks& wanted, std::uint32_t* representatives,
+                   std::uint8_t* not_welded) const;
 
     const MeshView& mesh_;
     const TriangleList& triangles_;

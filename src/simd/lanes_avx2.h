@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// Eight lanes: AVX2. See lanes_scalar.h for what each function means.
+#pragma once
+
+#include <immintrin.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace tspace::simd::avx2 {
+
+inline constexpr std::size_t kWidth = 8;
+
+struct Mask {
+    __m256 v;
+};
+inline Mask operator&(Mask a, Mask b) { return {_mm256_and_ps(a.v, b.v)}; }
+inline Mask operator|(Mask a, Mask b) { return {_mm256_or_ps(a.v, b.v)}; }
+inline Mask operator!(Mask a) { return {_mm256_xor_ps(a.v, _mm256_castsi256_ps(_mm256_set1_epi32(-1)))}; }
+inline unsigned bitsOf(Mask m) { return static_cast<unsigned>(_mm256_movemask_ps(m.v)); }
+inline bool all(Mask m) { return _mm256_movemask_ps(m.v) == 255; }
+
+struct Floats {
+    __m256 v;
+};
+inline Floats broadcast(float x) { return {_mm256_set1_ps(x)}; }
+inline Floats operator+(Floats a, Floats b) { return {_mm256_add_ps(a.v, b.v)}; }
+inline Floats operator-(Floats a, Floats b) { return {_mm256_sub_ps(a.v, b.v)}; }
+inline Floats operator*(Floats a, Floats b) { return {_mm256_mul_ps(a.v, b.v)}; }
+inline Floats operator/(Floats a, Floats b) { return {_mm256_div_ps(a.v, b.v)}; }
+inline Floats smaller(Floats a, Floats b) { return {_mm256_min_ps(a.v, b.v)}; }
+inline Floats larger(Floats a, Floats b) { return {_mm256_max_ps(a.v, b.v)}; }
+inline Floats squareRoot(Floats a) { return {_mm256_sqrt_ps(a.v)}; }
+inline Floats absolute(Floats a) {
+    return {_mm256_and_ps(a.v, _mm256_castsi256_ps(_mm256_set1_epi32(0x7fffffff)))};
+}
+inline Mask operator>(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_GT_OQ)}; }
+inline Mask operator<(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
+inline Mask operator==(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_EQ_OQ)}; }
+inline Floats select(Mask m, Floats yes, Floats no) { return {_mm256_blendv_ps(no.v, yes.v, m.v)}; }
+
+struct Bits {
+    __m256 v;
+};
+inline Bits broadcastBits(std::uint32_t x) {
+    return {_mm256_castsi256_ps(_mm256_set1_epi32(static_cast<int>(x)))};
+}
+inline Bits operator&(Bits a, Bits b) { return {_mm256_and_ps(a.v, b.v)}; }
+inline Bits operator|(Bits a, Bits b) { return {_mm256_or_ps(a.v, b.v)}; }
+inline Bits orWhere(Bits a, Mask m, std::uint32_t bit) {
+    return {_mm256_or_ps(a.v, _mm256_and_ps(m.v, broadcastBits(bit).v))};
+}
+inline Floats asFloats(Bits b) { return {b.v}; }
+
+struct Doubles {
+    __m256d v;
+};
+inline constexpr std::size_t kDoubleParts = 2;
+inline Doubles broadcastDouble(double x) { return {_mm256_set1_pd(x)}; }
+inline Doubles part(Floats a, std::size_t which) {
+    return {_mm256_cvtps_pd(which == 0 ? _mm256_castps256_ps128(a.v) : _mm256_extractf128_ps(a.v, 1))};
+}
+inline Floats join(const Doubles* parts) {
+    return {_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(parts[0].v)),
+                                 _mm256_cvtpd_ps(parts[1].v), 1)};
+}
+inline Doubles operator+(Doubles a, Doubles b) { return {_mm256_add_pd(a.v, b.v)}; }
+inline Doubles operator-(Doubles a, Doubles b) { return {_mm256_sub_pd(a.v, b.v)}; }
+inline Doubles operator*(Doubles a, Doubles b) { return {_mm256_mul_pd(a.v, b.v)}; }
+inline Doubles operator/(Doubles a, Doubles b) { return {_mm256_div_pd(a.v, b.v)}; }
+inline Doubles smaller(Doubles a, Doubles b) { return {_mm256_min_pd(a.v, b.v)}; }
+inline Doubles squareRoot(Doubles a) { return {_mm256_sqrt_pd(a.v)}; }
+inline Doubles absolute(Doubles a) { return {_mm256_andnot_pd(_mm256_set1_pd(-0.0), a.v)}; }
+struct DoubleMask {
+    __m256d v;
+};
+inline DoubleMask operator>(Doubles a, Doubles b) { return {_mm256_cmp_pd(a.v, b.v, _CMP_GT_OQ)}; }
+inline DoubleMask operator&(DoubleMask a, DoubleMask b) { return {_mm256_and_pd(a.v, b.v)}; }
+inline unsigned bitsOf(DoubleMask m) { return static_cast<unsigned>(_mm256_movemask_pd(m.v)); }
+inline Doubles withSignOf(Doubles a, Doubles b) {
+    return {_mm256_xor_pd(a.v, _mm256_and_pd(b.v, _mm256_set1_pd(-0.0)))};
+}
+inline Doubles keepWhere(DoubleMask m, Doubles a) { return {_mm256_and_pd(m.v, a.v)}; }
+inline Doubles negateUnless(DoubleMask m, Doubles a) {
+    return {_mm256_xor_pd(a.v, _mm256_andnot_pd(m.v, _mm256_set1_pd(-0.0)))};
+}
+inline void storeDoubles(double* to, Doubles a) { _mm256_store_pd(to, a.v); }
+inline void storeDoubleRows(double* rows, Doubles x, Doubles y, Doubles z, Doubles w) {
+    const __m256d xy_even = _mm256_unpacklo_pd(x.v, y.v), xy_odd = _mm256_unpackhi_pd(x.v, y.v);
+    const __m256d zw_even = _mm256_unpacklo_pd(z.v, w.v), zw_odd = _mm256_unpackhi_pd(z.v, w.v);
+    _mm256_store_pd(rows, _mm256_permute2f128_pd(xy_even, zw_even, 0x20));
+    _mm256_store_pd(rows + 4, _mm256_permute2f128_pd(xy_odd, zw_odd, 0x20));
+    _mm256_store_pd(rows + 8, _mm256_permute2f128_pd(xy_even, zw_even, 0x31));
+    _mm256_store_pd(rows + 12, _mm256_permute2f128_pd(xy_odd, zw_odd, 0x31));
+}
+inline void loadDoubleRows(const double* rows, Doubles& x, Doubles& y, Doubles& z, Doubles& w) {
+    __m256d r[4];
+    for (std::size_t i = 0; i < 4; ++i) r[i] = _mm256_load_pd(rows + 4 * i);
+    const __m256d xy_even = _mm256_permute2f128_pd(r[0], r[2], 0x20),
+                  xy_odd = _mm256_permute2f128_pd(r[1], r[3], 0x20);
+    const __m256d zw_even = _mm256_permute2f128_pd(r[0], r[2], 0x31),
+                  zw_odd = _mm256_permute2f128_pd(r[1], r[3], 0x31);
+    x = {_mm256_unpacklo_pd(xy_even, xy_odd)};
+    y = {_mm256_unpackhi_pd(xy_even, xy_odd)};
+    z = {_mm256_unpacklo_pd(zw_even, zw_odd)};
+    w = {_mm256_unpackhi_pd(zw_even, zw_odd)};
+}
+
+struct DoubleRow {
+    __m256d v;
+};
+inline DoubleRow loadDoubleRow(const double* p) { return {_mm256_load_pd(p)}; }
+inline void addDoubleRow(double* to, double k, DoubleRow row) {
+    _mm256_store_pd(to, _mm256_add_pd(_mm256_load_pd(to), _mm256_mul_pd(_mm256_set1_pd(k), row.v)));
+}
+
+/// Two floats at any address, as one double.
+inline double loadTwo(const std::byte* p) {
+    double d;
+    std::memcpy(&d, p, sizeof d);
+    return d;
+}
+inline __m128 loadVector(const std::byte* p, bool exact) {
+    const float* f = reinterpret_cast<const float*>(p);
+    if (!exact) return _mm_loadu_ps(f);
+    return _mm_movelh_ps(_mm_castpd_ps(_mm_set_sd(loadTwo(p))), _mm_load_ss(f + 2));
+}
+inline __m128 loadPair(const std::byte* a, const std::byte* b) {
+    return _mm_castpd_ps(_mm_set_pd(loadTwo(b), loadTwo(a)));
+}
+inline __m256 combine(__m128 low, __m128 high) {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1);
+}
+
+inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact,
+                    Floats& x, Floats& y, Floats& z) {
+    __m256 r[4];
+    for (std::size_t j = 0; j < 4; ++j) {
+        r[j] = combine(loadVector(base + stride * index[3 * j], exact),
+                       loadVector(base + stride * index[3 * j + 12], exact));
+    }
+    const __m256 ab = _mm256_unpacklo_ps(r[0], r[1]), cd = _mm256_unpacklo_ps(r[2], r[3]);
+    x = {_mm256_shuffle_ps(ab, cd, 0x44)};
+    y = {_mm256_shuffle_ps(ab, cd, 0xee)};
+    z = {_mm256_shuffle_ps(_mm256_unpackhi_ps(r[0], r[1]), _mm256_unpackhi_ps(r[2], r[3]), 0x44)};
+}
+inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index, Floats& x,
+                    Floats& y) {
+    const auto pair = [&](std::size_t i) {
+        return loadPair(base + stride * index[i], base + stride * index[i + 3]);
+    };
+    const __m256 ab = combine(pair(0), pair(12)), cd = combine(pair(6), pair(18));
+    x = {_mm256_shuffle_ps(ab, cd, 0x88)};
+    y = {_mm256_shuffle_ps(ab, cd, 0xdd)};
+}
+inline void store(std::uint32_t* to, Bits b) { _mm256_store_ps(reinterpret_cast<float*>(to), b.v); }
+template <std::size_t kStep = 12>
+inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
+    const __m256 xy_low = _mm256_unpacklo_ps(x.v, y.v), xy_high = _mm256_unpackhi_ps(x.v, y.v);
+    const __m256 zw_low = _mm256_unpacklo_ps(z.v, w.v), zw_high = _mm256_unpackhi_ps(z.v, w.v);
+    const __m256 r[4] = {_mm256_shuffle_ps(xy_low, zw_low, 0x44), _mm256_shuffle_ps(xy_low, zw_low, 0xee),
+                         _mm256_shuffle_ps(xy_high, zw_high, 0x44),
+                         _mm256_shuffle_ps(xy_high, zw_high, 0xee)};
+    for (std::size_t j = 0; j < 4; ++j) {
+        _mm_store_ps(rows + kStep * j, _mm256_castps256_ps128(r[j]));
+        _mm_store_ps(rows + kStep * (j + 4), _mm256_extractf128_ps(r[j], 1));
+    }
+}
+
+}  // namespace tspace::simd::avx2

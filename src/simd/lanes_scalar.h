@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// One lane: plain C++ for every CPU without a file of its own here, and the meaning of the other lanes_*.h
+// files. They all define the same names, each in a namespace of its own, and every operation is the IEEE one,
+// rounded once; so a kernel gives the same bits on all of them.
+//
+// Rules for code that is compiled for one CPU: it includes nothing but these files and its own kernel,
+// because an inline function of a shared header might be emitted with instructions that other CPUs do not
+// have, and the linker keeps one copy of it for everybody.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace tspace::simd::scalar {
+
+inline constexpr std::size_t kWidth = 1;
+
+struct Mask {
+    bool v;
+};
+inline Mask operator&(Mask a, Mask b) { return {a.v && b.v}; }
+inline Mask operator|(Mask a, Mask b) { return {a.v || b.v}; }
+inline Mask operator!(Mask a) { return {!a.v}; }
+inline bool all(Mask m) { return m.v; }
+/// Bit i: lane i.
+inline unsigned bitsOf(Mask m) { return m.v ? 1u : 0u; }
+
+struct Floats {
+    float v;
+};
+inline Floats broadcast(float x) { return {x}; }
+inline Floats operator+(Floats a, Floats b) { return {a.v + b.v}; }
+inline Floats operator-(Floats a, Floats b) { return {a.v - b.v}; }
+inline Floats operator*(Floats a, Floats b) { return {a.v * b.v}; }
+inline Floats operator/(Floats a, Floats b) { return {a.v / b.v}; }
+/// The second one when either is NaN.
+inline Floats smaller(Floats a, Floats b) { return a.v < b.v ? a : b; }
+inline Floats larger(Floats a, Floats b) { return a.v > b.v ? a : b; }
+inline Floats squareRoot(Floats a) { return {std::sqrt(a.v)}; }
+inline Floats absolute(Floats a) { return {std::fabs(a.v)}; }
+/// Comparisons with NaN are false.
+inline Mask operator>(Floats a, Floats b) { return {a.v > b.v}; }
+inline Mask operator<(Floats a, Floats b) { return {a.v < b.v}; }
+inline Mask operator==(Floats a, Floats b) { return {a.v == b.v}; }
+inline Floats select(Mask m, Floats yes, Floats no) { return m.v ? yes : no; }
+
+/// Whole numbers, for flags.
+struct Bits {
+    std::uint32_t v;
+};
+inline Bits broadcastBits(std::uint32_t x) { return {x}; }
+inline Bits operator&(Bits a, Bits b) { return {a.v & b.v}; }
+inline Bits operator|(Bits a, Bits b) { return {a.v | b.v}; }
+/// a | bit where the mask is set, else a.
+inline Bits orWhere(Bits a, Mask m, std::uint32_t bit) { return {m.v ? a.v | bit : a.v}; }
+inline Floats asFloats(Bits b) {
+    Floats f;
+    std::memcpy(&f.v, &b.v, 4);
+    return f;
+}
+
+/// Half of the lanes as doubles.
+struct Doubles {
+    double v;
+};
+inline constexpr std::size_t kDoubleParts = 1;
+inline Doubles broadcastDouble(double x) { return {x}; }
+inline Doubles part(Floats a, std::size_t) { return {a.v}; }
+inline Floats join(const Doubles* parts) { return {static_cast<float>(parts[0].v)}; }
+inline Doubles operator+(Doubles a, Doubles b) { return {a.v + b.v}; }
+inline Doubles operator-(Doubles a, Doubles b) { return {a.v - b.v}; }
+inline Doubles operator*(Doubles a, Doubles b) { return {a.v * b.v}; }
+inline Doubles operator/(Doubles a, Doubles b) { return {a.v / b.v}; }
+inline Doubles smaller(Doubles a, Doubles b) { return a.v < b.v ? a : b; }
+inline Doubles squareRoot(Doubles a) { return {std::sqrt(a.v)}; }
+inline Doubles absolute(Doubles a) { return {std::fabs(a.v)}; }
+struct DoubleMask {
+    bool v;
+};
+/// a with the sign of b turned over where b is negative (-0 counts), else a.
+inline Doubles withSignOf(Doubles a, Doubles b) { return {std::signbit(b.v) ? -a.v : a.v}; }
+/// a where the mask is set, else +0.
+inline Doubles keepWhere(DoubleMask m, Doubles a) { return {m.v ? a.v : 0.0}; }
+/// a where the mask is set, else -a.
+inline Doubles negateUnless(DoubleMask m, Doubles a) { return {m.v ? a.v : -a.v}; }
+inline DoubleMask operator>(Doubles a, Doubles b) { return {a.v > b.v}; }
+inline DoubleMask operator&(DoubleMask a, DoubleMask b) { return {a.v && b.v}; }
+inline unsigned bitsOf(DoubleMask m) { return m.v ? 1u : 0u; }
+inline void storeDoubles(double* to, Doubles a) { *to = a.v; }
+/// Writes lane i's four values to row i of an array of rows of four doubles.
+inline void storeDoubleRows(double* rows, Doubles x, Doubles y, Doubles z, Doubles w) {
+    rows[0] = x.v;
+    rows[1] = y.v;
+    rows[2] = z.v;
+    rows[3] = w.v;
+}
+
+/// The opposite of storeDoubleRows.
+inline void loadDoubleRows(const double* rows, Doubles& x, Doubles& y, Doubles& z, Doubles& w) {
+    x = {rows[0]};
+    y = {rows[1]};
+    z = {rows[2]};
+    w = {rows[3]};
+}
+
+/// Four doubles, whatever the number of lanes.
+struct DoubleRow {
+    double v[4];
+};
+inline DoubleRow loadDoubleRow(const double* p) { return {{p[0], p[1], p[2], p[3]}}; }
+/// to[0 .. 4) += k * row
+inline void addDoubleRow(double* to, double k, DoubleRow row) {
+    for (std::size_t i = 0; i < 4; ++i) to[i] += k * row.v[i];
+}
+
+/// Reads the elements numbered index[0], index[3], index[6], ... (one corner of consecutive triangles) of an
+/// array of vectors. `exact` reads their 12 bytes and no more; otherwise the 4 bytes after them are read too.
+inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool, Floats& x,
+                    Floats& y, Floats& z) {
+    float v[3];
+    std::memcpy(v, base + stride * index[0], 12);
+    x = {v[0]};
+    y = {v[1]};
+    z = {v[2]};
+}
+inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index, Floats& x,
+                    Floats& y) {
+    float v[2];
+    std::memcpy(v, base + stride * index[0], 8);
+    x = {v[0]};
+    y = {v[1]};
+}
+inline void store(std::uint32_t* to, Bits b) { *to = b.v; }
+/// Writes lane i's four values to rows[kStep * i ...]: to row 3 * i of an array of rows of four floats.
+template <std::size_t kStep = 12>
+inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
+    const float v[4] = {x.v, y.v, z.v, w.v};
+    std::memcpy(rows, v, sizeof v);  // the rows may have been other numbers before
+}
+
+}  // namespace tspace::simd::scalar

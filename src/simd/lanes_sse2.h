@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Four lanes: SSE2, which every x86-64 CPU has. See lanes_scalar.h for what each function means.
+#pragma once
+
+#include <emmintrin.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace tspace::simd::sse2 {
+
+inline constexpr std::size_t kWidth = 4;
+
+struct Mask {
+    __m128 v;
+};
+inline Mask operator&(Mask a, Mask b) { return {_mm_and_ps(a.v, b.v)}; }
+inline Mask operator|(Mask a, Mask b) { return {_mm_or_ps(a.v, b.v)}; }
+inline Mask operator!(Mask a) { return {_mm_xor_ps(a.v, _mm_castsi128_ps(_mm_set1_epi32(-1)))}; }
+inline unsigned bitsOf(Mask m) { return static_cast<unsigned>(_mm_movemask_ps(m.v)); }
+inline bool all(Mask m) { return _mm_movemask_ps(m.v) == 15; }
+
+struct Floats {
+    __m128 v;
+};
+inline Floats broadcast(float x) { return {_mm_set1_ps(x)}; }
+inline Floats operator+(Floats a, Floats b) { return {_mm_add_ps(a.v, b.v)}; }
+inline Floats operator-(Floats a, Floats b) { return {_mm_sub_ps(a.v, b.v)}; }
+inline Floats operator*(Floats a, Floats b) { return {_mm_mul_ps(a.v, b.v)}; }
+inline Floats operator/(Floats a, Floats b) { return {_mm_div_ps(a.v, b.v)}; }
+inline Floats smaller(Floats a, Floats b) { return {_mm_min_ps(a.v, b.v)}; }
+inline Floats larger(Floats a, Floats b) { return {_mm_max_ps(a.v, b.v)}; }
+inline Floats squareRoot(Floats a) { return {_mm_sqrt_ps(a.v)}; }
+inline Floats absolute(Floats a) { return {_mm_and_ps(a.v, _mm_castsi128_ps(_mm_set1_epi32(0x7fffffff)))}; }
+inline Mask operator>(Floats a, Floats b) { return {_mm_cmpgt_ps(a.v, b.v)}; }
+inline Mask operator<(Floats a, Floats b) { return {_mm_cmplt_ps(a.v, b.v)}; }
+inline Mask operator==(Floats a, Floats b) { return {_mm_cmpeq_ps(a.v, b.v)}; }
+inline Floats select(Mask m, Floats yes, Floats no) {
+    return {_mm_or_ps(_mm_and_ps(m.v, yes.v), _mm_andnot_ps(m.v, no.v))};
+}
+
+struct Bits {
+    __m128 v;
+};
+inline Bits broadcastBits(std::uint32_t x) { return {_mm_castsi128_ps(_mm_set1_epi32(static_cast<int>(x)))}; }
+inline Bits operator&(Bits a, Bits b) { return {_mm_and_ps(a.v, b.v)}; }
+inline Bits operator|(Bits a, Bits b) { return {_mm_or_ps(a.v, b.v)}; }
+inline Bits orWhere(Bits a, Mask m, std::uint32_t bit) {
+    return {_mm_or_ps(a.v, _mm_and_ps(m.v, broadcastBits(bit).v))};
+}
+inline Floats asFloats(Bits b) { return {b.v}; }
+
+struct Doubles {
+    __m128d v;
+};
+inline constexpr std::size_t kDoubleParts = 2;
+inline Doubles broadcastDouble(double x) { return {_mm_set1_pd(x)}; }
+inline Doubles part(Floats a, std::size_t which) {
+    return {_mm_cvtps_pd(which == 0 ? a.v : _mm_movehl_ps(a.v, a.v))};
+}
+inline Floats join(const Doubles* parts) {
+    return {_mm_movelh_ps(_mm_cvtpd_ps(parts[0].v), _mm_cvtpd_ps(parts[1].v))};
+}
+inline Doubles operator+(Doubles a, Doubles b) { return {_mm_add_pd(a.v, b.v)}; }
+inline Doubles operator-(Doubles a, Doubles b) { return {_mm_sub_pd(a.v, b.v)}; }
+inline Doubles operator*(Doubles a, Doubles b) { return {_mm_mul_pd(a.v, b.v)}; }
+inline Doubles operator/(Doubles a, Doubles b) { return {_mm_div_pd(a.v, b.v)}; }
+inline Doubles smaller(Doubles a, Doubles b) { return {_mm_min_pd(a.v, b.v)}; }
+inline Doubles squareRoot(Doubles a) { return {_mm_sqrt_pd(a.v)}; }
+inline Doubles absolute(Doubles a) { return {_mm_andnot_pd(_mm_set1_pd(-0.0), a.v)}; }
+struct DoubleMask {
+    __m128d v;
+};
+inline DoubleMask operator>(Doubles a, Doubles b) { return {_mm_cmpgt_pd(a.v, b.v)}; }
+inline DoubleMask operator&(DoubleMask a, DoubleMask b) { return {_mm_and_pd(a.v, b.v)}; }
+inline unsigned bitsOf(DoubleMask m) { return static_cast<unsigned>(_mm_movemask_pd(m.v)); }
+inline Doubles withSignOf(Doubles a, Doubles b) {
+    return {_mm_xor_pd(a.v, _mm_and_pd(b.v, _mm_set1_pd(-0.0)))};
+}
+inline Doubles keepWhere(DoubleMask m, Doubles a) { return {_mm_and_pd(m.v, a.v)}; }
+inline Doubles negateUnless(DoubleMask m, Doubles a) {
+    return {_mm_xor_pd(a.v, _mm_andnot_pd(m.v, _mm_set1_pd(-0.0)))};
+}
+inline void storeDoubles(double* to, Doubles a) { _mm_store_pd(to, a.v); }
+inline void storeDoubleRows(double* rows, Doubles x, Doubles y, Doubles z, Doubles w) {
+    _mm_store_pd(rows, _mm_unpacklo_pd(x.v, y.v));
+    _mm_store_pd(rows + 2, _mm_unpacklo_pd(z.v, w.v));
+    _mm_store_pd(rows + 4, _mm_unpackhi_pd(x.v, y.v));
+    _mm_store_pd(rows + 6, _mm_unpackhi_pd(z.v, w.v));
+}
+inline void loadDoubleRows(const double* rows, Doubles& x, Doubles& y, Doubles& z, Doubles& w) {
+    const __m128d xy[2] = {_mm_load_pd(rows), _mm_load_pd(rows + 4)};
+    const __m128d zw[2] = {_mm_load_pd(rows + 2), _mm_load_pd(rows + 6)};
+    x = {_mm_unpacklo_pd(xy[0], xy[1])};
+    y = {_mm_unpackhi_pd(xy[0], xy[1])};
+    z = {_mm_unpacklo_pd(zw[0], zw[1])};
+    w = {_mm_unpackhi_pd(zw[0], zw[1])};
+}
+
+struct DoubleRow {
+    __m128d low, high;
+};
+inline DoubleRow loadDoubleRow(const double* p) { return {_mm_load_pd(p), _mm_load_pd(p + 2)}; }
+inline void addDoubleRow(double* to, double k, DoubleRow row) {
+    const __m128d factor = _mm_set1_pd(k);
+    _mm_store_pd(to, _mm_add_pd(_mm_load_pd(to), _mm_mul_pd(factor, row.low)));
+    _mm_store_pd(to + 2, _mm_add_pd(_mm_load_pd(to + 2), _mm_mul_pd(factor, row.high)));
+}
+
+/// Two floats at any address, as one double.
+inline double loadTwo(const std::byte* p) {
+    double d;
+    std::memcpy(&d, p, sizeof d);
+    return d;
+}
+inline __m128 loadVector(const std::byte* p, bool exact) {
+    const float* f = reinterpret_cast<const float*>(p);
+    if (!exact) return _mm_loadu_ps(f);
+    return _mm_movelh_ps(_mm_castpd_ps(_mm_set_sd(loadTwo(p))), _mm_load_ss(f + 2));
+}
+inline __m128 loadPair(const std::byte* a, const std::byte* b) {
+    return _mm_castpd_ps(_mm_set_pd(loadTwo(b), loadTwo(a)));
+}
+
+inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact,
+                    Floats& x, Floats& y, Floats& z) {
+    const __m128 a = loadVector(base + stride * index[0], exact),
+                 b = loadVector(base + stride * index[3], exact);
+    const __m128 c = loadVector(base + stride * index[6], exact),
+                 d = loadVector(base + stride * index[9], exact);
+    const __m128 ab = _mm_unpacklo_ps(a, b), cd = _mm_unpacklo_ps(c, d);
+    x = {_mm_movelh_ps(ab, cd)};
+    y = {_mm_movehl_ps(cd, ab)};
+    z = {_mm_movelh_ps(_mm_unpackhi_ps(a, b), _mm_unpackhi_ps(c, d))};
+}
+inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index, Floats& x,
+                    Floats& y) {
+    const __m128 ab = loadPair(base + stride * index[0], base + stride * index[3]);
+    const __m128 cd = loadPair(base + stride * index[6], base + stride * index[9]);
+    x = {_mm_shuffle_ps(ab, cd, 0x88)};
+    y = {_mm_shuffle_ps(ab, cd, 0xdd)};
+}
+inline void store(std::uint32_t* to, Bits b) { _mm_store_ps(reinterpret_cast<float*>(to), b.v); }
+template <std::size_t kStep = 12>
+inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
+    const __m128 xy_low = _mm_unpacklo_ps(x.v, y.v), xy_high = _mm_unpackhi_ps(x.v, y.v);
+    const __m128 zw_low = _mm_unpacklo_ps(z.v, w.v), zw_high = _mm_unpackhi_ps(z.v, w.v);
+    _mm_store_ps(rows, _mm_movelh_ps(xy_low, zw_low));
+    _mm_store_ps(rows + kStep, _mm_movehl_ps(zw_low, xy_low));
+    _mm_store_ps(rows + 2 * kStep, _mm_movelh_ps(xy_high, zw_high));
+    _mm_store_ps(rows + 3 * kStep, _mm_movehl_ps(zw_high, xy_high));
+}
+
+}  // namespace tspace::simd::sse2

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Vectors of three on lanes, and how they are read. Included after lanes_*.h, with TSPACE_LANES set to its
+// namespace.
+#pragma once
+
+namespace tspace::simd::TSPACE_LANES {
+
+struct Vectors {
+    Floats x, y, z;
+};
+inline Vectors operator-(Vectors a, Vectors b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vectors operator+(Vectors a, Vectors b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vectors operator*(Floats k, Vectors v) { return {k * v.x, k * v.y, k * v.z}; }
+inline Floats dot(Vectors a, Vectors b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vectors cross(Vectors a, Vectors b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// With strides that are known, addresses need no multiplication.
+inline Vectors gatherVectors(const std::byte* base, std::size_t stride, const std::uint32_t* index,
+                             bool exact) {
+    Vectors v;
+    if (stride == 12 && !exact) {
+        gather3(base, 12, index, false, v.x, v.y, v.z);
+    } else {
+        gather3(base, stride, index, exact, v.x, v.y, v.z);
+    }
+    return v;
+}
+
+/// Whether any vertex is the last one, which has nothing after it to be read along.
+inline bool namesLast(const std::uint32_t* vertices, std::uint32_t last) {
+    std::uint32_t named = 0;
+    for (std::size_t i = 0; i < 3 * kWidth; ++i) named |= vertices[i] == last ? 1u : 0u;
+    return named != 0;
+}
+
+}  // namespace tspace::simd::TSPACE_LANES

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// What each corner of a block of triangles adds to the sums of its node: the projected tangent times the
+// corner's weight, and the same for the bitangent and both lengths. Written once (corner_terms_kernel.h),
+// compiled for several CPUs, same bits from all of them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "tspace/execution.h"
+
+namespace tspace::mikk {
+
+enum class Weighting : std::uint32_t {
+    projected_angle,  ///< the angle between the corner's two edges after projection along N (mikktspace)
+    one,
+    angle,  ///< the interior angle
+    area,   ///< the triangle's area
+};
+
+/// The vertex data of one call.
+struct CornerSource {
+    const std::byte* positions = nullptr;
+    const std::byte* normals = nullptr;
+    const std::byte* uvs = nullptr;
+    std::size_t position_stride = 0, normal_stride = 0, uv_stride = 0;
+    std::uint32_t last_vertex =
+        0;  ///< right after this one's position and normal nothing may be read; none: kNone
+    Weighting weighting = Weighting::projected_angle;
+    bool tangents_only = false;  ///< leave out `t` and `lengths`
+};
+
+inline constexpr std::size_t kTermTriangles = 64;  ///< of one block; its arrays stay in the first cache
+inline constexpr std::size_t kTermCorners = 3 * kTermTriangles;
+
+/// Marks of a corner. If all corners of a node have enough of them in common, its group cannot split under
+/// the threshold of 180 degrees, which separates only opposite tangents or bitangents. With unit tangents s
+/// in the plane across the normal, W the sum of all weights, w the smallest and S the sum of all weighted
+/// tangents:
+///
+/// 1. Were two tangents a right angle or more apart, |S| <= W - (2 - sqrt(2)) w. So |S| > W - 0.4 w (see
+/// node_sums.h)
+///    shows that all are less than a right angle apart; by that margin, less than 74 degrees.
+/// 2. A bitangent that turns left (right) lies on that side of its tangent, 45 to 135 degrees from it. If all
+/// turn to
+///    one side, then no two are further apart than 74 + 90 degrees.
+///
+/// Normals need a length near 1 for this (node_sums.h), and tangents must not be so close to the normal that
+/// what is left of them is mostly error: kSmallestSquare. A NaN sets no mark.
+inline constexpr std::uint32_t kFacesUp = 0x01;    ///< positive UV area
+inline constexpr std::uint32_t kFacesDown = 0x02;  ///< the opposite
+inline constexpr std::uint32_t kTurnsLeft = 0x04;
+inline constexpr std::uint32_t kTurnsRight = 0x08;
+inline constexpr std::uint32_t kNotLight = 0x10;   ///< its weight is above kLightWeight
+inline constexpr std::uint32_t kNotMiddle = 0x20;  ///< above kMiddleWeight
+inline constexpr std::uint32_t kHeavy = 0x40;      ///< above kHeavyWeight
+inline constexpr std::uint32_t kFanKnown = 0x80;   ///< always set here; taken away where fan.h loses track
+inline constexpr std::uint32_t kAllMarks = 0xff;
+inline constexpr std::uint32_t kCannotSplit = 0x400;  ///< of a node, not of a corner (split_check.h)
+inline constexpr std::uint32_t kNoUvArea = 0x100;     ///< the triangle has no usable UV area
+inline constexpr std::uint32_t kDegenerateMark =
+    0x200;  ///< two corners at one position: nothing else means anything
+inline constexpr float kLightWeight = 1.0f / 128, kMiddleWeight = 1.0f / 16, kHeavyWeight = 1.0f / 4;
+inline constexpr float kSmallestSquare = 0.04f, kTurnMargin = 0.15f;
+
+/// Rows of four: row 3 * t + k belongs to corner k of triangle t.
+struct CornerTerms {
+    alignas(64) float s[kTermCorners][4];        ///< weight * projected tangent, weight
+    alignas(64) float t[kTermCorners][4];        ///< weight * projected bitangent, 0
+    alignas(64) float lengths[kTermCorners][4];  ///< weight * |dP/du|, weight * |dP/dv|, 0, 0
+    alignas(64) std::uint32_t marks[3][kTermTriangles];
+    std::uint32_t degenerate_count, no_uv_area_count, mirrored_count;
+};
+
+/// `vertices`: three per triangle; whole groups of 16 triangles are read, so the rest of the last one must
+/// hold valid numbers too. count <= kTermTriangles.
+using CornerTermsFunction = void (*)(const CornerSource& source, const std::uint32_t* vertices,
+                                     std::size_t count, CornerTerms& terms);
+
+/// The kernel for a target (see simd/dispatch.h).
+CornerTermsFunction cornerTermsFor(SimdTarget wish);
+
+namespace scalar {
+void cornerTerms(const CornerSource&, const std::uint32_t*, std::size_t, CornerTerms&);
+}
+namespace sse2 {
+void cornerTerms(const CornerSource&, const std::uint32_t*, std::size_t, CornerTerms&);
+}
+namespace avx2 {
+void cornerTerms(const CornerSource&, const std::uint32_t*, std::size_t, CornerTerms&);
+}
+namespace avx512 {
+void cornerTerms(const CornerSource&, const std::uint32_t*, std::size_t, CornerTerms&);
+}
+
+}  // namespace tspace::mikk

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// The kernel behind corner_terms.h. Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its
+// namespace. Each lane is one triangle and does what vector_rules.h and triangle_pass.cpp do, operation by
+// operation.
+#pragma once
+
+#include "simd/arc_cosine_kernel.h"
+#include "simd/vectors_kernel.h"
+#include "tangents/mikktspace/corner_terms.h"
+
+namespace tspace::mikk::TSPACE_LANES {
+
+using namespace simd::TSPACE_LANES;
+
+namespace {
+
+constexpr float kSmallestNormal = 1.17549435e-38f;
+
+inline Mask notZero(Floats a) { return absolute(a) > broadcast(kSmallestNormal); }
+inline Mask equal(Vectors a, Vectors b) { return (a.x == b.x) & (a.y == b.y) & (a.z == b.z); }
+inline Vectors select(Mask m, Vectors yes, Vectors no) {
+    return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
+}
+
+/// unit() of vector_rules.h, of a vector whose square is known. A squared length above zero shows that some
+/// component is above the smallest normal number (others have a square of zero), so the rule for small
+/// vectors is needed only where it is zero or NaN.
+inline Vectors unit(Vectors v, Floats square) {
+    const Vectors scaled = (broadcast(1.0f) / squareRoot(square)) * v;
+    if (all(square > broadcast(0.0f))) [[likely]]
+        return scaled;
+    return select(notZero(v.x) | notZero(v.y) | notZero(v.z), scaled, v);
+}
+
+inline Vectors unit(Vectors v) { return unit(v, dot(v, v)); }
+inline Vectors alongPlane(Vectors n, Vectors v) { return v - dot(n, v) * n; }
+inline Vectors flatten(Vectors n, Vectors v) { return unit(alongPlane(n, v)); }
+
+/// One group of kWidth triangles.
+struct Group {
+    Vectors position[3];
+    Floats u[3], v[3];
+
+    void load(const CornerSource& source, const std::uint32_t* vertices, bool exact) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            position[k] = gatherVectors(source.positions, source.position_stride, vertices + k, exact);
+            if (source.uv_stride == 8) {
+                gather2(source.uvs, 8, vertices + k, u[k], v[k]);
+            } else {
+                gather2(source.uvs, source.uv_stride, vertices + k, u[k], v[k]);
+            }
+        }
+    }
+
+    [[nodiscard]] Mask isDegenerate() const {
+        return equal(position[0], position[1]) | equal(position[1], position[2]) |
+               equal(position[2], position[0]);
+    }
+};
+
+/// dP/du and dP/dv of triangles: triangleShape() of triangle_pass.h.
+struct Shape {
+    Vectors s, t;
+    Floats length_s, length_t;
+    Mask positive, no_area, finite;
+
+    explicit Shape(const Group& g) {
+        const Floats x = g.u[1] - g.u[0], y = g.v[1] - g.v[0], z = g.u[2] - g.u[0], w = g.v[2] - g.v[0];
+        const Vectors d1 = g.position[1] - g.position[0], d2 = g.position[2] - g.position[0];
+        const Floats zero = broadcast(0.0f), one = broadcast(1.0f);
+        const Floats area = x * w - y * z, size = absolute(area);
+        const Vectors along_u = w * d1 - y * d2;
+        const Vectors along_v = (broadcast(-0.0f) - z) * d1 + x * d2;
+        const Floats long_u = squareRoot(dot(along_u, along_u)), long_v = squareRoot(dot(along_v, along_v));
+        positive = area > zero;
+        const Floats facing = select(positive, one, broadcast(-1.0f));
+        const Vectors none{zero, zero, zero};
+        s = select(notZero(long_u), (facing / long_u) * along_u, none);
+        t = select(notZero(long_v), (facing / long_v) * along_v, none);
+        length_s = long_u / size;
+        length_t = long_v / size;
+        no_area = !(notZero(area) & notZero(length_s) & notZero(length_t));
+        const Floats infinity = broadcast(__builtin_huge_valf());
+        finite = (length_s < infinity) & (length_t < infinity);
+    }
+};
+
+/// Marks of a corner about the way from its tangent to its bitangent (corner_terms.h).
+inline Bits markTurn(Bits marks, Vectors normal, Vectors s, Floats flattened_square, Vectors t) {
+    const Floats along = absolute(dot(t, s)) + broadcast(kTurnMargin), across = dot(t, cross(normal, s));
+    const Mask steady = flattened_square > broadcast(kSmallestSquare);
+    marks = orWhere(marks, steady & (across > along), kTurnsLeft);
+    return orWhere(marks, steady & (broadcast(-0.0f) - across > along), kTurnsRight);
+}
+
+inline Bits markWeight(Bits marks, Floats weight) {
+    marks = orWhere(marks, weight > broadcast(kLightWeight), kNotLight);
+    marks = orWhere(marks, weight > broadcast(kMiddleWeight), kNotMiddle);
+    return orWhere(marks, weight > broadcast(kHeavyWeight), kHeavy);
+}
+
+/// The weight of a corner, or for the two kinds that are angles, its cosine.
+template <Weighting kWeighting>
+inline Floats weightOrCosine(const Vectors& normal, const Vectors& previous, const Vectors& next) {
+    if constexpr (kWeighting == Weighting::projected_angle) {
+        return dot(flatten(normal, previous), flatten(normal, next));
+    } else if constexpr (kWeighting == Weighting::angle) {
+        return dot(unit(previous), unit(next));
+    } else if constexpr (kWeighting == Weighting::area) {
+        const Vectors c = cross(next, previous);
+        return broadcast(0.5f) * squareRoot(dot(c, c));
+    } else {
+        return broadcast(1.0f);
+    }
+}
+
+template <Weighting kWeighting, bool kTangentsOnly>
+inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t first,
+                       unsigned valid, bool exact, CornerTerms& terms) {
+    Group group;
+    group.load(source, vertices, exact);
+    const Mask degenerate = group.isDegenerate();
+    const Shape shape(group);
+    const unsigned bad = bitsOf(degenerate), flat = bitsOf(shape.no_area) & ~bad & valid;
+    terms.degenerate_count += static_cast<unsigned>(__builtin_popcount(bad & valid));
+    terms.no_uv_area_count += static_cast<unsigned>(__builtin_popcount(flat));
+    terms.mirrored_count +=
+        static_cast<unsigned>(__builtin_popcount(~(bitsOf(shape.positive) | bad | flat) & valid));
+    Bits facing = orWhere(broadcastBits(0), shape.positive, kFacesUp);
+    facing = orWhere(facing, !shape.positive, kFacesDown);
+    Vectors s[3], t[3];
+    Floats weights[3];
+    Bits marks[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vectors normal = gatherVectors(source.normals, source.normal_stride, vertices + k, exact);
+        const Vectors flat_s = alongPlane(normal, shape.s);
+        const Floats square = dot(flat_s, flat_s);
+        s[k] = unit(flat_s, square);
+        if constexpr (!kTangentsOnly) t[k] = flatten(normal, shape.t);
+        const Vectors here = group.position[k];
+        weights[k] = weightOrCosine<kWeighting>(normal, group.position[(k + 2) % 3] - here,
+                                                group.position[(k + 1) % 3] - here);
+        marks[k] = facing;
+        if constexpr (kWeighting == Weighting::projected_angle)
+            marks[k] = markTurn(facing, normal, s[k], square, shape.t);
+    }
+    if constexpr (kWeighting == Weighting::projected_angle || kWeighting == Weighting::angle) {
+        const Floats cosines[3] = {weights[0], weights[1], weights[2]};
+        arcCosines(cosines, weights);
+    }
+    const Mask usable = shape.finite & !shape.no_area;
+    const Bits flags =
+        orWhere(orWhere(broadcastBits(kFanKnown), shape.no_area, kNoUvArea), degenerate, kDegenerateMark);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Floats weight = weights[k];
+        if constexpr (kWeighting == Weighting::projected_angle) marks[k] = markWeight(marks[k], weight);
+        const Bits kept = orWhere(broadcastBits(0), usable & (weight == weight), kAllMarks);
+        store(terms.marks[k] + first, (marks[k] & kept) | flags);
+        const std::size_t row = 3 * first + k;
+        storeRows(terms.s[row], weight * s[k].x, weight * s[k].y, weight * s[k].z, weight);
+        if constexpr (!kTangentsOnly) {
+            const Floats zero = broadcast(0.0f);
+            storeRows(terms.t[row], weight * t[k].x, weight * t[k].y, weight * t[k].z, zero);
+            storeRows(terms.lengths[row], weight * shape.length_s, weight * shape.length_t, zero, zero);
+        }
+    }
+}
+
+template <Weighting kWeighting, bool kTangentsOnly>
+void blockTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t count,
+                CornerTerms& terms) {
+    for (std::size_t t = 0; t < count; t += kWidth) {
+        const std::size_t left = count - t;
+        const unsigned valid = left >= kWidth ? (1u << kWidth) - 1 : (1u << left) - 1;
+        groupTerms<kWeighting, kTangentsOnly>(source, vertices + 3 * t, t, valid,
+                                              namesLast(vertices + 3 * t, source.last_vertex), terms);
+    }
+}
+
+template <bool kTangentsOnly>
+void termsBy(const CornerSource& source, const std::uint32_t* vertices, std::size_t count,
+             CornerTerms& terms) {
+    switch (source.weighting) {
+        case Weighting::projected_angle:
+            return blockTerms<Weighting::projected_angle, kTangentsOnly>(source, vertices, count, terms);
+        case Weighting::one:
+            return blockTerms<Weighting::one, kTangentsOnly>(source, vertices, count, terms);
+        case Weighting::angle:
+            return blockTerms<Weighting::angle, kTangentsOnly>(source, vertices, count, terms);
+        case Weighting::area:
+            return blockTerms<Weighting::area, kTangentsOnly>(source, vertices, count, terms);
+    }
+}
+
+}  // namespace
+
+void cornerTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t count,
+                 CornerTerms& terms) {
+    terms.degenerate_count = terms.no_uv_area_count = terms.mirrored_count = 0;
+    if (source.tangents_only) {
+        termsBy<true>(source, vertices, count, terms);
+    } else {
+        termsBy<false>(source, vertices, count, terms);
+    }
+}
+
+}  // namespace tspace::mikk::TSPACE_LANES

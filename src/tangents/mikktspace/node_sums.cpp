@@ -1,0 +1,481 @@
+// SPDX-License-Identifier: MIT
+// The sums of all nodes. A task owns a range of nodes: it goes through all triangles in order, computes those
+// that have a node in its range, and adds to these nodes only. So each sum is made by one task, in the
+// reference's order, and no task waits for another. Triangles at the border of two ranges are computed twice.
+#include "tangents/mikktspace/node_sums.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+
+#include "tangents/mikktspace/add_row.h"
+
+namespace tspace::mikk {
+
+namespace {
+
+constexpr std::size_t kFlatShare = 8;        // one triangle in so many may be without UV area
+constexpr std::size_t kNodesPerTask = 4096;  // at least: below, another thread costs more than it saves
+/// Where early requests put memory (__builtin_prefetch): there is more of it than a block needs of the first
+/// cache, which the kernel works in. Measured: 120 ns per triangle with the first cache, 67 with the second.
+constexpr int kSecondCache = 2;
+
+/// Triangles to compute. The numbers are the caller's own where they can be taken as they are.
+struct Block {
+    const std::uint32_t* vertices = nullptr;  // where data is read
+    const std::uint32_t* nodes = nullptr;     // where it is added
+    std::size_t count = 0;
+    std::uint32_t own_vertices[kTermCorners] = {};
+    std::uint32_t own_nodes[kTermCorners] = {};
+    std::uint32_t triangles[kTermTriangles] = {};  // their numbers
+};
+
+/// Whether consecutive triangles lie far apart, so that memory has to be asked for early.
+bool isScattered(const MeshView& mesh, const TriangleList& triangles) {
+    constexpr std::size_t kSamples = 1024;
+    constexpr std::int64_t kFar = 2048;  // vertices
+    if (triangles.count < 2 || mesh.vertexCount() < 16 * kFar)
+        return false;  // all of it is in the cache soon
+    std::size_t far = 0;
+    for (std::size_t i = 0; i < kSamples; ++i) {
+        const std::size_t t = (triangles.count - 1) * i / kSamples;
+        const std::int64_t a = mesh.indices[triangles.corner(3 * t)],
+                           b = mesh.indices[triangles.corner(3 * t + 3)];
+        far += std::abs(a - b) > kFar;
+    }
+    return far > kSamples / 4;
+}
+
+/// All that a kernel reads of a node, in half a cache line.
+struct PackedNode {
+    Vec3 position, normal;
+    Vec2 uv;
+};
+static_assert(sizeof(PackedNode) == 32);
+
+/// Copies node data side by side, so that a triangle's corner is one place in memory and not three. Returns
+/// false when the room does not do.
+bool packNodes(const MeshView& mesh, const Nodes& nodes, std::span<std::byte> room, CornerSource& source,
+               Parallel& parallel) {
+    constexpr std::size_t kGrain = 16384;
+    const std::size_t skip = -reinterpret_cast<std::uintptr_t>(room.data()) % sizeof(PackedNode);
+    if (room.size() < skip + nodes.count * sizeof(PackedNode)) return false;
+    auto* packed = reinterpret_cast<PackedNode*>(room.data() + skip);
+    parallel.forRanges(nodes.count, kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) {
+            const std::uint32_t v = nodes.vertex(n);
+            packed[n] = {mesh.positions[v], mesh.normals[v], mesh.uvs[v]};
+        }
+    });
+    source.positions = reinterpret_cast<const std::byte*>(packed);
+    source.normals = source.positions + offsetof(PackedNode, normal);
+    source.uvs = source.positions + offsetof(PackedNode, uv);
+    source.position_stride = source.normal_stride = source.uv_stride = sizeof(PackedNode);
+    source.last_vertex = kNone;  // a record holds the four bytes after its vectors
+    return true;
+}
+
+class Summer {
+  public:
+    struct Setting {
+        const MeshView& mesh;
+        const TriangleList& triangles;
+        const Nodes& nodes;
+        CornerSource source;
+        CornerTermsFunction terms;
+        bool scattered = false;  ///< consecutive triangles lie far apart
+        bool packed = false;     ///< the source is numbered by nodes, all data of one side by side
+    };
+
+    Summer(const Setting& setting, NodeSums& sums, std::span<std::uint32_t> flat_room, std::size_t first_node,
+           std::size_t end_node)
+        : setting_(setting),
+          triangles_(setting.triangles),
+          sums_(sums),
+          flat_room_(flat_room),
+          first_node_(static_cast<std::uint32_t>(first_node)),
+          node_count_(static_cast<std::uint32_t>(end_node - first_node)),
+          owns_all_(end_node - first_node == sums.nodes.size()) {
+        const IndexView& indices = setting.mesh.indices;
+        if (indices.type == IndexType::u32 && triangles_.corners.empty())
+            direct_ = static_cast<const std::uint32_t*>(indices.data);
+    }
+
+    void run() {
+        std::fill_n(sums_.nodes.data() + first_node_, node_count_, NodeSum{});
+        if (!sums_.rest.empty()) std::fill_n(sums_.rest.data() + first_node_, node_count_, NodeRest{});
+        // One block is read, and memory asked for what it needs, before the one before it is computed.
+        Block blocks[2];
+        fill(blocks[0]);
+        for (std::size_t current = 0; blocks[current].count != 0; current ^= 1) {
+            fill(blocks[current ^ 1]);
+            compute(blocks[current]);
+        }
+        endFace();
+    }
+
+    std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;
+    std::size_t flat_count = 0;
+    bool too_many_flat = false;
+
+  private:
+    [[nodiscard]] bool owns(std::uint32_t node) const { return node - first_node_ < node_count_; }
+    [[nodiscard]] std::uint32_t nodeAt(std::size_t i) const {
+        return setting_.nodes.ofVertex(setting_.mesh.indices[triangles_.corner(i)]);
+    }
+
+    /// The next triangles: all of them, or those with a node in the range.
+    void fill(Block& block) {
+        constexpr std::size_t kFull = kTermTriangles - 16;
+        block.count = 0;
+        block.vertices = block.own_vertices;
+        block.nodes = block.own_nodes;
+        while (block.count <= kFull && next_ < triangles_.count) {
+            const std::size_t count = std::min(triangles_.count - next_, kTermTriangles - block.count);
+            if (count == kTermTriangles && direct_ != nullptr) {
+                take(block, next_);
+                const Share share = shareOf(block.nodes);
+                if (share == Share::all) {
+                    next_ += count;
+                    break;
+                }
+                block.count = 0;
+                block.vertices = block.own_vertices;
+                block.nodes = block.own_nodes;
+                if (share == Share::none) {
+                    next_ += count;
+                    continue;
+                }
+            }
+            read(block, next_, count);
+            next_ += count;
+        }
+        if (setting_.scattered) askFor(block);
+    }
+
+    enum class Share { none, some, all };
+
+    /// How many of a block's nodes are in the range, as far as few instructions tell: all numbers agree in
+    /// the bits above the highest in which any two differ.
+    [[nodiscard]] Share shareOf(const std::uint32_t* nodes) const {
+        if (owns_all_) return Share::all;
+        std::uint32_t common = 0xffffffffu, any = 0;
+        for (std::size_t i = 0; i < kTermCorners; ++i) {
+            common &= nodes[i];
+            any |= nodes[i];
+        }
+        const std::uint64_t span = std::bit_ceil(std::uint64_t{common ^ any} + 1) - 1;
+        const std::uint64_t first = common & ~span, last = any | span;
+        const std::uint64_t range_end = std::uint64_t{first_node_} + node_count_;
+        if (last < first_node_ || first >= range_end) return Share::none;
+        return first >= first_node_ && last < range_end ? Share::all : Share::some;
+    }
+
+    /// A whole block whose vertices can be used where they are.
+    void take(Block& block, std::size_t first) const {
+        const Nodes& map = setting_.nodes;
+        const std::uint32_t* vertices = direct_ + 3 * first;
+        block.count = kTermTriangles;
+        for (std::size_t t = 0; t < kTermTriangles; ++t)
+            block.triangles[t] = static_cast<std::uint32_t>(first + t);
+        block.vertices = block.nodes = vertices;
+        if (map.of_vertex.empty()) return;
+        for (std::size_t i = 0; i < kTermCorners; ++i) block.own_nodes[i] = map.of_vertex[vertices[i]];
+        block.nodes = block.own_nodes;
+        if (setting_.packed) {
+            block.vertices = block.own_nodes;
+        } else if (map.mixed) {
+            for (std::size_t i = 0; i < kTermCorners; ++i)
+                block.own_vertices[i] = map.vertex(block.own_nodes[i]);
+            block.vertices = block.own_vertices;
+        }
+    }
+
+    /// Inlined by force: GCC 12 sees a function that only asks for memory as one without effect, and drops
+    /// calls to it.
+    [[gnu::always_inline]] void askFor(const Block& block) const {
+        const CornerSource& source = setting_.source;
+        for (std::size_t i = 0; i < 3 * block.count; ++i) {
+            __builtin_prefetch(&sums_.nodes[block.nodes[i]], 1, kSecondCache);
+            __builtin_prefetch(source.positions + source.position_stride * block.vertices[i], 0,
+                               kSecondCache);
+            if (setting_.packed) continue;
+            __builtin_prefetch(source.normals + source.normal_stride * block.vertices[i], 0, kSecondCache);
+            __builtin_prefetch(source.uvs + source.uv_stride * block.vertices[i], 0, kSecondCache);
+        }
+    }
+
+    void read(Block& block, std::size_t first, std::size_t count) {
+        std::uint32_t* vertices = block.own_vertices + 3 * block.count;
+        std::uint32_t* nodes = block.own_nodes + 3 * block.count;
+        readVertices(3 * first, 3 * count, vertices);
+        const Nodes& map = setting_.nodes;
+        if (map.of_vertex.empty()) {
+            std::copy_n(vertices, 3 * count, nodes);
+        } else {
+            for (std::size_t i = 0; i < 3 * count; ++i) nodes[i] = map.of_vertex[vertices[i]];
+            if (setting_.packed) {
+                std::copy_n(nodes, 3 * count, vertices);
+            } else if (map.mixed) {
+                for (std::size_t i = 0; i < 3 * count; ++i) vertices[i] = map.vertex(nodes[i]);
+            }
+        }
+        std::uint32_t* numbers = block.triangles + block.count;
+        for (std::size_t t = 0; t < count; ++t) numbers[t] = static_cast<std::uint32_t>(first + t);
+        block.count += owns_all_ ? count : keepOwn(vertices, nodes, numbers, count);
+    }
+
+    void readVertices(std::size_t first, std::size_t count, std::uint32_t* to) const {
+        const IndexView& indices = setting_.mesh.indices;
+        if (!triangles_.corners.empty()) {
+            for (std::size_t i = 0; i < count; ++i) to[i] = indices[triangles_.corners[first + i]];
+            return;
+        }
+        switch (indices.type) {
+            case IndexType::u32:
+                std::copy_n(static_cast<const std::uint32_t*>(indices.data) + first, count, to);
+                break;
+            case IndexType::u16:
+                std::copy_n(static_cast<const std::uint16_t*>(indices.data) + first, count, to);
+                break;
+            case IndexType::u8:
+                std::copy_n(static_cast<const std::uint8_t*>(indices.data) + first, count, to);
+                break;
+            case IndexType::none:
+                for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<std::uint32_t>(first + i);
+                break;
+        }
+    }
+
+    std::size_t keepOwn(std::uint32_t* vertices, std::uint32_t* nodes, std::uint32_t* numbers,
+                        std::size_t count) {
+        std::size_t kept = 0;
+        for (std::size_t t = 0; t < count; ++t) {
+            const std::uint32_t number = numbers[t];
+            const bool mine =
+                triangles_.faces.empty()
+                    ? int{owns(nodes[3 * t])} | int{owns(nodes[3 * t + 1])} | int{owns(nodes[3 * t + 2])}
+                    : ownsFaceOf(number);
+            for (std::size_t k = 0; k < 3; ++k) {
+                vertices[3 * kept + k] = vertices[3 * t + k];
+                nodes[3 * kept + k] = nodes[3 * t + k];
+            }
+            numbers[kept] = number;
+            kept += mine ? 1 : 0;
+        }
+        return kept;
+    }
+
+    /// A face is taken or left as a whole: its triangles have to agree. Asked in the order of triangles.
+    bool ownsFaceOf(std::uint32_t triangle) {
+        const std::uint32_t face = triangles_.faces[triangle];
+        if (face == asked_face_) return owns_asked_face_;
+        asked_face_ = face;
+        owns_asked_face_ = false;
+        for (std::size_t t = triangle; t < triangles_.count && triangles_.faces[t] == face; ++t) {
+            for (std::size_t k = 0; k < 3; ++k) owns_asked_face_ |= owns(nodeAt(3 * t + k));
+        }
+        return owns_asked_face_;
+    }
+
+    void compute(const Block& block) {
+        setting_.terms(setting_.source, block.vertices, block.count, terms_);
+        if (owns_all_) {
+            degenerate_count += terms_.degenerate_count;
+            no_uv_area_count += terms_.no_uv_area_count;
+            mirrored_count += terms_.mirrored_count;
+        } else {
+            countOwn(block);
+        }
+        if (!triangles_.faces.empty()) compareFaces(block);
+        if (owns_all_ && sums_.rest.empty()) {
+            add<true, true>(block);
+        } else if (owns_all_) {
+            add<true, false>(block);
+        } else if (sums_.rest.empty()) {
+            add<false, true>(block);
+        } else {
+            add<false, false>(block);
+        }
+    }
+
+    /// Each triangle is counted by the task that owns its first node.
+    void countOwn(const Block& block) {
+        for (std::size_t t = 0; t < block.count; ++t) {
+            if (!owns(block.nodes[3 * t])) continue;
+            const std::uint32_t m = terms_.marks[0][t];
+            const bool degenerate = (m & kDegenerateMark) != 0, flat = !degenerate && (m & kNoUvArea) != 0;
+            degenerate_count += degenerate ? 1 : 0;
+            no_uv_area_count += flat ? 1 : 0;
+            mirrored_count += !degenerate && !flat && (m & kFacesDown) != 0 ? 1 : 0;
+        }
+    }
+
+    template <bool kOwnsAll, bool kTangentsOnly>
+    void add(const Block& block) {
+        for (std::size_t t = 0; t < block.count; ++t) {
+            const std::uint32_t* n = block.nodes + 3 * t;
+            if ((terms_.marks[0][t] & (kDegenerateMark | kNoUvArea)) != 0) [[unlikely]] {
+                addUnusual(block, t);
+                continue;
+            }
+            addCorner<kOwnsAll, kTangentsOnly>(t, 0, n[0], n[1], n[2]);
+            addCorner<kOwnsAll, kTangentsOnly>(t, 1, n[1], n[2], n[0]);
+            addCorner<kOwnsAll, kTangentsOnly>(t, 2, n[2], n[0], n[1]);
+        }
+    }
+
+    /// Triangles that add nothing to the sums. Nodes of degenerate ones are left to the general steps.
+    void addUnusual(const Block& block, std::size_t t) {
+        const std::uint32_t* n = block.nodes + 3 * t;
+        const bool degenerate = (terms_.marks[0][t] & kDegenerateMark) != 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (!owns(n[k])) continue;
+            const bool known = !degenerate && sums_.nodes[n[k]].fan.add(n[(k + 1) % 3], n[(k + 2) % 3]);
+            if (!known) sums_.marks[n[k]] &= static_cast<std::uint16_t>(degenerate ? 0 : ~kFanKnown);
+        }
+        if (degenerate || !owns(n[0])) return;
+        if (flat_count == flat_room_.size()) {
+            too_many_flat = true;
+        } else {
+            flat_room_[flat_count++] = block.triangles[t];
+        }
+    }
+
+    template <bool kOwnsAll, bool kTangentsOnly>
+    void addCorner(std::size_t t, std::size_t k, std::uint32_t node, std::uint32_t next,
+                   std::uint32_t previous) {
+        if (!kOwnsAll && !owns(node)) return;
+        NodeSum& sum = sums_.nodes[node];
+        const std::size_t row = 3 * t + k;
+        addRow(sum.s, terms_.s[row]);  // and the weight
+        std::uint16_t& marks = sums_.marks[node];
+        marks = static_cast<std::uint16_t>(marks & terms_.marks[k][t]);
+        if (!sum.fan.add(next, previous)) [[unlikely]]
+            marks &= static_cast<std::uint16_t>(~kFanKnown);
+        if constexpr (!kTangentsOnly) {
+            NodeRest& rest = sums_.rest[node];
+            addRow(rest.t, terms_.t[row]);
+            addRow(rest.lengths, terms_.lengths[row]);
+        }
+    }
+
+    /// The general steps give all triangles of a face one orientation and treat degenerate ones in a way of
+    /// their own. Faces whose triangles do not simply agree are left to them.
+    void compareFaces(const Block& block) {
+        for (std::size_t t = 0; t < block.count; ++t) {
+            const std::uint32_t triangle = block.triangles[t], face = triangles_.faces[triangle];
+            const std::uint32_t m = terms_.marks[0][t] & (kFacesUp | kFacesDown | kDegenerateMark);
+            if (face != open_face_) {
+                endFace();
+                open_face_ = face;
+                open_first_ = triangle;
+                open_marks_ = 0;
+                open_count_ = 0;
+                open_starts_flat_ = (terms_.marks[0][t] & kNoUvArea) != 0;
+            }
+            ++open_count_;
+            open_degenerate_ |= (m & kDegenerateMark) != 0;
+            // One without UV area takes the orientation of others, and gives its own only as the first one of
+            // a quad.
+            if ((terms_.marks[0][t] & kNoUvArea) != 0) continue;
+            open_differs_ |= m == 0 || (open_marks_ != 0 && m != open_marks_);
+            open_marks_ = m;
+        }
+    }
+
+    void endFace() {
+        open_differs_ |= open_count_ == 2 && open_starts_flat_ && open_marks_ != 0;
+        if (open_count_ > 1 && (open_differs_ || open_degenerate_)) {
+            for (std::size_t t = open_first_; t < triangles_.count && triangles_.faces[t] == open_face_;
+                 ++t) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::uint32_t node = nodeAt(3 * t + k);
+                    if (owns(node)) sums_.marks[node] = 0;
+                }
+            }
+        }
+        open_differs_ = open_degenerate_ = false;
+    }
+
+    const Setting& setting_;
+    const TriangleList& triangles_;
+    NodeSums& sums_;
+    std::span<std::uint32_t> flat_room_;
+    std::uint32_t first_node_, node_count_;
+    bool owns_all_;
+    std::uint32_t asked_face_ = kNone;
+    bool owns_asked_face_ = false;
+    std::uint32_t open_face_ = kNone, open_first_ = 0, open_marks_ = 0;
+    std::uint32_t open_count_ = 0;
+    bool open_differs_ = false, open_degenerate_ = false, open_starts_flat_ = false;
+    std::size_t next_ = 0;                   // triangle to read
+    const std::uint32_t* direct_ = nullptr;  // the vertices of all triangles, when they are there as such
+    CornerTerms terms_;
+};
+
+}  // namespace
+
+bool NodeSums::isOneGroup(std::size_t node, const Vec3& normal, bool may_split) const {
+    const std::uint32_t m = marks[node];
+    const NodeSum& sum = nodes[node];
+    if ((m & (kFacesUp | kFacesDown)) == 0 || (m & kFanKnown) == 0 || !sum.fan.isOne()) return false;
+    if (!may_split || (m & kCannotSplit) != 0) return true;
+    if ((m & (kTurnsLeft | kTurnsRight)) == 0 || (m & kNotLight) == 0) return false;
+    const float lightest = (m & kHeavy) != 0       ? kHeavyWeight
+                           : (m & kNotMiddle) != 0 ? kMiddleWeight
+                                                   : kLightWeight;
+    const float least = sum.s[3] - 0.4f * lightest;
+    const float square = sum.s[0] * sum.s[0] + sum.s[1] * sum.s[1] + sum.s[2] * sum.s[2];
+    const float normal_square = normal.x * normal.x + normal.y * normal.y + normal.z * normal.z;
+    // With a weight sum of at most 1024 times the lightest, the rounding errors of the sums stay below 0.1 of
+    // it.
+    return square > least * least && sum.s[3] < 1024 * lightest && normal_square > 0.98f &&
+           normal_square < 1.02f;
+}
+
+NodeSums sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+                  const CornerSource& source, CornerTermsFunction terms, std::span<std::byte> room,
+                  const Allocator* allocator, Parallel& parallel) {
+    NodeSums sums;
+    sums.nodes = Buffer<NodeSum>(allocator, nodes.count);
+    sums.marks = Buffer<std::uint16_t>(allocator, nodes.count, std::uint16_t{kAllMarks});
+    if (!source.tangents_only) sums.rest = Buffer<NodeRest>(allocator, nodes.count);
+    if (triangles.count == 0) {
+        std::fill(sums.nodes.begin(), sums.nodes.end(), NodeSum{});
+        std::fill(sums.rest.begin(), sums.rest.end(), NodeRest{});
+        return sums;
+    }
+    Summer::Setting setting{mesh, triangles, nodes, source, terms};
+    setting.scattered = sums.scattered = isScattered(mesh, triangles);
+    if (setting.scattered) setting.packed = packNodes(mesh, nodes, room, setting.source, parallel);
+    struct Counts {
+        std::uint64_t degenerate, no_uv_area, mirrored;
+        std::size_t flat;
+        bool too_many_flat;
+    };
+    const std::size_t tasks =
+        std::clamp<std::size_t>(nodes.count / kNodesPerTask, 1, std::max<std::size_t>(1, parallel.width()));
+    Buffer<Counts> counts(allocator, tasks);
+    const std::size_t room_each = triangles.count / kFlatShare / tasks + 64;
+    sums.flat = Buffer<std::uint32_t>(allocator, tasks * room_each);
+    parallel.forTasks(tasks, [&](std::size_t task) {
+        Summer summer(setting, sums, {sums.flat.data() + task * room_each, room_each},
+                      nodes.count * task / tasks, nodes.count * (task + 1) / tasks);
+        summer.run();
+        counts[task] = {summer.degenerate_count, summer.no_uv_area_count, summer.mirrored_count,
+                        summer.flat_count, summer.too_many_flat};
+    });
+    for (std::size_t task = 0; task < tasks; ++task) {
+        const Counts& c = counts[task];
+        sums.degenerate_count += c.degenerate;
+        sums.no_uv_area_count += c.no_uv_area;
+        sums.mirrored_count += c.mirrored;
+        sums.too_many_flat |= c.too_many_flat;
+        std::copy_n(sums.flat.data() + task * room_each, c.flat, sums.flat.data() + sums.flat_count);
+        sums.flat_count += c.flat;
+    }
+    return sums;
+}
+
+}  // namespace tspace::mikk

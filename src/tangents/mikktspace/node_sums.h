@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The sums of all nodes, filled by one pass over the triangles in their order.
+#pragma once
+
+#include <span>
+
+#include "core/parallel.h"
+#include "tangents/mikktspace/corner_terms.h"
+#include "tangents/mikktspace/faces.h"
+#include "tangents/mikktspace/fan.h"
+#include "tangents/mikktspace/grouped_plan.h"
+#include "tangents/mikktspace/weld.h"
+
+namespace tspace::mikk {
+
+/// What is known of a node: half a cache line.
+struct alignas(32) NodeSum {
+    float s[4] = {0, 0, 0, 0};  ///< sum of weighted tangents, and of weights
+    Fan fan;
+};
+
+/// The rest, when more than tangents is asked for.
+struct alignas(32) NodeRest {
+    float t[4] = {0, 0, 0, 0};
+    float lengths[4] = {0, 0, 0, 0};
+};
+
+struct NodeSums {
+    Buffer<NodeSum> nodes;
+    Buffer<std::uint16_t> marks;  ///< one per node: those that all its corners have (corner_terms.h); 0: left
+                                  ///< aside, as all nodes of degenerate triangles are
+    Buffer<NodeRest> rest;  ///< empty when tangents_only
+    /// Triangles without usable UV area. They add nothing, and mark nothing, but link what lies on both
+    /// sides.
+    Buffer<std::uint32_t> flat;
+    std::size_t flat_count = 0;
+    bool too_many_flat = false;  ///< `flat` does not hold all of them
+    bool scattered = false;      ///< consecutive triangles lie far apart in memory
+    std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;
+
+    [[nodiscard]] bool isEmpty(std::size_t node) const {
+        return nodes[node].fan.isEmpty() && marks[node] == kAllMarks;
+    }
+    /// Whether all corners of the node are one group. `may_split`: the reference's angular test applies to
+    /// it.
+    [[nodiscard]] bool isOneGroup(std::size_t node, const Vec3& normal, bool may_split) const;
+};
+
+/// `nodes` must be tame, and nodes.vertex() valid. `room` is memory to use meanwhile (32 bytes per node), or
+/// empty: with it, triangles in random order are read faster.
+NodeSums sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+                  const CornerSource& source, CornerTermsFunction terms, std::span<std::byte> room,
+                  const Allocator* allocator, Parallel& parallel);
+
+}  // namespace tspace::mikk

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: MIT
+// Grouping and evaluation in one pass: sum, look at what is clear, write, and give the rest to the general
+// steps.
+#include "tangents/mikktspace/one_pass.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+
+#include "core/face_walk.h"
+#include "core/typed_indices.h"
+#include "tangents/mikktspace/collect.h"
+#include "tangents/mikktspace/corner_source.h"
+#include "tangents/mikktspace/evaluation_plan.h"
+#include "tangents/mikktspace/fan_check.h"
+#include "tangents/mikktspace/growing.h"
+#include "tangents/mikktspace/node_sums.h"
+#include "tangents/mikktspace/split_check.h"
+#include "tangents/mikktspace/vector_rules.h"
+
+namespace tspace::mikk {
+
+namespace {
+
+constexpr std::size_t kNodeGrain = 8192, kCornerGrain = 16384;
+constexpr std::size_t kAlwaysSmall = 1024;  // faces left to the general steps that are never too many
+
+class OnePass {
+  public:
+    OnePass(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
+            const Nodes& nodes, const TangentOutput& out, Parallel& parallel)
+        : mesh_(mesh),
+          options_(options),
+          triangles_(triangles),
+          nodes_(nodes),
+          out_(out),
+          parallel_(parallel),
+          allocator_(options.execution.allocator) {}
+
+    std::optional<TangentReport> run() {
+        const CornerTermsFunction terms = cornerTermsFor(options_.execution.simd);
+        CornerSource source = cornerSource({mesh_.positions, mesh_.normals}, mesh_.uvs, options_.method,
+                                           wantsTangentsOnly(out_));
+        if (manyAreFlat(source, terms)) return std::nullopt;
+        sums_ = sumNodes(mesh_, triangles_, nodes_, source, terms, outputRoom(), allocator_, parallel_);
+        if (sums_.too_many_flat) return std::nullopt;
+        checkFlatTriangles();
+        checkFans(mesh_, triangles_, nodes_, sums_, allocator_, parallel_);
+        finishNodes();
+        if (unclear_count_ != 0 && options_.method == Method::mikktspace) finishDoubtful(source, terms);
+        if (unclear_count_ != 0) {
+            collectRest();
+            if (too_much_rest_) return std::nullopt;
+        }
+        writeCorners();
+        TangentReport report;
+        report.triangle_count = triangles_.count;
+        report.skipped_face_count = triangles_.skipped_face_count;
+        report.degenerate_triangle_count = sums_.degenerate_count;
+        report.degenerate_uv_count = sums_.no_uv_area_count;
+        report.mirrored_count = sums_.mirrored_count;
+        report.group_count = group_count_;
+        if (unclear_count_ != 0) evaluateRest(report);
+        return report;
+    }
+
+  private:
+    [[nodiscard]] bool isUnclear(std::uint32_t node) const {
+        return (unclear_[node / 64] >> (node % 64) & 1) != 0;
+    }
+
+    /// Meshes in which many triangles have no UV area leave too much to the general steps. A sample shows it
+    /// early.
+    [[nodiscard]] bool manyAreFlat(const CornerSource& source, CornerTermsFunction terms) const {
+        constexpr std::size_t kWorthwhile = 4096;  // triangles
+        if (triangles_.count < kWorthwhile) return false;
+        std::uint32_t vertices[kTermCorners];
+        for (std::size_t i = 0; i < kTermCorners; ++i) {
+            const std::size_t triangle = triangles_.count * (i / 3) / kTermTriangles;
+            vertices[i] = mesh_.indices[triangles_.corner(3 * triangle + i % 3)];
+        }
+        CornerTerms sample;
+        terms(source, vertices, kTermTriangles, sample);
+        return sample.no_uv_area_count > kTermTriangles / 4;
+    }
+
+    /// The tangents are written last, so until then their memory can serve.
+    [[nodiscard]] std::span<std::byte> outputRoom() const {
+        if (out_.tangents.stride_bytes != sizeof(Vec4)) return {};
+        return {reinterpret_cast<std::byte*>(out_.tangents.data), out_.tangents.count * sizeof(Vec4)};
+    }
+
+    /// A triangle without UV area takes the orientation of the first group that reaches it, at any of its
+    /// nodes. Where all other triangles at its three nodes have one orientation, so will it, whoever is
+    /// first; then it just links its neighbours in a fan. Other such triangles are left to the general steps,
+    /// with their nodes. (That these then count as unclear for the next triangle here is no harm.)
+    void checkFlatTriangles() {
+        for (std::size_t i = 0; i < sums_.flat_count; ++i) {
+            const std::size_t first = 3 * std::size_t{sums_.flat[i]};
+            std::uint32_t n[3];
+            for (std::size_t k = 0; k < 3; ++k)
+                n[k] = nodes_.ofVertex(mesh_.indices[triangles_.corner(first + k)]);
+            std::uint32_t facing = kFacesUp | kFacesDown, any = 0;
+            for (const std::uint32_t node : n) {
+                facing &= sums_.marks[node];
+                any |= sums_.marks[node] & (kFacesUp | kFacesDown);
+            }
+            if (facing == any && (facing == kFacesUp || facing == kFacesDown)) continue;
+            for (const std::uint32_t node : n) sums_.marks[node] = 0;
+        }
+    }
+
+    /// Turns the sums of clear nodes into results, in place.
+    void finishNodes() {
+        const float sign_factor = signFactor(options_.convention) * normalFactor(options_.convention);
+        unclear_ = Buffer<std::uint64_t>(allocator_, nodes_.count / 64 + 1);
+        std::atomic<std::uint64_t> unclear{0}, groups{0};
+        parallel_.forRanges(unclear_.size(), kNodeGrain / 64, [&](std::size_t begin, std::size_t end) {
+            std::uint64_t unclear_here = 0, groups_here = 0;
+            for (std::size_t word = begin; word < end; ++word) {
+                std::uint64_t bits = 0;
+                const std::size_t first = 64 * word, last = std::min(first + 64, nodes_.count);
+                for (std::size_t n = first; n < last; ++n) {
+                    const bool clear = finishNode(n, sign_factor);
+                    bits |= std::uint64_t{!clear} << (n - first);
+                    groups_here += clear && !sums_.isEmpty(n) ? 1 : 0;
+                }
+                unclear_[word] = bits;
+                unclear_here += static_cast<std::uint64_t>(std::popcount(bits));
+            }
+            unclear += unclear_here;
+            groups += groups_here;
+        });
+        unclear_count_ = unclear.load();
+        group_count_ = groups.load();
+    }
+
+    /// The nodes of which only the angular test is in doubt, after a second look.
+    void finishDoubtful(CornerSource source, CornerTermsFunction terms) {
+        Growing<std::uint32_t> unclear(allocator_);
+        unclear.reserve(unclear_count_);
+        for (std::size_t word = 0; word < unclear_.size(); ++word) {
+            for (std::uint64_t bits = unclear_[word]; bits != 0; bits &= bits - 1)
+                unclear.push(static_cast<std::uint32_t>(64 * word) +
+                             static_cast<std::uint32_t>(std::countr_zero(bits)));
+        }
+        source.tangents_only = false;
+        checkSplits(mesh_, triangles_, nodes_, {unclear.begin(), unclear.size()}, source, terms, sums_,
+                    allocator_, parallel_);
+        const float sign_factor = signFactor(options_.convention) * normalFactor(options_.convention);
+        for (const std::uint32_t n : unclear) {
+            if ((sums_.marks[n] & kCannotSplit) == 0 || !finishNode(n, sign_factor)) continue;
+            unclear_[n / 64] &= ~(std::uint64_t{1} << (n % 64));
+            --unclear_count_;
+            ++group_count_;
+        }
+    }
+
+    bool finishNode(std::size_t n, float sign_factor) {
+        const bool empty = sums_.isEmpty(n), splits = options_.method == Method::mikktspace;
+        if (!empty && !sums_.isOneGroup(n, mesh_.normals[nodes_.vertex(n)], splits)) return false;
+        NodeSum& sum = sums_.nodes[n];
+        const Vec3 s = empty ? Vec3{1, 0, 0} : unit(Vec3{sum.s[0], sum.s[1], sum.s[2]});
+        // The other methods replace a sum that vanishes; the general steps see to that.
+        if (!splits && !notZero(s)) return false;
+        if (!sums_.rest.empty()) finishRest(sums_.rest[n], empty, sum.s[3]);
+        const bool positive = !empty && (sums_.marks[n] & kFacesUp) != 0;
+        sum.s[0] = s.x;
+        sum.s[1] = s.y;
+        sum.s[2] = s.z;
+        sum.s[3] = positive ? sign_factor : -sign_factor;  // from here on the sign
+        return true;
+    }
+
+    void finishRest(NodeRest& rest, bool empty, float weight) const {
+        const Vec3 t = signFactor(options_.convention) *
+                       (empty ? Vec3{0, 1, 0} : unit(Vec3{rest.t[0], rest.t[1], rest.t[2]}));
+        rest.t[0] = t.x;
+        rest.t[1] = t.y;
+        rest.t[2] = t.z;
+        if (empty) {
+            rest.lengths[0] = rest.lengths[1] = 1;
+        } else if (weight > 0) {
+            rest.lengths[0] /= weight;
+            rest.lengths[1] /= weight;
+        }
+    }
+
+    void writeCorners() {
+        withIndices(mesh_.indices, [&](auto vertexOf) {
+            parallel_.forRanges(mesh_.cornerCount(), kCornerGrain, [&](std::size_t begin, std::size_t end) {
+                if (nodes_.of_vertex.empty()) {
+                    writeRange(begin, end, vertexOf);
+                } else {
+                    const std::uint32_t* node_of = nodes_.of_vertex.data();
+                    writeRange(begin, end, [&](std::size_t c) { return node_of[vertexOf(c)]; });
+                }
+            });
+        });
+        for (const std::uint32_t c : triangles_.skipped_corners) {
+            out_.tangents[c] = {};
+            if (!sums_.rest.empty()) writeRest(c, NodeRest{});
+        }
+    }
+
+    /// Nodes of one block are looked up, and asked for, before the block before it is written.
+    template <class NodeOf>
+    void writeRange(std::size_t begin, std::size_t end, const NodeOf& nodeOf) const {
+        constexpr std::size_t kBlock = 64;
+        std::uint32_t nodes[2][kBlock];
+        const auto lookUp = [&](std::size_t first, std::uint32_t* to) {
+            const std::size_t count = std::min(kBlock, end - first);
+            for (std::size_t i = 0; i < count; ++i) to[i] = nodeOf(first + i);
+            if (!sums_.scattered) return;
+            for (std::size_t i = 0; i < count; ++i) __builtin_prefetch(&sums_.nodes[to[i]]);
+        };
+        lookUp(begin, nodes[0]);
+        std::size_t current = 0;
+        for (std::size_t first = begin; first < end; first += kBlock, current ^= 1) {
+            if (first + kBlock < end) lookUp(first + kBlock, nodes[current ^ 1]);
+            const std::size_t count = std::min(kBlock, end - first);
+            for (std::size_t i = 0; i < count; ++i) {
+                const float* s = sums_.nodes[nodes[current][i]].s;
+                out_.tangents[first + i] = {s[0], s[1], s[2], s[3]};
+            }
+            if (sums_.rest.empty()) continue;
+            for (std::size_t i = 0; i < count; ++i) writeRest(first + i, sums_.rest[nodes[current][i]]);
+        }
+    }
+
+    void writeRest(std::size_t c, const NodeRest& rest) const {
+        if (!out_.bitangents.empty()) out_.bitangents[c] = {rest.t[0], rest.t[1], rest.t[2]};
+        if (!out_.magnitudes_s.empty()) out_.magnitudes_s[c] = rest.lengths[0];
+        if (!out_.magnitudes_t.empty()) out_.magnitudes_t[c] = rest.lengths[1];
+    }
+
+    /// The faces around unclear nodes, as a mesh of their own whose vertices are nodes: first the unclear
+    /// ones, then their neighbours.
+    void collectRest() {
+        const std::size_t most = std::max(mesh_.faceCount() / 2, kAlwaysSmall);
+        Marks marks = noMarks(allocator_, mesh_.vertexCount());
+        for (std::size_t v = 0; v < marks.size(); ++v)
+            marks[v] = isUnclear(nodes_.ofVertex(static_cast<std::uint32_t>(v))) ? 1 : 0;
+        for (std::size_t word = 0; word < unclear_.size(); ++word) {
+            for (std::uint64_t bits = unclear_[word]; bits != 0; bits &= bits - 1)
+                numberNode(static_cast<std::uint32_t>(64 * word) +
+                           static_cast<std::uint32_t>(std::countr_zero(bits)));
+        }
+        if (triangles_.corners.empty()) {
+            const Buffer<std::uint32_t> found =
+                collectTriangles(mesh_, triangles_, marks, 1, allocator_, parallel_);
+            too_much_rest_ = found.size() > most;
+            if (too_much_rest_) return;
+            for (const std::uint32_t t : found) addFace(3 * std::size_t{t}, 3);
+            return;
+        }
+        std::size_t faces = 0;
+        forEachFace(mesh_, [&](std::size_t, std::size_t first, std::uint32_t size) {
+            std::uint8_t wanted = 0;
+            for (std::uint32_t k = 0; k < size; ++k) wanted |= marks[mesh_.indices[first + k]];
+            if (wanted == 0 || too_much_rest_) return;
+            too_much_rest_ = ++faces > most;
+            if (!too_much_rest_) addFace(first, size);
+        });
+    }
+
+    void addFace(std::size_t first, std::uint32_t size) {
+        rest_sizes_.push(size);
+        for (std::uint32_t k = 0; k < size; ++k) {
+            const std::uint32_t node = nodes_.ofVertex(mesh_.indices[first + k]);
+            std::uint32_t number = sums_.nodes[node].fan.leaves[1];
+            if (number >= rest_node_of_.size() || rest_node_of_[number] != node) number = numberNode(node);
+            rest_corners_.push(static_cast<std::uint32_t>(first + k));
+            rest_nodes_.push(number);
+        }
+    }
+
+    /// The place of a node's second path holds its number in the smaller mesh from here on; what it held
+    /// before is no such number, or that of another node.
+    std::uint32_t numberNode(std::uint32_t node) {
+        const auto number = static_cast<std::uint32_t>(rest_node_of_.size());
+        sums_.nodes[node].fan.leaves[1] = number;
+        rest_node_of_.push(node);
+        return number;
+    }
+
+    void evaluateRest(TangentReport& report) {
+        const std::size_t count = rest_node_of_.size(), corners = rest_corners_.size();
+        Buffer<Vec3> positions(allocator_, count), normals(allocator_, count);
+        Buffer<Vec2> uvs(allocator_, count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint32_t v = nodes_.vertex(rest_node_of_[i]);
+            positions[i] = mesh_.positions[v];
+            normals[i] = mesh_.normals[v];
+            uvs[i] = mesh_.uvs[v];
+        }
+        MeshView rest;
+        rest.positions = {positions.data(), count};
+        rest.normals = {normals.data(), count};
+        rest.uvs = {uvs.data(), count};
+        rest.indices = {rest_nodes_.begin(), corners, IndexType::u32};
+        rest.face_sizes = {rest_sizes_.begin(), rest_sizes_.size()};
+        TangentOptions options = options_;
+        options.pairing = Pairing::corrected;
+        Nodes all;
+        all.count = count;
+        const auto room = [&](bool wanted) { return wanted ? corners : std::size_t{0}; };
+        Buffer<Vec4> tangents(allocator_, corners, Vec4{});
+        Buffer<Vec3> bitangents(allocator_, room(!out_.bitangents.empty()));
+        Buffer<float> magnitudes_s(allocator_, room(!out_.magnitudes_s.empty()));
+        Buffer<float> magnitudes_t(allocator_, room(!out_.magnitudes_t.empty()));
+        const TangentOutput to{{tangents.data(), tangents.size()},
+                               {bitangents.data(), bitangents.size()},
+                               {magnitudes_s.data(), magnitudes_s.size()},
+                               {magnitudes_t.data(), magnitudes_t.size()}};
+        const EvaluationPlan plan = planNodes(rest, options, cutFaces(rest, options.ngons, allocator_), all,
+                                              unclear_count_, parallel_);
+        const TangentReport part =
+            evaluateGroups(plan, {rest.positions, rest.normals}, to, options_.execution, parallel_);
+        report.group_count += part.group_count;
+        report.default_corner_count += part.default_corner_count;
+        report.not_finite_count += part.not_finite_count;
+        report.reference_order_abandoned |= part.reference_order_abandoned;
+        for (std::size_t i = 0; i < corners; ++i) {
+            if (rest_nodes_[i] >= unclear_count_) continue;
+            const std::uint32_t c = rest_corners_[i];
+            out_.tangents[c] = tangents[i];
+            if (!bitangents.empty()) out_.bitangents[c] = bitangents[i];
+            if (!magnitudes_s.empty()) out_.magnitudes_s[c] = magnitudes_s[i];
+            if (!magnitudes_t.empty()) out_.magnitudes_t[c] = magnitudes_t[i];
+        }
+    }
+
+    const MeshView& mesh_;
+    const TangentOptions& options_;
+    const TriangleList& triangles_;
+    const Nodes& nodes_;
+    TangentOutput out_;
+    Parallel& parallel_;
+    const Allocator* allocator_;
+
+    NodeSums sums_;
+    Buffer<std::uint64_t> unclear_;  // one bit per node
+    std::size_t unclear_count_ = 0;
+    std::uint64_t group_count_ = 0;
+
+    // The mesh that is left to the general steps.
+    bool too_much_rest_ = false;
+    Growing<std::uint32_t> rest_sizes_{allocator_};    // one per face
+    Growing<std::uint32_t> rest_corners_{allocator_};  // its corners, as corners of the mesh
+    Growing<std::uint32_t> rest_nodes_{allocator_};    // the same, as its vertices
+    Growing<std::uint32_t> rest_node_of_{allocator_};  // its vertices, as nodes
+};
+
+}  // namespace
+
+std::optional<TangentReport> evaluateInOnePass(const MeshView& mesh, const TangentOptions& options,
+                                               const TriangleList& triangles, const Nodes& nodes,
+                                               const TangentOutput& out, Parallel& parallel) {
+    return OnePass(mesh, options, triangles, nodes, out, parallel).run();
+}
+
+}  // namespace tspace::mikk

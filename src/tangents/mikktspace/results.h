@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// One result, how several for one corner of the mesh are merged, and where they go.
+#pragma once
+
+#include "tangents/mikktspace/evaluation_plan.h"
+#include "tangents/mikktspace/vector_rules.h"
+
+namespace tspace::mikk {
+
+struct Tangents {
+    Vec3 s{1, 0, 0}, t{0, 1, 0};
+    float mag_s = 1, mag_t = 1;
+    bool positive = false;
+};
+
+inline bool sameResult(const Tangents& a, const Tangents& b) {
+    return a.mag_s == b.mag_s && a.mag_t == b.mag_t && a.s == b.s && a.t == b.t;
+}
+
+/// The reference's rule for a corner that is written again: equal results stay (a NaN is never equal), others
+/// become the normalised mean. The orientation is the later one's.
+inline void merge(Tangents& first, const Tangents& second) {
+    first.positive = second.positive;
+    if (sameResult(first, second)) return;
+    first.mag_s = 0.5f * (first.mag_s + second.mag_s);
+    first.mag_t = 0.5f * (first.mag_t + second.mag_t);
+    first.s = unit(first.s + second.s);
+    first.t = unit(first.t + second.t);
+}
+
+/// The outputs, of which some may be missing.
+class Sink {
+  public:
+    Sink(const TangentOutput& out, const EvaluationPlan& plan)
+        : out_(out), sign_factor_(plan.sign_factor), bitangent_factor_(plan.bitangent_factor) {}
+
+    [[nodiscard]] float sign(bool positive) const { return positive ? sign_factor_ : -sign_factor_; }
+    void write(std::size_t corner, const Tangents& r) const {
+        out_.tangents[corner] = {r.s.x, r.s.y, r.s.z, sign(r.positive)};
+        if (!out_.bitangents.empty()) out_.bitangents[corner] = bitangent_factor_ * r.t;
+        if (!out_.magnitudes_s.empty()) out_.magnitudes_s[corner] = r.mag_s;
+        if (!out_.magnitudes_t.empty()) out_.magnitudes_t[corner] = r.mag_t;
+    }
+    void clear(std::size_t corner) const {
+        out_.tangents[corner] = {};
+        if (!out_.bitangents.empty()) out_.bitangents[corner] = {};
+        if (!out_.magnitudes_s.empty()) out_.magnitudes_s[corner] = 0;
+        if (!out_.magnitudes_t.empty()) out_.magnitudes_t[corner] = 0;
+    }
+    void copy(const Copy& c) const {
+        out_.tangents[c.to] = out_.tangents[c.from];
+        if (!out_.bitangents.empty()) out_.bitangents[c.to] = out_.bitangents[c.from];
+        if (!out_.magnitudes_s.empty()) out_.magnitudes_s[c.to] = out_.magnitudes_s[c.from];
+        if (!out_.magnitudes_t.empty()) out_.magnitudes_t[c.to] = out_.magnitudes_t[c.from];
+    }
+    [[nodiscard]] bool isFinite(std::size_t corner) const {
+        return tspace::isFinite(xyz(out_.tangents[corner]));
+    }
+
+  private:
+    TangentOutput out_;
+    float sign_factor_, bitangent_factor_;
+};
+
+}  // namespace tspace::mikk

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Following a fan by its open ends must agree with pairing all of its half-edges.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "tangents/mikktspace/fan.h"
+#include "tangents/mikktspace/pairing.h"
+
+namespace tspace::mikk {
+namespace {
+
+struct Corners {
+    std::vector<std::uint32_t> next, previous;
+};
+
+/// How many connected parts the links of pairing.h make.
+std::size_t countParts(Corners corners) {
+    const auto count = static_cast<std::uint32_t>(corners.next.size());
+    std::vector<std::uint32_t> left(count), right(count), part(count, kNone);
+    Around around{count, nullptr, corners.next.data(), corners.previous.data(), left.data(), right.data()};
+    pairSmall(around);
+    std::size_t parts = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (part[i] != kNone) continue;
+        ++parts;
+        for (std::uint32_t m = i; m != kNone && part[m] == kNone; m = left[m]) part[m] = 1;
+        for (std::uint32_t m = right[i]; m != kNone && part[m] == kNone; m = right[m]) part[m] = 1;
+    }
+    return parts;
+}
+
+/// Neighbours around a ring or path, in random order, and some corners that do not fit.
+Corners randomCorners() {
+    const auto size = *rc::gen::inRange<std::uint32_t>(2, 10);
+    const bool closed = *rc::gen::arbitrary<bool>();
+    Corners corners;
+    for (std::uint32_t i = 0; i < size; ++i) {
+        corners.next.push_back(i);
+        corners.previous.push_back(closed ? (i + 1) % size : i + 1);
+    }
+    for (int i = *rc::gen::element(0, 0, 1, 3); i > 0; --i) {
+        const auto a = *rc::gen::inRange<std::uint32_t>(0, size + 2);
+        corners.next.push_back(a);
+        corners.previous.push_back((a + *rc::gen::inRange<std::uint32_t>(1, size + 2)) % (size + 2));
+    }
+    for (std::size_t i = corners.next.size(); *rc::gen::element(true, true, false) && i-- > 1;) {
+        const auto j = *rc::gen::inRange<std::size_t>(0, i + 1);
+        std::swap(corners.next[i], corners.next[j]);
+        std::swap(corners.previous[i], corners.previous[j]);
+    }
+    return corners;
+}
+
+RC_GTEST_PROP(Fan, IsOneWhenPairingMakesOnePart, ()) {
+    const Corners corners = randomCorners();
+    Fan fan;
+    bool known = true;
+    for (std::size_t i = 0; i < corners.next.size(); ++i)
+        known &= fan.add(corners.next[i], corners.previous[i]);
+    RC_TAG(known);
+    if (known) RC_ASSERT(fan.isOne() == (countParts(corners) == 1));
+}
+
+TEST(Fan, FollowsTrianglesInTheOrderOfAMesh) {
+    Fan fan;
+    EXPECT_TRUE(fan.isEmpty());
+    // Two strips of three triangles around a node, as the rows of a grid bring them.
+    const std::uint32_t next[] = {0, 1, 2, 5, 4, 3}, previous[] = {1, 2, 3, 0, 5, 4};
+    for (int i = 0; i < 6; ++i) ASSERT_TRUE(fan.add(next[i], previous[i])) << i;
+    EXPECT_TRUE(fan.isOne());
+}
+
+TEST(Fan, GivesUpWhereAThirdPathBegins) {
+    Fan fan;
+    EXPECT_TRUE(fan.add(0, 1));
+    EXPECT_TRUE(fan.add(2, 3));
+    EXPECT_FALSE(fan.add(4, 5));
+}
+
+}  // namespace
+}  // namespace tspace::mikk

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// Neither the instructions nor the way (one pass, or plan and evaluation) may change a bit.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <limits>
+
+#include "simd/dispatch.h"
+#include "tangents/golden_mesh.h"
+#include "tangents/shapes.h"
+
+namespace tspace::test {
+namespace {
+
+constexpr SimdTarget kTargets[] = {SimdTarget::scalar, SimdTarget::sse2, SimdTarget::avx2,
+                                   SimdTarget::avx512};
+constexpr Method kMethods[] = {Method::mikktspace, Method::uniform, Method::angle, Method::area};
+
+/// A sheet rolled up: duplicated vertices along its seam, mirrored UVs on one half, some triangles without UV
+/// area and some without area, normals that are not quite of unit length.
+Shape rolledSheet(std::uint32_t side) {
+    Shape shape = grid(side);
+    for (std::size_t v = 0; v < shape.positions.size(); ++v) {
+        const float x = shape.positions[v].x,
+                    turn = 6.2831853f * std::fmod(x, static_cast<float>(side)) / static_cast<float>(side);
+        shape.positions[v] = {std::cos(turn), std::sin(turn), 0.1f * shape.positions[v].y};
+        shape.normals[v] = {1.001f * std::cos(turn), 1.001f * std::sin(turn), 0.01f};
+        if (shape.uvs[v].x > 0.5f) shape.uvs[v].x = 1 - shape.uvs[v].x;
+        if (v % 97 == 0 && v > 0) shape.uvs[v] = shape.uvs[v - 1];
+        if (v % 211 == 0 && v > 0) shape.positions[v] = shape.positions[v - 1];
+    }
+    return shape;
+}
+
+/// The same faces, every third pair of triangles as a quad.
+Shape withQuads(const Shape& from) {
+    Shape shape = from;
+    shape.indices.clear();
+    for (std::size_t i = 0; i < from.indices.size(); i += 6) {
+        const auto* v = from.indices.data() + i;
+        if (i % 18 == 0) {
+            shape.face({v[0], v[1], v[2], v[5]});
+        } else {
+            shape.face({v[0], v[1], v[2]});
+            shape.face({v[3], v[4], v[5]});
+        }
+    }
+    return shape;
+}
+
+Shape unindexed(const Shape& from) {
+    Shape shape;
+    for (const std::uint32_t v : from.indices)
+        shape.indices.push_back(shape.vertex(from.positions[v], from.normals[v], from.uvs[v]));
+    return shape;
+}
+
+Shape withBrokenValues(Shape shape) {
+    for (std::size_t v = 0; v < shape.positions.size(); v += 301)
+        shape.positions[v].x = std::numeric_limits<float>::quiet_NaN();
+    for (std::size_t v = 7; v < shape.uvs.size(); v += 401)
+        shape.uvs[v].x = std::numeric_limits<float>::infinity();
+    return shape;
+}
+
+std::vector<Shape> shapes() {
+    std::vector<Shape> list{
+        grid(9),    rolledSheet(60),    withQuads(rolledSheet(40)),       unindexed(rolledSheet(30)),
+        cone(3000), checkerboard(3000), withBrokenValues(rolledSheet(40))};
+    list.push_back(rolledSheet(150));
+    shuffleTriangles(list.back(), 5);
+    return list;
+}
+
+Outputs generate(const Shape& shape, const TangentOptions& options) {
+    Outputs outputs(shape.cornerCount());
+    const auto report = generateTangents(shape.view(), options, outputs.view());
+    EXPECT_TRUE(report.ok());
+    if (report) outputs.report = *report;
+    return outputs;
+}
+
+TEST(Simd, EveryTargetGivesTheBitsOfPlainCode) {
+    for (const Shape& shape : shapes()) {
+        for (const Method method : kMethods) {
+            TangentOptions options;
+            options.method = method;
+            options.execution.simd = SimdTarget::scalar;
+            const Outputs want = generate(shape, options);
+            for (const SimdTarget target : kTargets) {
+                options.execution.simd = target;
+                ASSERT_TRUE(sameBits(want, generate(shape, options)))
+                    << "target " << static_cast<int>(target) << ", method " << static_cast<int>(method);
+            }
+        }
+    }
+}
+
+TEST(Simd, AWishForMoreThanThereIsGetsTheBestThereIs) {
+    const SimdTarget best = simd::resolve(SimdTarget::best);
+    EXPECT_NE(best, SimdTarget::best);
+    EXPECT_LE(simd::resolve(SimdTarget::avx512), best);
+    EXPECT_EQ(simd::resolve(SimdTarget::scalar), SimdTarget::scalar);
+}
+
+TEST(OnePass, GivesTheBitsOfPlanAndEvaluationForAnyNumberOfThreads) {
+    for (const Shape& shape : shapes()) {
+        for (const Method method : kMethods) {
+            TangentOptions options;
+            options.method = method;
+            const auto plan = planTangents(shape.view(), options);
+            ASSERT_TRUE(plan.ok());
+            Outputs want(shape.cornerCount());
+            const auto report = evaluateTangents(*plan, {shape.positions, shape.normals}, want.view());
+            ASSERT_TRUE(report.ok());
+            want.report = *report;
+            for (const unsigned threads : {1u, 2u, 3u, 8u}) {
+                options.execution.thread_count = threads;
+                ASSERT_TRUE(sameBits(want, generate(shape, options)))
+                    << threads << " threads, method " << static_cast<int>(method);
+            }
+        }
+    }
+}
+
+TEST(OnePass, GivesTheSameTangentsWithoutTheOtherOutputs) {
+    for (const Shape& shape : shapes()) {
+        const Outputs want = generate(shape, {});
+        std::vector<Vec4> tangents(shape.cornerCount());
+        const auto report = generateTangents(shape.view(), {}, {tangents});
+        ASSERT_TRUE(report.ok());
+        for (std::size_t c = 0; c < tangents.size(); ++c) {
+            ASSERT_EQ((std::bit_cast<std::array<std::uint32_t, 4>>(tangents[c])),
+                      (std::bit_cast<std::array<std::uint32_t, 4>>(want.tangents[c])));
+        }
+        EXPECT_EQ(report->group_count, want.report.group_count);
+    }
+}
+
+TEST(OnePass, ReadsInterleavedVerticesUpToTheLastByteOnly) {
+    const Shape shape = rolledSheet(20);
+    const std::size_t count = shape.positions.size();
+    std::vector<float> data(8 * count);  // position, UV, normal: the last normal ends where the memory ends
+    for (std::size_t v = 0; v < count; ++v) {
+        const float values[8] = {shape.positions[v].x, shape.positions[v].y, shape.positions[v].z,
+                                 shape.uvs[v].x,       shape.uvs[v].y,       shape.normals[v].x,
+                                 shape.normals[v].y,   shape.normals[v].z};
+        std::copy_n(values, 8, data.begin() + static_cast<std::ptrdiff_t>(8 * v));
+    }
+    const std::vector<float> exact(data);  // its capacity is its size, so a sanitizer sees any step beyond
+    MeshView mesh = shape.view();
+    mesh.positions = vec3Span(exact.data(), count, 32);
+    mesh.uvs = vec2Span(exact.data() + 3, count, 32);
+    mesh.normals = vec3Span(exact.data() + 5, count, 32);
+    Outputs got(shape.cornerCount());
+    const auto report = generateTangents(mesh, {}, got.view());
+    ASSERT_TRUE(report.ok());
+    got.report = *report;
+    EXPECT_TRUE(sameBits(generate(shape, {}), got));
+}
+
+}  // namespace
+}  // namespace tspace::test
