@@ -9,7 +9,6 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <numeric>
 
 #include "core/angle.h"
@@ -17,13 +16,17 @@
 #include "core/sum_ranges.h"
 #include "core/vec_math.h"
 #include "core/vertex_ranges.h"
+#include "normals/face_terms.h"
 #include "normals/weld.h"
 
 namespace tspace {
 
 namespace {
 
+using smooth::FaceTerms, smooth::FaceSource, smooth::kTermGroup;
+
 constexpr std::size_t kBlock = VertexRanges::kBlock;
+static_assert(kBlock == smooth::kTermTriangles && kBlock % kTermGroup == 0);
 constexpr std::size_t kGrain = 16384;
 // In triangles. An estimate, from some 50 us for a thread to start; not yet measured on idle cores.
 constexpr std::size_t kWorthThreads = 16384;
@@ -31,8 +34,6 @@ constexpr std::size_t kWorthThreads = 16384;
 // Below the first fraction of the weights a sum is what rounding left of normals that cancel. Below the
 // second it shows how single-precision angles were rounded: it is then taken again, with angles in double.
 constexpr double kVanished = 1e-10, kDoubtful = 1e-2;
-
-using Double2InMemory = double __attribute__((vector_size(16), aligned(8), may_alias));
 
 /// The weighted sum of the unit normals at a point. Later its place holds four floats: the normal, and a mark
 /// whose sign is set when there is none.
@@ -63,86 +64,21 @@ struct PointSum {
     [[nodiscard]] std::size_t number() const { return static_cast<std::size_t>(weights) - 1; }
 };
 
-/// The angle whose cotangent is c, in [0, pi], to 2e-7 of itself. The polynomial is
-/// (atan(t) - t) / t^3 in t^2, interpolated at the Chebyshev points of [0, 1]; it is good to 2e-9.
-inline Float4 angleOfCotangent(Float4 c) {
-    constexpr float kPolynomial[] = {-2.386997316e-03f, 1.350777142e-02f,  -3.587153898e-02f,
-                                     6.250169444e-02f,  -8.656880430e-02f, 1.103376412e-01f,
-                                     -1.427856875e-01f, 1.999973933e-01f,  -3.333333173e-01f};
-    constexpr float kHalfPi = 1.57079632679489662f, kPi = 3.14159265358979324f;
-    const Float4 one = splat(1.0f), size = abs4(c);
-    const Float4 t = min4(size, one) / max4(size, one);
-    const Float4 q = t * t;
-    Float4 p = splat(kPolynomial[0]);
-    for (std::size_t i = 1; i < std::size(kPolynomial); ++i) p = p * q + splat(kPolynomial[i]);
-    const Float4 atan = t + t * (q * p);
-    const Float4 angle = select4(size > one, atan, splat(kHalfPi) - atan);
-    return select4(c < splat(0.0f), splat(kPi) - angle, angle);
-}
-
-/// The triangles of a block that a task adds, and what it computes of them: one array per component.
-struct BlockFaces {
+/// A block of triangles: their vertices and points where these are not read from the mesh, and what they add.
+struct Block {
     std::uint32_t vertices[3 * kBlock];
     std::uint32_t points[3 * kBlock];
-    alignas(64) float position[9][kBlock];
-    alignas(64) double normal[3][kBlock];  ///< unit, times the area if that is a weight; zero if degenerate
-    alignas(64) double size[kBlock];       ///< what `normal` was multiplied with; 0 if degenerate
-    alignas(64) float angle[3][kBlock];    ///< of each corner, or 1 if that is no weight
+    FaceTerms terms;
 };
 
-void gather(const StridedSpan<const Vec3>& positions, const std::uint32_t* v, std::size_t count,
-            BlockFaces& block) {
-    for (std::size_t i = 0; i < count; i += 4) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto p = [&](std::size_t lane) -> const Vec3& {
-                return positions[v[3 * std::min(i + lane, count - 1) + k]];  // the last ones repeat
-            };
-            const Vec3x4 four = gatherVec3(p(0), p(1), p(2), p(3));
-            storeFloat4(block.position[3 * k] + i, four.x);
-            storeFloat4(block.position[3 * k + 1] + i, four.y);
-            storeFloat4(block.position[3 * k + 2] + i, four.z);
-        }
-    }
-}
-
-/// In double: differences of floats are exact or nearly so, and nothing overflows or vanishes. Leaves the
-/// cotangents in the place of the angles.
-template <bool kByArea>
-void computeNormals(double factor, std::size_t count, BlockFaces& block) {
-    const auto& p = block.position;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double ox = p[0][i], oy = p[1][i], oz = p[2][i];
-        const double ax = p[3][i] - ox, ay = p[4][i] - oy, az = p[5][i] - oz;
-        const double bx = p[6][i] - ox, by = p[7][i] - oy, bz = p[8][i] - oz;
-        const double nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
-        const double length = std::sqrt(nx * nx + ny * ny + nz * nz);
-        const bool sound = length > 0.0 && length <= 1e300;
-        const double inverse = sound ? 1.0 / length : 0.0;
-        const double scale = kByArea ? factor : factor * inverse;
-        block.normal[0][i] = sound ? nx * scale : 0.0;
-        block.normal[1][i] = sound ? ny * scale : 0.0;
-        block.normal[2][i] = sound ? nz * scale : 0.0;
-        block.size[i] = sound ? (kByArea ? length : 1.0) : 0.0;
-        const double aa = ax * ax + ay * ay + az * az;
-        const double bb = bx * bx + by * by + bz * bz;
-        const double ab = ax * bx + ay * by + az * bz;
-        block.angle[0][i] = sound ? static_cast<float>(ab * inverse) : 0.0f;
-        block.angle[1][i] = sound ? static_cast<float>((aa - ab) * inverse) : 0.0f;
-        block.angle[2][i] = sound ? static_cast<float>((bb - ab) * inverse) : 0.0f;
-    }
-}
-
-/// The same value for a corner of a face and of its reverse, so that the two cancel.
-void computeAngles(bool by_angle, std::size_t count, BlockFaces& block) {
-    for (float(&angle)[kBlock] : block.angle) {
-        if (!by_angle) {
-            std::fill_n(angle, count, 1.0f);
-            continue;
-        }
-        for (std::size_t i = 0; i < count; i += 4) {
-            storeFloat4(angle + i, angleOfCotangent(loadFloat4(angle + i)));
-        }
-    }
+/// Whole groups are read, so the last one is filled up. The triangles' vertices: `vertices`, or `buffer`, which may be
+/// the same.
+const std::uint32_t* fillGroup(const std::uint32_t* vertices, std::size_t count, std::uint32_t* buffer) {
+    const std::size_t end = (count + kTermGroup - 1) / kTermGroup * kTermGroup;
+    if (end == count) return vertices;
+    if (vertices != buffer) std::copy_n(vertices, 3 * count, buffer);
+    std::fill(buffer + 3 * count, buffer + 3 * end, buffer[0]);
+    return buffer;
 }
 
 class TriangleSmoother {
@@ -155,12 +91,13 @@ class TriangleSmoother {
           by_area_(options.weighting == NormalWeighting::area ||
                    options.weighting == NormalWeighting::angleArea),
           factor_(normalFactor(options.convention)),
+          kernel_(smooth::faceKernelFor(options.execution.simd)),
           out_(out),
           allocator_(options.execution.allocator),
           parallel_(parallel),
           triangle_count_(mesh.faceCount()),
           ranges_(mesh.vertexCount()) {
-        if (options.weld_positions) points_ = weldPositions(mesh.positions, allocator_, parallel_);
+        if (options.weld_positions) points_ = weldPositions(mesh, allocator_, parallel_);
         sums_ = Buffer<PointSum>(allocator_, mesh.vertexCount());
     }
 
@@ -183,6 +120,7 @@ class TriangleSmoother {
             count != 0) {
             sumDoubtful(count);
         }
+        copyToRepeated();
         report.fallback_corner_count =
             sumRanges(parallel_, triangle_count_, kGrain,
                       [&](std::size_t begin, std::size_t end) { return writeCorners(begin, end); });
@@ -202,7 +140,9 @@ class TriangleSmoother {
     std::uint64_t sum(unsigned index) {
         const VertexRange range = ranges_.range(index);
         std::fill(sums_.data() + range.begin, sums_.data() + range.end, PointSum{});
-        BlockFaces block;
+        double* const sums = &sums_.data()->x;
+        const FaceSource source = faceSource(by_angle_, by_area_);
+        Block block;
         std::uint64_t degenerate = 0;
         for (std::size_t first = 0, b = 0; first < triangle_count_; first += kBlock, ++b) {
             if (!ranges_.names(b, index)) continue;
@@ -210,20 +150,31 @@ class TriangleSmoother {
             const std::uint32_t* v = blockVertices(mesh_.indices, first, count, block.vertices);
             const std::uint32_t* points = pointsOf(v, count, block.points);
             if (ranges_.namesOnly(b, index)) {
-                compute(v, count, block);
-                degenerate += add<true>(points, count, range, block);
+                kernel_.compute(source, fillGroup(v, count, block.vertices), count, block.terms);
+                degenerate += kernel_.add(block.terms, points, count, sums);
             } else {
                 count = select(v, points, count, range, block);
-                compute(block.vertices, count, block);
-                degenerate += add<false>(block.points, count, range, block);
+                kernel_.compute(source, fillGroup(block.vertices, count, block.vertices), count, block.terms);
+                degenerate += kernel_.add_some(block.terms, block.points, count, sums, range.begin, range.end);
             }
         }
         return degenerate;
     }
 
+    [[nodiscard]] FaceSource faceSource(bool by_angle, bool by_area) const {
+        FaceSource source;
+        source.positions = reinterpret_cast<const std::byte*>(mesh_.positions.data);
+        source.stride = mesh_.positions.stride_bytes;
+        source.last_vertex = static_cast<std::uint32_t>(mesh_.positions.count - 1);
+        source.factor = factor_;
+        source.by_angle = by_angle;
+        source.by_area = by_area;
+        return source;
+    }
+
     /// Takes the triangles that have a point in the range, and returns how many.
     static std::size_t select(const std::uint32_t* v, const std::uint32_t* points, std::size_t count,
-                              VertexRange range, BlockFaces& block) {
+                              VertexRange range, Block& block) {
         std::size_t taken = 0;
         for (std::size_t i = 0; i < 3 * count; i += 3) {
             bool any = false;
@@ -237,47 +188,14 @@ class TriangleSmoother {
         return taken;
     }
 
-    void compute(const std::uint32_t* v, std::size_t count, BlockFaces& block) const {
-        gather(mesh_.positions, v, count, block);
-        if (by_area_)
-            computeNormals<true>(factor_, count, block);
-        else
-            computeNormals<false>(factor_, count, block);
-        computeAngles(by_angle_, count, block);
-    }
-
-    /// Returns how many of the triangles are degenerate, but only those whose first point is in the range.
-    template <bool kWhole>
-    std::uint64_t add(const std::uint32_t* points, std::size_t count, VertexRange range,
-                      const BlockFaces& block) {
-        const auto isInRange = [&](std::uint32_t point) {
-            return kWhole || point - range.begin < range.end - range.begin;
-        };
-        PointSum* const sums = sums_.data();
-        std::uint64_t degenerate = 0;
-        for (std::size_t i = 0; i < count; ++i, points += 3) {
-            const Double2 xy{block.normal[0][i], block.normal[1][i]};
-            const Double2 z_size{block.normal[2][i], block.size[i]};
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (!isInRange(points[k])) continue;
-                const double angle = block.angle[k][i];
-                PointSum& place = sums[points[k]];
-                addPair(&place.x, Double2{angle, angle} * xy);
-                addPair(&place.z, Double2{angle, angle} * z_size);
-            }
-            if (block.size[i] == 0.0 && isInRange(points[0])) ++degenerate;
-        }
-        return degenerate;
-    }
-
-    static void addPair(double* sum, Double2 term) { *reinterpret_cast<Double2InMemory*>(sum) += term; }
-
     /// Turns sums into unit normals and returns how many are doubtful. Sums of products of floats neither
     /// overflow nor vanish when squared.
     std::uint64_t finish(VertexRange range) {
-        std::uint64_t doubtful = 0;
         PointSum* const end = sums_.data() + range.end;
-        for (PointSum* place = sums_.data() + range.begin; place != end; ++place) {
+        PointSum* place = sums_.data() + range.begin;
+        const std::size_t whole_groups = (range.end - range.begin) / kTermGroup * kTermGroup;
+        std::uint64_t doubtful = kernel_.finish(&place->x, whole_groups, kDoubtful);
+        for (place += whole_groups; place != end; ++place) {
             const PointSum sum = *place;
             doubtful += sum.finish(kDoubtful, place->floats()) || sum.weights == 0 ? 0 : 1;
         }
@@ -323,6 +241,16 @@ class TriangleSmoother {
         }
     }
 
+    /// Where few vertices share a point with another one, these get its normal: then each corner's is at its vertex.
+    void copyToRepeated() {
+        parallel_.forRanges(points_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t v = begin; v < end; ++v) {
+                if (points_[v] != v) sums_[v] = sums_[points_[v]];
+            }
+        });
+        points_ = {};
+    }
+
     /// Returns how many corners of a range of triangles got a substitute.
     std::uint64_t writeCorners(std::size_t begin, std::size_t end) {
         std::uint64_t substitutes = 0;
@@ -330,44 +258,56 @@ class TriangleSmoother {
         for (std::size_t first = begin; first < end; first += kBlock) {
             const std::size_t count = std::min(kBlock, end - first);
             const std::uint32_t* v = blockVertices(mesh_.indices, first, count, buffer);
-            if (points_.empty())
-                substitutes += writeBlock<false>(first, v, count);
-            else
-                substitutes += writeBlock<true>(first, v, count);
+            auto* const to = reinterpret_cast<std::byte*>(&out_[3 * first]);
+            const Float4 marks = out_.stride_bytes == sizeof(Vec3) ? writeNormals(v, 3 * count, to, sizeof(Vec3))
+                                                                   : writeNormals(v, 3 * count, to, out_.stride_bytes);
+            if (PointSum::isMarked(marks)) [[unlikely]] substitutes += writeSubstitutes(first, v, count);
         }
         return substitutes;
     }
 
-    template <bool kMapped>
-    std::uint64_t writeBlock(std::size_t first, const std::uint32_t* v, std::size_t count) {
+    /// Returns a mark if any of the normals has one.
+    [[gnu::always_inline]] Float4 writeNormals(const std::uint32_t* v, std::size_t count, std::byte* to,
+                                               std::size_t stride) const {
         const PointSum* const sums = sums_.data();
-        const std::uint32_t* const points = points_.data();
-        const std::size_t stride = out_.stride_bytes;
-        auto* to = reinterpret_cast<std::byte*>(&out_[3 * first]);
+        Float4 marks = splat(0.0f);
+        for (std::size_t i = 0; i + 1 < count; ++i, to += stride) {
+            const Float4 normal = loadFloat4(sums[v[i]].floats());
+            marks = or4(marks, normal);
+            if (stride == sizeof(Vec3))
+                storeFloat4(reinterpret_cast<float*>(to), normal);  // the fourth is overwritten by the next
+            else
+                storeVec3(*reinterpret_cast<Vec3*>(to), normal);
+        }
+        const Float4 last = loadFloat4(sums[v[count - 1]].floats());
+        storeVec3(*reinterpret_cast<Vec3*>(to), last);
+        return or4(marks, last);
+    }
+
+    std::uint64_t writeSubstitutes(std::size_t first, const std::uint32_t* v, std::size_t count) const {
         std::uint64_t substitutes = 0;
-        for (std::size_t i = 0; i < 3 * count; ++i, to += stride) {
-            const Float4 normal = loadFloat4(sums[kMapped ? points[v[i]] : v[i]].floats());
-            storeVec3(*reinterpret_cast<Vec3*>(to), normal);
-            if (PointSum::isMarked(normal)) [[unlikely]] {
-                *reinterpret_cast<Vec3*>(to) = ownNormal(first + i / 3);
-                ++substitutes;
-            }
+        for (std::size_t i = 0; i < 3 * count; ++i) {
+            if (!PointSum::isMarked(loadFloat4(sums_[v[i]].floats()))) continue;
+            out_[3 * first + i] = ownNormal(first + i / 3);
+            ++substitutes;
         }
         return substitutes;
     }
 
     /// What stands for a mean that vanished.
     [[nodiscard, gnu::noinline]] Vec3 ownNormal(std::size_t triangle) const {
-        BlockFaces block;
-        gather(mesh_.positions, blockVertices(mesh_.indices, triangle, 1, block.vertices), 1, block);
-        computeNormals<false>(factor_, 1, block);
-        if (block.size[0] == 0.0) return {0, 0, 1};
-        return toFloat({block.normal[0][0], block.normal[1][0], block.normal[2][0]});
+        Block block;
+        const std::uint32_t* v = blockVertices(mesh_.indices, triangle, 1, block.vertices);
+        kernel_.compute(faceSource(false, false), fillGroup(v, 1, block.vertices), 1, block.terms);
+        const double(&normal)[4] = block.terms.normal[0];
+        if (normal[3] == 0.0) return {0, 0, 1};
+        return toFloat({normal[0], normal[1], normal[2]});
     }
 
     const MeshView& mesh_;
     bool by_angle_, by_area_;
     double factor_;
+    smooth::FaceKernel kernel_;
     StridedSpan<Vec3> out_;
     const Allocator* allocator_;
     Parallel& parallel_;

@@ -15,7 +15,7 @@ namespace tspace {
 bool canSmoothTriangles(const MeshView& mesh, const NormalOptions& options);
 
 /// The result of generateNormals. The mesh has been validated. Scratch memory: 36 bytes per vertex, and while
-/// vertices are welded 12 to 20. Throws OutOfMemory.
+/// vertices are welded 10 to 24. Throws OutOfMemory.
 NormalReport smoothTriangles(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out,
                              Parallel& parallel);
 

@@ -68,11 +68,11 @@ PointTable makePointTable(const MeshView& mesh, const FaceTable& faces, bool wel
     table.corner_points = Buffer<std::uint32_t>(allocator, corner_count);
     {
         Buffer<std::uint32_t> lowest;
-        if (weld_positions) lowest = weldPositions(mesh.positions, allocator, parallel);
+        if (weld_positions) lowest = weldPositions(mesh, allocator, parallel);
         parallel.forRanges(corner_count, kGrain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t c = begin; c < end; ++c) {
                 const std::uint32_t vertex = mesh.indices[c];
-                table.corner_points[c] = weld_positions ? lowest[vertex] : vertex;
+                table.corner_points[c] = lowest.empty() ? vertex : lowest[vertex];
             }
         });
     }

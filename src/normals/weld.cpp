@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Welding by a hash table of vertices; and, for input that defeats the hash, by sorting.
+// Welding by a hash table of vertices; and, for input that defeats the hash, by sorting. Few vertices of an indexed mesh
+// share a position with another one: there only those are looked up whose hash occurs more than once.
 #include "normals/weld.h"
 
 #include <algorithm>
 #include <atomic>
 #include <bit>
 #include <compare>
+#include <utility>
 
+#include "core/repeated_hashes.h"
 #include "tspace/vec.h"
 
 namespace tspace {
@@ -17,6 +20,9 @@ constexpr std::uint32_t kFree = ~std::uint32_t{0};
 constexpr std::size_t kBatch = 32;  ///< vertices whose places are fetched into the cache together
 // In vertices. An estimate, from some 50 us for a thread to start; not yet measured on idle cores.
 constexpr std::size_t kWorthThreads = 32768;
+constexpr std::size_t kFew = 4096;    ///< vertices; so few are all looked up
+constexpr std::size_t kBlock = 256;   ///< vertices; their hashes stay in the first cache
+constexpr std::size_t kPlacesPerVertex = 4;  ///< of a counting table: leaves 1 vertex of 5 or fewer to be looked up
 
 struct Key {
     std::uint32_t x, y, z;
@@ -42,26 +48,31 @@ std::uint64_t hashOf(const Vec3& p) {
 /// position is hardly ever read in vain. Vertices come in order, so the one that is found is the lowest.
 class WeldTable {
   public:
-    WeldTable(StridedSpan<const Vec3> positions, unsigned part_bits, const Allocator* allocator)
+    /// `candidates`: ascending vertices, which are looked up; null: all.
+    WeldTable(StridedSpan<const Vec3> positions, const std::uint32_t* candidates, std::size_t count, unsigned part_bits,
+              const Allocator* allocator)
         : positions_(positions),
+          candidates_(candidates),
+          count_(count),
           part_bits_(part_bits),
           vertex_mask_(static_cast<std::uint32_t>(std::bit_ceil(positions.count + 1) - 1)),
-          places_(allocator, std::bit_ceil(std::max<std::size_t>(2 * positions.count, 64)), kFree),
+          places_(allocator, std::bit_ceil(std::max<std::size_t>(2 * count, 64)), kFree),
           part_mask_((places_.size() >> part_bits) - 1) {}
 
     /// False when the vertices of this part collide more than chance explains.
     bool weldPart(std::size_t part, std::uint32_t* lowest) {
         std::uint32_t* const places = places_.data() + part * (part_mask_ + 1);
-        std::size_t steps = 16 * positions_.count + 1024;
+        std::size_t steps = 16 * count_ + 1024;
         std::uint32_t entries[kBatch];
         std::uint32_t homes[kBatch];
-        for (std::size_t first = 0; first < positions_.count; first += kBatch) {
-            const std::size_t end = std::min(first + kBatch, positions_.count);
+        for (std::size_t first = 0; first < count_; first += kBatch) {
+            const std::size_t end = std::min(first + kBatch, count_);
             std::size_t count = 0;
-            for (std::size_t v = first; v < end; ++v) {
+            for (std::size_t i = first; i < end; ++i) {
+                const std::uint32_t v = candidates_ == nullptr ? static_cast<std::uint32_t>(i) : candidates_[i];
                 const std::uint64_t hash = hashOf(positions_[v]);
                 const auto mark = static_cast<std::uint32_t>(hash >> 26) & ~vertex_mask_;
-                entries[count] = mark | static_cast<std::uint32_t>(v);
+                entries[count] = mark | v;
                 homes[count] = static_cast<std::uint32_t>(hash & part_mask_);
                 __builtin_prefetch(places + homes[count], 1);
                 count += part_bits_ == 0 || hash >> (64 - part_bits_) == part ? 1 : 0;
@@ -93,6 +104,8 @@ class WeldTable {
     }
 
     StridedSpan<const Vec3> positions_;
+    const std::uint32_t* candidates_;
+    std::size_t count_;
     unsigned part_bits_;
     std::uint32_t vertex_mask_;  ///< bits that hold a vertex; all of them are set in no vertex
     Buffer<std::uint32_t> places_;
@@ -114,23 +127,53 @@ void weldBySorting(StridedSpan<const Vec3> positions, const Allocator* allocator
     }
 }
 
+/// Vertices that may share a position with another one, ascending; their number in `count`. Writes its own number to
+/// each vertex's place of `lowest`. Empty, and the count unchanged, when they would be too many.
+Buffer<std::uint32_t> findCandidates(StridedSpan<const Vec3> positions, std::uint32_t* lowest, std::size_t& count,
+                                     const Allocator* allocator, Parallel& parallel) {
+    Buffer<std::uint32_t> hashes(allocator, positions.count);
+    const std::size_t ranges = RepeatedHashes::rangesFor(positions.count, parallel);
+    RepeatedHashes repeated(kPlacesPerVertex, allocator, positions.count, ranges);
+    parallel.forTasks(ranges, [&](std::size_t range) {
+        repeated.clear(range);
+        const std::size_t end = positions.count * (range + 1) / ranges;
+        for (std::size_t v = positions.count * range / ranges; v < end;) {
+            const std::size_t first = v, stop = std::min(v + kBlock, end);
+            for (; v < stop; ++v) {
+                hashes[v] = static_cast<std::uint32_t>(hashOf(positions[v]) >> 32);
+                lowest[v] = static_cast<std::uint32_t>(v);
+            }
+            repeated.add(range, hashes.data() + first, stop - first);
+        }
+    });
+    if (repeated.sum(ranges, parallel) < positions.count - positions.count / 4) return {};
+    count = repeated.collect(hashes.data(), positions.count, ranges, hashes.data(), parallel);
+    return hashes;
+}
+
 }  // namespace
 
-Buffer<std::uint32_t> weldPositions(StridedSpan<const Vec3> positions, const Allocator* allocator,
-                                    Parallel& parallel) {
-    Buffer<std::uint32_t> lowest(allocator, positions.count);
-    const bool shared = parallel.width() > 1 && positions.count >= kWorthThreads;
+Buffer<std::uint32_t> weldPositions(const MeshView& mesh, const Allocator* allocator, Parallel& parallel) {
+    const StridedSpan<const Vec3> positions = mesh.positions;
+    Buffer<std::uint32_t> lowest(allocator, positions.count), candidates;
+    std::size_t count = positions.count;
+    if (mesh.indices.type != IndexType::none && count >= kFew)
+        candidates = findCandidates(positions, lowest.data(), count, allocator, parallel);
+    const bool shared = parallel.width() > 1 && count >= kWorthThreads;
     const unsigned part_bits =
         shared ? std::min(6u, static_cast<unsigned>(std::bit_width(parallel.width() - 1))) : 0;
     std::atomic<bool> crowded{false};
     {
-        WeldTable table(positions, part_bits, allocator);
+        WeldTable table(positions, candidates.data(), count, part_bits, allocator);
         parallel.forTasks(std::size_t{1} << part_bits, [&](std::size_t part) {
             if (!table.weldPart(part, lowest.data())) crowded = true;
         });
     }
     if (crowded) weldBySorting(positions, allocator, lowest.data());
-    return lowest;
+    const auto isRepeated = [&](std::uint32_t v) { return lowest[v] != v; };
+    const bool none = !candidates.empty() && !crowded &&
+                      std::none_of(candidates.begin(), candidates.begin() + count, isRepeated);
+    return none ? Buffer<std::uint32_t>() : std::move(lowest);
 }
 
 }  // namespace tspace

@@ -187,7 +187,7 @@ TEST(Welding, FindsTheLowestOfManyVerticesAtFewPositions) {
     }
     Parallel one(Execution{.thread_count = 1}), four(Execution{.thread_count = 4});
     for (Parallel* parallel : {&one, &four}) {
-        const Buffer<std::uint32_t> lowest = weldPositions(mesh.positions, nullptr, *parallel);
+        const Buffer<std::uint32_t> lowest = weldPositions(mesh.view(), nullptr, *parallel);
         for (std::uint32_t v = 0; v < kCount; ++v) ASSERT_EQ(lowest[v], v % 3 == 2 ? v : v % 3);
     }
 }

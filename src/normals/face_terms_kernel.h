@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// The kernel behind face_terms.h. Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its namespace.
+// Each lane is one triangle.
+#pragma once
+
+#include "normals/face_terms.h"
+#include "simd/vectors_kernel.h"
+
+namespace tspace::smooth::TSPACE_LANES {
+
+using namespace simd::TSPACE_LANES;
+
+namespace {
+
+/// The angle whose cotangent is c, in [0, pi], to 2e-7 of itself. The polynomial is (atan(t) - t) / t^3 in t^2,
+/// interpolated at the Chebyshev points of [0, 1]; it is good to 2e-9. Three at a time, step by step, because each step
+/// waits for the one before it.
+inline void anglesOfCotangents(Floats (&c)[3]) {
+    constexpr float kPolynomial[] = {1.350777142e-02f, -3.587153898e-02f, 6.250169444e-02f,  -8.656880430e-02f,
+                                     1.103376412e-01f, -1.427856875e-01f, 1.999973933e-01f, -3.333333173e-01f};
+    const Floats one = broadcast(1.0f), half_pi = broadcast(1.57079632679489662f);
+    Floats size[3], t[3], q[3], p[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+        size[k] = absolute(c[k]);
+        t[k] = smaller(size[k], one) / larger(size[k], one);
+        q[k] = t[k] * t[k];
+        p[k] = broadcast(-2.386997316e-03f);
+    }
+    for (const float coefficient : kPolynomial) {
+        const Floats next = broadcast(coefficient);
+        for (std::size_t k = 0; k < 3; ++k) p[k] = p[k] * q[k] + next;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Floats atan = t[k] + t[k] * (q[k] * p[k]);
+        const Floats angle = select(size[k] > one, atan, half_pi - atan);
+        c[k] = select(c[k] < broadcast(0.0f), broadcast(3.14159265358979324f) - angle, angle);
+    }
+}
+
+struct DoubleVectors {
+    Doubles x, y, z;
+};
+inline DoubleVectors operator-(DoubleVectors a, DoubleVectors b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Doubles dot(DoubleVectors a, DoubleVectors b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline DoubleVectors cross(DoubleVectors a, DoubleVectors b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline DoubleVectors part(Vectors v, std::size_t which) { return {part(v.x, which), part(v.y, which), part(v.z, which)}; }
+
+/// Writes normals and gives cotangents. In double: differences of floats are exact or nearly so, and nothing overflows
+/// or vanishes.
+template <bool kByArea>
+inline void faceNormals(DoubleVectors o, DoubleVectors p1, DoubleVectors p2, double factor, double* rows,
+                        Doubles (&cotangents)[3]) {
+    const DoubleVectors a = p1 - o, b = p2 - o, n = cross(a, b);
+    const Doubles length = squareRoot(dot(n, n)), one = broadcastDouble(1.0);
+    const DoubleMask sound = (length > broadcastDouble(0.0)) & (broadcastDouble(1e300) > length);
+    const Doubles inverse = keepWhere(sound, one / length);
+    const Doubles scale = kByArea ? broadcastDouble(factor) : broadcastDouble(factor) * inverse;
+    storeDoubleRows(rows, keepWhere(sound, n.x * scale), keepWhere(sound, n.y * scale), keepWhere(sound, n.z * scale),
+                    keepWhere(sound, kByArea ? length : one));
+    const Doubles aa = dot(a, a), bb = dot(b, b), ab = dot(a, b);
+    cotangents[0] = keepWhere(sound, ab * inverse);
+    cotangents[1] = keepWhere(sound, (aa - ab) * inverse);
+    cotangents[2] = keepWhere(sound, (bb - ab) * inverse);
+}
+
+/// The angles are the same for a corner of a face and of its reverse, so that the two cancel.
+template <bool kByArea>
+inline void groupTerms(const FaceSource& source, const std::uint32_t* vertices, std::size_t first, FaceTerms& terms) {
+    const bool exact = namesLast(vertices, source.last_vertex);
+    Vectors p[3];
+    for (std::size_t k = 0; k < 3; ++k) p[k] = gatherVectors(source.positions, source.stride, vertices + k, exact);
+    constexpr std::size_t kPart = kWidth / kDoubleParts;
+    Doubles cotangents[3][kDoubleParts];
+    for (std::size_t i = 0; i < kDoubleParts; ++i) {
+        Doubles c[3];
+        faceNormals<kByArea>(part(p[0], i), part(p[1], i), part(p[2], i), source.factor,
+                             terms.normal[first + i * kPart], c);
+        for (std::size_t k = 0; k < 3; ++k) cotangents[k][i] = c[k];
+    }
+    Floats angles[3];
+    for (std::size_t k = 0; k < 3; ++k) angles[k] = source.by_angle ? join(cotangents[k]) : broadcast(1.0f);
+    if (source.by_angle) anglesOfCotangents(angles);
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t i = 0; i < kDoubleParts; ++i)
+            storeDoubles(terms.angle[k] + first + i * kPart, part(angles[k], i));
+    }
+}
+
+void compute(const FaceSource& source, const std::uint32_t* vertices, std::size_t count, FaceTerms& terms) {
+    if (source.by_area) {
+        for (std::size_t t = 0; t < count; t += kWidth) groupTerms<true>(source, vertices + 3 * t, t, terms);
+    } else {
+        for (std::size_t t = 0; t < count; t += kWidth) groupTerms<false>(source, vertices + 3 * t, t, terms);
+    }
+}
+
+template <class IsWanted>
+inline std::uint64_t addWanted(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
+                               IsWanted isWanted) {
+    std::uint64_t degenerate = 0;
+    for (std::size_t t = 0; t < count; ++t, points += 3) {
+        const DoubleRow normal = loadDoubleRow(terms.normal[t]);
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (isWanted(points[k])) addDoubleRow(sums + std::size_t{4} * points[k], terms.angle[k][t], normal);
+        }
+        if (terms.normal[t][3] == 0.0 && isWanted(points[0])) ++degenerate;
+    }
+    return degenerate;
+}
+
+std::uint64_t add(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums) {
+    return addWanted(terms, points, count, sums, [](std::uint32_t) { return true; });
+}
+
+std::uint64_t addSome(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
+                      std::uint32_t begin, std::uint32_t end) {
+    return addWanted(terms, points, count, sums, [=](std::uint32_t point) { return point - begin < end - begin; });
+}
+
+std::uint64_t finish(double* sums, std::size_t count, double least) {
+    constexpr std::size_t kPart = kWidth / kDoubleParts;
+    std::uint64_t doubtful = 0;
+    for (double* const end = sums + 4 * count; sums != end; sums += 4 * kWidth) {
+        Doubles x[kDoubleParts], y[kDoubleParts], z[kDoubleParts], mark[kDoubleParts];
+        for (std::size_t i = 0; i < kDoubleParts; ++i) {
+            DoubleVectors sum;
+            Doubles weights;
+            loadDoubleRows(sums + 4 * kPart * i, sum.x, sum.y, sum.z, weights);
+            const Doubles length = squareRoot(dot(sum, sum)), zero = broadcastDouble(0.0);
+            const DoubleMask clear = length > broadcastDouble(least) * weights;
+            const Doubles inverse = broadcastDouble(1.0) / length;
+            x[i] = keepWhere(clear, inverse * sum.x);
+            y[i] = keepWhere(clear, inverse * sum.y);
+            z[i] = keepWhere(clear, inverse * sum.z);
+            mark[i] = negateUnless(clear, zero);
+            doubtful += static_cast<unsigned>(__builtin_popcount(bitsOf(weights > zero) & ~bitsOf(clear)));
+        }
+        storeRows<8>(reinterpret_cast<float*>(sums), join(x), join(y), join(z), join(mark));
+    }
+    return doubtful;
+}
+
+}  // namespace
+
+FaceKernel faceKernel() { return {compute, add, addSome, finish}; }
+
+}  // namespace tspace::smooth::TSPACE_LANES

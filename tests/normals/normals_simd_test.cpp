@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// Neither the instructions nor the way (the short one for triangles, or the general one) may change a normal.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "support/simple_mesh.h"
+#include "tspace/normals.h"
+
+namespace tspace {
+namespace {
+
+using test::SimpleMesh;
+
+constexpr SimdTarget kTargets[] = {SimdTarget::sse2, SimdTarget::avx2, SimdTarget::avx512, SimdTarget::best};
+constexpr NormalWeighting kWeightings[] = {NormalWeighting::angle, NormalWeighting::area, NormalWeighting::angleArea,
+                                           NormalWeighting::uniform};
+
+struct Outcome {
+    std::vector<Vec3> normals;
+    NormalReport report;
+};
+
+Outcome compute(const MeshView& mesh, const NormalOptions& options) {
+    Outcome outcome{std::vector<Vec3>(mesh.cornerCount()), {}};
+    const Result<NormalReport> report = generateNormals(mesh, options, outcome.normals);
+    EXPECT_TRUE(report.ok());
+    if (report) outcome.report = *report;
+    return outcome;
+}
+
+void expectSameBits(const Outcome& a, const Outcome& b) {
+    ASSERT_EQ(a.normals.size(), b.normals.size());
+    EXPECT_EQ(std::memcmp(a.normals.data(), b.normals.data(), a.normals.size() * sizeof(Vec3)), 0);
+    EXPECT_EQ(a.report.degenerate_face_count, b.report.degenerate_face_count);
+    EXPECT_EQ(a.report.fallback_corner_count, b.report.fallback_corner_count);
+}
+
+/// A bent sheet of 2 * side^2 triangles. Its first and last columns lie at the same positions, as at a UV seam.
+SimpleMesh sheet(std::uint32_t side, float size = 1, Vec3 stretch = {1, 1, 1}) {
+    SimpleMesh mesh;
+    const auto n = static_cast<float>(side);
+    for (std::uint32_t i = 0; i <= side; ++i) {
+        for (std::uint32_t j = 0; j <= side; ++j) {
+            const float u = 6.2831853f * static_cast<float>(i % side) / n, v = static_cast<float>(j) / n;
+            mesh.positions.push_back({size * stretch.x * std::cos(u) * (1 + v * v), size * stretch.y * std::sin(u),
+                                      size * stretch.z * v});
+        }
+    }
+    for (std::uint32_t i = 0; i < side; ++i) {
+        for (std::uint32_t j = 0; j < side; ++j) {
+            const std::uint32_t a = i * (side + 1) + j, b = a + side + 1;
+            mesh.indices.insert(mesh.indices.end(), {a, b, b + 1, a, b + 1, a + 1});
+        }
+    }
+    return mesh;
+}
+
+SimpleMesh withBackSides(SimpleMesh mesh) {
+    for (std::size_t i = 0, count = mesh.indices.size(); i < count; i += 3)
+        mesh.indices.insert(mesh.indices.end(), {mesh.indices[i], mesh.indices[i + 2], mesh.indices[i + 1]});
+    return mesh;
+}
+
+SimpleMesh withBrokenValues(SimpleMesh mesh) {
+    for (std::size_t v = 0; v < mesh.positions.size(); v += 53)
+        mesh.positions[v].y = std::numeric_limits<float>::quiet_NaN();
+    for (std::size_t v = 7; v < mesh.positions.size(); v += 61)
+        mesh.positions[v].x = std::numeric_limits<float>::infinity();
+    for (std::size_t v = 9; v < mesh.positions.size(); v += 29) mesh.positions[v] = mesh.positions[v - 1];
+    return mesh;
+}
+
+SimpleMesh randomMesh() {
+    std::mt19937 random(11);
+    SimpleMesh mesh;
+    for (int v = 0; v < 6000; ++v) {
+        const auto coordinate = [&] { return static_cast<float>(random() % 24); };
+        const float x = coordinate(), y = coordinate();
+        mesh.positions.push_back({x, y, coordinate()});
+    }
+    for (int i = 0; i < 3 * 7001; ++i) mesh.indices.push_back(random() % 6000);
+    return mesh;
+}
+
+std::vector<SimpleMesh> soundMeshes() {
+    return {sheet(40),       sheet(40, 1e-19f), sheet(40, 1e-37f),          sheet(40, 1e19f),
+            sheet(9, 1e38f), randomMesh(),      sheet(40, 1, {1, 1, 1e-6f}), sheet(40, 1, {1, 1e5f, 1})};
+}
+
+std::vector<SimpleMesh> meshes() {
+    std::vector<SimpleMesh> all = soundMeshes();
+    all.push_back(withBackSides(sheet(30)));
+    all.push_back(withBackSides(sheet(30, 1e-30f)));
+    all.push_back(withBrokenValues(sheet(40)));
+    return all;
+}
+
+TEST(Simd, EveryTargetGivesTheNormalsOfPlainCode) {
+    for (const SimpleMesh& mesh : meshes()) {
+        for (const NormalWeighting weighting : kWeightings) {
+            NormalOptions options{.weighting = weighting, .execution = {.simd = SimdTarget::scalar}};
+            const Outcome plain = compute(mesh.view(), options);
+            for (const SimdTarget target : kTargets) {
+                for (const unsigned threads : {1u, 3u}) {
+                    options.execution = {.thread_count = threads, .simd = target};
+                    SCOPED_TRACE(static_cast<int>(target));
+                    expectSameBits(plain, compute(mesh.view(), options));
+                }
+            }
+        }
+    }
+}
+
+TEST(Simd, AnyNumberOfTrianglesAndVerticesIsDone) {
+    const SimpleMesh whole = randomMesh();
+    for (std::size_t count = 1; count < 150; ++count) {
+        SimpleMesh mesh = whole;
+        mesh.indices.resize(3 * count);
+        for (std::uint32_t& v : mesh.indices) v %= static_cast<std::uint32_t>(count + 2);
+        mesh.positions.resize(count + 2);
+        NormalOptions options{.execution = {.thread_count = 1, .simd = SimdTarget::scalar}};
+        const Outcome plain = compute(mesh.view(), options);
+        for (const SimdTarget target : kTargets) {
+            options.execution.simd = target;
+            expectSameBits(plain, compute(mesh.view(), options));
+        }
+    }
+}
+
+TEST(Simd, ReadsInterleavedPositionsUpToTheLastByteOnly) {
+    const SimpleMesh mesh = sheet(20);
+    const std::size_t count = mesh.positions.size();
+    std::vector<float> data(5 * count);  // two other numbers, then the position: the last ends where the memory ends
+    for (std::size_t v = 0; v < count; ++v) std::memcpy(&data[5 * v + 2], &mesh.positions[v], sizeof(Vec3));
+    const std::vector<float> exact(data);  // its capacity is its size, so a sanitizer sees any step beyond
+    MeshView view = mesh.view();
+    view.positions = vec3Span(exact.data() + 2, count, 20);
+    for (const SimdTarget target : kTargets) {
+        const NormalOptions options{.execution = {.simd = target}};
+        expectSameBits(compute(mesh.view(), options), compute(view, options));
+    }
+}
+
+TEST(Simd, WritesIntoInterleavedVerticesWithoutTouchingTheirNeighbours) {
+    const SimpleMesh mesh = sheet(20);
+    const std::size_t count = mesh.indices.size();
+    std::vector<float> data(4 * count, 7.0f);
+    const auto report = generateNormals(mesh.view(), {}, {reinterpret_cast<Vec3*>(data.data()), count, 16});
+    ASSERT_TRUE(report.ok());
+    const Outcome tight = compute(mesh.view(), {});
+    for (std::size_t c = 0; c < count; ++c) {
+        ASSERT_EQ(std::memcmp(&data[4 * c], &tight.normals[c], sizeof(Vec3)), 0);
+        ASSERT_EQ(data[4 * c + 3], 7.0f);
+    }
+}
+
+/// A smoothing group that holds every face changes nothing but the way.
+TEST(ShortWay, GivesTheNormalsOfTheGeneralOneAlsoForTinyHugeAndThinTriangles) {
+    for (const SimpleMesh& mesh : soundMeshes()) {
+        const std::vector<std::uint32_t> one_group(mesh.indices.size() / 3, 1);
+        for (const NormalWeighting weighting : kWeightings) {
+            NormalOptions options{.weighting = weighting};
+            const Outcome got = compute(mesh.view(), options);
+            options.smoothing_groups = one_group;
+            const Outcome want = compute(mesh.view(), options);
+            EXPECT_EQ(got.report.degenerate_face_count, want.report.degenerate_face_count);
+            EXPECT_EQ(got.report.fallback_corner_count, want.report.fallback_corner_count);
+            // Angles are good to 2e-7, and a mean may be shorter than its terms.
+            const float allowed = weighting == NormalWeighting::area ? 2e-7f : 1e-5f;
+            for (std::size_t c = 0; c < got.normals.size(); ++c) {
+                const Vec3 &a = got.normals[c], &b = want.normals[c];
+                ASSERT_LE(std::fabs(a.x - b.x), allowed) << c;
+                ASSERT_LE(std::fabs(a.y - b.y), allowed) << c;
+                ASSERT_LE(std::fabs(a.z - b.z), allowed) << c;
+            }
+        }
+    }
+}
+
+TEST(Welding, OfAnIndexedMeshIsThatOfTheSameVerticesWithoutIndices) {
+    // Few of the first one's vertices share a position, most of the second one's do.
+    for (const SimpleMesh& mesh : {sheet(150), randomMesh()}) {
+        SimpleMesh soup;
+        for (const std::uint32_t v : mesh.indices) soup.positions.push_back(mesh.positions[v]);
+        MeshView view = soup.view();
+        view.indices = {};
+        for (const unsigned threads : {1u, 3u}) {
+            const NormalOptions options{.execution = {.thread_count = threads}};
+            expectSameBits(compute(mesh.view(), options), compute(view, options));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tspace
