@@ -198,7 +198,7 @@ TEST_F(CErrors, RefuseHooksWithoutFunctions) {
     TSPACE_INIT(options);
     options.execution.executor = &executor;
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, generate(&options));
-    options.execution = {nullptr, &allocator, 0};
+    options.execution = {nullptr, &allocator, 0, TSPACE_SIMD_BEST};
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, generate(&options));
 }
 
