@@ -5,6 +5,7 @@
 #include "tangents/mikktspace/node_sums.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdlib>
 

@@ -35,7 +35,8 @@ class OnePass {
           nodes_(nodes),
           out_(out),
           parallel_(parallel),
-          allocator_(options.execution.allocator) {}
+          allocator_(options.execution.allocator),
+          sign_factor_(signFactor(options.convention) * normalFactor(options.convention)) {}
 
     std::optional<TangentReport> run() {
         const CornerTermsFunction terms = cornerTermsFor(options_.execution.simd);
@@ -110,9 +111,18 @@ class OnePass {
         }
     }
 
+    /// body(node), ascending.
+    template <class Body>
+    void forEachUnclear(const Body& body) const {
+        for (std::size_t word = 0; word < unclear_.size(); ++word) {
+            for (std::uint64_t bits = unclear_[word]; bits != 0; bits &= bits - 1)
+                body(static_cast<std::uint32_t>(64 * word) +
+                     static_cast<std::uint32_t>(std::countr_zero(bits)));
+        }
+    }
+
     /// Turns the sums of clear nodes into results, in place.
     void finishNodes() {
-        const float sign_factor = signFactor(options_.convention) * normalFactor(options_.convention);
         unclear_ = Buffer<std::uint64_t>(allocator_, nodes_.count / 64 + 1);
         std::atomic<std::uint64_t> unclear{0}, groups{0};
         parallel_.forRanges(unclear_.size(), kNodeGrain / 64, [&](std::size_t begin, std::size_t end) {
@@ -121,7 +131,7 @@ class OnePass {
                 std::uint64_t bits = 0;
                 const std::size_t first = 64 * word, last = std::min(first + 64, nodes_.count);
                 for (std::size_t n = first; n < last; ++n) {
-                    const bool clear = finishNode(n, sign_factor);
+                    const bool clear = finishNode(n);
                     bits |= std::uint64_t{!clear} << (n - first);
                     groups_here += clear && !sums_.isEmpty(n) ? 1 : 0;
                 }
@@ -139,24 +149,19 @@ class OnePass {
     void finishDoubtful(CornerSource source, CornerTermsFunction terms) {
         Growing<std::uint32_t> unclear(allocator_);
         unclear.reserve(unclear_count_);
-        for (std::size_t word = 0; word < unclear_.size(); ++word) {
-            for (std::uint64_t bits = unclear_[word]; bits != 0; bits &= bits - 1)
-                unclear.push(static_cast<std::uint32_t>(64 * word) +
-                             static_cast<std::uint32_t>(std::countr_zero(bits)));
-        }
+        forEachUnclear([&](std::uint32_t node) { unclear.push(node); });
         source.tangents_only = false;
         checkSplits(mesh_, triangles_, nodes_, {unclear.begin(), unclear.size()}, source, terms, sums_,
                     allocator_, parallel_);
-        const float sign_factor = signFactor(options_.convention) * normalFactor(options_.convention);
         for (const std::uint32_t n : unclear) {
-            if ((sums_.marks[n] & kCannotSplit) == 0 || !finishNode(n, sign_factor)) continue;
+            if ((sums_.marks[n] & kCannotSplit) == 0 || !finishNode(n)) continue;
             unclear_[n / 64] &= ~(std::uint64_t{1} << (n % 64));
             --unclear_count_;
             ++group_count_;
         }
     }
 
-    bool finishNode(std::size_t n, float sign_factor) {
+    bool finishNode(std::size_t n) {
         const bool empty = sums_.isEmpty(n), splits = options_.method == Method::mikktspace;
         if (!empty && !sums_.isOneGroup(n, mesh_.normals[nodes_.vertex(n)], splits)) return false;
         NodeSum& sum = sums_.nodes[n];
@@ -168,7 +173,7 @@ class OnePass {
         sum.s[0] = s.x;
         sum.s[1] = s.y;
         sum.s[2] = s.z;
-        sum.s[3] = positive ? sign_factor : -sign_factor;  // from here on the sign
+        sum.s[3] = positive ? sign_factor_ : -sign_factor_;  // from here on the sign
         return true;
     }
 
@@ -241,11 +246,7 @@ class OnePass {
         Marks marks = noMarks(allocator_, mesh_.vertexCount());
         for (std::size_t v = 0; v < marks.size(); ++v)
             marks[v] = isUnclear(nodes_.ofVertex(static_cast<std::uint32_t>(v))) ? 1 : 0;
-        for (std::size_t word = 0; word < unclear_.size(); ++word) {
-            for (std::uint64_t bits = unclear_[word]; bits != 0; bits &= bits - 1)
-                numberNode(static_cast<std::uint32_t>(64 * word) +
-                           static_cast<std::uint32_t>(std::countr_zero(bits)));
-        }
+        forEachUnclear([&](std::uint32_t node) { numberNode(node); });
         if (triangles_.corners.empty()) {
             const Buffer<std::uint32_t> found =
                 collectTriangles(mesh_, triangles_, marks, 1, allocator_, parallel_);
@@ -338,6 +339,7 @@ class OnePass {
     TangentOutput out_;
     Parallel& parallel_;
     const Allocator* allocator_;
+    float sign_factor_;  // what the sign of the UV determinant is multiplied with
 
     NodeSums sums_;
     Buffer<std::uint64_t> unclear_;  // one bit per node
