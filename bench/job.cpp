@@ -42,7 +42,9 @@ constexpr struct {
                 {"area", Method::area},
                 {"lengyel", Method::lengyel},
                 {"flat", Method::flat},
-                {"basis", Method::basis}};
+                {"basis", Method::basis},
+                {"fast", Method::fast},
+                {"best", Method::best}};
 
 Job tangentsJob(const Mesh& mesh, const TangentOptions& options) {
     auto outputs = std::make_shared<Outputs>();
@@ -168,7 +170,7 @@ const std::vector<std::string>& jobNames() {
     static const std::vector<std::string> names = {
         "mikktspace", "mikktspace_all", "mikktspace_corrected", "evaluate", "uniform", "angle",
         "area",       "lengyel",        "lengyel_vertex",       "flat",     "basis",   "normals",
-        "split"};
+        "split",      "fast",           "best"};
     return names;
 }
 

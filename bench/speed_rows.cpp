@@ -156,6 +156,8 @@ std::vector<Row> speedRows() {
         contest("`angle` with grouping", {"angle", "torus_SIZE", 4.5, 2.7}),
         contest("`area` with grouping", {"area", "torus_SIZE", 4.5, 2.7}),
         contest("`uniform` with grouping", {"uniform", "torus_SIZE", 4.5, 2.7}),
+        contest("`fast`", {"fast", "torus_SIZE", 6.0, {}}),
+        contest("`best`", {"best", "torus_SIZE", 12.0, {}}),
         contest("`lengyel`, a result per vertex as in the plain loop",
                 {"lengyel_vertex", "torus_SIZE", 0.8, 0.5}),
         contest("`lengyel`, a result per corner", {"lengyel", "torus_SIZE", 0.8, 0.5}),

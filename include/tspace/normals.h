@@ -21,6 +21,9 @@ enum class NormalWeighting : std::uint32_t {
     angle = 3,      ///< a: independent of tessellation (Thuermer & Wuethrich 1998)
     angleArea = 4,  ///< a * area
     max = 5,        ///< sin(a) / (|e1| |e2|): exact on a sphere (Max 1999)
+    /// No mean: the normal of a quadratic surface through the edges at the point. Where these look like noise or a bevel
+    /// it is the mean of `angleArea`, and in between a blend. The most accurate, and the slowest.
+    best = 6,
 };
 
 struct NormalOptions {
@@ -60,7 +63,7 @@ struct NormalReport {
 /// out       one per corner (count == mesh.cornerCount()); must not overlap the inputs
 /// Errors: those of validate(); countMismatch (out, smoothing_groups), invalidOption, outOfMemory.
 /// O(corners). Scratch memory: about 36 bytes per vertex for a mesh of triangles (no face_sizes) without hard edges, in
-/// which angles are good to 2e-7; else about 40 bytes per corner. Thread-safe; same bits for any thread count.
+/// which angles are good to 2e-7; else about 40 bytes per corner, with `best` 64. Thread-safe; same bits for any thread count.
 Result<NormalReport> generateNormals(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out);
 
 }  // namespace tspace

@@ -23,10 +23,10 @@ struct CornerAttribute {
 
 /// Views per-corner vectors as an attribute.
 inline CornerAttribute cornerAttribute(const StridedSpan<const Vec3>& s, float tolerance = 0.0f) {
-    return {&s.data->x, s.stride_bytes, 3, tolerance};
+    return {s.data ? &s.data->x : nullptr, s.stride_bytes, 3, tolerance};
 }
 inline CornerAttribute cornerAttribute(const StridedSpan<const Vec4>& s, float tolerance = 0.0f) {
-    return {&s.data->x, s.stride_bytes, 4, tolerance};
+    return {s.data ? &s.data->x : nullptr, s.stride_bytes, 4, tolerance};
 }
 
 /// Marks a vertex that no corner uses.

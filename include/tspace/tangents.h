@@ -27,7 +27,18 @@ enum class Method : std::uint32_t {
     flat = 5,
     /// No UVs: an orthonormal basis from N alone (Duff et al. 2017). No such basis is continuous over a closed surface.
     basis = 6,
+    /// Two weighted sums of dP/du in the groups of `angle`: one that is accurate on smooth surfaces (Max 1999), one that
+    /// is robust on bevels and noise, mixed by the angle between them. More accurate than all weighted means, and hardly
+    /// dearer than `uniform`.
+    fast = 7,
+    /// A quadratic map from UVs to the tangent plane, fitted to the edges around each vertex (polynomial preserving
+    /// recovery, Zhang and Naga 2005), in the groups of `angle`; where the fit is doubtful it becomes a robust mean. The
+    /// error of its tangents falls with the square of the edge length, not with the length as that of all others.
+    best = 8,
 };
+
+/// The name of a method as the tool and the docs spell it ("mikktspace"); "unknown" for other values.
+const char* methodName(Method method);
 
 /// How `mikktspace` finds neighbouring faces.
 enum class Pairing : std::uint32_t {
@@ -49,6 +60,15 @@ enum class OutputDomain : std::uint32_t {
     vertex = 1,
 };
 
+/// Which orthonormal frame stands for dP/du and dP/dv, where UVs are sheared and the two are not perpendicular.
+enum class FrameShape : std::uint32_t {
+    /// T is the direction of dP/du, and the shader's `sign * cross(N, T)` is off from dP/dv by the shear.
+    gramSchmidt = 0,
+    /// T is the bisector of dP/du and of the direction perpendicular to dP/dv (Löwdin 1950): both are off by half of the
+    /// shear. Nearer to what the UVs say, but not what a baker or an engine with another tangent space expects.
+    symmetric = 1,
+};
+
 struct TangentOptions {
     Method method = Method::mikktspace;
     /// Degrees, meant for 0..360; `mikktspace` only. Faces of one group whose tangents (or bitangents) differ by this
@@ -60,6 +80,8 @@ struct TangentOptions {
     OutputDomain domain = OutputDomain::corner;  ///< `vertex` for `lengyel` and `basis` only
     Convention convention = {};  ///< decides the stored sign; the default stores the raw one, as the reference does
     Execution execution = {};
+    /// `symmetric` is refused for `mikktspace`, whose results are the reference's, and for `basis`, which has no UVs.
+    FrameShape frame = FrameShape::gramSchmidt;
 };
 
 /// What was met, counted. Broken input never makes a call fail.
@@ -128,20 +150,25 @@ class TangentPlan {
 ///           inputs or each other
 /// Corners of faces with fewer than 3 corners (and of n-gons with Ngons::skip) get 0 in every output.
 /// Errors: those of validate(); missingAttribute, countMismatch (outputs), nullData, invalidOption, outOfMemory;
-/// tooLarge also for more than 715,827,882 triangles (mikktspace, uniform, angle, area).
+/// tooLarge also for more than 715,827,882 triangles (the methods that group: mikktspace, uniform, angle, area, fast, best).
 /// Linear in the number of corners whatever the input (fans, books, collapsed faces). Thread-safe.
 /// Same bits for any thread count and SIMD target.
-/// Scratch memory on a mesh of triangles: `lengyel` 24 bytes per vertex. `mikktspace`, `uniform`, `angle` and `area` about
+/// Scratch memory on a mesh of triangles: `lengyel` 16 bytes per vertex, or 8
+/// with OutputDomain::vertex (24 where the tangents' stride is not 16). `mikktspace`, `uniform`, `angle` and `area` about
 /// 40 bytes per vertex without equal vertices, 50 with some, 85 when more than tangents is asked for; up to about 130
-/// bytes per triangle for meshes that need the long way, as when UVs have no area on many triangles. Until the call
-/// returns, and when it fails, the outputs hold anything.
+/// bytes per triangle for meshes that need the long way (thresholds, values that are not finite), and about 150 beside the
+/// first for each triangle around a vertex that needs a second look (several groups, doubtful splits, degenerate triangles).
+/// `fast` and `best` take about as much, 4 bytes per triangle where triangles are in no order, and up to 2 MB per thread.
+/// FrameShape::symmetric adds 12 bytes per output unless bitangents are asked for. Until the call returns, and when it
+/// fails, the outputs hold anything.
 Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out);
 
 /// Makes the plan: welds equal vertices (position, normal and UV all equal), finds neighbours, groups and splits.
 /// Inputs, errors and complexity as generateTangents.
 Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& options);
 
-/// Computes frames for a pose with the plan's groups and splits. On the pose the plan was made from the result is
+/// Computes frames for a pose with the plan's groups and splits. Each corner has the pose's position and normal of its own
+/// vertex, also where vertices that were equal on the mesh come apart. On the pose the plan was made from the result is
 /// bit for bit that of generateTangents. `execution` replaces the plan's. Scratch memory of the grouping methods: 16 bytes
 /// per group when only tangents are asked for, else 48.
 /// Errors: planMismatch when counts differ from the plan's, and those of span checks.

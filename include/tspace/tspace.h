@@ -245,7 +245,8 @@ enum {
     TSPACE_NORMAL_WEIGHTING_AREA = 3,       /* |e1 x e2| */
     TSPACE_NORMAL_WEIGHTING_ANGLE = 4,      /* a: independent of tessellation (Thuermer & Wuethrich 1998) */
     TSPACE_NORMAL_WEIGHTING_ANGLE_AREA = 5, /* a * area */
-    TSPACE_NORMAL_WEIGHTING_MAX = 6         /* sin(a) / (|e1| |e2|): exact on a sphere (Max 1999) */
+    TSPACE_NORMAL_WEIGHTING_MAX = 6,        /* sin(a) / (|e1| |e2|): exact on a sphere (Max 1999) */
+    TSPACE_NORMAL_WEIGHTING_BEST = 7        /* quadratic fit; angle * area on noise and bevels */
 };
 
 typedef struct tspace_NormalOptions {
@@ -297,7 +298,9 @@ enum {
     TSPACE_METHOD_ANGLE = 3,      /* the corner's angle, */
     TSPACE_METHOD_AREA = 4,       /* or the face's area */
     TSPACE_METHOD_FLAT = 5,       /* the face's own dP/du, made orthogonal to N */
-    TSPACE_METHOD_BASIS = 6       /* without UVs: a basis from N alone (Duff et al. 2017) */
+    TSPACE_METHOD_BASIS = 6,      /* without UVs: a basis from N alone (Duff et al. 2017) */
+    TSPACE_METHOD_FAST = 7,       /* in groups: two weighted sums of dP/du, mixed by the angle between them */
+    TSPACE_METHOD_BEST = 8        /* in groups: a quadratic map from UVs to space, fitted around each vertex */
 };
 
 /* How mikktspace finds neighbouring faces. */
@@ -322,6 +325,14 @@ enum {
                               * would get; 0 for vertices that no used face names */
 };
 
+/* Which orthonormal frame stands for dP/du and dP/dv, where UVs are sheared. */
+typedef uint32_t tspace_FrameShape;
+enum {
+    TSPACE_FRAME_GRAM_SCHMIDT = 0, /* T is the direction of dP/du */
+    TSPACE_FRAME_SYMMETRIC = 1     /* T is the bisector of dP/du and of the direction perpendicular to dP/dv; not for
+                                    * MIKKTSPACE and BASIS */
+};
+
 typedef struct tspace_TangentOptions {
     uint32_t struct_size;
     tspace_Method method;
@@ -334,6 +345,7 @@ typedef struct tspace_TangentOptions {
     tspace_OutputDomain domain;
     tspace_Convention convention; /* decides the stored sign */
     tspace_Execution execution;
+    tspace_FrameShape frame;
 } tspace_TangentOptions;
 
 /* What was met. Broken input is counted and never makes a call fail. */

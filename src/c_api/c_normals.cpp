@@ -17,13 +17,14 @@ static_assert(TSPACE_NORMAL_WEIGHTING_AREA == inC(NormalWeighting::area));
 static_assert(TSPACE_NORMAL_WEIGHTING_ANGLE == inC(NormalWeighting::angle));
 static_assert(TSPACE_NORMAL_WEIGHTING_ANGLE_AREA == inC(NormalWeighting::angleArea));
 static_assert(TSPACE_NORMAL_WEIGHTING_MAX == inC(NormalWeighting::max));
+static_assert(TSPACE_NORMAL_WEIGHTING_BEST == inC(NormalWeighting::best));
 
 Error checkOptions(const tspace_NormalOptions* given) {
     if (given == nullptr) return {ErrorCode::ok};
     const tspace_NormalOptions& options = *given;
     return firstError(
         [&] { return checkSized(given, "options"); },
-        [&] { return checkChoice(options.weighting, TSPACE_NORMAL_WEIGHTING_MAX, "weighting"); },
+        [&] { return checkChoice(options.weighting, TSPACE_NORMAL_WEIGHTING_BEST, "weighting"); },
         [&] { return checkChoice(options.smoothing_groups_are_masks, 1, "smoothing_groups_are_masks"); },
         [&] { return checkChoice(options.keep_positions_apart, 1, "keep_positions_apart"); },
         [&] { return checkConvention(options.convention); },

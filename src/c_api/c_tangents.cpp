@@ -29,18 +29,22 @@ static_assert(TSPACE_METHOD_ANGLE == static_cast<std::uint32_t>(Method::angle));
 static_assert(TSPACE_METHOD_AREA == static_cast<std::uint32_t>(Method::area));
 static_assert(TSPACE_METHOD_FLAT == static_cast<std::uint32_t>(Method::flat));
 static_assert(TSPACE_METHOD_BASIS == static_cast<std::uint32_t>(Method::basis));
+static_assert(TSPACE_METHOD_FAST == static_cast<std::uint32_t>(Method::fast));
+static_assert(TSPACE_METHOD_BEST == static_cast<std::uint32_t>(Method::best));
 static_assert(TSPACE_PAIRING_CORRECTED == static_cast<std::uint32_t>(Pairing::corrected));
 static_assert(TSPACE_NGONS_SKIP == static_cast<std::uint32_t>(Ngons::skip));
+static_assert(TSPACE_FRAME_SYMMETRIC == static_cast<std::uint32_t>(FrameShape::symmetric));
 static_assert(TSPACE_DOMAIN_VERTEX == static_cast<std::uint32_t>(OutputDomain::vertex));
 
 Error checkOptions(const tspace_TangentOptions* given) {
     if (given == nullptr) return {ErrorCode::ok};
     const tspace_TangentOptions& options = *given;
     return firstError([&] { return checkSized(given, "options"); },
-                      [&] { return checkChoice(options.method, TSPACE_METHOD_BASIS, "method"); },
+                      [&] { return checkChoice(options.method, TSPACE_METHOD_BEST, "method"); },
                       [&] { return checkChoice(options.pairing, TSPACE_PAIRING_CORRECTED, "pairing"); },
                       [&] { return checkChoice(options.ngons, TSPACE_NGONS_SKIP, "ngons"); },
                       [&] { return checkChoice(options.domain, TSPACE_DOMAIN_VERTEX, "domain"); },
+                      [&] { return checkChoice(options.frame, TSPACE_FRAME_SYMMETRIC, "frame"); },
                       [&] { return checkConvention(options.convention); },
                       [&] { return checkExecution(options.execution); });
 }
@@ -54,6 +58,7 @@ TangentOptions toOptions(const tspace_TangentOptions& options, const Hooks& hook
     result.domain = static_cast<OutputDomain>(options.domain);
     result.convention = toConvention(options.convention);
     result.execution = hooks.execution();
+    result.frame = static_cast<FrameShape>(options.frame);
     return result;
 }
 

@@ -32,6 +32,34 @@ inline double polarAngle(double x, double y) {
     return x < 0 ? kPi - angle : angle;
 }
 
+struct SineCosine {
+    double sine = 0, cosine = 1;
+};
+
+/// Sine and cosine of an angle in radians; absolute error below 1e-15 for |angle| <= 100, and growing with the angle
+/// beyond (tested against libm). (0, 1) where the angle is not finite.
+inline SineCosine sineCosine(double angle) {
+    if (!std::isfinite(angle)) return {};
+    // pi / 2 in two parts: the first has few bits, so that its small multiples are exact.
+    constexpr double kHalfPiHigh = 1.57079632673412561417e+00;
+    constexpr double kHalfPiLow = 6.07710050650619224932e-11;
+    const double rest = std::fmod(angle, 2 * kPi * (1 << 20));  // exact, and leaves angles of ordinary size alone
+    const double quarters = std::floor(rest / (0.5 * kPi) + 0.5);
+    const double x = (rest - quarters * kHalfPiHigh) - quarters * kHalfPiLow;
+    // |x| <= pi / 4: the first terms left out are below 0.79^19 / 19! = 1e-19 and 0.79^18 / 18! = 2e-18.
+    const double q = x * x;
+    double sine = 1, cosine = 1;
+    for (int n = 17; n >= 3; n -= 2) sine = 1 - q / (n * (n - 1)) * sine;
+    for (int n = 16; n >= 2; n -= 2) cosine = 1 - q / (n * (n - 1)) * cosine;
+    sine *= x;
+    switch (static_cast<int>(std::fmod(quarters, 4)) & 3) {
+        case 0: return {sine, cosine};
+        case 1: return {cosine, -sine};
+        case 2: return {-sine, -cosine};
+        default: return {-cosine, sine};
+    }
+}
+
 /// The angle between two vectors, in [0, pi]; accurate also near 0 and pi, where acos of the dot product is
 /// not. 0 when either is zero.
 inline double angleBetween(const DVec3& a, const DVec3& b) {

@@ -83,9 +83,11 @@ const std::uint32_t* fillGroup(const std::uint32_t* vertices, std::size_t count,
 
 class TriangleSmoother {
   public:
-    TriangleSmoother(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out,
-                     Parallel& parallel)
+    /// Vertices are welded by the mesh's positions; all else is computed from `positions`.
+    TriangleSmoother(const MeshView& mesh, const StridedSpan<const Vec3>& positions, const NormalOptions& options,
+                     StridedSpan<Vec3> out, Parallel& parallel)
         : mesh_(mesh),
+          positions_(positions),
           by_angle_(options.weighting == NormalWeighting::angle ||
                     options.weighting == NormalWeighting::angleArea),
           by_area_(options.weighting == NormalWeighting::area ||
@@ -163,9 +165,9 @@ class TriangleSmoother {
 
     [[nodiscard]] FaceSource faceSource(bool by_angle, bool by_area) const {
         FaceSource source;
-        source.positions = reinterpret_cast<const std::byte*>(mesh_.positions.data);
-        source.stride = mesh_.positions.stride_bytes;
-        source.last_vertex = static_cast<std::uint32_t>(mesh_.positions.count - 1);
+        source.positions = reinterpret_cast<const std::byte*>(positions_.data);
+        source.stride = positions_.stride_bytes;
+        source.last_vertex = static_cast<std::uint32_t>(positions_.count - 1);
         source.factor = factor_;
         source.by_angle = by_angle;
         source.by_area = by_area;
@@ -228,9 +230,9 @@ class TriangleSmoother {
         for (std::size_t k = 0; k < 3; ++k) {
             if (points[k] - range.begin >= range.end - range.begin || !sums_[points[k]].isDoubtful())
                 continue;
-            const DVec3 here = toDouble(mesh_.positions[v[k]]);
-            const DVec3 e1 = toDouble(mesh_.positions[v[(k + 1) % 3]]) - here;
-            const DVec3 e2 = toDouble(mesh_.positions[v[(k + 2) % 3]]) - here;
+            const DVec3 here = toDouble(positions_[v[k]]);
+            const DVec3 e1 = toDouble(positions_[v[(k + 1) % 3]]) - here;
+            const DVec3 e2 = toDouble(positions_[v[(k + 2) % 3]]) - here;
             const DVec3 turn = cross(e1, e2);
             const double size = length(turn);
             if (!(size > 0) || !std::isfinite(size)) return;
@@ -305,6 +307,7 @@ class TriangleSmoother {
     }
 
     const MeshView& mesh_;
+    StridedSpan<const Vec3> positions_;
     bool by_angle_, by_area_;
     double factor_;
     smooth::FaceKernel kernel_;
@@ -322,12 +325,12 @@ class TriangleSmoother {
 bool canSmoothTriangles(const MeshView& mesh, const NormalOptions& options) {
     return mesh.face_sizes.empty() && mesh.face_size == 3 && mesh.vertexCount() != 0 &&
            options.crease_angle_deg >= 180 && options.smoothing_groups.empty() &&
-           options.weighting != NormalWeighting::flat && options.weighting != NormalWeighting::max;
+           options.weighting != NormalWeighting::flat && options.weighting < NormalWeighting::max;
 }
 
-NormalReport smoothTriangles(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out,
-                             Parallel& parallel) {
-    return TriangleSmoother(mesh, options, out, parallel).run();
+NormalReport smoothTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positions, const NormalOptions& options,
+                             StridedSpan<Vec3> out, Parallel& parallel) {
+    return TriangleSmoother(mesh, positions, options, out, parallel).run();
 }
 
 }  // namespace tspace

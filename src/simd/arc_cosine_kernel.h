@@ -4,8 +4,8 @@
 
 namespace tspace::simd::TSPACE_LANES {
 
-/// acos of three cosines, rounded to float: the bits of core/acos.h (compared for every float), with less
-/// work. Three at a time, step by step, because each step waits for the one before it.
+/// acos of three cosines, rounded to float: the bits of the C library's double acos rounded to float (compared
+/// for every float). Three at a time, step by step, because each step waits for the one before it.
 ///
 /// y = min(c^2, (1 - |c|) / 2), which is at most 1/4, and s = sqrt(y) is |c| or, from 1/2 on, the sine of
 /// half the angle. asin(s) = s + s y P(y). Then acos(c) is pi/2 -+ asin(s), or 2 asin(s), or pi - 2 asin(s).

@@ -120,20 +120,7 @@ inline void addDoubleRow(double* to, double k, DoubleRow row) {
     _mm256_store_pd(to, _mm256_add_pd(_mm256_load_pd(to), _mm256_mul_pd(_mm256_set1_pd(k), row.v)));
 }
 
-/// Two floats at any address, as one double.
-inline double loadTwo(const std::byte* p) {
-    double d;
-    std::memcpy(&d, p, sizeof d);
-    return d;
-}
-inline __m128 loadVector(const std::byte* p, bool exact) {
-    const float* f = reinterpret_cast<const float*>(p);
-    if (!exact) return _mm_loadu_ps(f);
-    return _mm_movelh_ps(_mm_castpd_ps(_mm_set_sd(loadTwo(p))), _mm_load_ss(f + 2));
-}
-inline __m128 loadPair(const std::byte* a, const std::byte* b) {
-    return _mm_castpd_ps(_mm_set_pd(loadTwo(b), loadTwo(a)));
-}
+#include "simd/loads_x86.h"
 inline __m512 combine(__m128 a, __m128 b, __m128 c, __m128 d) {
     const __m256 ab = _mm256_insertf128_ps(_mm256_castps128_ps256(a), b, 1);
     const __m256 cd = _mm256_insertf128_ps(_mm256_castps128_ps256(c), d, 1);
@@ -160,6 +147,7 @@ inline void gather2(const std::byte* base, std::size_t stride, const std::uint32
     x = {_mm512_shuffle_ps(ab, cd, 0x88)};
     y = {_mm512_shuffle_ps(ab, cd, 0xdd)};
 }
+inline void store(float* to, Floats a) { _mm512_store_ps(to, a.v); }
 inline void store(std::uint32_t* to, Bits b) { _mm512_store_si512(to, b.v); }
 template <std::size_t kStep = 12>
 inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
@@ -174,6 +162,19 @@ inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
         _mm_store_ps(rows + kStep * (j + 8), _mm512_extractf32x4_ps(r[j], 2));
         _mm_store_ps(rows + kStep * (j + 12), _mm512_extractf32x4_ps(r[j], 3));
     }
+}
+
+template <std::size_t kStep>
+inline void loadRows(const float* rows, Floats& x, Floats& y, Floats& z, Floats& w) {
+    const auto at = [&](std::size_t i) { return _mm_load_ps(rows + kStep * i); };
+    __m512 r[4];
+    for (std::size_t j = 0; j < 4; ++j) r[j] = combine(at(j), at(j + 4), at(j + 8), at(j + 12));
+    const __m512 ab_low = _mm512_unpacklo_ps(r[0], r[1]), cd_low = _mm512_unpacklo_ps(r[2], r[3]);
+    const __m512 ab_high = _mm512_unpackhi_ps(r[0], r[1]), cd_high = _mm512_unpackhi_ps(r[2], r[3]);
+    x = {_mm512_shuffle_ps(ab_low, cd_low, 0x44)};
+    y = {_mm512_shuffle_ps(ab_low, cd_low, 0xee)};
+    z = {_mm512_shuffle_ps(ab_high, cd_high, 0x44)};
+    w = {_mm512_shuffle_ps(ab_high, cd_high, 0xee)};
 }
 
 }  // namespace tspace::simd::avx512

@@ -132,12 +132,22 @@ inline void gather2(const std::byte* base, std::size_t stride, const std::uint32
     x = {v[0]};
     y = {v[1]};
 }
+inline void store(float* to, Floats a) { *to = a.v; }
 inline void store(std::uint32_t* to, Bits b) { *to = b.v; }
 /// Writes lane i's four values to rows[kStep * i ...]: to row 3 * i of an array of rows of four floats.
 template <std::size_t kStep = 12>
 inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     const float v[4] = {x.v, y.v, z.v, w.v};
     std::memcpy(rows, v, sizeof v);  // the rows may have been other numbers before
+}
+
+/// The opposite of storeRows.
+template <std::size_t kStep>
+inline void loadRows(const float* rows, Floats& x, Floats& y, Floats& z, Floats& w) {
+    x = {rows[0]};
+    y = {rows[1]};
+    z = {rows[2]};
+    w = {rows[3]};
 }
 
 }  // namespace tspace::simd::scalar

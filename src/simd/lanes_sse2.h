@@ -108,20 +108,7 @@ inline void addDoubleRow(double* to, double k, DoubleRow row) {
     _mm_store_pd(to + 2, _mm_add_pd(_mm_load_pd(to + 2), _mm_mul_pd(factor, row.high)));
 }
 
-/// Two floats at any address, as one double.
-inline double loadTwo(const std::byte* p) {
-    double d;
-    std::memcpy(&d, p, sizeof d);
-    return d;
-}
-inline __m128 loadVector(const std::byte* p, bool exact) {
-    const float* f = reinterpret_cast<const float*>(p);
-    if (!exact) return _mm_loadu_ps(f);
-    return _mm_movelh_ps(_mm_castpd_ps(_mm_set_sd(loadTwo(p))), _mm_load_ss(f + 2));
-}
-inline __m128 loadPair(const std::byte* a, const std::byte* b) {
-    return _mm_castpd_ps(_mm_set_pd(loadTwo(b), loadTwo(a)));
-}
+#include "simd/loads_x86.h"
 
 inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact,
                     Floats& x, Floats& y, Floats& z) {
@@ -141,6 +128,7 @@ inline void gather2(const std::byte* base, std::size_t stride, const std::uint32
     x = {_mm_shuffle_ps(ab, cd, 0x88)};
     y = {_mm_shuffle_ps(ab, cd, 0xdd)};
 }
+inline void store(float* to, Floats a) { _mm_store_ps(to, a.v); }
 inline void store(std::uint32_t* to, Bits b) { _mm_store_ps(reinterpret_cast<float*>(to), b.v); }
 template <std::size_t kStep = 12>
 inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
@@ -150,6 +138,18 @@ inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     _mm_store_ps(rows + kStep, _mm_movehl_ps(zw_low, xy_low));
     _mm_store_ps(rows + 2 * kStep, _mm_movelh_ps(xy_high, zw_high));
     _mm_store_ps(rows + 3 * kStep, _mm_movehl_ps(zw_high, xy_high));
+}
+
+template <std::size_t kStep>
+inline void loadRows(const float* rows, Floats& x, Floats& y, Floats& z, Floats& w) {
+    const __m128 a = _mm_load_ps(rows), b = _mm_load_ps(rows + kStep), c = _mm_load_ps(rows + 2 * kStep),
+                 d = _mm_load_ps(rows + 3 * kStep);
+    const __m128 ab_low = _mm_unpacklo_ps(a, b), cd_low = _mm_unpacklo_ps(c, d);
+    const __m128 ab_high = _mm_unpackhi_ps(a, b), cd_high = _mm_unpackhi_ps(c, d);
+    x = {_mm_movelh_ps(ab_low, cd_low)};
+    y = {_mm_movehl_ps(cd_low, ab_low)};
+    z = {_mm_movelh_ps(ab_high, cd_high)};
+    w = {_mm_movehl_ps(cd_high, ab_high)};
 }
 
 }  // namespace tspace::simd::sse2

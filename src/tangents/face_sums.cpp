@@ -35,7 +35,7 @@ class Elements {
     std::size_t stride_;
 };
 
-/// dP/du and dP/dv of four triangles, as VertexSum holds them.
+/// dP/du and dP/dv of four triangles, as VertexSums holds them.
 struct Derivatives4 {
     Float4 head[4];       ///< per triangle s.x s.y s.z t.x
     Float4 tail[4];       ///< per triangle t.y t.z, and two lanes without meaning
@@ -79,7 +79,7 @@ template <class Positions, class Uvs>
     Derivatives4 result;
     result.safe = laneBits(safe);
     result.mirrored = determinant < splat(0.0f);
-    result.head[0] = s.x + splat(0.0f);  // never -0, see VertexSum
+    result.head[0] = s.x + splat(0.0f);  // never -0, see VertexSums
     result.head[1] = s.y;
     result.head[2] = s.z;
     result.head[3] = t.x;
@@ -94,7 +94,7 @@ template <class Positions, class Uvs>
 struct SumArrays {
     StridedSpan<const Vec3> positions;
     StridedSpan<const Vec2> uvs;
-    VertexSum* sums;
+    VertexSums sums;
     float* visits;  ///< null unless asked for
 };
 
@@ -147,9 +147,9 @@ class BlockSum {
 
     [[gnu::always_inline]] void addAt(std::uint32_t vertex, Float4 head, Float4 tail) const {
         if (!isInRange(vertex)) return;
-        float* const sum = sums_[vertex].s;
-        storeFloat4(sum, loadFloat4(sum) + head);
-        storePair(sum + 4, loadPair(sum + 4) + tail);
+        float *const to_head = sums_.head(vertex), *const to_tail = sums_.tail(vertex);
+        storeFloat4(to_head, loadFloat4(to_head) + head);
+        storePair(to_tail, loadPair(to_tail) + tail);
         if (!kPlain && visits_ != nullptr) visits_[vertex] += 1;
     }
     [[gnu::always_inline]] void addTriangle(const std::uint32_t* v, Float4 head, Float4 tail) const {
@@ -188,14 +188,14 @@ class BlockSum {
             return;
         }
         for (unsigned i = 0; i < 3; ++i) {
-            if (isInRange(v[i])) sums_[v[i]].s[0] += 0.0f;
+            if (isInRange(v[i])) *sums_.head(v[i]) += 0.0f;
         }
     }
 
     Elements<Vec3, kPlain> positions_;
     Elements<Vec2, kPlain> uvs_;
     std::uint32_t begin_, size_;
-    VertexSum* sums_;
+    VertexSums sums_;
     float* visits_;
 };
 
@@ -208,7 +208,7 @@ TriangleCounts& TriangleCounts::operator+=(const TriangleCounts& other) {
     return *this;
 }
 
-FaceSums::FaceSums(const IndexedPlan& plan, StridedSpan<const Vec3> positions, VertexSum* sums, float* visits)
+FaceSums::FaceSums(const IndexedPlan& plan, StridedSpan<const Vec3> positions, VertexSums sums, float* visits)
     : plan_(plan), positions_(positions), sums_(sums), visits_(visits), ranges_(plan.vertex_count) {}
 
 void FaceSums::cutIntoRanges(unsigned wanted, const Allocator* allocator, Parallel& parallel) {
@@ -220,7 +220,7 @@ void FaceSums::cutIntoRanges(unsigned wanted, const Allocator* allocator, Parall
 
 TriangleCounts FaceSums::sum(unsigned index) const {
     const VertexRange range = ranges_.range(index);
-    std::fill(sums_ + range.begin, sums_ + range.end, VertexSum::untouched());
+    sums_.clear(range);
     if (visits_ != nullptr) std::fill(visits_ + range.begin, visits_ + range.end, 0.0f);
 
     TriangleCounts counts;

@@ -2,7 +2,9 @@
 // dP/du and dP/dv of the triangles of a mesh, summed at the vertices that they name.
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/parallel.h"
@@ -12,14 +14,22 @@
 
 namespace tspace {
 
-/// In single precision and in triangle order. 24 bytes, since reading and writing these is most of the work.
-struct VertexSum {
-    float s[3];
-    float t[3];
+/// The sums of all vertices, in single precision and in triangle order: six floats each, since reading and
+/// writing these is most of the work. Two arrays, since either may lie in memory that outputs come to later.
+struct VertexSums {
+    float* heads = nullptr;  ///< s.x s.y s.z t.x of each vertex
+    float* tails = nullptr;  ///< t.y t.z
 
-    /// The sum of nothing. -0 + x is x, also when x is 0; and what is added to s[0] is never -0.
-    static VertexSum untouched() { return {{-0.0f, -0.0f, -0.0f}, {-0.0f, -0.0f, -0.0f}}; }
-    [[nodiscard]] bool isTouched() const { return std::bit_cast<std::uint32_t>(s[0]) != 0x80000000u; }
+    [[nodiscard]] float* head(std::size_t vertex) const { return heads + 4 * vertex; }
+    [[nodiscard]] float* tail(std::size_t vertex) const { return tails + 2 * vertex; }
+    /// The sum of nothing. -0 + x is x, also when x is 0; and what is added to s.x is never -0.
+    void clear(VertexRange range) const {
+        std::fill(head(range.begin), head(range.end), -0.0f);
+        std::fill(tail(range.begin), tail(range.end), -0.0f);
+    }
+    [[nodiscard]] bool isTouched(std::size_t vertex) const {
+        return std::bit_cast<std::uint32_t>(*head(vertex)) != 0x80000000u;
+    }
 };
 
 /// Triangles that were met, by what is wrong with them.
@@ -35,7 +45,7 @@ struct TriangleCounts {
 class FaceSums {
   public:
     /// `visits`, one per vertex, counts the triangles that were added; it may be null.
-    FaceSums(const IndexedPlan& plan, StridedSpan<const Vec3> positions, VertexSum* sums, float* visits);
+    FaceSums(const IndexedPlan& plan, StridedSpan<const Vec3> positions, VertexSums sums, float* visits);
 
     /// Without this call there is one range.
     void cutIntoRanges(unsigned wanted, const Allocator* allocator, Parallel& parallel);
@@ -47,7 +57,7 @@ class FaceSums {
   private:
     const IndexedPlan& plan_;
     StridedSpan<const Vec3> positions_;
-    VertexSum* sums_;
+    VertexSums sums_;
     float* visits_;
     VertexRanges ranges_;
 };

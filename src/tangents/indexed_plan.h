@@ -4,6 +4,7 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "tangents/plan_use.h"
 #include "tspace/tangents.h"
 
 namespace tspace {
@@ -43,9 +44,6 @@ struct IndexedPlan {
     }
     [[nodiscard]] std::size_t memoryBytes() const;
 };
-
-/// Whether a plan outlives the mesh it was made from.
-enum class PlanUse { kept, once };
 
 /// Makes the plan; the mesh has been validated and has the attributes that the method needs. With
 /// PlanUse::once it holds 0 bytes for a mesh of triangles. Throws OutOfMemory.

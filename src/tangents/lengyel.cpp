@@ -24,9 +24,9 @@ constexpr float kLeastRest2 = 1.0f / 256;
 constexpr float kLeastVolume = 1.0f / 16384;
 constexpr float kLeast = 1e-30f, kGreatest = 1e30f;
 
-/// After its frame is known, the place of a vertex's sums holds the tangent and, here, 1 when it is a
+/// After its frame is known, the head of a vertex's sums holds the tangent and, here, the tail 1 when it is a
 /// default.
-float& defaultMark(VertexSum& place) { return place.t[1]; }
+float& defaultMark(const VertexSums& sums, std::size_t vertex) { return *sums.tail(vertex); }
 
 struct VertexCounts {
     std::uint64_t used = 0, defaults = 0;
@@ -35,18 +35,18 @@ struct VertexCounts {
 /// Turns sums into frames, one entry per vertex.
 class VertexFrames {
   public:
-    VertexFrames(VertexSum* sums, const float* visits, StridedSpan<const Vec3> normals, float sign_factor,
+    VertexFrames(const VertexSums& sums, const float* visits, StridedSpan<const Vec3> normals, float sign_factor,
                  const TangentOutput& out)
         : sums_(sums), visits_(visits), normals_(normals), sign_factor_(sign_factor), out_(out) {
         has_extras_ = !out.bitangents.empty() || !out.magnitudes_s.empty() || !out.magnitudes_t.empty();
     }
 
-    /// With `mark` the tangents go to the places of the sums, instead of to the output.
+    /// With `mark` the tangents go to the heads of the sums, instead of to the output.
     VertexCounts write(VertexRange range, bool mark) const {
         VertexCounts counts;
         std::uint32_t v = range.begin;
         for (; range.end - v >= 4; v += 4) {
-            Four four = frames(&sums_[v], 1, {&normals_[v], 4, normals_.stride_bytes});
+            Four four = frames(v, 1, {&normals_[v], 4, normals_.stride_bytes});
             if (four.safe == 15 && !has_extras_) [[likely]] {
                 store(v, four, mark);
                 counts.used += 4;
@@ -55,7 +55,7 @@ class VertexFrames {
             }
         }
         for (; v < range.end; ++v) {
-            Four four = frames(&sums_[v], 0, {&normals_[v], 4, 0});
+            Four four = frames(v, 0, {&normals_[v], 4, 0});
             finish(v, 1, four, mark, counts);
         }
         return counts;
@@ -67,13 +67,13 @@ class VertexFrames {
         unsigned safe = 0;  ///< bits of the vertices whose tangents are right
     };
 
-    /// What makeCornerFrame does, in single precision; for sums[0], sums[step], ...
-    [[nodiscard]] Four frames(const VertexSum* sums, std::size_t step,
-                              StridedSpan<const Vec3> normals) const {
-        const VertexSum &s0 = sums[0], &s1 = sums[step], &s2 = sums[2 * step], &s3 = sums[3 * step];
-        Float4 sx = loadFloat4(s0.s), sy = loadFloat4(s1.s), sz = loadFloat4(s2.s), tx = loadFloat4(s3.s);
+    /// What makeCornerFrame does, in single precision; for vertices v, v + step, ...
+    [[nodiscard]] Four frames(std::size_t v, std::size_t step, StridedSpan<const Vec3> normals) const {
+        const auto head = [&](std::size_t i) { return loadFloat4(sums_.head(v + i * step)); };
+        const auto tail = [&](std::size_t i) { return sums_.tail(v + i * step); };
+        Float4 sx = head(0), sy = head(1), sz = head(2), tx = head(3);
         transpose4(sx, sy, sz, tx);
-        const Float4 low = joinPairs(s0.t + 1, s1.t + 1), high = joinPairs(s2.t + 1, s3.t + 1);
+        const Float4 low = joinPairs(tail(0), tail(1)), high = joinPairs(tail(2), tail(3));
         const Vec3x4 s{sx, sy, sz};
         const Vec3x4 t{tx, __builtin_shufflevector(low, high, 0, 2, 4, 6),
                        __builtin_shufflevector(low, high, 1, 3, 5, 7)};
@@ -105,8 +105,8 @@ class VertexFrames {
     void store(std::uint32_t v, const Four& four, bool mark) const {
         if (mark) {
             for (std::uint32_t i = 0; i < 4; ++i) {
-                storeFloat4(sums_[v + i].s, four.tangents[i]);
-                defaultMark(sums_[v + i]) = 0.0f;
+                storeFloat4(sums_.head(v + i), four.tangents[i]);
+                defaultMark(sums_, v + i) = 0.0f;
             }
             return;
         }
@@ -119,7 +119,7 @@ class VertexFrames {
                                   VertexCounts& counts) const {
         for (unsigned i = 0; i < count; ++i) {
             const std::uint32_t v = first + i;
-            const bool is_used = sums_[v].isTouched();
+            const bool is_used = sums_.isTouched(v);
             Float4 tangent = four.tangents[i];
             bool is_default = false;
             if (has_extras_ || (four.safe >> i & 1) == 0) {
@@ -131,14 +131,14 @@ class VertexFrames {
             }
             counts.used += is_used ? 1 : 0;
             counts.defaults += is_default ? 1 : 0;
-            storeFloat4(mark ? sums_[v].s : &out_.tangents[v].x, tangent);
-            if (mark) defaultMark(sums_[v]) = is_default ? 1.0f : 0.0f;
+            storeFloat4(mark ? sums_.head(v) : &out_.tangents[v].x, tangent);
+            if (mark) defaultMark(sums_, v) = is_default ? 1.0f : 0.0f;
         }
     }
 
     [[nodiscard]] CornerFrame frameInDouble(std::uint32_t v) const {
-        const VertexSum sum = sums_[v];
-        const Derivatives d{{sum.s[0], sum.s[1], sum.s[2]}, {sum.t[0], sum.t[1], sum.t[2]}};
+        const float *head = sums_.head(v), *tail = sums_.tail(v);
+        const Derivatives d{{head[0], head[1], head[2]}, {head[3], tail[0], tail[1]}};
         CornerFrame frame = makeCornerFrame(d, normals_[v], sign_factor_);
         if (visits_ != nullptr && !frame.is_default) {
             frame.magnitude_s = meanLength(d.s, visits_[v]);
@@ -147,7 +147,7 @@ class VertexFrames {
         return frame;
     }
 
-    VertexSum* sums_;
+    VertexSums sums_;
     const float* visits_;
     StridedSpan<const Vec3> normals_;
     float sign_factor_;
@@ -183,32 +183,58 @@ void copyToCorners(const IndexedPlan& plan, const T* from, const StridedSpan<T>&
     }
 }
 
-/// Copies the tangents of used corners; returns how many of them are defaults. vertexOf(c): the vertex of a
-/// corner.
+/// Copies the tangents of used corners; returns how many of them are defaults, of which `is_default` knows,
+/// one per vertex; null: none. vertexOf(c): the vertex of a corner.
 template <class VertexOf>
-std::uint64_t copyTangents(const IndexedPlan& plan, VertexSum* places, const StridedSpan<Vec4>& out,
-                           std::size_t begin, std::size_t end, const VertexOf& vertexOf) {
+std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std::uint8_t* is_default,
+                           const StridedSpan<Vec4>& out, std::size_t begin, std::size_t end,
+                           const VertexOf& vertexOf) {
     const std::uint8_t* const used = plan.corner_used.data();
     const std::size_t stride = out.stride_bytes;
     auto* to = reinterpret_cast<std::byte*>(&out[begin]);
     std::uint64_t defaults = 0;
     for (std::size_t c = begin; c < end; ++c, to += stride) {
         if (used != nullptr && used[c] == 0) continue;
-        VertexSum& place = places[vertexOf(c)];
-        storeFloat4(&reinterpret_cast<Vec4*>(to)->x, loadFloat4(place.s));
-        defaults += defaultMark(place) != 0 ? 1 : 0;
+        const std::size_t vertex = vertexOf(c);
+        storeFloat4(&reinterpret_cast<Vec4*>(to)->x, loadFloat4(from + 4 * vertex));
+        if (is_default != nullptr) defaults += is_default[vertex];
     }
     return defaults;
 }
 
-std::uint64_t copyTangents(const IndexedPlan& plan, VertexSum* places, const StridedSpan<Vec4>& out,
-                           std::size_t begin, std::size_t end) {
+std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std::uint8_t* is_default,
+                           const StridedSpan<Vec4>& out, std::size_t begin, std::size_t end) {
     const IndexView& view = plan.corner_vertices;
     if (view.type != IndexType::u32) {
-        return copyTangents(plan, places, out, begin, end, [&](std::size_t c) { return view[c]; });
+        return copyTangents(plan, from, is_default, out, begin, end, [&](std::size_t c) { return view[c]; });
     }
     const auto* const vertices = static_cast<const std::uint32_t*>(view.data);
-    return copyTangents(plan, places, out, begin, end, [=](std::size_t c) { return vertices[c]; });
+    return copyTangents(plan, from, is_default, out, begin, end, [=](std::size_t c) { return vertices[c]; });
+}
+
+/// The places of the sums. Fresh memory costs time, so what the outputs' memory can hold meanwhile is there: the
+/// tails, or, where outputs are per vertex, the heads, which then become the tangents in place.
+struct SumPlaces {
+    Buffer<float> head_buffer, tail_buffer;
+    VertexSums sums;
+
+    SumPlaces(const StridedSpan<Vec4>& tangents, std::size_t vertex_count, bool per_corner,
+              const Allocator* allocator) {
+        const bool is_tight = tangents.stride_bytes == sizeof(Vec4);
+        if (is_tight && !per_corner) sums.heads = &tangents.data->x;
+        if (is_tight && per_corner && 2 * tangents.count >= vertex_count) sums.tails = &tangents.data->x;
+        if (sums.heads == nullptr) head_buffer = Buffer<float>(allocator, 4 * vertex_count);
+        if (sums.tails == nullptr) tail_buffer = Buffer<float>(allocator, 2 * vertex_count);
+        if (sums.heads == nullptr) sums.heads = head_buffer.data();
+        if (sums.tails == nullptr) sums.tails = tail_buffer.data();
+    }
+};
+
+/// One per vertex.
+Buffer<std::uint8_t> listDefaults(const VertexSums& sums, std::size_t vertex_count, const Allocator* allocator) {
+    Buffer<std::uint8_t> is_default(allocator, vertex_count);
+    for (std::size_t v = 0; v < vertex_count; ++v) is_default[v] = defaultMark(sums, v) != 0 ? 1 : 0;
+    return is_default;
 }
 
 }  // namespace
@@ -218,15 +244,16 @@ void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOut
     if (plan.vertex_count == 0) return;
     const bool per_corner = plan.domain == OutputDomain::corner;
     const bool has_magnitudes = !out.magnitudes_s.empty() || !out.magnitudes_t.empty();
-    Buffer<VertexSum> sums(allocator, plan.vertex_count);
+    const SumPlaces places(out.tangents, plan.vertex_count, per_corner, allocator);
+    const VertexSums& sums = places.sums;
     Buffer<float> visits(allocator, has_magnitudes ? plan.vertex_count : 0);
     VertexExtras extras(per_corner ? out : TangentOutput{}, plan.vertex_count, allocator);
 
-    FaceSums faces(plan, pose.positions, sums.data(), visits.data());
+    FaceSums faces(plan, pose.positions, sums, visits.data());
     if (parallel.width() > 1 && plan.triangleCount() >= kWorthThreads) {
         faces.cutIntoRanges(parallel.width(), allocator, parallel);
     }
-    const VertexFrames frames(sums.data(), visits.data(), pose.normals, plan.sign_factor,
+    const VertexFrames frames(sums, visits.data(), pose.normals, plan.sign_factor,
                               per_corner ? extras.output() : out);
     const unsigned range_count = faces.ranges().count();
     std::array<TriangleCounts, VertexRanges::kMostRanges> triangle_counts;
@@ -244,12 +271,14 @@ void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOut
         report.default_corner_count += vertex_counts[task].defaults;
     }
     if (!per_corner) return;
+    Buffer<std::uint8_t> is_default;
+    if (report.default_corner_count != 0) is_default = listDefaults(sums, plan.vertex_count, allocator);
     report.default_corner_count =
         sumRanges(parallel, plan.cornerCount(), kGrain, [&](std::size_t begin, std::size_t end) {
             copyToCorners(plan, extras.bitangents.data(), out.bitangents, begin, end);
             copyToCorners(plan, extras.magnitudes_s.data(), out.magnitudes_s, begin, end);
             copyToCorners(plan, extras.magnitudes_t.data(), out.magnitudes_t, begin, end);
-            return copyTangents(plan, sums.data(), out.tangents, begin, end);
+            return copyTangents(plan, sums.heads, is_default.data(), out.tangents, begin, end);
         });
 }
 

@@ -11,6 +11,7 @@
 #include "tangents/indexed_plan.h"
 #include "tangents/mikktspace/evaluation_plan.h"
 #include "tangents/mikktspace/generate.h"
+#include "tangents/symmetric_frame.h"
 
 namespace tspace {
 
@@ -20,23 +21,37 @@ struct TangentPlan::State {
     std::size_t vertex_count = 0;
     std::size_t corner_count = 0;
     std::size_t output_count = 0;
+    bool is_symmetric = false;
+    Buffer<std::uint32_t> corner_vertices;  ///< for a symmetric frame, one per corner; empty: outputs are per vertex
+
+    [[nodiscard]] TangentReport evaluate(const Pose& pose, const TangentOutput& out, const Execution& execution,
+                                         Parallel& parallel) const {
+        if (const auto* indexed = std::get_if<IndexedPlan>(&plan))
+            return evaluateIndexed(*indexed, pose, out, execution.allocator, parallel);
+        return mikk::evaluateGroups(*std::get_if<mikk::EvaluationPlan>(&plan), pose, out, execution, parallel);
+    }
 };
 
 namespace {
 
 bool isGrouped(Method method) {
     return method == Method::mikktspace || method == Method::uniform || method == Method::angle ||
-           method == Method::area;
+           method == Method::area || method == Method::fast || method == Method::best;
 }
 
 Error checkOptions(const TangentOptions& options) {
-    if (options.method > Method::basis) {
+    if (options.method > Method::best) {
         return {ErrorCode::invalidOption,
                 "unknown method " + std::to_string(static_cast<unsigned>(options.method))};
     }
     if (options.pairing > Pairing::corrected) return {ErrorCode::invalidOption, "unknown pairing"};
     if (options.ngons > Ngons::skip) return {ErrorCode::invalidOption, "unknown treatment of n-gons"};
     if (options.domain > OutputDomain::vertex) return {ErrorCode::invalidOption, "unknown output domain"};
+    if (options.frame > FrameShape::symmetric) return {ErrorCode::invalidOption, "unknown shape of the frame"};
+    if (options.frame == FrameShape::symmetric &&
+        (options.method == Method::mikktspace || options.method == Method::basis)) {
+        return {ErrorCode::invalidOption, "the symmetric frame is not for mikktspace and basis"};
+    }
     if (options.domain == OutputDomain::vertex && options.method != Method::lengyel &&
         options.method != Method::basis) {
         return {ErrorCode::invalidOption, "only lengyel and basis have one result per vertex"};
@@ -73,6 +88,13 @@ Error checkOutput(const TangentOutput& out, std::size_t output_count) {
     return optional(out.magnitudes_t, "magnitudes_t");
 }
 
+TangentReport generateFrames(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
+                             Parallel& parallel) {
+    if (isGrouped(options.method)) return mikk::generateGrouped(mesh, options, out, parallel);
+    const IndexedPlan plan = planIndexed(mesh, options, parallel, PlanUse::once);
+    return evaluateIndexed(plan, {mesh.positions, mesh.normals}, out, options.execution.allocator, parallel);
+}
+
 Error checkPose(const Pose& pose, std::size_t vertex_count) {
     if (pose.positions.count != vertex_count || pose.normals.count != vertex_count) {
         return {ErrorCode::planMismatch, "the pose has " + std::to_string(pose.positions.count) +
@@ -95,7 +117,8 @@ std::size_t TangentPlan::cornerCount() const { return state_->corner_count; }
 std::size_t TangentPlan::outputCount() const { return state_->output_count; }
 Method TangentPlan::method() const { return state_->method; }
 std::size_t TangentPlan::memoryBytes() const {
-    return std::visit([](const auto& plan) { return plan.memoryBytes(); }, state_->plan);
+    return std::visit([](const auto& plan) { return plan.memoryBytes(); }, state_->plan) +
+           state_->corner_vertices.size() * sizeof(std::uint32_t);
 }
 
 Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options,
@@ -104,13 +127,14 @@ Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOption
         if (Error e = checkInput(mesh, options); e.code != ErrorCode::ok) return e;
         if (Error e = checkOutput(out, outputCount(mesh, options)); e.code != ErrorCode::ok) return e;
         Parallel parallel(options.execution);
-        const Allocator* allocator = options.execution.allocator;
-        const Pose pose{mesh.positions, mesh.normals};
-        if (!isGrouped(options.method)) {
-            const IndexedPlan plan = planIndexed(mesh, options, parallel, PlanUse::once);
-            return evaluateIndexed(plan, pose, out, allocator, parallel);
-        }
-        return mikk::generateGrouped(mesh, options, out, parallel);
+        if (options.frame == FrameShape::gramSchmidt) return generateFrames(mesh, options, out, parallel);
+        const NeededBitangents needed(out, options.execution.allocator);
+        const TangentReport report = generateFrames(mesh, options, needed.out, parallel);
+        const bool per_vertex = options.domain == OutputDomain::vertex;
+        makeSymmetric(
+            out.tangents, needed.out.bitangents,
+            [&](std::size_t i) { return mesh.normals[per_vertex ? i : mesh.indices[i]]; }, parallel);
+        return report;
     });
 }
 
@@ -128,6 +152,11 @@ Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& opt
         } else {
             state->plan = planIndexed(mesh, options, parallel);
         }
+        state->is_symmetric = options.frame == FrameShape::symmetric;
+        if (state->is_symmetric && options.domain == OutputDomain::corner) {
+            state->corner_vertices = Buffer<std::uint32_t>(options.execution.allocator, mesh.cornerCount());
+            for (std::size_t c = 0; c < mesh.cornerCount(); ++c) state->corner_vertices[c] = mesh.indices[c];
+        }
         return TangentPlan(std::move(state));
     });
 }
@@ -142,11 +171,14 @@ Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose
             return e;
         }
         Parallel parallel(execution);
-        const Allocator* allocator = execution.allocator;
-        if (const auto* indexed = std::get_if<IndexedPlan>(&state.plan)) {
-            return evaluateIndexed(*indexed, pose, out, allocator, parallel);
-        }
-        return mikk::evaluateGroups(*std::get_if<mikk::EvaluationPlan>(&state.plan), pose, out, execution, parallel);
+        if (!state.is_symmetric) return state.evaluate(pose, out, execution, parallel);
+        const NeededBitangents needed(out, execution.allocator);
+        const TangentReport report = state.evaluate(pose, needed.out, execution, parallel);
+        const auto& vertices = state.corner_vertices;
+        makeSymmetric(
+            out.tangents, needed.out.bitangents,
+            [&](std::size_t i) { return pose.normals[vertices.empty() ? i : vertices[i]]; }, parallel);
+        return report;
     });
 }
 

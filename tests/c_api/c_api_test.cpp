@@ -141,7 +141,7 @@ TEST(CApi, GivesTheNormalsOfTheCppApi) {
     const RandomMesh mesh(3, 60);
     std::vector<std::uint32_t> groups(mesh.sizes.size());
     for (std::size_t f = 0; f < groups.size(); ++f) groups[f] = 1u << (f % 3);
-    for (std::uint32_t weighting = TSPACE_NORMAL_WEIGHTING_DEFAULT; weighting <= TSPACE_NORMAL_WEIGHTING_MAX;
+    for (std::uint32_t weighting = TSPACE_NORMAL_WEIGHTING_DEFAULT; weighting <= TSPACE_NORMAL_WEIGHTING_BEST;
          ++weighting) {
         std::vector<Vec3> cpp(mesh.cornerCount()), c(mesh.cornerCount());
         NormalOptions options;

@@ -169,10 +169,11 @@ TEST_F(CErrors, RefuseChoicesThatDoNotExist) {
         change(options);
         EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, generate(&options)) << error.message;
     };
-    expectRefused([](auto& o) { o.method = 7; });
+    expectRefused([](auto& o) { o.method = 9; });
     expectRefused([](auto& o) { o.pairing = 2; });
     expectRefused([](auto& o) { o.ngons = 2; });
     expectRefused([](auto& o) { o.domain = 2; });
+    expectRefused([](auto& o) { o.frame = 2; });
     expectRefused([](auto& o) { o.domain = TSPACE_DOMAIN_VERTEX; });  // not with mikktspace
     expectRefused([](auto& o) { o.convention.v_axis = 2; });
     expectRefused([](auto& o) { o.convention.green = 2; });
@@ -185,7 +186,7 @@ TEST_F(CErrors, RefuseChoicesThatDoNotExist) {
     tspace_NormalOptions options;
     TSPACE_INIT(options);
     c_mesh = mesh.c();
-    options.weighting = TSPACE_NORMAL_WEIGHTING_MAX + 1;
+    options.weighting = TSPACE_NORMAL_WEIGHTING_BEST + 1;
     EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION,
               tspace_generateNormals(&c_mesh, &options, span(3), nullptr, &error));
     EXPECT_NE(nullptr, std::strstr(error.message, "weighting")) << error.message;

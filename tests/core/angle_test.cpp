@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tspace {
@@ -34,6 +35,25 @@ TEST(AngleBetween, SeesAnglesThatTheCosineCannot) {
     EXPECT_NEAR(angleBetween({1, 0, 0}, {1, 1e-12, 0}), 1e-12, 1e-20);
     EXPECT_NEAR(angleBetween({1, 0, 0}, {-1, 1e-12, 0}), kPi - 1e-12, 1e-15);
     EXPECT_EQ(angleBetween({0, 0, 0}, {1, 0, 0}), 0);
+}
+
+TEST(SineCosine, AgreesWithLibmToTheStatedError) {
+    double worst = 0;
+    for (int i = -1'000'000; i <= 1'000'000; ++i) {
+        const double angle = i * 1e-4;
+        const SineCosine made = sineCosine(angle);
+        worst = std::max({worst, std::fabs(made.sine - std::sin(angle)), std::fabs(made.cosine - std::cos(angle))});
+    }
+    EXPECT_LT(worst, 1e-15);
+}
+
+TEST(SineCosine, StaysOnTheUnitCircleForEveryNumber) {
+    for (double angle = 1; angle < 1e300; angle *= -3.7e5) {
+        const SineCosine made = sineCosine(angle);
+        EXPECT_NEAR(made.sine * made.sine + made.cosine * made.cosine, 1, 1e-15) << angle;
+    }
+    EXPECT_EQ(sineCosine(HUGE_VAL).cosine, 1);
+    EXPECT_EQ(sineCosine(std::nan("")).sine, 0);
 }
 
 }  // namespace

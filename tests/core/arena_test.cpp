@@ -174,7 +174,8 @@ struct PeakAllocator {
 };
 
 const std::vector<Method> kMethods{Method::mikktspace, Method::lengyel, Method::uniform, Method::angle,
-                                   Method::area,       Method::flat,    Method::basis};
+                                   Method::area,       Method::flat,    Method::basis,   Method::fast,
+                                   Method::best};
 
 /// Everything of this library that takes an allocator.
 void computeAll(const Torus& torus, Method method, const Allocator* allocator) {

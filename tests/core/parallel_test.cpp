@@ -134,7 +134,7 @@ TEST(Parallel, IsNotUsedForAMeshOf200Triangles) {
     std::vector<Vec3> made_normals(indices.size());
     ASSERT_TRUE(generateNormals(mesh, {.crease_angle_deg = 30, .execution = execution}, made_normals));
     for (const Method method : {Method::mikktspace, Method::lengyel, Method::uniform, Method::angle, Method::area,
-                                Method::flat, Method::basis}) {
+                                Method::flat, Method::basis, Method::fast, Method::best}) {
         std::vector<Vec4> tangents(indices.size());
         ASSERT_TRUE(generateTangents(mesh, {.method = method, .execution = execution}, {.tangents = tangents}));
         tangents[7] = {};

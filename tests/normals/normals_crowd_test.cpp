@@ -123,16 +123,21 @@ TEST(Threads, DoNotChangeABit) {
         mesh.addFace({a, b, c, vertex()});
         groups.push_back(random() % 4);
     }
-    for (const float crease : {180.0f, 120.0f}) {
-        for (const bool with_groups : {false, true}) {
-            NormalOptions options{.crease_angle_deg = crease, .execution = {.thread_count = 1}};
-            if (with_groups) options.smoothing_groups = groups;
-            const std::vector<Vec3> one = normalsOf(mesh.view(), options);
-            for (const unsigned threads : {2u, 3u, 8u}) {
-                options.execution.thread_count = threads;
-                const std::vector<Vec3> many = normalsOf(mesh.view(), options);
-                ASSERT_EQ(std::memcmp(one.data(), many.data(), one.size() * sizeof(Vec3)), 0) << threads;
-            }
+    const auto expectSameBits = [&](NormalOptions options) {
+        const std::vector<Vec3> one = normalsOf(mesh.view(), options);
+        for (const unsigned threads : {2u, 3u, 8u}) {
+            options.execution.thread_count = threads;
+            const std::vector<Vec3> many = normalsOf(mesh.view(), options);
+            ASSERT_EQ(std::memcmp(one.data(), many.data(), one.size() * sizeof(Vec3)), 0) << threads;
+        }
+    };
+    for (const NormalWeighting weighting : {NormalWeighting::angle, NormalWeighting::best}) {
+        for (const float crease : {180.0f, 120.0f}) {
+            NormalOptions options{
+                .weighting = weighting, .crease_angle_deg = crease, .execution = {.thread_count = 1}};
+            expectSameBits(options);
+            options.smoothing_groups = groups;
+            expectSameBits(options);
         }
     }
 }
@@ -155,7 +160,7 @@ TEST(Threads, DoNotChangeABitOfTriangles) {
         mesh.indices.insert(mesh.indices.end(), {v, v + 1, v + 2, v, v + 2, v + 1});
     }
     for (const bool weld : {false, true}) {
-        for (const NormalWeighting weighting : {NormalWeighting::angle, NormalWeighting::area}) {
+        for (const NormalWeighting weighting : {NormalWeighting::angle, NormalWeighting::area, NormalWeighting::best}) {
             NormalOptions options{
                 .weighting = weighting, .weld_positions = weld, .execution = {.thread_count = 1}};
             NormalReport one_report, report;

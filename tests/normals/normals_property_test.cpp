@@ -7,6 +7,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "normals/pose_normals.h"
 #include "support/random_values.h"
 #include "support/simple_mesh.h"
 #include "tspace/normals.h"
@@ -173,7 +174,7 @@ struct RandomOptions {
     std::vector<std::uint32_t> groups;
 
     explicit RandomOptions(std::size_t face_count) {
-        options.weighting = static_cast<NormalWeighting>(randomInt(0, 6));
+        options.weighting = static_cast<NormalWeighting>(randomInt(0, 7));
         // Values that no angle of the grid comes near.
         constexpr float kCreases[] = {180, 180, 3, 37.3f, 63.1f, 91.7f, 122.9f, 171.3f};
         options.crease_angle_deg = kCreases[randomInt(0, 8)];
@@ -195,7 +196,8 @@ RC_GTEST_PROP(NormalsProperty, AreThoseOfBruteForce, ()) {
     const SimpleMesh mesh = randomGridMesh();
     RandomOptions random(mesh.indices.size() / 3);
     NormalOptions& options = random.get();
-    if (options.weighting == NormalWeighting::flat) options.weighting = NormalWeighting::angle;
+    const bool is_mean = options.weighting != NormalWeighting::flat && options.weighting != NormalWeighting::best;
+    if (!is_mean) options.weighting = NormalWeighting::angle;
     const std::vector<Vec3> normals = normalsOf(mesh.view(), options);
     const std::vector<Vec3> wanted = BruteForce(mesh, options).run();
     for (std::size_t c = 0; c < normals.size(); ++c) {
@@ -290,6 +292,58 @@ RC_GTEST_PROP(MaxWeights, AreExactOnASphere, ()) {
     RC_ASSERT(std::fabs(n.x - up.x) < 1e-5);
     RC_ASSERT(std::fabs(n.y - up.y) < 1e-5);
     RC_ASSERT(std::fabs(n.z - up.z) < 1e-5);
+}
+
+std::vector<Vec3> poseNormalsOf(const SimpleMesh& mesh, const std::vector<Vec3>& positions,
+                                const NormalOptions& options) {
+    std::vector<Vec3> out(mesh.indices.size());
+    RC_ASSERT(generatePoseNormals(mesh.view(), StridedSpan<const Vec3>(positions), options, out).ok());
+    return out;
+}
+
+RC_GTEST_PROP(PoseNormals, OfTheMeshItselfAreTheNormalsOfTheMesh, ()) {
+    const SimpleMesh mesh = randomGridMesh();
+    RandomOptions random(mesh.indices.size() / 3);
+    RC_ASSERT(sameBits(poseNormalsOf(mesh, mesh.positions, random.get()), normalsOf(mesh.view(), random.get())));
+}
+
+RC_GTEST_PROP(PoseNormals, WithoutHardEdgesAreThoseOfTheMovedMesh, ()) {
+    const SimpleMesh mesh = randomGridMesh();
+    RandomOptions random(mesh.indices.size() / 3);
+    NormalOptions& options = random.get();
+    options.crease_angle_deg = 180;
+    options.weld_positions = false;
+    SimpleMesh moved = mesh;
+    for (Vec3& p : moved.positions) p = randomVec3();
+    RC_ASSERT(sameBits(poseNormalsOf(mesh, moved.positions, options), normalsOf(moved.view(), options)));
+}
+
+/// Two squares that share an edge and meet in it at `angle_deg`, from 0 (flat).
+SimpleMesh book(double angle_deg) {
+    const double angle = angle_deg * kPi / 180;
+    const auto x = static_cast<float>(std::cos(angle)), z = static_cast<float>(std::sin(angle));
+    SimpleMesh mesh;
+    mesh.positions = {{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {-1, 1, 0}, {x, 0, z}, {x, 1, z}};
+    mesh.addFace({0, 1, 2, 3});
+    mesh.addFace({1, 4, 5, 2});
+    return mesh;
+}
+
+TEST(PoseNormals, KeepTheHardEdgesOfTheMesh) {
+    const SimpleMesh flat = book(10), bent = book(80);
+    const NormalOptions options{.crease_angle_deg = 45};
+    const std::vector<Vec3> softly = poseNormalsOf(flat, bent.positions, options);
+    EXPECT_EQ(softly[1], softly[4]) << "smooth on the mesh";
+    const std::vector<Vec3> hard = poseNormalsOf(bent, flat.positions, options);
+    EXPECT_EQ(hard[1], (Vec3{0, 0, 1}));
+    EXPECT_NEAR(hard[4].x, -std::sin(10 * kPi / 180), 1e-6) << "hard on the mesh";
+}
+
+TEST(PoseNormals, RefuseAnotherNumberOfPositions) {
+    const SimpleMesh mesh = book(10);
+    std::vector<Vec3> out(8), positions(5);
+    EXPECT_EQ(generatePoseNormals(mesh.view(), StridedSpan<const Vec3>(positions), {}, out).error().code,
+              ErrorCode::countMismatch);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ using test::SimpleMesh;
 
 constexpr SimdTarget kTargets[] = {SimdTarget::sse2, SimdTarget::avx2, SimdTarget::avx512, SimdTarget::best};
 constexpr NormalWeighting kWeightings[] = {NormalWeighting::angle, NormalWeighting::area, NormalWeighting::angleArea,
-                                           NormalWeighting::uniform};
+                                           NormalWeighting::uniform, NormalWeighting::best};
 
 struct Outcome {
     std::vector<Vec3> normals;

@@ -318,7 +318,7 @@ TEST(Border, RejectsWrongOptionsAndLengths) {
     EXPECT_EQ(errorOf(cube.view(), {.crease_angle_deg = -1}, out), ErrorCode::invalidOption);
     EXPECT_EQ(errorOf(cube.view(), {.crease_angle_deg = 181}, out), ErrorCode::invalidOption);
     EXPECT_EQ(errorOf(cube.view(), {.crease_angle_deg = kNan}, out), ErrorCode::invalidOption);
-    EXPECT_EQ(errorOf(cube.view(), {.weighting = static_cast<NormalWeighting>(6)}, out),
+    EXPECT_EQ(errorOf(cube.view(), {.weighting = static_cast<NormalWeighting>(7)}, out),
               ErrorCode::invalidOption);
     EXPECT_EQ(errorOf(cube.view(), {.smoothing_groups = groups}, out), ErrorCode::countMismatch);
     EXPECT_EQ(errorOf(cube.view(), {}, short_out), ErrorCode::countMismatch);
@@ -342,7 +342,9 @@ TEST(Border, RunningOutOfMemoryIsAnErrorAtEveryAllocation) {
                                       ::operator delete(memory, std::align_val_t(alignment));
                                   },
                                   &state};
-        const NormalOptions options{.crease_angle_deg = 30, .execution = {.allocator = &allocator}};
+        const NormalOptions options{.weighting = NormalWeighting::best,
+                                    .crease_angle_deg = 30,
+                                    .execution = {.allocator = &allocator}};
         const ErrorCode code = errorOf(cube.view(), options, out);
         if (code == ErrorCode::ok) {
             EXPECT_GT(budget, 5);

@@ -37,7 +37,8 @@ TEST(Conventions, GiveEveryMethodTheSignThatRebuildsTheWantedBitangent) {
     for (const char* preset : {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot"}) {
         const Convention convention = *findConvention(preset);
         const MirroredStrip strip(convention);
-        for (const Method method : {Method::mikktspace, Method::uniform, Method::angle, Method::area, Method::flat}) {
+        for (const Method method : {Method::mikktspace, Method::uniform, Method::angle, Method::area, Method::flat,
+                                    Method::fast, Method::best}) {
             std::vector<Vec4> tangents(strip.indices.size());
             ASSERT_TRUE(generateTangents(strip.view(), {.method = method, .convention = convention},
                                          {.tangents = tangents}));

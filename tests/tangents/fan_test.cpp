@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
 #include "tangents/mikktspace/fan.h"
 #include "tangents/mikktspace/pairing.h"
 
@@ -11,6 +15,12 @@ namespace {
 
 struct Corners {
     std::vector<std::uint32_t> next, previous;
+};
+
+struct Places {
+    std::vector<ManyPaths> places;
+    FanRoom room;
+    explicit Places(std::size_t count = 2) : places(count), room(places.data(), count) {}
 };
 
 /// How many connected parts the links of pairing.h make.
@@ -53,28 +63,51 @@ Corners randomCorners() {
 
 RC_GTEST_PROP(Fan, IsOneWhenPairingMakesOnePart, ()) {
     const Corners corners = randomCorners();
+    Places places;
     Fan fan;
     bool known = true;
     for (std::size_t i = 0; i < corners.next.size(); ++i)
-        known &= fan.add(corners.next[i], corners.previous[i]);
+        known &= fan.add(corners.next[i], corners.previous[i], places.room);
     RC_TAG(known);
     if (known) RC_ASSERT(fan.isOne() == (countParts(corners) == 1));
 }
 
 TEST(Fan, FollowsTrianglesInTheOrderOfAMesh) {
+    Places places(0);
     Fan fan;
     EXPECT_TRUE(fan.isEmpty());
     // Two strips of three triangles around a node, as the rows of a grid bring them.
     const std::uint32_t next[] = {0, 1, 2, 5, 4, 3}, previous[] = {1, 2, 3, 0, 5, 4};
-    for (int i = 0; i < 6; ++i) ASSERT_TRUE(fan.add(next[i], previous[i])) << i;
+    for (int i = 0; i < 6; ++i) ASSERT_TRUE(fan.add(next[i], previous[i], places.room)) << i;
     EXPECT_TRUE(fan.isOne());
 }
 
-TEST(Fan, GivesUpWhereAThirdPathBegins) {
+TEST(Fan, FollowsEightTrianglesInAnyOrder) {
+    std::uint32_t order[] = {0, 1, 2, 3, 4, 5, 6, 7};
+    do {
+        Places places(1);
+        Fan fan;
+        bool known = true;
+        for (const std::uint32_t i : order) known &= fan.add(i, (i + 1) % 8, places.room);
+        ASSERT_TRUE(known && fan.isOne());
+    } while (std::next_permutation(std::begin(order), std::end(order)));
+}
+
+TEST(Fan, GivesUpWhereAFifthPathBegins) {
+    Places places;
     Fan fan;
-    EXPECT_TRUE(fan.add(0, 1));
-    EXPECT_TRUE(fan.add(2, 3));
-    EXPECT_FALSE(fan.add(4, 5));
+    for (std::uint32_t i = 0; i < 4; ++i) EXPECT_TRUE(fan.add(2 * i, 2 * i + 1, places.room));
+    EXPECT_FALSE(fan.add(8, 9, places.room));
+}
+
+TEST(Fan, GivesUpWhereNoRoomIsLeftForAThirdPath) {
+    Places places(1);
+    Fan first, second;
+    for (std::uint32_t i = 0; i < 3; ++i) EXPECT_TRUE(first.add(2 * i, 2 * i + 1, places.room));
+    for (std::uint32_t i = 0; i < 2; ++i) EXPECT_TRUE(second.add(2 * i, 2 * i + 1, places.room));
+    EXPECT_TRUE(first.add(1, 2, places.room));   // two paths become one, and the place is free again
+    EXPECT_TRUE(second.add(4, 5, places.room));  // takes it
+    EXPECT_FALSE(first.add(10, 11, places.room));
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ Shape randomShape() {
 TangentOptions randomOptions() {
     TangentOptions options;
     options.method = *rc::gen::element(Method::mikktspace, Method::mikktspace, Method::uniform, Method::angle,
-                                       Method::area);
+                                       Method::area, Method::fast, Method::best);
     options.angular_threshold_deg = *rc::gen::element(180.0f, 180.0f, 60.0f, 20.0f, 0.0f, 300.0f);
     options.pairing = *rc::gen::element(Pairing::reference, Pairing::corrected);
     options.execution.thread_count = 1;
@@ -178,9 +178,12 @@ TEST(GroupedThreads, GiveTheSameBits) {
     shuffleTriangles(shapes.back(), 7);
     shapes.push_back(gridOf(40000));
     for (std::size_t v = 0; v < shapes.back().normals.size(); v += 3) shapes.back().normals[v].x = -0.0f;
+    const TangentOptions ways[] = {{},
+                                   {.angular_threshold_deg = 10.0f},
+                                   {.method = Method::fast},
+                                   {.method = Method::best}};
     for (const Shape& shape : shapes) {
-        for (const float threshold : {180.0f, 10.0f}) {
-            TangentOptions options{.angular_threshold_deg = threshold};
+        for (TangentOptions options : ways) {
             options.execution.thread_count = 1;
             const Outputs want = generate(shape.view(), options);
             for (const unsigned threads : {2u, 3u, 8u}) {

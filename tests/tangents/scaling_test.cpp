@@ -34,13 +34,13 @@ constexpr Case kCases[] = {
 };
 
 /// Processor seconds of one call, the best of several.
-double seconds(const Shape& shape, int tries) {
+double seconds(const Shape& shape, Method method, int tries) {
     double best = 1e9;
     for (int i = 0; i < tries; ++i) {
         Outputs outputs(shape.cornerCount());
         const std::clock_t start = std::clock();
         const auto result =
-            generateTangents(shape.view(), {.execution = {.thread_count = 1}}, outputs.view());
+            generateTangents(shape.view(), {.method = method, .execution = {.thread_count = 1}}, outputs.view());
         best = std::min(best, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
         EXPECT_TRUE(result);
     }
@@ -50,10 +50,13 @@ double seconds(const Shape& shape, int tries) {
 struct Scaling : testing::TestWithParam<Case> {};
 
 TEST_P(Scaling, TimePerTriangleStaysBounded) {
-    const double small = seconds(GetParam().make(20000), 5);
-    const double large = seconds(GetParam().make(200000), 2);
-    RecordProperty("ratio_per_triangle", std::to_string(large / small / 10));
-    EXPECT_LT(large, 40 * small);
+    const Shape few = GetParam().make(20000), many = GetParam().make(200000);
+    for (const Method method : {Method::mikktspace, Method::fast, Method::best}) {
+        const double small = seconds(few, method, 5), large = seconds(many, method, 2);
+        RecordProperty("ratio_per_triangle_" + std::to_string(static_cast<int>(method)),
+                       std::to_string(large / small / 10));
+        EXPECT_LT(large, 40 * small) << "method " << static_cast<int>(method);
+    }
 }
 
 TEST_P(Scaling, AStackOf64KilobytesIsEnough) {
@@ -70,7 +73,10 @@ TEST_P(Scaling, AStackOf64KilobytesIsEnough) {
     const auto run = [](void* data) -> void* {
         const Shape& mesh = *static_cast<const Shape*>(data);
         Outputs outputs(mesh.cornerCount());
-        EXPECT_TRUE(generateTangents(mesh.view(), {.execution = {.thread_count = 1}}, outputs.view()));
+        for (const Method method : {Method::mikktspace, Method::fast, Method::best}) {
+            const TangentOptions options{.method = method, .execution = {.thread_count = 1}};
+            EXPECT_TRUE(generateTangents(mesh.view(), options, outputs.view()));
+        }
         return nullptr;
     };
     ASSERT_EQ(pthread_create(&thread, &attributes, run, const_cast<Shape*>(&shape)), 0);

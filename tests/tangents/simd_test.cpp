@@ -14,7 +14,8 @@ namespace {
 
 constexpr SimdTarget kTargets[] = {SimdTarget::scalar, SimdTarget::sse2, SimdTarget::avx2,
                                    SimdTarget::avx512};
-constexpr Method kMethods[] = {Method::mikktspace, Method::uniform, Method::angle, Method::area};
+constexpr Method kMethods[] = {Method::mikktspace, Method::uniform, Method::angle,
+                               Method::area,       Method::fast,    Method::best};
 
 /// A sheet rolled up: duplicated vertices along its seam, mirrored UVs on one half, some triangles without UV
 /// area and some without area, normals that are not quite of unit length.
@@ -55,6 +56,37 @@ Shape unindexed(const Shape& from) {
     return shape;
 }
 
+/// A wavy sheet with all that keeps a node from being one plain fan: UVs mirrored every few columns, between
+/// some of them columns without UV area, patches without any, triangles turned over or there twice, and
+/// others without area.
+Shape foldedSheet(std::uint32_t side, std::uint32_t fold) {
+    Shape shape = grid(side);
+    const std::uint32_t columns = side + 1;
+    for (std::uint32_t v = 0; v < shape.uvs.size(); ++v) {
+        const std::uint32_t x = v % columns, y = v / columns, step = x % (2 * fold);
+        shape.uvs[v].x = 0.1f * static_cast<float>(std::min(step, 2 * fold - step - (step > fold ? 1 : 0)));
+        shape.positions[v].z = 0.3f * std::sin(0.7f * static_cast<float>(x + 2 * y));
+        if (x > side / 2 && y > side / 2 && x < side - 2) shape.uvs[v] = {0.5f, 0.5f};
+        if (v % 89 == 1) shape.positions[v] = shape.positions[v - 1];
+    }
+    for (std::size_t i = 0; i + 3 <= shape.indices.size(); i += 3) {
+        if (i % 201 == 0) std::swap(shape.indices[i], shape.indices[i + 1]);
+        if (i % 309 == 3) std::copy_n(shape.indices.begin() + i - 3, 3, shape.indices.begin() + i);
+    }
+    return shape;
+}
+
+/// The same faces, rows of four triangles as hexagons; some go through one vertex twice.
+Shape withHexagons(const Shape& from) {
+    Shape shape = from;
+    shape.indices.clear();
+    for (std::size_t i = 0; i + 12 <= from.indices.size(); i += 12) {
+        const auto* v = from.indices.data() + i;
+        shape.face({v[0], v[1], v[2], v[5], i % 84 == 0 ? v[1] : v[8], i % 60 == 0 ? v[5] : v[11]});
+    }
+    return shape;
+}
+
 Shape withBrokenValues(Shape shape) {
     for (std::size_t v = 0; v < shape.positions.size(); v += 301)
         shape.positions[v].x = std::numeric_limits<float>::quiet_NaN();
@@ -69,6 +101,9 @@ std::vector<Shape> shapes() {
         cone(3000), checkerboard(3000), withBrokenValues(rolledSheet(40))};
     list.push_back(rolledSheet(150));
     shuffleTriangles(list.back(), 5);
+    list.insert(list.end(), {foldedSheet(40, 3), withQuads(foldedSheet(37, 2)),
+                             withHexagons(foldedSheet(36, 4)), foldedSheet(160, 5)});
+    shuffleTriangles(list.back(), 6);
     return list;
 }
 

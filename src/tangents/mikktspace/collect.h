@@ -3,18 +3,19 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
 
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "tangents/mikktspace/faces.h"
 #include "tangents/mikktspace/growing.h"
+#include "tangents/mikktspace/weld.h"
 
 namespace tspace::mikk {
 
-inline constexpr std::size_t kCollectBlock = 256;
+inline constexpr std::size_t kCollectBlock = NodeBlocks::kTriangles;
 
 /// Writes the numbers of [begin, end) for which test(i) to `to`, which must have room for all; returns how
 /// many.
@@ -29,40 +30,50 @@ std::size_t collectBlock(std::size_t begin, std::size_t end, const Test& test, s
     return count;
 }
 
+/// Writes the numbers of the bits that are set, plus `first`, to `to`.
+inline void listBits(std::uint64_t bits, std::size_t first, std::uint32_t* to) {
+    for (; bits != 0; bits &= bits - 1)
+        *to++ = static_cast<std::uint32_t>(first + static_cast<std::size_t>(std::countr_zero(bits)));
+}
+
 /// The numbers i of [0, count), ascending, for which test(i). mayHold(begin, end) is asked first, for each
-/// block: when it says no, no test in the block may hold. With threads the tests are asked twice in blocks
-/// where one holds.
+/// block: when it says no, no test in the block may hold.
 template <class Test, class MayHold>
 Buffer<std::uint32_t> collect(std::size_t count, const Test& test, const MayHold& mayHold,
                               const Allocator* allocator, Parallel& parallel) {
     constexpr std::size_t kGrain = 256;  // blocks
+    static_assert(kCollectBlock == 64);  // bits
     const std::size_t blocks = (count + kCollectBlock - 1) / kCollectBlock;
-    const auto inBlock = [&](std::size_t block, std::uint32_t* to) {
-        const std::size_t begin = block * kCollectBlock, end = std::min(count, begin + kCollectBlock);
-        return mayHold(begin, end) ? collectBlock(begin, end, test, to) : 0;
-    };
     if (parallel.width() == 1 || blocks < 2 * kGrain) {
         Growing<std::uint32_t> found(allocator);
         for (std::size_t block = 0; block < blocks; ++block) {
-            std::uint32_t* to = found.extend(kCollectBlock);
-            found.drop(kCollectBlock - inBlock(block, to));
+            const std::size_t begin = block * kCollectBlock, end = std::min(count, begin + kCollectBlock);
+            if (!mayHold(begin, end)) continue;
+            const std::size_t number = collectBlock(begin, end, test, found.extend(kCollectBlock));
+            found.drop(kCollectBlock - number);
         }
         return found.exact();
     }
-    Buffer<std::uint32_t> ends(allocator, blocks);  // first how many, then where they end
-    parallel.forRanges(blocks, kGrain, [&](std::size_t begin, std::size_t end) {
-        std::array<std::uint32_t, kCollectBlock> unused;
-        for (std::size_t block = begin; block < end; ++block)
-            ends[block] = static_cast<std::uint32_t>(inBlock(block, unused.data()));
+    Buffer<std::uint64_t> passed(allocator, blocks);  // a bit each
+    Buffer<std::uint32_t> ends(allocator, blocks);    // first how many, then where they end
+    parallel.forRanges(blocks, kGrain, [&](std::size_t first_block, std::size_t end_block) {
+        for (std::size_t block = first_block; block < end_block; ++block) {
+            const std::size_t begin = block * kCollectBlock, end = std::min(count, begin + kCollectBlock);
+            std::uint64_t bits = 0;
+            if (mayHold(begin, end)) {
+                for (std::size_t i = begin; i < end; ++i)
+                    bits |= std::uint64_t{test(i) ? 1u : 0u} << (i - begin);
+            }
+            passed[block] = bits;
+            ends[block] = static_cast<std::uint32_t>(std::popcount(bits));
+        }
     });
     for (std::size_t block = 1; block < blocks; ++block) ends[block] += ends[block - 1];
     Buffer<std::uint32_t> found(allocator, ends[blocks - 1]);
     parallel.forRanges(blocks, kGrain, [&](std::size_t begin, std::size_t end) {
-        std::array<std::uint32_t, kCollectBlock> block_found;
         for (std::size_t block = begin; block < end; ++block) {
-            const std::uint32_t first = block == 0 ? 0 : ends[block - 1];
-            if (first == ends[block]) continue;
-            std::copy_n(block_found.data(), inBlock(block, block_found.data()), found.data() + first);
+            listBits(passed[block], kCollectBlock * block,
+                     found.data() + (block == 0 ? 0 : ends[block - 1]));
         }
     });
     return found;
@@ -91,52 +102,51 @@ inline Marks noMarks(const Allocator* allocator, std::size_t count) {
     return marks;
 }
 
-/// Which parts of some marks have any.
+/// Which parts of the nodes have marked vertices.
 class MarkedParts {
   public:
-    MarkedParts(const Marks& marks, const Allocator* allocator)
-        : before_(allocator, marks.size() / kPart + 2) {
-        before_[0] = 0;
-        for (std::size_t part = 0; part + 1 < before_.size(); ++part) {
-            const std::size_t end = std::min((part + 1) * kPart, marks.size());
+    MarkedParts(const Marks& marks, const Nodes& nodes, const Allocator* allocator)
+        : before_(allocator, nodes.count / kPart + 2, 0u) {
+        constexpr std::size_t kRun = 64;  // vertices; of most none is marked
+        for (std::size_t begin = 0; begin < marks.size(); begin += kRun) {
+            const std::size_t end = std::min(begin + kRun, marks.size());
             unsigned any = 0;
-            for (std::size_t i = part * kPart; i < end; ++i) any |= marks[i];
-            before_[part + 1] = before_[part] + (any != 0 ? 1u : 0u);
+            for (std::size_t v = begin; v < end; ++v) any |= marks[v];
+            for (std::size_t v = begin; any != 0 && v < end; ++v) {
+                if (marks[v] != 0) before_[nodes.ofVertex(static_cast<std::uint32_t>(v)) / kPart + 1] = 1;
+            }
         }
+        for (std::size_t part = 1; part < before_.size(); ++part) before_[part] += before_[part - 1];
     }
-    /// Whether there may be marks in [first, last]; the last may be beyond the end.
-    [[nodiscard]] bool any(std::size_t first, std::size_t last) const {
-        return before_[std::min(last / kPart + 1, before_.size() - 1)] != before_[first / kPart];
+    /// Whether there may be marks at the nodes [first, last].
+    [[nodiscard]] bool any(std::uint32_t first, std::uint32_t last) const {
+        return before_[last / kPart + 1] != before_[first / kPart];
     }
 
   private:
-    static constexpr std::size_t kPart = 256;
+    static constexpr std::size_t kPart = 64;
     Buffer<std::uint32_t> before_;  // how many parts before this one have marks
 };
 
 /// The triangles of which at least `least` corners, not 0, are at marked vertices; ascending. Where triangles
-/// of a block use vertices that lie together, few instructions show that none is marked.
+/// of a block use nodes that lie together, it is known without a look at them that none is marked.
 inline Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles,
-                                              const Marks& marks, unsigned least, const Allocator* allocator,
-                                              Parallel& parallel) {
-    const MarkedParts parts(marks, allocator);
+                                              const Nodes& nodes, const Marks& marks, unsigned least,
+                                              const Allocator* allocator, Parallel& parallel) {
+    const NodeBlocks& blocks = nodes.blocks;
+    std::optional<MarkedParts> parts;
+    if (!blocks.ranges.empty()) parts.emplace(marks, nodes, allocator);
+    const auto anyMarked = [&](std::size_t begin, std::size_t) {
+        if (!parts) return true;
+        const NodeBlocks::Range range = blocks.ranges[begin / NodeBlocks::kTriangles];
+        return parts->any(range.first, range.last);
+    };
     return withListedVertices(mesh, triangles, [&](auto vertexOf) {
         const std::uint8_t* marked = marks.data();
         const auto enough = [=](std::size_t t) {
             const unsigned count =
                 unsigned{marked[vertexOf(3 * t)]} + marked[vertexOf(3 * t + 1)] + marked[vertexOf(3 * t + 2)];
             return count >= least;
-        };
-        // All numbers of a block agree in the bits above the highest in which any two differ.
-        const auto anyMarked = [=, &parts](std::size_t begin, std::size_t end) {
-            std::uint32_t all = 0xffffffffu, some = 0;
-            for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
-                const std::uint32_t vertex = vertexOf(i);
-                all &= vertex;
-                some |= vertex;
-            }
-            const std::uint64_t span = std::bit_ceil(std::uint64_t{all ^ some} + 1);
-            return parts.any(all & ~(span - 1), some | (span - 1));
         };
         return collect(triangles.count, enough, anyMarked, allocator, parallel);
     });

@@ -11,23 +11,22 @@ inline bool wantsTangentsOnly(const TangentOutput& out) {
     return out.bitangents.empty() && out.magnitudes_s.empty() && out.magnitudes_t.empty();
 }
 
+/// `fast` and `best` sum in a way of their own (estimators/), and use these kernels for marks.
+inline Weighting weightingOf(Method method) {
+    switch (method) {
+        case Method::fast:
+        case Method::best: return Weighting::none;
+        case Method::uniform: return Weighting::one;
+        case Method::angle: return Weighting::angle;
+        case Method::area: return Weighting::area;
+        default: return Weighting::projected_angle;
+    }
+}
+
 /// `uvs` has one entry per vertex of the pose, of which there is at least one.
 inline CornerSource cornerSource(const Pose& pose, const StridedSpan<const Vec2>& uvs, Method method,
                                  bool tangents_only) {
-    CornerSource source;
-    source.positions = reinterpret_cast<const std::byte*>(pose.positions.data);
-    source.normals = reinterpret_cast<const std::byte*>(pose.normals.data);
-    source.uvs = reinterpret_cast<const std::byte*>(uvs.data);
-    source.position_stride = pose.positions.stride_bytes;
-    source.normal_stride = pose.normals.stride_bytes;
-    source.uv_stride = uvs.stride_bytes;
-    source.last_vertex = static_cast<std::uint32_t>(pose.positions.count - 1);
-    source.weighting = method == Method::uniform ? Weighting::one
-                       : method == Method::angle ? Weighting::angle
-                       : method == Method::area  ? Weighting::area
-                                                 : Weighting::projected_angle;
-    source.tangents_only = tangents_only;
-    return source;
+    return {vertexArrays(pose, uvs), weightingOf(method), tangents_only};
 }
 
 }  // namespace tspace::mikk

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "tangents/vertex_arrays.h"
 #include "tspace/execution.h"
 
 namespace tspace::mikk {
@@ -16,18 +17,13 @@ enum class Weighting : std::uint32_t {
     one,
     angle,  ///< the interior angle
     area,   ///< the triangle's area
+    none,   ///< nothing is summed: only marks and counts are written
 };
 
 /// The vertex data of one call.
-struct CornerSource {
-    const std::byte* positions = nullptr;
-    const std::byte* normals = nullptr;
-    const std::byte* uvs = nullptr;
-    std::size_t position_stride = 0, normal_stride = 0, uv_stride = 0;
-    std::uint32_t last_vertex =
-        0;  ///< right after this one's position and normal nothing may be read; none: kNone
+struct CornerSource : VertexArrays {
     Weighting weighting = Weighting::projected_angle;
-    bool tangents_only = false;  ///< leave out `t` and `lengths`
+    bool tangents_only = false;  ///< leave out `t` and `lengths_t`
 };
 
 inline constexpr std::size_t kTermTriangles = 64;  ///< of one block; its arrays stay in the first cache
@@ -56,8 +52,7 @@ inline constexpr std::uint32_t kNotMiddle = 0x20;  ///< above kMiddleWeight
 inline constexpr std::uint32_t kHeavy = 0x40;      ///< above kHeavyWeight
 inline constexpr std::uint32_t kFanKnown = 0x80;   ///< always set here; taken away where fan.h loses track
 inline constexpr std::uint32_t kAllMarks = 0xff;
-inline constexpr std::uint32_t kCannotSplit = 0x400;  ///< of a node, not of a corner (split_check.h)
-inline constexpr std::uint32_t kNoUvArea = 0x100;     ///< the triangle has no usable UV area
+inline constexpr std::uint32_t kNoUvArea = 0x100;  ///< the triangle has no usable UV area
 inline constexpr std::uint32_t kDegenerateMark =
     0x200;  ///< two corners at one position: nothing else means anything
 inline constexpr float kLightWeight = 1.0f / 128, kMiddleWeight = 1.0f / 16, kHeavyWeight = 1.0f / 4;
@@ -65,9 +60,9 @@ inline constexpr float kSmallestSquare = 0.04f, kTurnMargin = 0.15f;
 
 /// Rows of four: row 3 * t + k belongs to corner k of triangle t.
 struct CornerTerms {
-    alignas(64) float s[kTermCorners][4];        ///< weight * projected tangent, weight
-    alignas(64) float t[kTermCorners][4];        ///< weight * projected bitangent, 0
-    alignas(64) float lengths[kTermCorners][4];  ///< weight * |dP/du|, weight * |dP/dv|, 0, 0
+    alignas(64) float s[kTermCorners][4];            ///< weight * projected tangent, weight
+    alignas(64) float t[kTermCorners][4];            ///< weight * projected bitangent, weight * |dP/du|
+    alignas(64) float lengths_t[3][kTermTriangles];  ///< weight * |dP/dv| of corner k of triangle t
     alignas(64) std::uint32_t marks[3][kTermTriangles];
     std::uint32_t degenerate_count, no_uv_area_count, mirrored_count;
 };

@@ -128,6 +128,14 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
         static_cast<unsigned>(__builtin_popcount(~(bitsOf(shape.positive) | bad | flat) & valid));
     Bits facing = orWhere(broadcastBits(0), shape.positive, kFacesUp);
     facing = orWhere(facing, !shape.positive, kFacesDown);
+    const Mask usable = shape.finite & !shape.no_area;
+    const Bits flags =
+        orWhere(orWhere(broadcastBits(kFanKnown), shape.no_area, kNoUvArea), degenerate, kDegenerateMark);
+    if constexpr (kWeighting == Weighting::none) {
+        const Bits all_marks = (facing & orWhere(broadcastBits(0), usable, kAllMarks)) | flags;
+        for (std::size_t k = 0; k < 3; ++k) store(terms.marks[k] + first, all_marks);
+        return;
+    }
     Vectors s[3], t[3];
     Floats weights[3];
     Bits marks[3];
@@ -148,9 +156,6 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
         const Floats cosines[3] = {weights[0], weights[1], weights[2]};
         arcCosines(cosines, weights);
     }
-    const Mask usable = shape.finite & !shape.no_area;
-    const Bits flags =
-        orWhere(orWhere(broadcastBits(kFanKnown), shape.no_area, kNoUvArea), degenerate, kDegenerateMark);
     for (std::size_t k = 0; k < 3; ++k) {
         const Floats weight = weights[k];
         if constexpr (kWeighting == Weighting::projected_angle) marks[k] = markWeight(marks[k], weight);
@@ -159,9 +164,9 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
         const std::size_t row = 3 * first + k;
         storeRows(terms.s[row], weight * s[k].x, weight * s[k].y, weight * s[k].z, weight);
         if constexpr (!kTangentsOnly) {
-            const Floats zero = broadcast(0.0f);
-            storeRows(terms.t[row], weight * t[k].x, weight * t[k].y, weight * t[k].z, zero);
-            storeRows(terms.lengths[row], weight * shape.length_s, weight * shape.length_t, zero, zero);
+            storeRows(terms.t[row], weight * t[k].x, weight * t[k].y, weight * t[k].z,
+                      weight * shape.length_s);
+            store(terms.lengths_t[k] + first, weight * shape.length_t);
         }
     }
 }
@@ -189,6 +194,8 @@ void termsBy(const CornerSource& source, const std::uint32_t* vertices, std::siz
             return blockTerms<Weighting::angle, kTangentsOnly>(source, vertices, count, terms);
         case Weighting::area:
             return blockTerms<Weighting::area, kTangentsOnly>(source, vertices, count, terms);
+        case Weighting::none:
+            return blockTerms<Weighting::none, true>(source, vertices, count, terms);
     }
 }
 

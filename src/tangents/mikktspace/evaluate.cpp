@@ -5,9 +5,11 @@
 // mikktspace: weight = the angle between the two edges at the corner after projection along N.
 // uniform, angle, area: weight = 1, the interior angle of the triangle at the corner, or its area. The terms
 // are unit face tangents projected along the corner's N and normalised again, as in mikktspace.
+// fast, best: the estimators' results (estimators/) take the place of sums.
 #include <algorithm>
 #include <atomic>
 
+#include "tangents/estimators/group_estimates.h"
 #include "tangents/mikktspace/corner_source.h"
 #include "tangents/mikktspace/evaluate_splits.h"
 #include "tangents/mikktspace/group_sums.h"
@@ -19,13 +21,29 @@ namespace {
 
 constexpr std::size_t kGroupGrain = 8192, kCornerGrain = 16384;
 
+/// A plan's triangles, as estimators read them. Groups with kMark, to which a triangle adds nothing, are no groups there.
+class PlanTriangles final : public estimators::TriangleGroups {
+  public:
+    explicit PlanTriangles(const EvaluationPlan& plan) : TriangleGroups(plan.triangle_count), plan_(plan) {}
+    void read(std::size_t first, std::size_t triangles, std::uint32_t* vertices, std::uint32_t* groups) const override {
+        if (vertices != nullptr) std::copy_n(plan_.vertices.data() + 3 * first, 3 * triangles, vertices);
+        std::copy_n(plan_.groups.data() + 3 * first, 3 * triangles, groups);
+    }
+
+  private:
+    const EvaluationPlan& plan_;
+};
+
 class Evaluation {
   public:
     Evaluation(const EvaluationPlan& plan, const Pose& pose, const TangentOutput& out,
-               const Execution& execution, Parallel& parallel)
+               const Execution& execution, Parallel& parallel, const estimators::InputScale* scale)
         : plan_(plan),
+          pose_(pose),
+          scale_(scale),
+          execution_(execution),
           out_(out),
-          sink_(out, plan),
+          sink_(out, plan.sign_factor, plan.bitangent_factor),
           terms_(cornerTermsFor(execution.simd)),
           // Whether results for one corner are merged or kept depends on all their parts.
           source_(cornerSource(pose, {plan.uvs.data(), plan.uvs.size()}, plan.method,
@@ -36,7 +54,11 @@ class Evaluation {
     TangentReport run() {
         TangentReport report = plan_.report;
         if (plan_.vertex_count == 0) return report;
-        sums_ = sumGroups(plan_, source_, terms_, allocator_, parallel_);
+        if (estimators::isEstimated(plan_.method)) {
+            estimate();
+        } else {
+            sums_ = sumGroups(plan_, source_, terms_, allocator_, parallel_);
+        }
         finishGroups();
         writeCorners();
         if (unequal_ && plan_.has_repeats) mergeRepeats();
@@ -52,6 +74,20 @@ class Evaluation {
     }
 
   private:
+    void estimate() {
+        const StridedSpan<const Vec2> uvs{plan_.uvs.data(), plan_.uvs.size()};
+        const estimators::InputScale scale =
+            scale_ != nullptr ? *scale_ : estimators::inputScale(pose_.positions, uvs);
+        sums_.groups = Buffer<GroupSum>(allocator_, plan_.group_count);
+        if (!source_.tangents_only) sums_.rest = Buffer<GroupRest>(allocator_, plan_.group_count);
+        const estimators::GroupEstimates to{reinterpret_cast<std::byte*>(sums_.groups.data()), sizeof(GroupSum),
+                                            reinterpret_cast<std::byte*>(sums_.rest.data()), sizeof(GroupRest),
+                                            sums_.rest.empty() ? nullptr : reinterpret_cast<std::byte*>(&sums_.rest[0].length_t),
+                                            sizeof(GroupRest)};
+        estimators::estimateGroups(plan_.method, PlanTriangles(plan_), plan_.group_count, pose_, uvs, scale, to,
+                                   execution_, parallel_);
+    }
+
     /// Turns sums into results, in place: the weight becomes the stored sign.
     void finishGroups() {
         std::atomic<bool> zero{false}, not_finite{false}, unequal{false};
@@ -82,14 +118,15 @@ class Evaluation {
     }
 
     [[nodiscard]] Tangents meanOf(std::size_t g) const {
+        if (estimators::isEstimated(plan_.method)) return resultOf(g);
         const float* s = sums_.groups[g].s;
         Tangents r;
         r.s = unit(Vec3{s[0], s[1], s[2]});
         if (sums_.rest.empty()) return r;
         const GroupRest& rest = sums_.rest[g];
         r.t = unit(Vec3{rest.t[0], rest.t[1], rest.t[2]});
-        r.mag_s = rest.lengths[0];
-        r.mag_t = rest.lengths[1];
+        r.mag_s = rest.t[3];
+        r.mag_t = rest.length_t;
         if (s[3] > 0) {
             r.mag_s /= s[3];
             r.mag_t /= s[3];
@@ -99,7 +136,7 @@ class Evaluation {
 
     void store(std::size_t g, const Tangents& r) {
         sums_.groups[g] = {{r.s.x, r.s.y, r.s.z, sink_.sign(plan_.group_positive[g] != 0)}};
-        if (!sums_.rest.empty()) sums_.rest[g] = {{r.t.x, r.t.y, r.t.z, 0}, {r.mag_s, r.mag_t, 0, 0}};
+        if (!sums_.rest.empty()) sums_.rest[g] = {{r.t.x, r.t.y, r.t.z, r.mag_s}, r.mag_t};
     }
 
     [[nodiscard]] Tangents resultOf(std::size_t g) const {
@@ -110,8 +147,8 @@ class Evaluation {
         if (!sums_.rest.empty()) {
             const GroupRest& rest = sums_.rest[g];
             r.t = {rest.t[0], rest.t[1], rest.t[2]};
-            r.mag_s = rest.lengths[0];
-            r.mag_t = rest.lengths[1];
+            r.mag_s = rest.t[3];
+            r.mag_t = rest.length_t;
         }
         return r;
     }
@@ -190,6 +227,9 @@ class Evaluation {
     }
 
     const EvaluationPlan& plan_;
+    const Pose& pose_;
+    const estimators::InputScale* scale_;
+    const Execution& execution_;
     TangentOutput out_;
     Sink sink_;
     CornerTermsFunction terms_;
@@ -204,8 +244,8 @@ class Evaluation {
 }  // namespace
 
 TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const TangentOutput& out,
-                             const Execution& execution, Parallel& parallel) {
-    return Evaluation(plan, pose, out, execution, parallel).run();
+                             const Execution& execution, Parallel& parallel, const estimators::InputScale* scale) {
+    return Evaluation(plan, pose, out, execution, parallel, scale).run();
 }
 
 }  // namespace tspace::mikk

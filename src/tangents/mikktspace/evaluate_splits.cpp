@@ -88,9 +88,10 @@ class SplitEvaluator {
             }
             kernel_(source_, vertices_, count, block_);
             for (std::uint32_t i = 0; i < count; ++i) {
-                const std::size_t row = 3 * i + plan_.members[split.begin + begin + i] % 3;
-                const float *s = block_.s[row], *t = block_.t[row], *l = block_.lengths[row];
-                terms_[begin + i] = {{s[0], s[1], s[2]}, {t[0], t[1], t[2]}, l[0], l[1], s[3]};
+                const std::size_t k = plan_.members[split.begin + begin + i] % 3;
+                const float *s = block_.s[3 * i + k], *t = block_.t[3 * i + k];
+                terms_[begin + i] = {
+                    {s[0], s[1], s[2]}, {t[0], t[1], t[2]}, t[3], block_.lengths_t[k][i], s[3]};
             }
         }
     }

@@ -3,6 +3,7 @@
 #include "tangents/mikktspace/evaluation_plan.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "tangents/mikktspace/corner_terms.h"
 #include "tangents/mikktspace/growing.h"
@@ -112,9 +113,30 @@ class Numberer {
     std::size_t split_ = 0;
 };
 
+template <class T>
+bool sameBits(const T& a, const T& b) {
+    return std::memcmp(&a, &b, sizeof(T)) == 0;
+}
+
+/// Equal vertices may differ in the sign of a zero; then only those of the node give the reference's bits.
+bool sameData(const MeshView& mesh, std::uint32_t a, std::uint32_t b) {
+    return sameBits(mesh.positions[a], mesh.positions[b]) && sameBits(mesh.normals[a], mesh.normals[b]) &&
+           sameBits(mesh.uvs[a], mesh.uvs[b]);
+}
+
+void useOwnVertices(const GroupedPlan& plan, const MeshView& mesh, Buffer<std::uint32_t>& vertices,
+                    Parallel& parallel) {
+    parallel.forRanges(3 * plan.triangle_count, kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t h = begin; h < end; ++h) {
+            const std::uint32_t own = mesh.indices[plan.slot(static_cast<std::uint32_t>(h))];
+            if (own != vertices[h] && sameData(mesh, own, vertices[h])) vertices[h] = own;
+        }
+    });
+}
+
 }  // namespace
 
-EvaluationPlan makeEvaluationPlan(GroupedPlan plan, const MeshView& mesh, const Allocator* allocator,
+EvaluationPlan makeEvaluationPlan(GroupedPlan plan, const MeshView& mesh, PlanUse use, const Allocator* allocator,
                                   Parallel& parallel) {
     EvaluationPlan result;
     result.method = plan.method;
@@ -128,6 +150,7 @@ EvaluationPlan makeEvaluationPlan(GroupedPlan plan, const MeshView& mesh, const 
     parallel.forRanges(3 * plan.triangle_count, kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t h = begin; h < end; ++h) result.vertices[h] = plan.node_vertex[plan.nodes[h]];
     });
+    if (use == PlanUse::kept) useOwnVertices(plan, mesh, result.vertices, parallel);
     result.uvs = Buffer<Vec2>(allocator, mesh.vertexCount());
     parallel.forRanges(mesh.vertexCount(), kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) result.uvs[v] = mesh.uvs[v];

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/memory.h"
+#include "tangents/estimators/input_scale.h"
 #include "tangents/mikktspace/grouped_plan.h"
 
 namespace tspace::mikk {
@@ -32,8 +33,9 @@ struct EvaluationPlan {
     std::uint32_t group_count = 0;  ///< groups that do not split
     bool has_repeats = false;       ///< some corner of the mesh belongs to several triangles
 
-    /// One per tricorner: the vertex whose data stand for it. Followed by the numbers of some more valid
-    /// vertices, so that kernels can read whole blocks.
+    /// One per tricorner: the vertex whose data stand for it. In a plan that is kept that is the corner's own, because
+    /// vertices that are equal on the mesh may come apart in a pose. Followed by the numbers of some more valid vertices,
+    /// so that kernels can read whole blocks.
     Buffer<std::uint32_t> vertices;
     /// One per tricorner: the group it belongs to, with kMark if it adds nothing to it; kNone without one,
     /// and for members of groups that split.
@@ -66,12 +68,14 @@ struct EvaluationPlan {
 };
 
 /// `plan` is used up.
-EvaluationPlan makeEvaluationPlan(GroupedPlan plan, const MeshView& mesh, const Allocator* allocator,
+EvaluationPlan makeEvaluationPlan(GroupedPlan plan, const MeshView& mesh, PlanUse use, const Allocator* allocator,
                                   Parallel& parallel);
 
 /// Evaluates one pose into checked outputs and completes the plan's report. Scratch memory: 16 bytes per
-/// group when only tangents are asked for, else 48. Throws OutOfMemory.
+/// group when only tangents are asked for, else 48. `scale`: for `fast` and `best`, where it is not to be found from
+/// the pose itself. Throws OutOfMemory.
 TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const TangentOutput& out,
-                             const Execution& execution, Parallel& parallel);
+                             const Execution& execution, Parallel& parallel,
+                             const estimators::InputScale* scale = nullptr);
 
 }  // namespace tspace::mikk

@@ -68,7 +68,7 @@ class Summer {
             if (!owns(groups[i])) continue;
             addRow(sums_.groups[groups[i]].s, terms_.s[i]);
             addRow(sums_.rest[groups[i]].t, terms_.t[i]);
-            addRow(sums_.rest[groups[i]].lengths, terms_.lengths[i]);
+            sums_.rest[groups[i]].length_t += terms_.lengths_t[i % 3][i / 3];
         }
     }
 

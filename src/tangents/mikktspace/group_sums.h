@@ -14,8 +14,8 @@ struct alignas(16) GroupSum {
 
 /// The rest, when more than tangents is asked for.
 struct alignas(32) GroupRest {
-    float t[4] = {0, 0, 0, 0};
-    float lengths[4] = {0, 0, 0, 0};
+    float t[4] = {0, 0, 0, 0};  ///< of weighted bitangents, and of weighted |dP/du|
+    float length_t = 0;         ///< of weighted |dP/dv|
 };
 
 struct GroupSums {

@@ -16,6 +16,7 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "tangents/plan_use.h"
 #include "tspace/tangents.h"
 
 namespace tspace::mikk {
@@ -116,6 +117,6 @@ EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, 
 /// The same from triangles that are cut and nodes that are known, for the first `listed_count` nodes. With
 /// Pairing::reference these must be all; it is meant for what needsReferenceOrder. `nodes` may become exact.
 EvaluationPlan planNodes(const MeshView& mesh, const TangentOptions& options, TriangleList triangles,
-                         Nodes& nodes, std::size_t listed_count, Parallel& parallel);
+                         Nodes& nodes, std::size_t listed_count, PlanUse use, Parallel& parallel);
 
 }  // namespace tspace::mikk

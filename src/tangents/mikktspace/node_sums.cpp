@@ -5,9 +5,7 @@
 #include "tangents/mikktspace/node_sums.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
-#include <cstdlib>
 
 #include "tangents/mikktspace/add_row.h"
 
@@ -15,11 +13,13 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kFlatShare = 8;        // one triangle in so many may be without UV area
+constexpr std::size_t kManyShare = 16;       // one fan in so many may have more than two paths at a time
 constexpr std::size_t kNodesPerTask = 4096;  // at least: below, another thread costs more than it saves
 /// Where early requests put memory (__builtin_prefetch): there is more of it than a block needs of the first
 /// cache, which the kernel works in. Measured: 120 ns per triangle with the first cache, 67 with the second.
 constexpr int kSecondCache = 2;
+
+static_assert(NodeBlocks::kTriangles == kTermTriangles);
 
 /// Triangles to compute. The numbers are the caller's own where they can be taken as they are.
 struct Block {
@@ -30,22 +30,6 @@ struct Block {
     std::uint32_t own_nodes[kTermCorners] = {};
     std::uint32_t triangles[kTermTriangles] = {};  // their numbers
 };
-
-/// Whether consecutive triangles lie far apart, so that memory has to be asked for early.
-bool isScattered(const MeshView& mesh, const TriangleList& triangles) {
-    constexpr std::size_t kSamples = 1024;
-    constexpr std::int64_t kFar = 2048;  // vertices
-    if (triangles.count < 2 || mesh.vertexCount() < 16 * kFar)
-        return false;  // all of it is in the cache soon
-    std::size_t far = 0;
-    for (std::size_t i = 0; i < kSamples; ++i) {
-        const std::size_t t = (triangles.count - 1) * i / kSamples;
-        const std::int64_t a = mesh.indices[triangles.corner(3 * t)],
-                           b = mesh.indices[triangles.corner(3 * t + 3)];
-        far += std::abs(a - b) > kFar;
-    }
-    return far > kSamples / 4;
-}
 
 /// All that a kernel reads of a node, in half a cache line.
 struct PackedNode {
@@ -88,12 +72,12 @@ class Summer {
         bool packed = false;     ///< the source is numbered by nodes, all data of one side by side
     };
 
-    Summer(const Setting& setting, NodeSums& sums, std::span<std::uint32_t> flat_room, std::size_t first_node,
+    Summer(const Setting& setting, NodeSums& sums, FanRoom fan_room, std::size_t first_node,
            std::size_t end_node)
         : setting_(setting),
           triangles_(setting.triangles),
           sums_(sums),
-          flat_room_(flat_room),
+          fan_room_(fan_room),
           first_node_(static_cast<std::uint32_t>(first_node)),
           node_count_(static_cast<std::uint32_t>(end_node - first_node)),
           owns_all_(end_node - first_node == sums.nodes.size()) {
@@ -104,7 +88,10 @@ class Summer {
 
     void run() {
         std::fill_n(sums_.nodes.data() + first_node_, node_count_, NodeSum{});
-        if (!sums_.rest.empty()) std::fill_n(sums_.rest.data() + first_node_, node_count_, NodeRest{});
+        if (!sums_.rest.empty()) {
+            std::fill_n(sums_.rest.data() + first_node_, node_count_, NodeRest{});
+            std::fill_n(sums_.lengths_t.data() + first_node_, node_count_, 0.0f);
+        }
         // One block is read, and memory asked for what it needs, before the one before it is computed.
         Block blocks[2];
         fill(blocks[0]);
@@ -116,8 +103,6 @@ class Summer {
     }
 
     std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;
-    std::size_t flat_count = 0;
-    bool too_many_flat = false;
 
   private:
     [[nodiscard]] bool owns(std::uint32_t node) const { return node - first_node_ < node_count_; }
@@ -132,21 +117,12 @@ class Summer {
         block.vertices = block.own_vertices;
         block.nodes = block.own_nodes;
         while (block.count <= kFull && next_ < triangles_.count) {
+            if (!owns_all_ && skipsBlock()) continue;
             const std::size_t count = std::min(triangles_.count - next_, kTermTriangles - block.count);
-            if (count == kTermTriangles && direct_ != nullptr) {
+            if (count == kTermTriangles && direct_ != nullptr && ownsAllFrom(next_)) {
                 take(block, next_);
-                const Share share = shareOf(block.nodes);
-                if (share == Share::all) {
-                    next_ += count;
-                    break;
-                }
-                block.count = 0;
-                block.vertices = block.own_vertices;
-                block.nodes = block.own_nodes;
-                if (share == Share::none) {
-                    next_ += count;
-                    continue;
-                }
+                next_ += count;
+                break;
             }
             read(block, next_, count);
             next_ += count;
@@ -154,22 +130,25 @@ class Summer {
         if (setting_.scattered) askFor(block);
     }
 
-    enum class Share { none, some, all };
+    /// Goes on to the next block when none of this one's triangles has a node in the range. (Triangles of one
+    /// face may be in two blocks, and stay together.)
+    bool skipsBlock() {
+        const std::size_t block = next_ / kTermTriangles;
+        if (!triangles_.faces.empty() ||
+            setting_.nodes.blocks.mayUse(block, first_node_, first_node_ + node_count_ - 1))
+            return false;
+        next_ = (block + 1) * kTermTriangles;
+        return true;
+    }
 
-    /// How many of a block's nodes are in the range, as far as few instructions tell: all numbers agree in
-    /// the bits above the highest in which any two differ.
-    [[nodiscard]] Share shareOf(const std::uint32_t* nodes) const {
-        if (owns_all_) return Share::all;
-        std::uint32_t common = 0xffffffffu, any = 0;
-        for (std::size_t i = 0; i < kTermCorners; ++i) {
-            common &= nodes[i];
-            any |= nodes[i];
-        }
-        const std::uint64_t span = std::bit_ceil(std::uint64_t{common ^ any} + 1) - 1;
-        const std::uint64_t first = common & ~span, last = any | span;
-        const std::uint64_t range_end = std::uint64_t{first_node_} + node_count_;
-        if (last < first_node_ || first >= range_end) return Share::none;
-        return first >= first_node_ && last < range_end ? Share::all : Share::some;
+    /// Whether all nodes of so many triangles as a block has are known to be in the range.
+    [[nodiscard]] bool ownsAllFrom(std::size_t triangle) const {
+        if (owns_all_) return true;
+        const auto& ranges = setting_.nodes.blocks.ranges;
+        if (ranges.empty()) return false;
+        const auto ownsAll = [&](const NodeBlocks::Range& r) { return owns(r.first) && owns(r.last); };
+        return ownsAll(ranges[triangle / kTermTriangles]) &&
+               ownsAll(ranges[(triangle + kTermTriangles - 1) / kTermTriangles]);
     }
 
     /// A whole block whose vertices can be used where they are.
@@ -289,16 +268,16 @@ class Summer {
             countOwn(block);
         }
         if (!triangles_.faces.empty()) compareFaces(block);
-        if (owns_all_ && sums_.rest.empty()) {
-            add<true, true>(block);
-        } else if (owns_all_) {
-            add<true, false>(block);
+        if (setting_.source.weighting == Weighting::none) {
+            owns_all_ ? add<true, Sums::none>(block) : add<false, Sums::none>(block);
         } else if (sums_.rest.empty()) {
-            add<false, true>(block);
+            owns_all_ ? add<true, Sums::tangents>(block) : add<false, Sums::tangents>(block);
         } else {
-            add<false, false>(block);
+            owns_all_ ? add<true, Sums::all>(block) : add<false, Sums::all>(block);
         }
     }
+
+    enum class Sums { none, tangents, all };
 
     /// Each triangle is counted by the task that owns its first node.
     void countOwn(const Block& block) {
@@ -312,7 +291,7 @@ class Summer {
         }
     }
 
-    template <bool kOwnsAll, bool kTangentsOnly>
+    template <bool kOwnsAll, Sums kSums>
     void add(const Block& block) {
         for (std::size_t t = 0; t < block.count; ++t) {
             const std::uint32_t* n = block.nodes + 3 * t;
@@ -320,9 +299,9 @@ class Summer {
                 addUnusual(block, t);
                 continue;
             }
-            addCorner<kOwnsAll, kTangentsOnly>(t, 0, n[0], n[1], n[2]);
-            addCorner<kOwnsAll, kTangentsOnly>(t, 1, n[1], n[2], n[0]);
-            addCorner<kOwnsAll, kTangentsOnly>(t, 2, n[2], n[0], n[1]);
+            addCorner<kOwnsAll, kSums>(t, 0, n[0], n[1], n[2]);
+            addCorner<kOwnsAll, kSums>(t, 1, n[1], n[2], n[0]);
+            addCorner<kOwnsAll, kSums>(t, 2, n[2], n[0], n[1]);
         }
     }
 
@@ -332,32 +311,27 @@ class Summer {
         const bool degenerate = (terms_.marks[0][t] & kDegenerateMark) != 0;
         for (std::size_t k = 0; k < 3; ++k) {
             if (!owns(n[k])) continue;
-            const bool known = !degenerate && sums_.nodes[n[k]].fan.add(n[(k + 1) % 3], n[(k + 2) % 3]);
+            const bool known =
+                !degenerate && sums_.nodes[n[k]].fan.add(n[(k + 1) % 3], n[(k + 2) % 3], fan_room_);
             if (!known) sums_.marks[n[k]] &= static_cast<std::uint16_t>(degenerate ? 0 : ~kFanKnown);
         }
-        if (degenerate || !owns(n[0])) return;
-        if (flat_count == flat_room_.size()) {
-            too_many_flat = true;
-        } else {
-            flat_room_[flat_count++] = block.triangles[t];
-        }
+        if (!degenerate && owns(n[0])) sums_.flat[block.triangles[t]] = 1;
     }
 
-    template <bool kOwnsAll, bool kTangentsOnly>
+    template <bool kOwnsAll, Sums kSums>
     void addCorner(std::size_t t, std::size_t k, std::uint32_t node, std::uint32_t next,
                    std::uint32_t previous) {
         if (!kOwnsAll && !owns(node)) return;
         NodeSum& sum = sums_.nodes[node];
         const std::size_t row = 3 * t + k;
-        addRow(sum.s, terms_.s[row]);  // and the weight
+        if constexpr (kSums != Sums::none) addRow(sum.s, terms_.s[row]);  // and the weight
         std::uint16_t& marks = sums_.marks[node];
         marks = static_cast<std::uint16_t>(marks & terms_.marks[k][t]);
-        if (!sum.fan.add(next, previous)) [[unlikely]]
+        if (!sum.fan.add(next, previous, fan_room_)) [[unlikely]]
             marks &= static_cast<std::uint16_t>(~kFanKnown);
-        if constexpr (!kTangentsOnly) {
-            NodeRest& rest = sums_.rest[node];
-            addRow(rest.t, terms_.t[row]);
-            addRow(rest.lengths, terms_.lengths[row]);
+        if constexpr (kSums == Sums::all) {
+            addRow(sums_.rest[node].t, terms_.t[row]);
+            sums_.lengths_t[node] += terms_.lengths_t[k][t];
         }
     }
 
@@ -402,7 +376,7 @@ class Summer {
     const Setting& setting_;
     const TriangleList& triangles_;
     NodeSums& sums_;
-    std::span<std::uint32_t> flat_room_;
+    FanRoom fan_room_;
     std::uint32_t first_node_, node_count_;
     bool owns_all_;
     std::uint32_t asked_face_ = kNone;
@@ -421,17 +395,20 @@ bool NodeSums::isOneGroup(std::size_t node, const Vec3& normal, bool may_split) 
     const std::uint32_t m = marks[node];
     const NodeSum& sum = nodes[node];
     if ((m & (kFacesUp | kFacesDown)) == 0 || (m & kFanKnown) == 0 || !sum.fan.isOne()) return false;
-    if (!may_split || (m & kCannotSplit) != 0) return true;
-    if ((m & (kTurnsLeft | kTurnsRight)) == 0 || (m & kNotLight) == 0) return false;
-    const float lightest = (m & kHeavy) != 0       ? kHeavyWeight
-                           : (m & kNotMiddle) != 0 ? kMiddleWeight
-                                                   : kLightWeight;
-    const float least = sum.s[3] - 0.4f * lightest;
-    const float square = sum.s[0] * sum.s[0] + sum.s[1] * sum.s[1] + sum.s[2] * sum.s[2];
+    return !may_split || sumCannotSplit(sum.s, m, normal);
+}
+
+bool sumCannotSplit(const float* sum, std::uint32_t marks, const Vec3& normal) {
+    if ((marks & (kTurnsLeft | kTurnsRight)) == 0 || (marks & kNotLight) == 0) return false;
+    const float lightest = (marks & kHeavy) != 0       ? kHeavyWeight
+                           : (marks & kNotMiddle) != 0 ? kMiddleWeight
+                                                       : kLightWeight;
+    const float least = sum[3] - 0.4f * lightest;
+    const float square = sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
     const float normal_square = normal.x * normal.x + normal.y * normal.y + normal.z * normal.z;
     // With a weight sum of at most 1024 times the lightest, the rounding errors of the sums stay below 0.1 of
     // it.
-    return square > least * least && sum.s[3] < 1024 * lightest && normal_square > 0.98f &&
+    return square > least * least && sum[3] < 1024 * lightest && normal_square > 0.98f &&
            normal_square < 1.02f;
 }
 
@@ -441,40 +418,39 @@ NodeSums sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nod
     NodeSums sums;
     sums.nodes = Buffer<NodeSum>(allocator, nodes.count);
     sums.marks = Buffer<std::uint16_t>(allocator, nodes.count, std::uint16_t{kAllMarks});
-    if (!source.tangents_only) sums.rest = Buffer<NodeRest>(allocator, nodes.count);
+    if (!source.tangents_only) {
+        sums.rest = Buffer<NodeRest>(allocator, nodes.count);
+        sums.lengths_t = Buffer<float>(allocator, nodes.count);
+    }
     if (triangles.count == 0) {
         std::fill(sums.nodes.begin(), sums.nodes.end(), NodeSum{});
         std::fill(sums.rest.begin(), sums.rest.end(), NodeRest{});
+        std::fill(sums.lengths_t.begin(), sums.lengths_t.end(), 0.0f);
         return sums;
     }
     Summer::Setting setting{mesh, triangles, nodes, source, terms};
-    setting.scattered = sums.scattered = isScattered(mesh, triangles);
+    setting.scattered = sums.scattered = nodes.blocks.scattered;
     if (setting.scattered) setting.packed = packNodes(mesh, nodes, room, setting.source, parallel);
     struct Counts {
         std::uint64_t degenerate, no_uv_area, mirrored;
-        std::size_t flat;
-        bool too_many_flat;
     };
     const std::size_t tasks =
         std::clamp<std::size_t>(nodes.count / kNodesPerTask, 1, std::max<std::size_t>(1, parallel.width()));
     Buffer<Counts> counts(allocator, tasks);
-    const std::size_t room_each = triangles.count / kFlatShare / tasks + 64;
-    sums.flat = Buffer<std::uint32_t>(allocator, tasks * room_each);
+    sums.flat = Buffer<std::uint8_t>(allocator, triangles.count, std::uint8_t{0});
+    const std::size_t fans_each = nodes.count / kManyShare / tasks + 64;
+    Buffer<ManyPaths> many_paths(allocator, tasks * fans_each);
     parallel.forTasks(tasks, [&](std::size_t task) {
-        Summer summer(setting, sums, {sums.flat.data() + task * room_each, room_each},
+        Summer summer(setting, sums, {many_paths.data() + task * fans_each, fans_each},
                       nodes.count * task / tasks, nodes.count * (task + 1) / tasks);
         summer.run();
-        counts[task] = {summer.degenerate_count, summer.no_uv_area_count, summer.mirrored_count,
-                        summer.flat_count, summer.too_many_flat};
+        counts[task] = {summer.degenerate_count, summer.no_uv_area_count, summer.mirrored_count};
     });
     for (std::size_t task = 0; task < tasks; ++task) {
         const Counts& c = counts[task];
         sums.degenerate_count += c.degenerate;
         sums.no_uv_area_count += c.no_uv_area;
         sums.mirrored_count += c.mirrored;
-        sums.too_many_flat |= c.too_many_flat;
-        std::copy_n(sums.flat.data() + task * room_each, c.flat, sums.flat.data() + sums.flat_count);
-        sums.flat_count += c.flat;
     }
     return sums;
 }

@@ -6,16 +6,18 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cstring>
+#include <utility>
 
 #include "core/face_walk.h"
 #include "core/typed_indices.h"
+#include "tangents/estimators/group_estimates.h"
 #include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/corner_source.h"
 #include "tangents/mikktspace/evaluation_plan.h"
-#include "tangents/mikktspace/fan_check.h"
 #include "tangents/mikktspace/growing.h"
 #include "tangents/mikktspace/node_sums.h"
-#include "tangents/mikktspace/split_check.h"
+#include "tangents/mikktspace/node_walk.h"
 #include "tangents/mikktspace/vector_rules.h"
 
 namespace tspace::mikk {
@@ -24,6 +26,46 @@ namespace {
 
 constexpr std::size_t kNodeGrain = 8192, kCornerGrain = 16384;
 constexpr std::size_t kAlwaysSmall = 1024;  // faces left to the general steps that are never too many
+
+/// The mesh's triangles, as estimators read them: each node is a group. Triangles without UV area add nothing.
+class MeshTriangles final : public estimators::TriangleGroups {
+  public:
+    MeshTriangles(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const NodeSums& sums)
+        : TriangleGroups(triangles.count),
+          mesh_(mesh),
+          triangles_(triangles),
+          nodes_(nodes),
+          flat_(sums.flat),
+          has_flat_(sums.no_uv_area_count != 0) {}
+
+    void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const override {
+        if (triangles_.corners.empty()) {
+            withIndices(mesh_.indices, [&](auto vertexOf) {
+                for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = vertexOf(3 * first + i);
+            });
+        } else {
+            for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = mesh_.indices[triangles_.corners[3 * first + i]];
+        }
+        if (vertices != nullptr) std::copy_n(groups, 3 * size, vertices);
+        if (!nodes_.of_vertex.empty()) {
+            for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = nodes_.of_vertex[groups[i]];
+        }
+        if (vertices != nullptr && nodes_.mixed) {
+            for (std::size_t i = 0; i < 3 * size; ++i) vertices[i] = nodes_.vertex(groups[i]);
+        }
+        if (!has_flat_) return;
+        for (std::size_t t = 0; t < size; ++t) {
+            if (flat_[first + t] != 0) std::fill_n(groups + 3 * t, 3, kNone);
+        }
+    }
+
+  private:
+    const MeshView& mesh_;
+    const TriangleList& triangles_;
+    const Nodes& nodes_;
+    const Buffer<std::uint8_t>& flat_;  // one mark per triangle
+    bool has_flat_;
+};
 
 class OnePass {
   public:
@@ -36,24 +78,23 @@ class OnePass {
           out_(out),
           parallel_(parallel),
           allocator_(options.execution.allocator),
+          estimates_(estimators::isEstimated(options.method)),
           sign_factor_(signFactor(options.convention) * normalFactor(options.convention)) {}
 
     std::optional<TangentReport> run() {
         const CornerTermsFunction terms = cornerTermsFor(options_.execution.simd);
         CornerSource source = cornerSource({mesh_.positions, mesh_.normals}, mesh_.uvs, options_.method,
-                                           wantsTangentsOnly(out_));
-        if (manyAreFlat(source, terms)) return std::nullopt;
+                                           estimates_ || wantsTangentsOnly(out_));
         sums_ = sumNodes(mesh_, triangles_, nodes_, source, terms, outputRoom(), allocator_, parallel_);
-        if (sums_.too_many_flat) return std::nullopt;
         checkFlatTriangles();
-        checkFans(mesh_, triangles_, nodes_, sums_, allocator_, parallel_);
+        if (estimates_) estimateNodes();
         finishNodes();
-        if (unclear_count_ != 0 && options_.method == Method::mikktspace) finishDoubtful(source, terms);
+        writeCorners();
+        if (unclear_count_ != 0 && !estimates_) walkUnclear(source, terms);
         if (unclear_count_ != 0) {
             collectRest();
             if (too_much_rest_) return std::nullopt;
         }
-        writeCorners();
         TangentReport report;
         report.triangle_count = triangles_.count;
         report.skipped_face_count = triangles_.skipped_face_count;
@@ -61,6 +102,7 @@ class OnePass {
         report.degenerate_uv_count = sums_.no_uv_area_count;
         report.mirrored_count = sums_.mirrored_count;
         report.group_count = group_count_;
+        report.default_corner_count = default_corner_count_;
         if (unclear_count_ != 0) evaluateRest(report);
         return report;
     }
@@ -70,19 +112,19 @@ class OnePass {
         return (unclear_[node / 64] >> (node % 64) & 1) != 0;
     }
 
-    /// Meshes in which many triangles have no UV area leave too much to the general steps. A sample shows it
-    /// early.
-    [[nodiscard]] bool manyAreFlat(const CornerSource& source, CornerTermsFunction terms) const {
-        constexpr std::size_t kWorthwhile = 4096;  // triangles
-        if (triangles_.count < kWorthwhile) return false;
-        std::uint32_t vertices[kTermCorners];
-        for (std::size_t i = 0; i < kTermCorners; ++i) {
-            const std::size_t triangle = triangles_.count * (i / 3) / kTermTriangles;
-            vertices[i] = mesh_.indices[triangles_.corner(3 * triangle + i % 3)];
+    /// Results of all nodes take the place of their sums. Those of unclear nodes mean nothing.
+    void estimateNodes() {
+        if (!wantsTangentsOnly(out_)) {
+            sums_.rest = Buffer<NodeRest>(allocator_, nodes_.count);
+            sums_.lengths_t = Buffer<float>(allocator_, nodes_.count);
         }
-        CornerTerms sample;
-        terms(source, vertices, kTermTriangles, sample);
-        return sample.no_uv_area_count > kTermTriangles / 4;
+        scale_ = estimators::inputScale(mesh_.positions, mesh_.uvs);
+        const estimators::GroupEstimates to{reinterpret_cast<std::byte*>(sums_.nodes.data()), sizeof(NodeSum),
+                                            reinterpret_cast<std::byte*>(sums_.rest.data()), sizeof(NodeRest),
+                                            reinterpret_cast<std::byte*>(sums_.lengths_t.data()), sizeof(float)};
+        estimators::estimateGroups(options_.method, MeshTriangles(mesh_, triangles_, nodes_, sums_),
+                                   nodes_.count, {mesh_.positions, mesh_.normals}, mesh_.uvs, scale_, to,
+                                   options_.execution, parallel_);
     }
 
     /// The tangents are written last, so until then their memory can serve.
@@ -93,21 +135,56 @@ class OnePass {
 
     /// A triangle without UV area takes the orientation of the first group that reaches it, at any of its
     /// nodes. Where all other triangles at its three nodes have one orientation, so will it, whoever is
-    /// first; then it just links its neighbours in a fan. Other such triangles are left to the general steps,
-    /// with their nodes. (That these then count as unclear for the next triangle here is no harm.)
+    /// first; then it just links its neighbours in a fan. Nodes of others are left aside.
     void checkFlatTriangles() {
-        for (std::size_t i = 0; i < sums_.flat_count; ++i) {
-            const std::size_t first = 3 * std::size_t{sums_.flat[i]};
-            std::uint32_t n[3];
-            for (std::size_t k = 0; k < 3; ++k)
-                n[k] = nodes_.ofVertex(mesh_.indices[triangles_.corner(first + k)]);
-            std::uint32_t facing = kFacesUp | kFacesDown, any = 0;
-            for (const std::uint32_t node : n) {
-                facing &= sums_.marks[node];
-                any |= sums_.marks[node] & (kFacesUp | kFacesDown);
+        if (sums_.no_uv_area_count == 0) return;
+        forEachFlat([&](std::size_t triangle) {
+            std::uint32_t facing = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t node = nodeAt(3 * triangle + k);
+                const std::uint32_t here = sums_.marks[node] & (kFacesUp | kFacesDown);
+                // A node that is left aside may have any.
+                facing |= here == 0 ? kFacesUp | kFacesDown : sums_.isEmpty(node) ? 0 : here;
             }
-            if (facing == any && (facing == kFacesUp || facing == kFacesDown)) continue;
-            for (const std::uint32_t node : n) sums_.marks[node] = 0;
+            if (facing == (kFacesUp | kFacesDown)) doubtful_.push(static_cast<std::uint32_t>(triangle));
+        });
+        for (const std::uint32_t triangle : doubtful_) {
+            for (std::size_t k = 0; k < 3; ++k) sums_.marks[nodeAt(3 * std::size_t{triangle} + k)] = 0;
+        }
+        countDefaults();
+    }
+
+    /// Corners of triangles without UV area at nodes where no other triangle is. Several triangles of a
+    /// polygon may have one corner of the mesh.
+    void countDefaults() {
+        const bool has_polygons = !triangles_.faces.empty();
+        Marks counted;
+        if (has_polygons) counted = noMarks(allocator_, mesh_.cornerCount());
+        forEachFlat([&](std::size_t triangle) {
+            for (std::size_t i = 3 * triangle; i < 3 * triangle + 3; ++i) {
+                if (!sums_.isEmpty(nodeAt(i))) continue;
+                if (has_polygons && std::exchange(counted[triangles_.corner(i)], std::uint8_t{1}) != 0)
+                    continue;
+                ++default_corner_count_;
+            }
+        });
+    }
+
+    [[nodiscard]] std::uint32_t nodeAt(std::size_t i) const {
+        return nodes_.ofVertex(mesh_.indices[triangles_.corner(i)]);
+    }
+
+    /// body(triangle) for those without UV area.
+    template <class Body>
+    void forEachFlat(const Body& body) const {
+        const Buffer<std::uint8_t>& flat = sums_.flat;
+        for (std::size_t begin = 0; begin < flat.size(); begin += sizeof(std::uint64_t)) {
+            const std::size_t count = std::min(sizeof(std::uint64_t), flat.size() - begin);
+            std::uint64_t any = 0;
+            std::memcpy(&any, flat.data() + begin, count);
+            for (std::size_t t = begin; any != 0 && t < begin + count; ++t) {
+                if (flat[t] != 0) body(t);
+            }
         }
     }
 
@@ -145,30 +222,31 @@ class OnePass {
         group_count_ = groups.load();
     }
 
-    /// The nodes of which only the angular test is in doubt, after a second look.
-    void finishDoubtful(CornerSource source, CornerTermsFunction terms) {
-        Growing<std::uint32_t> unclear(allocator_);
-        unclear.reserve(unclear_count_);
-        forEachUnclear([&](std::uint32_t node) { unclear.push(node); });
-        source.tangents_only = false;
-        checkSplits(mesh_, triangles_, nodes_, {unclear.begin(), unclear.size()}, source, terms, sums_,
-                    allocator_, parallel_);
-        for (const std::uint32_t n : unclear) {
-            if ((sums_.marks[n] & kCannotSplit) == 0 || !finishNode(n)) continue;
-            unclear_[n / 64] &= ~(std::uint64_t{1} << (n % 64));
-            --unclear_count_;
-            ++group_count_;
+    /// A second look at the nodes that are not clear.
+    void walkUnclear(const CornerSource& source, CornerTermsFunction terms) {
+        Buffer<std::uint32_t> chosen(allocator_, unclear_count_);
+        std::size_t count = 0;
+        forEachUnclear([&](std::uint32_t node) { chosen[count++] = node; });
+        const WalkedNodes walked =
+            walkNodes(mesh_, options_, triangles_, nodes_, {chosen.data(), count},
+                      {doubtful_.begin(), doubtful_.size()}, source, terms, sums_, out_, parallel_);
+        for (std::size_t i = 0; i < count; ++i) {
+            if (walked.left[i] == 0) unclear_[chosen[i] / 64] &= ~(std::uint64_t{1} << (chosen[i] % 64));
         }
+        unclear_count_ = walked.left_count;
+        group_count_ += walked.group_count;
+        default_corner_count_ += walked.default_corner_count;
     }
 
     bool finishNode(std::size_t n) {
         const bool empty = sums_.isEmpty(n), splits = options_.method == Method::mikktspace;
         if (!empty && !sums_.isOneGroup(n, mesh_.normals[nodes_.vertex(n)], splits)) return false;
         NodeSum& sum = sums_.nodes[n];
-        const Vec3 s = empty ? Vec3{1, 0, 0} : unit(Vec3{sum.s[0], sum.s[1], sum.s[2]});
+        const Vec3 sum_s{sum.s[0], sum.s[1], sum.s[2]};
+        const Vec3 s = empty ? Vec3{1, 0, 0} : estimates_ ? sum_s : unit(sum_s);
         // The other methods replace a sum that vanishes; the general steps see to that.
         if (!splits && !notZero(s)) return false;
-        if (!sums_.rest.empty()) finishRest(sums_.rest[n], empty, sum.s[3]);
+        if (!sums_.rest.empty()) finishRest(n, empty, sum.s[3]);
         const bool positive = !empty && (sums_.marks[n] & kFacesUp) != 0;
         sum.s[0] = s.x;
         sum.s[1] = s.y;
@@ -177,17 +255,20 @@ class OnePass {
         return true;
     }
 
-    void finishRest(NodeRest& rest, bool empty, float weight) const {
-        const Vec3 t = signFactor(options_.convention) *
-                       (empty ? Vec3{0, 1, 0} : unit(Vec3{rest.t[0], rest.t[1], rest.t[2]}));
+    void finishRest(std::size_t node, bool empty, float weight) {
+        NodeRest& rest = sums_.rest[node];
+        float& length_t = sums_.lengths_t[node];
+        const Vec3 sum_t{rest.t[0], rest.t[1], rest.t[2]};
+        const Vec3 t =
+            signFactor(options_.convention) * (empty ? Vec3{0, 1, 0} : estimates_ ? sum_t : unit(sum_t));
         rest.t[0] = t.x;
         rest.t[1] = t.y;
         rest.t[2] = t.z;
         if (empty) {
-            rest.lengths[0] = rest.lengths[1] = 1;
-        } else if (weight > 0) {
-            rest.lengths[0] /= weight;
-            rest.lengths[1] /= weight;
+            rest.t[3] = length_t = 1;
+        } else if (weight > 0 && !estimates_) {
+            rest.t[3] /= weight;
+            length_t /= weight;
         }
     }
 
@@ -204,7 +285,7 @@ class OnePass {
         });
         for (const std::uint32_t c : triangles_.skipped_corners) {
             out_.tangents[c] = {};
-            if (!sums_.rest.empty()) writeRest(c, NodeRest{});
+            if (!sums_.rest.empty()) writeRest(c, NodeRest{}, 0);
         }
     }
 
@@ -229,14 +310,17 @@ class OnePass {
                 out_.tangents[first + i] = {s[0], s[1], s[2], s[3]};
             }
             if (sums_.rest.empty()) continue;
-            for (std::size_t i = 0; i < count; ++i) writeRest(first + i, sums_.rest[nodes[current][i]]);
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::uint32_t node = nodes[current][i];
+                writeRest(first + i, sums_.rest[node], sums_.lengths_t[node]);
+            }
         }
     }
 
-    void writeRest(std::size_t c, const NodeRest& rest) const {
+    void writeRest(std::size_t c, const NodeRest& rest, float length_t) const {
         if (!out_.bitangents.empty()) out_.bitangents[c] = {rest.t[0], rest.t[1], rest.t[2]};
-        if (!out_.magnitudes_s.empty()) out_.magnitudes_s[c] = rest.lengths[0];
-        if (!out_.magnitudes_t.empty()) out_.magnitudes_t[c] = rest.lengths[1];
+        if (!out_.magnitudes_s.empty()) out_.magnitudes_s[c] = rest.t[3];
+        if (!out_.magnitudes_t.empty()) out_.magnitudes_t[c] = length_t;
     }
 
     /// The faces around unclear nodes, as a mesh of their own whose vertices are nodes: first the unclear
@@ -249,7 +333,7 @@ class OnePass {
         forEachUnclear([&](std::uint32_t node) { numberNode(node); });
         if (triangles_.corners.empty()) {
             const Buffer<std::uint32_t> found =
-                collectTriangles(mesh_, triangles_, marks, 1, allocator_, parallel_);
+                collectTriangles(mesh_, triangles_, nodes_, marks, 1, allocator_, parallel_);
             too_much_rest_ = found.size() > most;
             if (too_much_rest_) return;
             for (const std::uint32_t t : found) addFace(3 * std::size_t{t}, 3);
@@ -315,9 +399,9 @@ class OnePass {
                                {magnitudes_s.data(), magnitudes_s.size()},
                                {magnitudes_t.data(), magnitudes_t.size()}};
         const EvaluationPlan plan = planNodes(rest, options, cutFaces(rest, options.ngons, allocator_), all,
-                                              unclear_count_, parallel_);
+                                              unclear_count_, PlanUse::once, parallel_);
         const TangentReport part =
-            evaluateGroups(plan, {rest.positions, rest.normals}, to, options_.execution, parallel_);
+            evaluateGroups(plan, {rest.positions, rest.normals}, to, options_.execution, parallel_, &scale_);
         report.group_count += part.group_count;
         report.default_corner_count += part.default_corner_count;
         report.not_finite_count += part.not_finite_count;
@@ -339,12 +423,15 @@ class OnePass {
     TangentOutput out_;
     Parallel& parallel_;
     const Allocator* allocator_;
+    bool estimates_;  // fast and best: the estimators sum, and this class only groups
+    estimators::InputScale scale_;
     float sign_factor_;  // what the sign of the UV determinant is multiplied with
 
     NodeSums sums_;
-    Buffer<std::uint64_t> unclear_;  // one bit per node
+    Growing<std::uint32_t> doubtful_{allocator_};  // triangles without UV area whose nodes may not agree
+    Buffer<std::uint64_t> unclear_;                // one bit per node
     std::size_t unclear_count_ = 0;
-    std::uint64_t group_count_ = 0;
+    std::uint64_t group_count_ = 0, default_corner_count_ = 0;
 
     // The mesh that is left to the general steps.
     bool too_much_rest_ = false;

@@ -56,7 +56,7 @@ EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, 
     Nodes nodes = weld(mesh, triangles, allocator, parallel);
     TangentOptions needed = options;
     if (!needsReferenceOrder(mesh, options, triangles, nodes, parallel)) needed.pairing = Pairing::corrected;
-    return planNodes(mesh, needed, std::move(triangles), nodes, nodes.count, parallel);
+    return planNodes(mesh, needed, std::move(triangles), nodes, nodes.count, PlanUse::kept, parallel);
 }
 
 bool needsReferenceOrder(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
@@ -66,7 +66,7 @@ bool needsReferenceOrder(const MeshView& mesh, const TangentOptions& options, co
 }
 
 EvaluationPlan planNodes(const MeshView& mesh, const TangentOptions& options, TriangleList triangles,
-                         Nodes& nodes, std::size_t listed_count, Parallel& parallel) {
+                         Nodes& nodes, std::size_t listed_count, PlanUse use, Parallel& parallel) {
     const Allocator* allocator = options.execution.allocator;
     const bool is_mikktspace = options.method == Method::mikktspace;
     GroupedPlan plan;
@@ -100,7 +100,7 @@ EvaluationPlan planNodes(const MeshView& mesh, const TangentOptions& options, Tr
     }
     planSlotWrites(plan, pass, allocator);
     pose = {};
-    return makeEvaluationPlan(std::move(plan), mesh, allocator, parallel);
+    return makeEvaluationPlan(std::move(plan), mesh, use, allocator, parallel);
 }
 
 }  // namespace tspace::mikk

@@ -31,8 +31,8 @@ inline void merge(Tangents& first, const Tangents& second) {
 /// The outputs, of which some may be missing.
 class Sink {
   public:
-    Sink(const TangentOutput& out, const EvaluationPlan& plan)
-        : out_(out), sign_factor_(plan.sign_factor), bitangent_factor_(plan.bitangent_factor) {}
+    Sink(const TangentOutput& out, float sign_factor, float bitangent_factor)
+        : out_(out), sign_factor_(sign_factor), bitangent_factor_(bitangent_factor) {}
 
     [[nodiscard]] float sign(bool positive) const { return positive ? sign_factor_ : -sign_factor_; }
     void write(std::size_t corner, const Tangents& r) const {

@@ -14,9 +14,8 @@
 // (otherwise V would be the key of one of them), and the end of the list has to be taken longer; with the
 // whole list F is its first corner.
 //
-// To find L, few representatives are needed. A node's last corner is the most that its representative can be,
-// which bounds an edge's key from above. The edges of the highest bounds are worked out exactly, then those
-// whose bound reaches the best key found.
+// Few triangles are enough, nearly always: in a mesh in natural order most nodes of the last ones have no
+// other corners; in a mesh without order each edge of a late triangle has its key there once in 36 times.
 #include "tangents/mikktspace/tail_check.h"
 
 #include <algorithm>
@@ -31,12 +30,8 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kFirstTail = 2048;  // triangles; in a mesh in natural order, a few rows
-constexpr std::size_t kShortTail = 32;    // for meshes of few triangles
-constexpr std::size_t kFew = 16384;
-constexpr std::size_t kLonger = 16;      // times, when that was not enough
-constexpr std::size_t kFirstEdges = 64;  // that are worked out before a better bound is known
-constexpr std::size_t kMostEdges = 512;
+constexpr std::size_t kFirstTail = 24;  // triangles
+constexpr std::size_t kLonger = 4;      // times, when that was not enough
 
 /// A half-edge with both ends in S.
 struct LateEdge {
@@ -53,16 +48,20 @@ class TailCheck {
           allocator_(allocator),
           parallel_(parallel),
           order_(mesh, triangles, nodes, allocator, parallel),
-          corners_(allocator, nodes.count),
+          late_nodes_(noMarks(allocator, nodes.count)),
+          late_vertices_(allocator),
+          representatives_(allocator, nodes.count),
           edges_(allocator) {}
 
     bool run() {
-        for (std::size_t length = triangles_.count < kFew ? kShortTail : kFirstTail;; length *= kLonger) {
+        std::size_t end = triangles_.count;
+        for (std::size_t length = kFirstTail;; length *= kLonger) {
             const std::size_t begin = tailOf(length);
-            collectEdges(begin);
-            const std::uint32_t first_corner = firstCorner(begin);
-            if (findLargestKey(first_corner, begin == 0) && key_ >= first_corner) break;
+            addNodes(begin, end);
+            findEdges();
+            if (!edges_.empty() && key_ >= firstCorner(begin)) break;
             if (begin == 0) return false;  // no edge at all
+            end = begin;
         }
         return bucketMatters();
     }
@@ -98,86 +97,36 @@ class TailCheck {
         return !(a == b || b == c || c == a);
     }
 
-    /// S, with the last corners of its nodes; then the edges that have both ends in S.
-    void collectEdges(std::size_t begin) {
-        Marks late_vertices = noMarks(allocator_, mesh_.vertexCount());
-        {
-            Marks late_nodes = noMarks(allocator_, nodes_.count);
-            for (std::size_t t = triangles_.count; t-- > begin;) {
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const std::uint32_t corner = triangles_.corner(3 * t + k),
-                                        node = nodes_.of(mesh_, corner);
-                    if (late_nodes[node] == 0) corners_[node] = corner;
-                    // Corners of a face are in no order; those of later faces are larger.
-                    corners_[node] = std::max(corners_[node], corner);
-                    late_nodes[node] = 1;
-                    late_vertices[mesh_.indices[corner]] = 1;
-                }
-            }
-            for (std::size_t v = 0; v < nodes_.of_vertex.size(); ++v) {
-                late_vertices[v] = late_nodes[nodes_.of_vertex[v]];
-            }
+    /// Adds the nodes of triangles to S.
+    void addNodes(std::size_t begin, std::size_t end) {
+        for (std::size_t entry = 3 * begin; entry < 3 * end; ++entry) {
+            const std::uint32_t node = nodeAt(entry);
+            if (late_nodes_[node] != 0) continue;
+            late_nodes_[node] = 1;
+            late_vertices_.push(mesh_.indices[triangles_.corner(entry)]);
         }
-        const Buffer<std::uint32_t> found =
-            collectTriangles(mesh_, triangles_, late_vertices, 2, allocator_, parallel_);
+    }
+
+    /// The edges that have both ends in S, and L.
+    void findEdges() {
+        Growing<std::uint32_t> shared(allocator_);
+        order_.findSome({late_vertices_.begin(), late_vertices_.size()}, representatives_.data(), &shared);
         edges_.drop(edges_.size());
-        for (const std::uint32_t t : found) {
+        key_ = 0;
+        for (const std::uint32_t t : shared) {
             if (!isGood(t)) continue;
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::size_t from = 3 * std::size_t{t} + k, to = k == 2 ? from - 2 : from + 1;
-                if (late_vertices[mesh_.indices[triangles_.corner(from)]] == 0 ||
-                    late_vertices[mesh_.indices[triangles_.corner(to)]] == 0)
-                    continue;
-                edges_.push({nodeAt(from), nodeAt(to)});
+                const LateEdge edge{nodeAt(from), nodeAt(to)};
+                if (late_nodes_[edge.from] == 0 || late_nodes_[edge.to] == 0) continue;
+                edges_.push(edge);
+                key_ = std::max(key_, keyOf(edge));
             }
         }
     }
 
-    /// Never below the edge's key; equal to it when both ends are exact.
-    [[nodiscard]] std::uint32_t bound(const LateEdge& e) const {
-        return std::min(corners_[e.from], corners_[e.to]);
-    }
-
-    /// L, if it is not below F; else anything below F. Returns false when there is no edge. All edges whose
-    /// bound is L are exact afterwards.
-    bool findLargestKey(std::uint32_t first_corner, bool is_whole_list) {
-        if (edges_.empty()) return false;
-        const auto higher = [&](const LateEdge& a, const LateEdge& b) { return bound(a) > bound(b); };
-        Marks exact = noMarks(allocator_, nodes_.count);
-        key_ = 0;
-        // In a mesh without order one edge in thirty or so has its key at the end, so a few are tried, and
-        // some more. (Each time all vertices are read.) Then it is as well to make the end of the list
-        // longer.
-        std::size_t step = kFirstEdges;
-        for (std::size_t done = 0; done < edges_.size() && key_ < first_corner; step *= 8) {
-            if (step > kMostEdges && !is_whole_list) return false;
-            const std::size_t end = is_whole_list ? edges_.size() : std::min(done + step, edges_.size());
-            std::nth_element(edges_.begin() + done, edges_.begin() + (end - 1), edges_.end(), higher);
-            workOut(bound(edges_[end - 1]), exact);
-            for (const LateEdge& e : edges_) {
-                if (exact[e.from] != 0 && exact[e.to] != 0) key_ = std::max(key_, bound(e));
-            }
-            done = end;
-        }
-        workOut(std::max(key_, first_corner), exact);
-        for (const LateEdge& e : edges_) {
-            if (exact[e.from] != 0 && exact[e.to] != 0) key_ = std::max(key_, bound(e));
-        }
-        return true;
-    }
-
-    /// Makes the ends of all edges exact whose bound reaches the limit.
-    void workOut(std::uint32_t limit, Marks& exact) {
-        Growing<std::uint32_t> asked(allocator_);  // a vertex of each
-        for (const LateEdge& e : edges_) {
-            if (bound(e) < limit) continue;
-            for (const std::uint32_t node : {e.from, e.to}) {
-                if (exact[node] != 0) continue;
-                exact[node] = 1;
-                asked.push(mesh_.indices[corners_[node]]);
-            }
-        }
-        if (!asked.empty()) order_.findSome({asked.begin(), asked.end()}, corners_.data());
+    [[nodiscard]] std::uint32_t keyOf(const LateEdge& e) const {
+        return std::min(representatives_[e.from], representatives_[e.to]);
     }
 
     bool bucketMatters() {
@@ -187,8 +136,8 @@ class TailCheck {
         };
         Growing<Record> bucket(allocator_);
         for (const LateEdge& e : edges_) {
-            if (bound(e) != key_) continue;
-            const bool ascending = corners_[e.from] < corners_[e.to];
+            if (keyOf(e) != key_) continue;
+            const bool ascending = representatives_[e.from] < representatives_[e.to];
             bucket.push({ascending ? e.to : e.from, ascending});
         }
         if (bucket.size() <= 2) return false;
@@ -208,8 +157,9 @@ class TailCheck {
     const Allocator* allocator_;
     Parallel& parallel_;
     WeldOrder order_;
-    Buffer<std::uint32_t>
-        corners_;  // of nodes in S: the representative where it is known, else the last corner
+    Marks late_nodes_;                      // 1: in S
+    Growing<std::uint32_t> late_vertices_;  // a vertex of each node in S
+    Buffer<std::uint32_t> representatives_;
     Growing<LateEdge> edges_;
     std::uint32_t key_ = 0;  // L, and V in the end
 };

@@ -12,8 +12,8 @@ namespace tspace::mikk {
 
 /// False when the order of the last bucket cannot change a link: it has at most two half-edges, or no edge in
 /// both directions. True otherwise, and always for nodes that are not tame. Takes about a byte per vertex,
-/// five per node, and what the corners of a few cells of the reference's grid need; reads all indices two to
-/// four times.
+/// six per node, and what the corners of a few cells of the reference's grid need; mostly reads all indices
+/// once.
 bool tailMayMatter(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
                    const Allocator* allocator, Parallel& parallel);
 

@@ -118,23 +118,14 @@ float uvArea(const GroupedPlan& plan, std::size_t t) {
     return area < 0 ? -area : area;
 }
 
-/// All triangles of a face get the orientation of one of them. In a quad that is the first, unless the second
-/// has a usable UV area and the first's is not at least as large; in an n-gon it is the largest that has a
-/// usable one.
+/// All triangles of a face get the orientation of one of them.
 void uniteOrientation(GroupedPlan& plan, const Buffer<std::uint32_t>& faces) {
     for (std::size_t first = 0; first < plan.triangle_count;) {
         std::size_t end = first + 1;
         while (end < plan.triangle_count && faces[end] == faces[first]) ++end;
-        std::size_t chosen = first;
-        if (end - first == 2) {
-            const bool second_is_any = (plan.flags[first + 1] & kAny) != 0;
-            if (!second_is_any && !(uvArea(plan, first) >= uvArea(plan, first + 1))) chosen = first + 1;
-        } else {
-            for (std::size_t t = first + 1; t < end; ++t) {
-                if ((plan.flags[t] & kAny) != 0) continue;
-                if ((plan.flags[chosen] & kAny) != 0 || uvArea(plan, t) > uvArea(plan, chosen)) chosen = t;
-            }
-        }
+        const std::size_t chosen = orientingTriangle(
+            first, end, [&](std::size_t t) { return (plan.flags[t] & kAny) != 0; },
+            [&](std::size_t t) { return uvArea(plan, t); });
         for (std::size_t t = first; t < end; ++t) {
             plan.flags[t] =
                 static_cast<std::uint8_t>((plan.flags[t] & ~kPositive) | (plan.flags[chosen] & kPositive));

@@ -453,6 +453,7 @@ Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator*
     } else if (nodes.mixed) {
         resolveMixed(mesh, triangles, nodes, allocator, parallel);
     }
+    if (nodes.tame) nodes.blocks = findNodeBlocks(mesh, triangles, nodes, allocator, parallel);
     return nodes;
 }
 

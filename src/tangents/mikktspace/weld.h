@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "tangents/mikktspace/faces.h"
+#include "tangents/mikktspace/node_blocks.h"
 
 namespace tspace::mikk {
 
@@ -28,6 +29,7 @@ struct Nodes {
     /// Only when not tame: the corner that the reference keeps for each node; kNone for nodes without
     /// corners.
     Buffer<std::uint32_t> representatives;
+    NodeBlocks blocks;  ///< when tame
 
     [[nodiscard]] std::uint32_t ofVertex(std::uint32_t vertex) const {
         return of_vertex.empty() ? vertex : of_vertex[vertex];

@@ -22,6 +22,7 @@ namespace tspace::mikk {
 namespace {
 
 constexpr std::size_t kCells = 2048;
+constexpr std::size_t kFewVertices = 512;  // so few are looked at without NearCells
 constexpr std::uint32_t kWanted = 1, kNotWanted = 0;
 
 float component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
@@ -274,43 +275,62 @@ std::size_t WeldOrder::cellOf(std::uint32_t vertex) const {
     return mikk::cellOf(low_, high_, component(mesh_.positions[vertex], axis_));
 }
 
-/// Positions in the corner list.
-Buffer<std::uint32_t> WeldOrder::entriesInCellsOf(std::span<const std::uint32_t> vertices) const {
-    constexpr std::size_t kGrain = 64;  // blocks
+/// Positions in the corner list. `wanted`: the nodes of the vertices.
+Buffer<std::uint32_t> WeldOrder::entriesInCellsOf(std::span<const std::uint32_t> vertices,
+                                                  const Marks& wanted, Growing<std::uint32_t>* shared) const {
+    constexpr std::uint8_t kInCell = 1, kAtNode = 2;
     std::array<std::uint8_t, kCells> cell_wanted = {};
     for (const std::uint32_t vertex : vertices) cell_wanted[cellOf(vertex)] = 1;
-    const NearCells near(low_, high_, cell_wanted);
     const std::size_t vertex_count = mesh_.vertexCount();
     Marks in_cells(allocator_, vertex_count);
-    parallel_.forRanges((vertex_count + NearCells::kBlock - 1) / NearCells::kBlock, kGrain,
-                        [&](std::size_t first_block, std::size_t end_block) {
-                            for (std::size_t block = first_block; block < end_block; ++block) {
-                                const std::size_t begin = block * NearCells::kBlock,
-                                                  end = std::min(begin + NearCells::kBlock, vertex_count);
-                                if (!near.mark(mesh_.positions, axis_, begin, end, in_cells.data())) continue;
-                                for (std::size_t v = begin; v < end; ++v) {
-                                    if (in_cells[v] != 0)
-                                        in_cells[v] = cell_wanted[cellOf(static_cast<std::uint32_t>(v))];
-                                }
-                            }
-                        });
-    const Buffer<std::uint32_t> found =
-        collectTriangles(mesh_, triangles_, in_cells, 1, allocator_, parallel_);
-    Growing<std::uint32_t> entries(allocator_);
-    entries.reserve(3 * found.size());
-    for (const std::uint32_t t : found) {
-        for (std::uint32_t i = 3 * t; i < 3 * t + 3; ++i) {
-            if (in_cells[mesh_.indices[triangles_.corner(i)]] != 0) entries.push(i);
-        }
+    const auto markOf = [&](std::size_t v) -> std::uint8_t {
+        const auto vertex = static_cast<std::uint32_t>(v);
+        if (cell_wanted[cellOf(vertex)] == 0) return 0;
+        return wanted[nodes_.ofVertex(vertex)] != 0 ? kInCell | kAtNode : kInCell;
+    };
+    if (vertex_count <= kFewVertices) {
+        for (std::size_t v = 0; v < vertex_count; ++v) in_cells[v] = markOf(v);
+    } else {
+        const NearCells near(low_, high_, cell_wanted);
+        constexpr std::size_t kBlock = NearCells::kBlock, kGrain = 64;  // vertices; blocks
+        const auto markBlock = [&](std::size_t block) {
+            const std::size_t begin = block * kBlock, end = std::min(begin + kBlock, vertex_count);
+            if (!near.mark(mesh_.positions, axis_, begin, end, in_cells.data())) return;
+            for (std::size_t v = begin; v < end; ++v) {
+                if (in_cells[v] != 0) in_cells[v] = markOf(v);
+            }
+        };
+        parallel_.forRanges((vertex_count + kBlock - 1) / kBlock, kGrain,
+                            [&](std::size_t first, std::size_t last) {
+                                for (std::size_t block = first; block < last; ++block) markBlock(block);
+                            });
     }
+    const Buffer<std::uint32_t> found =
+        collectTriangles(mesh_, triangles_, nodes_, in_cells, 1, allocator_, parallel_);
+    Growing<std::uint32_t> entries(allocator_);
+    std::uint32_t* next = entries.extend(3 * found.size());
+    withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
+        for (const std::uint32_t t : found) {
+            unsigned at_nodes = 0;
+            for (std::uint32_t i = 3 * t; i < 3 * t + 3; ++i) {
+                const std::uint8_t mark = in_cells[vertexOf(i)];
+                *next = i;  // stays when the next one is written behind it
+                next += mark & kInCell;
+                at_nodes += mark / kAtNode;
+            }
+            if (at_nodes > 1 && shared != nullptr) shared->push(t);
+        }
+    });
+    entries.drop(static_cast<std::size_t>(entries.end() - next));
     return entries.exact();
 }
 
-void WeldOrder::findSome(std::span<const std::uint32_t> vertices, std::uint32_t* representatives) const {
+void WeldOrder::findSome(std::span<const std::uint32_t> vertices, std::uint32_t* representatives,
+                         Growing<std::uint32_t>* shared) const {
     if (triangles_.count == 0) return;
     Marks wanted = noMarks(allocator_, nodes_.count);
     for (const std::uint32_t vertex : vertices) wanted[nodes_.ofVertex(vertex)] = 1;
-    find(entriesInCellsOf(vertices), wanted, representatives, nullptr);
+    find(entriesInCellsOf(vertices, wanted, shared), wanted, representatives, nullptr);
 }
 
 void WeldOrder::findAll(std::uint32_t* representatives, std::uint8_t* not_welded) const {

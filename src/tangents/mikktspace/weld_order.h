@@ -9,6 +9,7 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "tangents/mikktspace/faces.h"
+#include "tangents/mikktspace/growing.h"
 #include "tangents/mikktspace/weld.h"
 
 namespace tspace::mikk {
@@ -26,14 +27,18 @@ class WeldOrder {
 
     /// The same for some nodes of tame ones, given by one vertex each. Other elements may be set too, and
     /// then are right. Linear in the vertices and indices, and in the corners of those cells (of 2048) that
-    /// hold the nodes, times the halvings of a float interval.
-    void findSome(std::span<const std::uint32_t> vertices, std::uint32_t* representatives) const;
+    /// hold the nodes, times the halvings of a float interval. `shared`, if not null, gets the triangles that
+    /// have two corners or more at these nodes, ascending.
+    void findSome(std::span<const std::uint32_t> vertices, std::uint32_t* representatives,
+                  Growing<std::uint32_t>* shared = nullptr) const;
 
   private:
     using Marks = Buffer<std::uint8_t>;
 
     [[nodiscard]] std::size_t cellOf(std::uint32_t vertex) const;
-    [[nodiscard]] Buffer<std::uint32_t> entriesInCellsOf(std::span<const std::uint32_t> vertices) const;
+    [[nodiscard]] Buffer<std::uint32_t> entriesInCellsOf(std::span<const std::uint32_t> vertices,
+                                                         const Marks& wanted,
+                                                         Growing<std::uint32_t>* shared) const;
     void find(const Buffer<std::uint32_t>& entries, const Marks& wanted, std::uint32_t* representatives,
               std::uint8_t* not_welded) const;
     void findInFew(const Buffer<std::uint32_t>& entries, const Marks& wanted, std::uint32_t* representatives,

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Errors over the flat face of a bevel, as colours.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "test_mesh.h"
+
+namespace tspace::accuracy {
+
+/// One square of the picture: a vector per corner of the mesh, which is interpolated and held against `exact`.
+struct BevelPanel {
+    std::string name;
+    std::vector<Vec3> vectors;
+};
+
+std::string bevelPlot(const std::string& title, const TestMesh& mesh, const DVec3& exact,
+                      const std::vector<BevelPanel>& panels);
+
+}  // namespace tspace::accuracy

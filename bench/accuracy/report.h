@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// A study as tables for people (Markdown, so that they can go into a page) and as JSON.
+#pragma once
+
+#include <string>
+
+#include "study.h"
+
+namespace tspace::accuracy {
+
+/// What is asked of `fast` and `best`, beside what was measured, and then every figure of every method.
+void printTables(const Study& study);
+/// All figures. `path`: a file, or "-" for stdout. False when it cannot be written.
+bool writeJson(const Study& study, const std::string& path);
+
+}  // namespace tspace::accuracy

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Everything that is measured, as one list of records that tables and plots ask.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "damage.h"
+#include "measure.h"
+
+namespace tspace::accuracy {
+
+/// One mesh and one method.
+struct Record {
+    std::string surface, tessellation, damage, method;
+    bool held_out = false;
+    int cells = 0;
+    double share = 0;  ///< of the damage
+    Spread inside = {}, all = {};  ///< tangents
+    double shading = 0;
+    double from_mikktspace = 0;  ///< shading against that of `mikktspace`
+    double bitangent = 0, cross = 0;  ///< mean errors of both kinds of bitangent
+
+    [[nodiscard]] bool isIrregular() const { return tessellation == "irregular" || tessellation == "random"; }
+};
+
+/// The same for vertex normals; `method` is the weighting.
+struct NormalRecord {
+    std::string surface, tessellation, damage, method;
+    bool held_out = false;
+    int cells = 0;
+    double share = 0;
+    Spread inside = {}, all = {};
+
+    [[nodiscard]] bool isIrregular() const { return tessellation == "irregular" || tessellation == "random"; }
+};
+
+struct StudyOptions {
+    bool quick = false;
+    std::uint64_t seed = 1;
+    bool held_out = true;
+};
+
+struct Study {
+    StudyOptions options = {};
+    std::vector<Record> records = {};
+    std::vector<NormalRecord> normals = {};
+    /// In the order of tables: the methods, then the floor.
+    std::vector<std::string> methods = {}, weightings = {};
+};
+
+Study runStudy(const StudyOptions& options);
+
+/// The mean of the logarithms, so that no surface counts more for being harder. Errors below a millionth of a degree
+/// count as that. NaN where there is none.
+double geometricMean(const std::vector<double>& values);
+
+template <class RecordType>
+std::vector<double> collect(const std::vector<RecordType>& records, const std::function<bool(const RecordType&)>& wanted,
+                            const std::function<double(const RecordType&)>& value) {
+    std::vector<double> values;
+    for (const RecordType& record : records) {
+        if (wanted(record)) values.push_back(value(record));
+    }
+    return values;
+}
+
+}  // namespace tspace::accuracy

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Meshes whose exact frames are known at every vertex.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "random.h"
+#include "surfaces.h"
+#include "tspace/mesh.h"
+
+namespace tspace::accuracy {
+
+struct TestMesh {
+    const Surface* surface = nullptr;  ///< null for bevels
+    std::vector<Vec3> positions, normals;
+    std::vector<Vec2> uvs;
+    std::vector<std::uint32_t> indices;  ///< triangles
+    // One per vertex:
+    std::vector<ExactFrame> frames;
+    std::vector<double> s, t;
+    std::vector<std::int8_t> sides;        ///< of the fold; vertices on it are there twice, once for each side
+    std::vector<std::uint8_t> is_inside;   ///< not on the border of the chart, nor on the fold
+    /// The triangles that shading is measured on: all, or those of a bevel's flat part.
+    std::vector<std::uint32_t> measured;
+
+    [[nodiscard]] MeshView view() const { return {.positions = positions, .normals = normals, .uvs = uvs, .indices = {indices}}; }
+    [[nodiscard]] std::size_t triangleCount() const { return indices.size() / 3; }
+    [[nodiscard]] bool hasExactUvs() const { return surface != nullptr; }
+};
+
+enum class Tessellation {
+    regular,      ///< all diagonals the same way
+    alternating,  ///< diagonals turn from cell to cell
+    irregular,    ///< points moved by up to 0.36 of a cell, the diagonals of Delaunay
+    random,       ///< points moved by up to 0.3 of a cell, diagonals by chance
+    anisotropic,  ///< as irregular, with an eighth of the rows
+    loops,        ///< every fourth row and column a tenth as wide
+};
+
+const char* nameOf(Tessellation tessellation);
+
+/// A mesh of `cells` by `cells` cells with exact normals, rounded to float.
+TestMesh tessellate(const Surface& surface, Tessellation tessellation, int cells, Random random);
+
+/// A square face with rounded borders.
+struct Bevel {
+    double radius = 0.05;
+    int strips = 1;      ///< across the rounded part
+    int flat_cells = 1;  ///< along each side of the flat part
+    int diagonal = 0;    ///< 0 or 1: one of the two; 2: by chance
+    double stretch = 1, shear_deg = 0;  ///< of the UV map across the rounded part
+};
+
+/// The configurations that the figures are means of.
+std::vector<Bevel> bevels();
+TestMesh bevelMesh(const Bevel& bevel, Random random);
+
+}  // namespace tspace::accuracy

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// What the methods `fast` and `best` compute for a group. Both go once over the triangles, add some rows of
+// numbers to each group, and then turn a group's rows into its tangent:
+//
+// fast   two_weights_kernel.h: two weighted means of the same vectors, mixed by the angle between them
+// best   quadratic_recovery_kernel.h: a quadratic map from UVs to the tangent plane, fitted to the edges
+//
+// Each is written once, and compiled for several CPUs with the same bits from all.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "tangents/vertex_arrays.h"
+#include "tspace/execution.h"
+
+namespace tspace::estimators {
+
+/// The vertex data of one call.
+struct VertexSource : VertexArrays {
+    /// Powers of four that all positions and UVs are multiplied with, so that their products stay in range.
+    float position_scale = 1, uv_scale = 1;
+};
+
+inline constexpr std::size_t kBlockTriangles = 32;  ///< its rows stay in the first cache
+inline constexpr std::size_t kLaneGroup = 16;       ///< kernels work on whole groups of so many lanes
+inline constexpr std::size_t kMostRows = 7;         ///< of four floats each, per group
+
+/// One method on one CPU.
+struct Estimator {
+    std::size_t row_count = 0;  ///< rows of four floats that a corner adds to its group
+    /// Writes the rows of corner k of triangle t to rows + 4 * row_count * (3 * t + k). `vertices`: three per
+    /// triangle, and valid ones up to the end of the last lane group. count <= kBlockTriangles. Triangles
+    /// with values that are not finite write zeros.
+    void (*add)(const VertexSource& source, const std::uint32_t* vertices, std::size_t count,
+                float* rows) = nullptr;
+    /// Turns the sums of `count` groups, up to the end of the last lane group, into results in place.
+    /// normals: four floats per group. The first row becomes the unit tangent, the second the unit bitangent,
+    /// and the last two numbers of these rows the lengths of dP/du and dP/dv: {T.x, T.y, T.z, |dP/du|}, {B.x,
+    /// B.y, B.z, |dP/dv|}. A direction that no triangle gives is zero, and never is anything not finite. With
+    /// two rows, there are tangents only.
+    void (*finish)(float* sums, const float* normals, std::size_t count, float length_factor) = nullptr;
+};
+
+/// `tangents_only`: the second row of results is not needed.
+Estimator twoWeightsFor(SimdTarget wish, bool tangents_only);
+Estimator quadraticRecoveryFor(SimdTarget wish);
+
+namespace scalar {
+Estimator twoWeights(bool tangents_only);
+Estimator quadraticRecovery();
+}  // namespace scalar
+namespace sse2 {
+Estimator twoWeights(bool tangents_only);
+Estimator quadraticRecovery();
+}  // namespace sse2
+namespace avx2 {
+Estimator twoWeights(bool tangents_only);
+Estimator quadraticRecovery();
+}  // namespace avx2
+namespace avx512 {
+Estimator twoWeights(bool tangents_only);
+Estimator quadraticRecovery();
+}  // namespace avx512
+
+}  // namespace tspace::estimators

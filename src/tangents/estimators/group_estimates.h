@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The methods `fast` and `best` for all groups of a mesh in one pose.
+#pragma once
+
+#include "core/parallel.h"
+#include "tangents/estimators/input_scale.h"
+#include "tangents/estimators/range_lists.h"
+#include "tspace/tangents.h"
+
+namespace tspace::estimators {
+
+inline bool isEstimated(Method method) { return method == Method::fast || method == Method::best; }
+
+/// Where results go: for group g three floats at tangents + g * tangent_stride; with `rest` the bitangent and the length
+/// of dP/du at rest + g * rest_stride, and the length of dP/dv at lengths_t + g * length_stride. What no triangle gives
+/// is 0.
+struct GroupEstimates {
+    std::byte* tangents = nullptr;
+    std::size_t tangent_stride = 0;
+    std::byte* rest = nullptr;  ///< may be null
+    std::size_t rest_stride = 0;
+    std::byte* lengths_t = nullptr;
+    std::size_t length_stride = 0;
+};
+
+/// Positions, normals and UVs have one entry per vertex, of which there is at least one. All corners of a
+/// group have one normal. Sums are made in the order of triangles. Scratch memory: up to 1 MB per task, and
+/// range_lists.h. Linear. Throws OutOfMemory.
+void estimateGroups(Method method, const TriangleGroups& triangles, std::size_t group_count, const Pose& pose,
+                    const StridedSpan<const Vec2>& uvs, const InputScale& scale, const GroupEstimates& to,
+                    const Execution& execution, Parallel& parallel);
+
+}  // namespace tspace::estimators

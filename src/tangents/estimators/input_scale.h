@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Powers of four that bring coordinates near 1, so that fourth powers of small UVs do not vanish. Multiplying
+// with them changes no bit of a mantissa, and none of a square root's. So it does not matter to results which
+// one is chosen, nor whether all positions, or all UVs, are four times as large.
+#pragma once
+
+#include "tspace/tangents.h"
+
+namespace tspace::estimators {
+
+struct InputScale {
+    float positions = 1, uvs = 1;
+
+    /// What lengths of dP/du in scaled units are multiplied with.
+    [[nodiscard]] float lengthFactor() const;
+};
+
+/// From a sample of at most 1024 vertices. Zeros and what is not finite do not count.
+InputScale inputScale(const StridedSpan<const Vec3>& positions, const StridedSpan<const Vec2>& uvs);
+
+}  // namespace tspace::estimators

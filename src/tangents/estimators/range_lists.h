@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Which triangles add to which range of groups. A group's sums take a hundred bytes, too much to keep all of
+// them near; so ranges of groups are worked on one after the other, each with the triangles that are listed
+// for it.
+#pragma once
+
+#include <span>
+
+#include "core/memory.h"
+#include "core/parallel.h"
+
+namespace tspace::estimators {
+
+/// The triangles of a call, in order, and the group that each corner adds to.
+class TriangleGroups {
+  public:
+    explicit TriangleGroups(std::size_t triangle_count) : count(triangle_count) {}
+    TriangleGroups(const TriangleGroups&) = delete;
+    TriangleGroups& operator=(const TriangleGroups&) = delete;
+
+    /// Writes three numbers per triangle to both; `vertices` may be null. A number that is no group (too
+    /// large) means that nothing is added.
+    virtual void read(std::size_t first, std::size_t triangles, std::uint32_t* vertices,
+                      std::uint32_t* groups) const = 0;
+
+    const std::size_t count;
+
+  protected:
+    ~TriangleGroups() = default;
+};
+
+class RangeLists {
+  public:
+    static constexpr std::uint32_t kBlock =
+        0x80000000u;  ///< mark: a block of kBlockTriangles, not a triangle
+
+    /// Ranges of `range_size` groups, a power of two. Takes 4 bytes per triangle at the border of two ranges,
+    /// or up to 12 where triangles are in no order. Linear. Throws OutOfMemory.
+    RangeLists(const TriangleGroups& triangles, std::size_t group_count, std::size_t range_size,
+               const Allocator* allocator, Parallel& parallel);
+
+    [[nodiscard]] std::size_t count() const { return begin_.size() - 1; }
+    /// Ascending. Blocks that add to this range alone are listed as such; of others, the triangles.
+    [[nodiscard]] std::span<const std::uint32_t> entries(std::size_t range) const {
+        return {entries_.data() + begin_[range], begin_[range + 1] - begin_[range]};
+    }
+
+  private:
+    Buffer<std::size_t> begin_;
+    Buffer<std::uint32_t> entries_;
+};
+
+}  // namespace tspace::estimators
