@@ -4,6 +4,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -25,10 +27,13 @@ struct CloseFile {
     failFile(ErrorCode::cannotWrite, "cannot write " + pathInQuotes(target) + ": " + why);
 }
 
-/// A name beside `target` that no other run uses; `kind` tells the temporary file from the set-aside old one.
+/// A name beside `target` that no other run and no other thread uses; `kind` tells the temporary file from the set-aside
+/// old one. Two models that share an image may copy it at the same time.
 fs::path besideName(const fs::path& target, const char* kind) {
+    static std::atomic<unsigned> next_number = 0;
     fs::path name = target;
-    name += std::string(".").append(std::to_string(::getpid())).append(kind);
+    name += std::string(".").append(std::to_string(::getpid())).append("-");
+    name += std::to_string(next_number++).append(kind);
     return name;
 }
 
@@ -115,6 +120,12 @@ void AtomicOutput::commit() {
         if (old.renamed) fs::remove(old.new_name, ignored);
     }
     committed_ = true;
+}
+
+void AtomicOutput::addSource(const fs::path& source) {
+    if (std::find(sources_.begin(), sources_.end(), source.string()) == sources_.end()) {
+        sources_.push_back(source.string());
+    }
 }
 
 std::vector<std::string> AtomicOutput::files() const {

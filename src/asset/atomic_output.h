@@ -32,6 +32,10 @@ class AtomicOutput {
         add(target, {bytes});
     }
 
+    /// Remembers a file whose content went into an output.
+    void addSource(const std::filesystem::path& source);
+    [[nodiscard]] const std::vector<std::string>& sources() const { return sources_; }
+
     /// Renames all temporary files to their targets, the last one added first kept for the end. When a rename
     /// fails, the files renamed before it are put back as they were.
     void commit();
@@ -47,6 +51,7 @@ class AtomicOutput {
     };
     std::vector<File> files_;
     std::vector<std::filesystem::path> created_folders_;
+    std::vector<std::string> sources_;
     std::uint64_t byte_count_ = 0;
     bool committed_ = false;
 };

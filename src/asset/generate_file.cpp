@@ -9,6 +9,9 @@ namespace tspace {
 
 Result<GenerateReport> generateFile(const std::string& input, const std::string& output,
                                     const GenerateOptions& options) {
+    if (options.all && options.strip) {
+        return Error{ErrorCode::invalidOption, "tangents for all primitives, and none where they are not needed"};
+    }
     // An OBJ file has no magic word, so only its name tells it; everything else is read as glTF and refused
     // there.
     if (lowerExtension(input) == ".obj") return generateObj(input, output, options);

@@ -11,6 +11,9 @@
 
 namespace tspace {
 
+/// Bits of a float in which both zeros are one value, so that -0 and 0 weld.
+inline std::uint32_t weldBits(float value) { return std::bit_cast<std::uint32_t>(value == 0.0f ? 0.0f : value); }
+
 /// A hash table with open addressing that is never iterated. Keys are compared by their bits, so they must
 /// have no padding; they are made of whole 32-bit words. Expected constant time per key.
 template <class Key>

@@ -13,6 +13,7 @@ const char* actionName(PrimitiveAction action) {
         case PrimitiveAction::notNeeded: return "notNeeded";
         case PrimitiveAction::notTriangles: return "notTriangles";
         case PrimitiveAction::impossible: return "impossible";
+        case PrimitiveAction::removed: return "removed";
     }
     return "unknown";
 }

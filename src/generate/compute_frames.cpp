@@ -1,79 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Normals, tangents, sanitize and split for all primitives of one vertex pool.
+#include <numeric>
 #include <utility>
 
 #include "core/border.h"
+#include "generate/local_mesh.h"
+#include "generate/morph_frames.h"
+#include "generate/morph_normals.h"
 #include "generate/primitive.h"
+#include "generate/unit_lattice.h"
 #include "tspace/frame.h"
 #include "tspace/triangulate.h"
 
 namespace tspace {
 
 namespace {
-
-constexpr std::uint32_t kNoSlot = 0xffffffffu;
-
-std::span<const std::uint32_t> spanOf(const std::vector<std::uint32_t>& values) { return values; }
-
-/// One primitive as a mesh of its own. Its arrays are those of the pool, or own ones: a pool is often shared by many
-/// primitives that each use a small part of it, and what the methods do per vertex should cost in proportion to that
-/// part.
-struct LocalMesh {
-    std::span<const Vec3> positions, normals;
-    std::span<const Vec2> uvs;
-    std::span<const std::uint32_t> indices;
-    std::span<const std::uint32_t> face_sizes;
-
-    std::vector<Vec3> own_positions, own_normals;
-    std::vector<Vec2> own_uvs;
-    std::vector<std::uint32_t> own_indices;
-
-    void useOwnIndices() { indices = own_indices; }
-    void useOwnVertices() {
-        positions = own_positions;
-        normals = own_normals;
-        uvs = own_uvs;
-    }
-
-    [[nodiscard]] MeshView view() const {
-        MeshView mesh;
-        mesh.positions = StridedSpan<const Vec3>(positions);
-        mesh.normals = StridedSpan<const Vec3>(normals);
-        mesh.uvs = StridedSpan<const Vec2>(uvs);
-        mesh.indices = IndexView(indices);
-        mesh.face_sizes = face_sizes;
-        return mesh;
-    }
-};
-
-MeshView viewInPool(const VertexPool& pool, const PrimitiveGeometry& primitive) {
-    MeshView mesh;
-    mesh.positions = pool.positions;
-    mesh.normals = pool.normals;
-    mesh.uvs = pool.uvs;
-    mesh.indices = IndexView(spanOf(primitive.indices));
-    mesh.face_sizes = primitive.face_sizes;
-    return mesh;
-}
-
-template <class T>
-std::vector<T> gather(std::span<const T> values, const std::vector<std::uint32_t>& sources) {
-    std::vector<T> result;
-    if (values.empty()) return result;
-    result.reserve(sources.size());
-    for (const std::uint32_t source : sources) result.push_back(values[source]);
-    return result;
-}
-
-/// The normals of corners; any, where no corner uses the vertex.
-std::vector<Vec3> gatherNormals(const std::vector<Vec3>& normals, const std::vector<std::uint32_t>& corners) {
-    std::vector<Vec3> result;
-    result.reserve(corners.size());
-    for (const std::uint32_t corner : corners) {
-        result.push_back(corner == kNoCorner ? Vec3{0, 0, 1} : normals[corner]);
-    }
-    return result;
-}
 
 /// A convention may be asked for by an engine's name, but the geometry stays the file's: right-handed, faces
 /// counter-clockwise, in every format that is read.
@@ -91,10 +32,12 @@ class FrameComputer {
                   const GenerateOptions& options, std::span<PrimitiveReport> reports)
         : pool_(pool),
           primitives_(primitives),
-          options_(inFileCoordinates(options)),
+          options_(options),
           reports_(reports),
           generates_normals_(pool.normals.empty()),
-          generates_tangents_(options.tangents.method == Method::basis || !pool.uvs.empty()) {}
+          generates_tangents_(options.tangents.method == Method::basis || !pool.uvs.empty()),
+          local_meshes_(pool, primitives.size()),
+          morph_tangents_(pool, options) {}
 
     Result<PoolFrames> compute() {
         for (std::size_t p = 0; p < primitives_.size(); ++p) {
@@ -102,7 +45,7 @@ class FrameComputer {
                 return std::move(done).error();
             }
         }
-        return splitPool();
+        return pool_.kept_tangents.empty() ? splitPool() : keepPool();
     }
 
   private:
@@ -114,7 +57,7 @@ class FrameComputer {
             corner_counts_.push_back(0);
             return Done{};
         }
-        LocalMesh mesh = localMesh(primitive);
+        LocalMesh mesh = local_meshes_.make(primitive);
         std::vector<std::uint32_t> cut_vertices;
         std::vector<Vec3> normals;
         if (generates_normals_) {
@@ -136,42 +79,10 @@ class FrameComputer {
         const bool is_cut = !primitive.face_sizes.empty();
         const std::vector<std::uint32_t>& vertices = is_cut ? cut_vertices : primitive.indices;
         report.triangle_count = vertices.size() / 3;
+        if (generates_tangents_ && pool_.targets.count != 0) {
+            if (Result<Done> done = morph_tangents_.add(std::move(mesh), report); !done) return done;
+        }
         return append(vertices, std::move(normals), std::move(tangents));
-    }
-
-    LocalMesh localMesh(const PrimitiveGeometry& primitive) {
-        LocalMesh mesh;
-        mesh.face_sizes = primitive.face_sizes;
-        if (primitives_.size() > 1 || pool_.positions.size() > primitive.indices.size()) {
-            takeUsedPart(primitive, mesh);
-            return mesh;
-        }
-        mesh.positions = pool_.positions;
-        mesh.normals = pool_.normals;
-        mesh.uvs = pool_.uvs;
-        mesh.indices = primitive.indices;
-        return mesh;
-    }
-
-    /// The used part of the pool, vertices in order of first use.
-    void takeUsedPart(const PrimitiveGeometry& primitive, LocalMesh& mesh) {
-        local_of_vertex_.resize(pool_.positions.size(), kNoSlot);
-        std::vector<std::uint32_t> sources;
-        mesh.own_indices.reserve(primitive.indices.size());
-        for (const std::uint32_t vertex : primitive.indices) {
-            std::uint32_t& local = local_of_vertex_[vertex];
-            if (local == kNoSlot) {
-                local = static_cast<std::uint32_t>(sources.size());
-                sources.push_back(vertex);
-            }
-            mesh.own_indices.push_back(local);
-        }
-        for (const std::uint32_t vertex : sources) local_of_vertex_[vertex] = kNoSlot;
-        mesh.own_positions = gather(std::span<const Vec3>(pool_.positions), sources);
-        mesh.own_normals = gather(std::span<const Vec3>(pool_.normals), sources);
-        mesh.own_uvs = gather(std::span<const Vec2>(pool_.uvs), sources);
-        mesh.useOwnIndices();
-        mesh.useOwnVertices();
     }
 
     /// Normals per corner, and in the mesh one per vertex: vertices with several normals are split first, so
@@ -183,6 +94,7 @@ class FrameComputer {
         normals.resize(mesh.indices.size());
         Result<NormalReport> made = generateNormals(mesh.view(), options, normals);
         if (!made) return std::move(made).error();
+        roundUnits(normals, options_.format);
         report.normals = *made;
         report.normals_generated = true;
 
@@ -243,16 +155,51 @@ class FrameComputer {
         if (!split) return std::move(split).error();
 
         PoolFrames frames;
+        if (Result<Done> done = computeMorphs(*split, true, frames); !done) return std::move(done).error();
+        write(*std::move(split), frames);
+        return frames;
+    }
+
+    /// Nothing is split, and the base's tangents are only compared.
+    Result<PoolFrames> keepPool() {
+        PoolFrames frames;
+        frames.differing_count = countDiffering(tangents_, pool_.kept_tangents, indices_);
+        SplitResult whole;
+        whole.source_vertices.resize(pool_.positions.size());
+        std::iota(whole.source_vertices.begin(), whole.source_vertices.end(), 0u);
+        whole.source_corners.assign(pool_.positions.size(), kNoCorner);
+        for (std::size_t c = indices_.size(); c-- > 0;) {
+            whole.source_corners[indices_[c]] = static_cast<std::uint32_t>(c);
+        }
+        whole.indices = std::move(indices_);
+        if (frames.differing_count == 0) {
+            if (Result<Done> done = computeMorphs(whole, false, frames); !done) return std::move(done).error();
+        }
+        write(std::move(whole), frames);
+        return frames;
+    }
+
+    Result<Done> computeMorphs(SplitResult& split, bool may_split, PoolFrames& frames) {
+        frames.morphs.resize(pool_.targets.count);
+        if (!generates_tangents_ || pool_.targets.count == 0) return Done{};
+        MorphSplit morph_split(std::move(split), may_split);
+        if (Result<Done> done = morph_tangents_.compute(tangents_, morph_split); !done) return done;
+        std::vector<VertexOffsets> offsets = morph_split.finish();
+        for (std::size_t i = 0; i < offsets.size(); ++i) frames.morphs[i].tangents = std::move(offsets[i]);
+        split = std::move(morph_split.split());
+        return Done{};
+    }
+
+    void write(SplitResult&& split, PoolFrames& frames) {
         frames.normals_generated = generates_normals_;
-        cutIndices(std::move(split->indices), frames);
-        if (generates_normals_) frames.normals = gatherNormals(normals_, split->source_corners);
-        if (generates_tangents_) writeTangents(*split, frames);
+        cutIndices(std::move(split.indices), frames);
+        if (generates_normals_) frames.normals = gatherNormals(normals_, split.source_corners);
+        if (generates_tangents_) writeTangents(split, frames);
         for (PrimitiveReport& report : reports_) {
             report.vertices_before = pool_.positions.size();
-            report.vertices_after = split->vertexCount();
+            report.vertices_after = split.vertexCount();
         }
-        frames.source_vertices = std::move(split->source_vertices);
-        return frames;
+        frames.source_vertices = std::move(split.source_vertices);
     }
 
     /// To each primitive its own.
@@ -285,11 +232,12 @@ class FrameComputer {
 
     const VertexPool& pool_;
     std::span<const PrimitiveGeometry> primitives_;
-    const GenerateOptions options_;
+    const GenerateOptions& options_;
     std::span<PrimitiveReport> reports_;
     bool generates_normals_;
     bool generates_tangents_;
-    std::vector<std::uint32_t> local_of_vertex_;  ///< all kNoSlot between primitives
+    LocalMeshes local_meshes_;
+    MorphTangents morph_tangents_;
 
     // All corners of all primitives, what was computed for them, and how many of them each primitive has.
     std::vector<std::uint32_t> indices_;
@@ -312,15 +260,47 @@ Error checkPool(const VertexPool& pool, std::span<const PrimitiveGeometry> primi
     if (!pool.uvs.empty() && pool.uvs.size() != count) {
         return {ErrorCode::countMismatch, "the pool's UVs and positions differ in number"};
     }
+    if (!pool.kept_tangents.empty() && (pool.kept_tangents.size() != count || pool.normals.empty())) {
+        return {ErrorCode::countMismatch, "tangents are kept only with as many normals and positions"};
+    }
     return {ErrorCode::ok, {}};
+}
+
+/// Normals first, as a pool of its own, so that tangents of every target see the vertices that will be written.
+Result<PoolFrames> computeWithMorphedNormals(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,
+                                             const GenerateOptions& options, std::span<PrimitiveReport> reports) {
+    PoolWithNormals made;
+    if (Result<Done> done = generatePoolNormals(pool, primitives, options, reports, made); !done) {
+        return std::move(done).error();
+    }
+    Result<PoolFrames> frames = FrameComputer(made.pool, made.primitives, options, reports).compute();
+    if (!frames) return frames;
+    frames->normals_generated = true;
+    frames->normals = gather(std::span<const Vec3>(made.pool.normals), frames->source_vertices);
+    for (std::size_t i = 0; i < pool.targets.count; ++i) {
+        frames->morphs[i].normals = spread(made.offsets[i], frames->source_vertices, made.source_vertices.size());
+    }
+    for (std::uint32_t& source : frames->source_vertices) source = made.source_vertices[source];
+    for (PrimitiveReport& report : reports) report.vertices_before = pool.positions.size();
+    return frames;
 }
 
 }  // namespace
 
 Result<PoolFrames> computeFrames(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,
-                                 const GenerateOptions& options, std::span<PrimitiveReport> reports) {
+                                 const GenerateOptions& given, std::span<PrimitiveReport> reports) {
     return atBorder([&]() -> Result<PoolFrames> {
         if (Error e = checkPool(pool, primitives, reports); e.code != ErrorCode::ok) return e;
+        const GenerateOptions options = inFileCoordinates(given);
+        if (!pool.uv_matrix.isIdentity()) {
+            VertexPool turned = pool;
+            turned.uvs = transformUvs(pool.uvs, pool.uv_matrix);
+            turned.uv_matrix = {};
+            return computeFrames(turned, primitives, given, reports);
+        }
+        if (pool.normals.empty() && pool.targets.count != 0) {
+            return computeWithMorphedNormals(pool, primitives, options, reports);
+        }
         return FrameComputer(pool, primitives, options, reports).compute();
     });
 }

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "generate/morph_targets.h"
+#include "generate/uv_matrix.h"
 #include "tspace/asset.h"
 #include "tspace/split.h"
 
@@ -24,17 +26,26 @@ struct VertexPool {
     std::vector<Vec3> positions = {};
     std::vector<Vec3> normals = {};  ///< empty: to be generated
     std::vector<Vec2> uvs = {};      ///< the set that the tangents follow; empty: none
+    UvMatrix uv_matrix = {};         ///< the tangents follow uv_matrix * uvs
+    MorphTargets targets = {};
+    /// Not empty: these tangents stay and no vertex is split. Only what morph targets add to them is computed; there
+    /// must be normals.
+    std::vector<Vec4> kept_tangents = {};
 };
 
 /// Frames for all primitives of one pool after splitting it.
 struct PoolFrames {
-    bool normals_generated = false;
+    bool normals_generated = false;  ///< they are rounded to GenerateOptions::format; tangents belong to the rounded ones
     /// New vertex -> old vertex, identity first (SplitResult::source_vertices).
     std::vector<std::uint32_t> source_vertices = {};
     std::vector<Vec3> normals = {};   ///< one per new vertex when normals_generated, else empty
     std::vector<Vec4> tangents = {};  ///< one per new vertex; empty when no tangents were asked for or possible
     /// Per primitive: triangles after cutting n-gons, three new vertices each, in face order.
     std::vector<std::vector<std::uint32_t>> indices = {};
+    /// One per morph target. With kept tangents it is empty where these are not the tangents that would be computed.
+    std::vector<MorphFrames> morphs = {};
+    /// With kept tangents: corners whose tangent is another than would be computed (by sign, or by over 5 degrees).
+    std::uint64_t differing_count = 0;
 
     [[nodiscard]] bool wasSplit(std::size_t old_vertex_count) const { return source_vertices.size() != old_vertex_count; }
 };
@@ -43,6 +54,8 @@ struct PoolFrames {
 /// Vertices that no corner uses get a frame from their normal, so that every tangent written is unit.
 /// `reports` has one entry per primitive; its normals, tangents, sanitize and count fields are filled (vertices are
 /// those of the pool).
+/// Morph targets: base + offset is the frame of the moved shape, computed with the base's hard edges and groups. There is
+/// one split for the base and all targets. Where faces collapse in a target the base's tangent stays. A vertex whose frame no target changes has the offset (0, 0, 0).
 /// Polygons are cut before tangents are computed. Run again on its own output it gives the same bits and splits nothing.
 /// Exception: `lengyel` where sanitize made corners of one vertex differ, because that method sums over vertex indices.
 Result<PoolFrames> computeFrames(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,

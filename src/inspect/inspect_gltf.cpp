@@ -4,8 +4,11 @@
 
 #include "asset/file_error.h"
 #include "asset/gltf/accessor.h"
+#include "asset/gltf/compression/draco_primitives.h"
+#include "asset/gltf/compression/meshopt_views.h"
 #include "asset/gltf/document.h"
 #include "asset/gltf/material_needs.h"
+#include "asset/gltf/primitive_notes.h"
 #include "asset/gltf/primitive_reader.h"
 #include "inspect/inspect.h"
 #include "inspect/uv_map.h"
@@ -35,6 +38,16 @@ std::string indexTypeName(const Document& document, const Primitive& primitive) 
     }
 }
 
+const char* compressionName(const Document& document, const Primitive& primitive) {
+    const Json& json = document.json["meshes"][primitive.mesh]["primitives"][primitive.index];
+    if (findExtension(json, kDraco) != nullptr) return "draco";
+    for (const auto& [name, accessor] : primitive.attributes) {
+        const auto view = readAccessor(document, accessor).view;
+        if (view && meshoptExtension(rootArray(document, "bufferViews")[*view]) != nullptr) return "meshopt";
+    }
+    return "none";
+}
+
 void describeAttributes(const Document& document, const Primitive& primitive, PrimitiveInfo& info) {
     for (const auto& [name, accessor] : primitive.attributes) {
         info.attributes.push_back(name + " " + formatName(readAccessor(document, accessor)));
@@ -45,9 +58,9 @@ void describeAttributes(const Document& document, const Primitive& primitive, Pr
     while (primitive.find("TEXCOORD_" + std::to_string(info.uv_set_count))) ++info.uv_set_count;
 }
 
-/// False where the data lies in a compression extension or is not in the file at all.
+/// False where the data is compressed in a way that this build cannot decode, or not in the file at all.
 bool hasTriangleData(const Document& document, const Primitive& primitive, const PrimitiveInfo& info) {
-    if (!hasTriangles(primitive.mode) || primitive.has_draco || !primitive.find("POSITION")) return false;
+    if (!hasTriangles(primitive.mode) || !primitive.find("POSITION")) return false;
     std::vector<std::size_t> needed = {*primitive.find("POSITION")};
     if (primitive.indices) needed.push_back(*primitive.indices);
     if (info.uv_set >= 0) needed.push_back(*primitive.find("TEXCOORD_" + std::to_string(info.uv_set)));
@@ -57,7 +70,7 @@ bool hasTriangleData(const Document& document, const Primitive& primitive, const
 }
 
 /// Counts over the triangles; nothing where there is no data.
-void describeTriangles(const Document& document, const Primitive& primitive, PrimitiveInfo& info) {
+void describeTriangles(const Document& document, const Primitive& primitive, bool is_mirrored, PrimitiveInfo& info) {
     if (!hasTriangleData(document, primitive, info)) return;
     // Positions first: they fail before a number of vertices without data costs any memory.
     const std::vector<Vec3> positions = readVec3(document, primitive, "POSITION");
@@ -65,7 +78,23 @@ void describeTriangles(const Document& document, const Primitive& primitive, Pri
     info.triangle_count = corners.size() / 3;
     std::vector<Vec2> uvs;
     if (info.uv_set >= 0) uvs = readUvs(document, primitive, static_cast<std::size_t>(info.uv_set));
-    describeUvMap(corners, positions, uvs, true, info);
+    describeUvMap(corners, positions, uvs, !is_mirrored, info);
+}
+
+void describeUses(const std::vector<TangentUse>& uses, PrimitiveInfo& info) {
+    if (!uses.empty()) info.needed_by = uses[0].needed_by;
+    for (const TangentUse& use : uses) {
+        TangentUseInfo& entry = info.tangent_uses.emplace_back();
+        entry.needed_by = use.needed_by;
+        entry.place = use.place;
+        entry.material = static_cast<std::uint32_t>(use.material);
+        entry.only_in_variant = use.only_in_variant;
+        entry.uv_set = static_cast<std::int32_t>(use.uv_set);
+        std::copy_n(use.transform.offset, 2, entry.uv_offset);
+        entry.uv_rotation_rad = use.transform.rotation;
+        std::copy_n(use.transform.scale, 2, entry.uv_scale);
+        entry.follows_first = haveSameTangents(uses[0], use, TextureTransform::apply);
+    }
 }
 
 PrimitiveInfo describePrimitive(const Document& document, const Primitive& primitive) {
@@ -78,16 +107,59 @@ PrimitiveInfo describePrimitive(const Document& document, const Primitive& primi
     info.triangle_count = primitive.triangleCount();
     info.vertex_count = primitive.vertex_count;
     info.index_type = indexTypeName(document, primitive);
+    info.compression = compressionName(document, primitive);
     info.morph_target_count = static_cast<std::uint32_t>(primitive.targets.size());
     describeAttributes(document, primitive, info);
-    const TangentNeed need = tangentNeed(document, primitive);
-    info.needs_tangents = need.needed() && hasTriangles(primitive.mode);
-    info.needed_by = need.needed_by;
-    if (primitive.find("TEXCOORD_" + std::to_string(need.uv_set))) {
-        info.uv_set = static_cast<std::int32_t>(need.uv_set);
-    }
-    describeTriangles(document, primitive, info);
+    const std::vector<TangentUse> uses = tangentUses(document, primitive);
+    describeUses(uses, info);
+    info.needs_tangents = !uses.empty() && hasTriangles(primitive.mode);
+    const std::size_t uv_set = uses.empty() ? 0 : uses[0].uv_set;
+    if (primitive.find("TEXCOORD_" + std::to_string(uv_set))) info.uv_set = static_cast<std::int32_t>(uv_set);
+    info.variant_material_count = static_cast<std::uint32_t>(variantMaterials(document, primitive).size());
+    describeTriangles(document, primitive, !uses.empty() && uses[0].transform.mirrors(), info);
     return info;
+}
+
+/// How many nodes draw each mesh, and how often.
+struct MeshDraws {
+    std::uint32_t node_count = 0;
+    std::uint64_t instance_count = 0;
+};
+
+/// All instancing attributes of a node have one element per instance.
+std::uint64_t instanceCount(const Document& document, const Json& node, const std::string& place) {
+    const Json* instancing = findExtension(node, "EXT_mesh_gpu_instancing");
+    const Json* attributes = instancing == nullptr ? nullptr : findMember(*instancing, "attributes");
+    if (attributes == nullptr || !attributes->is_object() || attributes->empty()) return 1;
+    const std::string attribute_place = place + "/extensions/EXT_mesh_gpu_instancing/attributes";
+    const auto first = attributes->begin();
+    const std::size_t accessor = toIndex(first.value(), join(attribute_place, first.key()),
+                                         rootArray(document, "accessors").size(), "accessor");
+    return readAccessor(document, accessor).count;
+}
+
+std::vector<MeshDraws> meshDraws(const Document& document) {
+    std::vector<MeshDraws> draws(rootArray(document, "meshes").size());
+    const Json& nodes = rootArray(document, "nodes");
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const std::string place = join("/nodes", i);
+        const auto mesh = readIndex(nodes[i], "mesh", place, draws.size(), "mesh");
+        if (!mesh) continue;
+        ++draws[*mesh].node_count;
+        draws[*mesh].instance_count += instanceCount(document, nodes[i], place);
+    }
+    return draws;
+}
+
+std::vector<std::string> variantNames(const Document& document) {
+    std::vector<std::string> names;
+    const Json* extension = findExtension(document.json, "KHR_materials_variants");
+    if (extension == nullptr) return names;
+    const std::string place = "/extensions/KHR_materials_variants";
+    const Json& variants = readArray(*extension, "variants", place);
+    for (std::size_t i = 0; i < variants.size(); ++i)
+        names.push_back(readString(variants[i], "name", join(place + "/variants", i)));
+    return names;
 }
 
 std::uint32_t entryCount(const Document& document, const char* name) {
@@ -99,7 +171,7 @@ std::uint32_t entryCount(const Document& document, const char* name) {
 Inspection inspectGltf(const std::string& input, const FileOptions& options) {
     const Document document = loadDocument(input, options);
     Inspection result;
-    result.format = document.container == Container::glb ? "glb" : "gltf";
+    result.format = formatOf(document);
     if (const Json* asset = readObject(document.json, "asset", "")) {
         result.generator = readString(*asset, "generator", "/asset");
     }
@@ -112,8 +184,12 @@ Inspection inspectGltf(const std::string& input, const FileOptions& options) {
     result.extensions_used = readNames(document.json, "extensionsUsed");
     result.extensions_required = readNames(document.json, "extensionsRequired");
     checkRequiredExtensions(document);
+    result.variants = variantNames(document);
+    const std::vector<MeshDraws> draws = meshDraws(document);
     for (const Primitive& primitive : readPrimitives(document)) {
-        result.primitives.push_back(describePrimitive(document, primitive));
+        PrimitiveInfo& info = result.primitives.emplace_back(describePrimitive(document, primitive));
+        info.node_count = draws[primitive.mesh].node_count;
+        info.instance_count = draws[primitive.mesh].instance_count;
     }
     return result;
 }

@@ -24,6 +24,7 @@ PrimitiveInfo describePrimitive(const Model& model, const ObjPrimitive& primitiv
     info.mode = geometry.polygons.face_sizes.empty() ? "triangles" : "polygons";
     info.vertex_count = geometry.pool.positions.size();
     info.index_type = "none";
+    info.compression = "none";
     info.attributes.push_back("POSITION float3");
     info.has_normals = !geometry.pool.normals.empty();
     if (info.has_normals) info.attributes.push_back("NORMAL float3");
@@ -31,7 +32,12 @@ PrimitiveInfo describePrimitive(const Model& model, const ObjPrimitive& primitiv
     info.uv_set_count = primitive.has_uvs ? 1 : 0;
     info.uv_set = primitive.has_uvs ? 0 : -1;
     info.needs_tangents = material.normal_texture.used();
-    if (info.needs_tangents) info.needed_by = "normalTexture";
+    if (info.needs_tangents) {
+        info.needed_by = "normalTexture";
+        info.tangent_uses.push_back({.needed_by = info.needed_by, .material = primitive.material});
+    }
+    info.node_count = 1;
+    info.instance_count = 1;
     const Triangulation triangles = valueOrThrow(triangulate(geometry.view()));
     std::vector<std::uint32_t> corners;
     corners.reserve(triangles.corners.size());

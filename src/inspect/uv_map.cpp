@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <numeric>
 #include <vector>
 
@@ -12,9 +11,6 @@
 
 namespace tspace {
 namespace {
-
-/// Bits of a float in which both zeros are one value, so that -0 and 0 weld.
-std::uint32_t weldBits(float value) { return std::bit_cast<std::uint32_t>(value == 0.0f ? 0.0f : value); }
 
 /// Per vertex the number of its position together with its UV.
 std::vector<std::uint32_t> weldVertices(std::span<const Vec3> positions, std::span<const Vec2> uvs) {

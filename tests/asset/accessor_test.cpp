@@ -266,5 +266,28 @@ TEST(Accessor, OfABufferWithoutDataIsAnErrorOnlyWhenItsElementsAreNeeded) {
     EXPECT_TRUE(hasData(with_data, readAccessor(with_data, 0)));
 }
 
+TEST(Accessor, ReadsEveryQuantisedTypeByItsRule) {
+    // KHR_mesh_quantization: normalised or by value.
+    GltfBuilder builder;
+    builder.addAccessor(std::vector<std::int8_t>{-128, -127, 127, 0}, 5120, "VEC3", 1);
+    builder.addAccessor(std::vector<std::uint8_t>{0, 51, 255, 0}, 5121, "VEC3", 1);
+    builder.addAccessor(std::vector<std::int16_t>{-32768, -32767, 32767, 0}, 5122, "VEC3", 1);
+    builder.addAccessor(std::vector<std::uint16_t>{0, 13107, 65535, 0}, 5123, "VEC3", 1);
+    const auto read = [&](std::size_t index, bool normalized) {
+        GltfBuilder model = builder;
+        model.json()["accessors"][index]["normalized"] = normalized;
+        const Document document = parse(model);
+        return decodeVec3(document, readAccessor(document, index), "").at(0);
+    };
+    EXPECT_EQ(read(0, false), (Vec3{-128, -127, 127}));
+    EXPECT_EQ(read(0, true), (Vec3{-1, -1, 1}));
+    EXPECT_EQ(read(1, false), (Vec3{0, 51, 255}));
+    EXPECT_EQ(read(1, true), (Vec3{0, 0.2f, 1}));
+    EXPECT_EQ(read(2, false), (Vec3{-32768, -32767, 32767}));
+    EXPECT_EQ(read(2, true), (Vec3{-1, -1, 1}));
+    EXPECT_EQ(read(3, false), (Vec3{0, 13107, 65535}));
+    EXPECT_EQ(read(3, true), (Vec3{0, 0.2f, 1}));
+}
+
 }  // namespace
 }  // namespace tspace::gltf

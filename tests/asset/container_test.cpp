@@ -2,6 +2,8 @@
 // GLB chunks and the JSON in them: what is accepted, and that every defect has its own message.
 #include <gtest/gtest.h>
 
+#include "asset/gltf/compression/draco_primitives.h"
+#include "asset/gltf/compression/meshopt_views.h"
 #include "asset/gltf/glb.h"
 #include "asset/gltf/json.h"
 #include "gltf_builder.h"
@@ -199,17 +201,42 @@ TEST(InQuotes, KeepsCharactersAndReplacesWhatIsNone) {
     EXPECT_EQ(inQuotes("ab\u00e9", 3), "'ab...'");
 }
 
+TEST(Glb, SaysWhatToDoAt4GiB) {
+    const std::size_t around = frameGlb("{}", 0, {}).head.size();
+    EXPECT_EQ(errorOf([&] { static_cast<void>(frameGlb("{}", 0xffffffff - around - 3, {})); }).code, ErrorCode::ok);
+    for (const std::size_t bin : {0xffffffff - around + 1, std::size_t{0xffffffff}, std::size_t{5} << 30}) {
+        const Error error = errorOf([&] { static_cast<void>(frameGlb("{}", bin, {})); });
+        EXPECT_EQ(error.code, ErrorCode::cannotWrite);
+        EXPECT_NE(error.message.find(".gltf"), std::string::npos) << error.message;
+    }
+}
+
+TEST(Glb, MayHaveMoreBytesInBinThanItsBuffer) {
+    GltfBuilder builder;
+    builder.addFloats({1, 2, 3}, 3);
+    Json json = builder.json();
+    json["buffers"] = Json::array({Json{{"byteLength", 12}}});
+    const GlbFrame frame = frameGlb(json.dump(), 40, {});
+    Bytes file = frame.head;
+    file.insert(file.end(), builder.bytes().begin(), builder.bytes().end());
+    file.resize(file.size() + 28, 7);
+    file.insert(file.end(), frame.tail.begin(), frame.tail.end());
+    const Document document = parseDocument(file, "model.glb", {});
+    EXPECT_EQ(document.buffers[0].bytes.size(), 12u);
+}
+
 TEST(Document, NamesRequiredExtensions) {
     const auto check = [](const char* name) {
         const std::string text =
             std::string(R"({"asset":{"version":"2.0"},"extensionsRequired":[")") + name + "\"]}";
         return checkRequiredExtensions(parseDocument(toBytes(text), "model.gltf", {}));
     };
-    for (const char* name :
-         {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-        const Error error = errorOf([&] { check(name); });
-        EXPECT_EQ(error.code, ErrorCode::unsupportedFile);
-        EXPECT_NE(error.message.find("not supported yet"), std::string::npos);
+    for (const auto& [name, missing] : {std::pair{kDraco, dracoMissing()}, std::pair{kExtMeshopt, meshoptMissing(false)},
+                                        std::pair{kKhrMeshopt, meshoptMissing(true)}}) {
+        const Error error = errorOf([&, name = name] { EXPECT_TRUE(check(name).empty()); });
+        EXPECT_EQ(error.code, missing.empty() ? ErrorCode::ok : ErrorCode::unsupportedFile) << name;
+        // The library and what it lacks are named.
+        EXPECT_TRUE(missing.empty() || error.message == std::string("the file requires ") + name + ": " + missing);
     }
     EXPECT_TRUE(check("KHR_mesh_quantization").empty());
     EXPECT_EQ(check("VENDOR_unknown").size(), 1u);

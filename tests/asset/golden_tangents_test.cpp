@@ -44,7 +44,10 @@ TEST_P(ShippedTangents, AgreeWithOursOnEveryCorner) {
     const test::TempFolder folder;
     const std::string output = folder.path("out.glb").string();
     GenerateOptions options;
-    options.all = options.overwrite = true;
+    options.all = true;
+    options.existing = ExistingTangents::replace;
+    // SheenCloth has a transform that mirrors, and its tangents follow the UVs before it.
+    options.texture_transform = TextureTransform::ignore;
     const auto report = generateFile(shared(name).string(), output, options);
     ASSERT_TRUE(report) << report.error().message;
     const auto before = gltf::loadDocument(shared(name), {}), after = gltf::loadDocument(output, {});

@@ -2,124 +2,12 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <vector>
-
-#include "generate/primitive.h"
+#include "generate/pools.h"
 
 namespace tspace {
 namespace {
 
-using Indices = std::vector<std::uint32_t>;
-
-template <class T>
-bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
-
-struct Outcome {
-    PoolFrames frames;
-    std::vector<PrimitiveReport> reports;
-};
-
-Outcome compute(const VertexPool& pool, const std::vector<PrimitiveGeometry>& primitives,
-                const GenerateOptions& options) {
-    std::vector<PrimitiveReport> reports(primitives.size());
-    Result<PoolFrames> frames = computeFrames(pool, primitives, options, reports);
-    EXPECT_TRUE(frames.ok()) << (frames.ok() ? "" : frames.error().message);
-    return {frames.ok() ? *std::move(frames) : PoolFrames{}, std::move(reports)};
-}
-
-/// What a reader would see in the written file.
-VertexPool rebuilt(const VertexPool& pool, const PoolFrames& frames) {
-    VertexPool result;
-    result.normals = frames.normals;
-    for (const std::uint32_t source : frames.source_vertices) {
-        result.positions.push_back(pool.positions[source]);
-        if (!frames.normals_generated) result.normals.push_back(pool.normals[source]);
-        if (!pool.uvs.empty()) result.uvs.push_back(pool.uvs[source]);
-    }
-    return result;
-}
-
-std::vector<PrimitiveGeometry> rebuilt(const PoolFrames& frames) {
-    std::vector<PrimitiveGeometry> result;
-    for (const Indices& indices : frames.indices) result.push_back({.indices = indices});
-    return result;
-}
-
-GenerateOptions withMethod(Method method) {
-    GenerateOptions options;
-    options.tangents.method = method;
-    return options;
-}
-
-/// A square of two triangles, UVs straight.
-VertexPool square() {
-    return {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
-            .normals = {4, Vec3{0, 0, 1}},
-            .uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
-}
-
-float anyNumber() {
-    return *rc::gen::element(0.0f, -0.0f, 1.0f, -1.0f, 0.5f, 2.0f, 0.25f, -0.75f, 3.0f, 1e20f, 1e-30f,
-                             std::nanf(""));
-}
-
-/// Small numbers nearly always, so that neighbours, mirrored UVs, degenerate faces and collapsed UVs all
-/// occur.
-float someNumber() {
-    return *rc::gen::inRange(0, 60) == 0 ? anyNumber() : static_cast<float>(*rc::gen::inRange(-2, 3));
-}
-
-VertexPool anyPool() {
-    VertexPool pool;
-    const auto count = *rc::gen::inRange<std::size_t>(1, 14);
-    const bool has_normals = *rc::gen::arbitrary<bool>();
-    for (std::size_t v = 0; v < count; ++v) {
-        pool.positions.push_back({someNumber(), someNumber(), someNumber()});
-        pool.uvs.push_back({someNumber(), someNumber()});
-        if (has_normals) pool.normals.push_back({someNumber(), someNumber(), someNumber()});
-    }
-    return pool;
-}
-
-std::vector<PrimitiveGeometry> anyTriangles(const VertexPool& pool) {
-    std::vector<PrimitiveGeometry> primitives(*rc::gen::inRange<std::size_t>(1, 4));
-    const auto vertices = static_cast<std::uint32_t>(pool.positions.size());
-    for (PrimitiveGeometry& primitive : primitives) {
-        const auto faces = *rc::gen::inRange<std::size_t>(0, 20);
-        primitive.indices =
-            *rc::gen::container<Indices>(3 * faces, rc::gen::inRange<std::uint32_t>(0, vertices));
-    }
-    return primitives;
-}
-
-/// Now and then faces of 1 to 6 corners instead of triangles.
-std::vector<PrimitiveGeometry> anyFaces(const VertexPool& pool) {
-    std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
-    for (PrimitiveGeometry& primitive : primitives) {
-        if (*rc::gen::arbitrary<bool>()) continue;
-        for (std::size_t left = primitive.indices.size(); left > 0; left -= primitive.face_sizes.back()) {
-            const auto size = *rc::gen::inRange<std::uint32_t>(1, 7);
-            primitive.face_sizes.push_back(std::min(size, static_cast<std::uint32_t>(left)));
-        }
-    }
-    return primitives;
-}
-
-GenerateOptions anyOptions() {
-    GenerateOptions options = withMethod(*rc::gen::element(Method::mikktspace, Method::uniform, Method::angle,
-                                                           Method::area, Method::flat, Method::basis));
-    options.normals.weighting =
-        *rc::gen::element(NormalWeighting::flat, NormalWeighting::angle, NormalWeighting::area);
-    options.normals.crease_angle_deg = *rc::gen::element(180.0f, 30.0f);
-    options.tangents.pairing = *rc::gen::element(Pairing::reference, Pairing::corrected);
-    options.sanitize = *rc::gen::inRange(0, 4) != 0;
-    return options;
-}
+using namespace test;
 
 RC_GTEST_PROP(ComputeFrames, ReproducesItselfOnItsOwnOutput, ()) {
     const VertexPool pool = anyPool();

@@ -47,6 +47,32 @@ TEST(Generate, HintsAtAllWhenNothingNeedsTangents) {
     EXPECT_NE(runTool(folder, "generate a.obj -o a.glb --all").out.find("1 generated"), std::string::npos);
 }
 
+TEST(Generate, RepairKeepsWhatItMadeItself) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "folded.obj");
+    folder.write("bump.png", "\x89PNG\r\n\x1a\n");
+    ASSERT_EQ(runTool(folder, "generate folded.obj -o a.glb").exit_code, 0);
+    const ToolRun run = runTool(folder, "generate a.glb -o b.glb --repair");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("1 kept"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("its tangents are good"), std::string::npos) << run.out;
+    EXPECT_EQ(folder.read("a.glb"), folder.read("b.glb"));
+    const ToolRun inverted = runTool(folder, "generate a.glb -o c.glb --repair --convention opengl");
+    EXPECT_NE(inverted.out.find("1 replaced"), std::string::npos) << inverted.out;
+    EXPECT_NE(inverted.out.find("note: mesh 0, primitive 0: its tangents were wrong: "), std::string::npos)
+        << inverted.out;
+}
+
+TEST(Generate, StripTakesAwayWhatNobodyNeeds) {
+    const TempFolder folder;
+    folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+    ASSERT_EQ(runTool(folder, "generate a.obj -o a.glb --all").exit_code, 0);
+    const ToolRun run = runTool(folder, "generate a.glb -o b.glb --strip");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("1 removed"), std::string::npos) << run.out;
+    EXPECT_EQ(runTool(folder, "inspect b.glb").out.find("TANGENT"), std::string::npos);
+}
+
 TEST(Generate, TheContainerIsChosenWhenTheNameDoesNotSay) {
     const TempFolder folder;
     writeFoldedObj(folder, "a.obj");

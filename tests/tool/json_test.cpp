@@ -43,6 +43,20 @@ void collect(const Json& value, const std::string& path,
     }
 }
 
+/// The fields of all documents together are those that the page lists, with the types that it names.
+void expectFieldsDocumented(const std::vector<Json>& documents, const std::string& schema) {
+    std::map<std::string, std::set<std::string>> found;
+    for (const Json& document : documents) collect(document, "", found);
+    const std::map<std::string, std::string> documented = documentedFields(schema);
+    ASSERT_GT(documented.size(), 20U);
+    for (const auto& [path, type] : documented) {
+        ASSERT_EQ(found.count(path), 1U) << path << " is documented but not there";
+        for (const std::string& actual : found[path]) EXPECT_NE(type.find(actual), std::string::npos) << path;
+    }
+    for (const auto& [path, types] : found)
+        EXPECT_EQ(documented.count(path), 1U) << path << " is not documented";
+}
+
 /// A run over a good and a bad file shows every field there is.
 void expectDocumented(const std::string& arguments, const std::string& schema) {
     const TempFolder folder;
@@ -60,16 +74,7 @@ void expectDocumented(const std::string& arguments, const std::string& schema) {
     EXPECT_EQ(document["files"][1]["error"]["code"], "invalidFile");
     EXPECT_EQ(document["files"][1]["error"]["place"], "line 1");
 
-    std::map<std::string, std::set<std::string>> found;
-    collect(document, "", found);
-    const std::map<std::string, std::string> documented = documentedFields(schema);
-    ASSERT_GT(documented.size(), 20U);
-    for (const auto& [path, type] : documented) {
-        ASSERT_EQ(found.count(path), 1U) << path << " is documented but not there";
-        for (const std::string& actual : found[path]) EXPECT_NE(type.find(actual), std::string::npos) << path;
-    }
-    for (const auto& [path, types] : found)
-        EXPECT_EQ(documented.count(path), 1U) << path << " is not documented";
+    expectFieldsDocumented({document}, schema);
 }
 
 TEST(JsonOutput, OfGenerateIsAsDocumented) {
@@ -77,6 +82,48 @@ TEST(JsonOutput, OfGenerateIsAsDocumented) {
 }
 
 TEST(JsonOutput, OfInspectIsAsDocumented) { expectDocumented("inspect in --json", "tspace.inspect/1"); }
+
+TEST(JsonOutput, OfDiffIsAsDocumented) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    folder.write("small.obj", "v 0 0 0\nv 1 0 0\nv 0 9 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+    for (const std::string arguments :
+         {"generate a.obj -o a.glb", "generate a.obj -o b.glb --convention opengl", "generate small.obj --all -o c.glb"}) {
+        ASSERT_EQ(runTool(folder, arguments).exit_code, 0);
+    }
+    std::vector<Json> documents;
+    const auto run = [&](const std::string& files, int exit_code) {
+        const ToolRun done = runTool(folder, "diff " + files + " --json");
+        EXPECT_EQ(done.exit_code, exit_code) << done.err;
+        documents.push_back(Json::parse(done.out));
+        EXPECT_EQ(documents.back()["exitCode"], exit_code);
+    };
+    run("a.glb b.glb", 1);
+    run("a.glb c.glb", 1);
+    run("c.glb c.glb", 0);
+    run("a.glb none.glb", 4);
+    expectFieldsDocumented(documents, "tspace.diff/1");
+}
+
+TEST(JsonOutput, OfIdentifyIsAsDocumented) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    runTool(folder, "generate a.obj -o in/a.glb");
+    folder.write("in/bad.obj", "f 1 2 3\n");
+    const ToolRun run = runTool(folder, "identify in --json");
+    EXPECT_EQ(run.exit_code, 3) << run.err;
+    expectFieldsDocumented({Json::parse(run.out)}, "tspace.identify/1");
+}
+
+TEST(JsonOutput, OfCheckIsAsDocumented) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    runTool(folder, "generate a.obj -o in/a.glb --convention opengl");
+    folder.write("in/bad.obj", "f 1 2 3\n");
+    const ToolRun run = runTool(folder, "check in --json");
+    EXPECT_EQ(run.exit_code, 3) << run.err;
+    expectFieldsDocumented({Json::parse(run.out)}, "tspace.check/1");
+}
 
 TEST(JsonOutput, IsTheSameWithQuiet) {
     const TempFolder folder;

@@ -8,11 +8,28 @@
 
 #include "exit_code.h"
 #include "tspace/asset.h"
+#include "tspace/check.h"
+#include "tspace/diff.h"
+#include "tspace/identify.h"
 
 namespace tspace::tool {
 
 /// The file format of outputs whose name does not say it.
 enum class Container { sameAsInput, glb, gltf };
+
+/// Share `index` (from 1) of `count`.
+struct Shard {
+    unsigned index = 1;
+    unsigned count = 1;
+};
+
+/// How many files are worked through.
+struct BatchArguments {
+    unsigned jobs = 1;  ///< files at one time; 0: as many as there are cores
+    Shard shard = {};
+    std::string manifest = {};  ///< empty: none
+    bool resume = false;        ///< leave out what the manifest says is done and unchanged
+};
 
 struct GenerateArguments {
     std::vector<std::string> inputs = {};
@@ -20,6 +37,8 @@ struct GenerateArguments {
     bool in_place = false;
     Container container = Container::sameAsInput;
     GenerateOptions options = {};
+    std::string option_text = {};  ///< the options given that decide about results, in one spelling
+    BatchArguments batch = {};
     bool json = false;
     bool quiet = false;
 };
@@ -27,12 +46,40 @@ struct GenerateArguments {
 struct InspectArguments {
     std::vector<std::string> inputs = {};
     FileOptions file = {};
+    BatchArguments batch = {};
+    bool json = false;
+    bool quiet = false;
+};
+
+struct CheckArguments {
+    std::vector<std::string> inputs = {};
+    CheckOptions options = {};
+    Severity fail_on = Severity::error;  ///< findings from here on make exit code 1
+    BatchArguments batch = {};
+    bool json = false;
+    bool quiet = false;
+};
+
+struct DiffArguments {
+    std::string a = {};
+    std::string b = {};
+    DiffOptions options = {};
+    double tolerance_deg = 1;
+    bool json = false;
+    bool quiet = false;
+};
+
+struct IdentifyArguments {
+    std::vector<std::string> inputs = {};
+    IdentifyOptions options = {};
+    BatchArguments batch = {};
     bool json = false;
     bool quiet = false;
 };
 
 /// Nothing to run: help was printed, or the command line is wrong and the error line was printed.
-using Arguments = std::variant<ExitCode, GenerateArguments, InspectArguments>;
+using Arguments = std::variant<ExitCode, GenerateArguments, InspectArguments, CheckArguments, DiffArguments,
+                               IdentifyArguments>;
 
 Arguments parseArguments(int argc, char** argv);
 

@@ -7,6 +7,9 @@
 namespace tspace::tool {
 
 ExitCode runGenerate(const GenerateArguments& arguments);
+ExitCode runDiff(const DiffArguments& arguments);
+ExitCode runIdentify(const IdentifyArguments& arguments);
 ExitCode runInspect(const InspectArguments& arguments);
+ExitCode runCheck(const CheckArguments& arguments);
 
 }  // namespace tspace::tool

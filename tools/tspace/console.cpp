@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 
 namespace tspace::tool {
 namespace {
@@ -42,6 +43,13 @@ bool printResult(std::string_view text) {
         std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
     if (!written) printLine("tspace: standard output: cannot write");
     return written;
+}
+
+bool wantsColor() {
+    const char* refused = std::getenv("NO_COLOR");
+    const char* terminal = std::getenv("TERM");
+    const bool is_dumb = terminal == nullptr || std::string_view(terminal) == "dumb";
+    return isatty(STDOUT_FILENO) != 0 && !is_dumb && (refused == nullptr || *refused == '\0');
 }
 
 std::string printable(std::string_view text) {
@@ -92,10 +100,10 @@ std::string Table::text(const std::string& margin) const {
     return out;
 }
 
-ProgressLine::ProgressLine(std::string file, bool wanted)
-    : file_(std::move(file)), wanted_(wanted && isatty(STDERR_FILENO) != 0) {}
+ProgressLine::ProgressLine(std::size_t file_count, bool wanted)
+    : file_count_(file_count), wanted_(wanted && isatty(STDERR_FILENO) != 0) {}
 
-void ProgressLine::update(const char* what, std::uint64_t done, std::uint64_t total) {
+void ProgressLine::update(const std::string& file, const char* what, std::uint64_t done, std::uint64_t total) {
     if (!wanted_) return;
     const std::lock_guard lock(mutex_);
     constexpr auto kPatience = std::chrono::milliseconds(500);
@@ -104,11 +112,21 @@ void ProgressLine::update(const char* what, std::uint64_t done, std::uint64_t to
     if (now - start_ < kPatience || now - last_ < kRefresh) return;
     last_ = now;
     shown_ = true;
-    const std::string share =
-        total == 0 ? ""
-                   : fmt::format(" {:.0f} %", 100.0 * static_cast<double>(done) / static_cast<double>(total));
-    fmt::print(stderr, "\r\033[K{}: {}{}", printable(file_), what, share);
+    std::string line;
+    if (file_count_ > 1) {
+        line = fmt::format("{} of {} files{}; ", done_count_, file_count_,
+                           failed_count_ == 0 ? "" : fmt::format(", {} failed", failed_count_));
+    }
+    line += fmt::format("{}: {}", printable(file), what);
+    if (total != 0) line += fmt::format(" {:.0f} %", 100.0 * static_cast<double>(done) / static_cast<double>(total));
+    fmt::print(stderr, "\r\033[K{}", line);
     std::fflush(stderr);
+}
+
+void ProgressLine::fileDone(bool succeeded) {
+    const std::lock_guard lock(mutex_);
+    ++done_count_;
+    failed_count_ += !succeeded;
 }
 
 void ProgressLine::clear() {

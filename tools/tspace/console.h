@@ -23,6 +23,9 @@ ExitCode printUsageError(const std::string& message);
 /// Writes text to stdout. false when stdout cannot take it (closed pipe, full disk).
 bool printResult(std::string_view text);
 
+/// true when stdout is a terminal that shows colours, and the user did not say no by NO_COLOR.
+bool wantsColor();
+
 /// The text with control characters replaced, so that a name from a file can break neither lines nor the
 /// terminal.
 std::string printable(std::string_view text);
@@ -42,21 +45,24 @@ class Table {
     std::vector<std::vector<std::string>> rows_ = {};
 };
 
-/// A status line on stderr while one file is worked on. Stays silent when stderr is no terminal, when not
-/// wanted, and during the first half second.
+/// A status line on stderr for the whole run: how many files are done, and what happens to one of those in work. Stays
+/// silent when stderr is no terminal, when not wanted, and during the first half second. Any thread may call.
 class ProgressLine {
   public:
-    ProgressLine(std::string file, bool wanted);
+    ProgressLine(std::size_t file_count, bool wanted);
     ~ProgressLine() { clear(); }
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    void update(const char* what, std::uint64_t done, std::uint64_t total);
+    void update(const std::string& file, const char* what, std::uint64_t done, std::uint64_t total);
+    void fileDone(bool succeeded);
     void clear();
 
   private:
     using Clock = std::chrono::steady_clock;
-    std::string file_;
+    std::size_t file_count_ = 0;
+    std::size_t done_count_ = 0;
+    std::size_t failed_count_ = 0;
     bool wanted_ = false;
     bool shown_ = false;
     Clock::time_point start_ = Clock::now();

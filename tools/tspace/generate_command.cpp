@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
-// tspace generate: file after file, one bad file does not stop the others.
+// tspace generate: many files, several at one time; one bad file does not stop the others.
+#include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <mutex>
+#include <optional>
 
+#include "batch.h"
 #include "commands.h"
 #include "console.h"
 #include "interrupt.h"
+#include "manifest.h"
 #include "report.h"
 
 namespace tspace::tool {
@@ -20,51 +26,154 @@ double secondsSince(Clock::time_point start) {
 /// error.
 struct Interrupted {};
 
-Result<GenerateReport> generateOne(const Job& job, const GenerateArguments& arguments) {
-    if (job.error.code != ErrorCode::ok) return job.error;
-    ProgressLine progress(job.input, !arguments.quiet);
-    GenerateOptions options = arguments.options;
-    options.progress = [&progress](const char* what, std::uint64_t done, std::uint64_t total) {
-        if (wasInterrupted()) throw Interrupted{};
-        progress.update(what, done, total);
-    };
-    return generateFile(job.input, job.output, options);
+/// What was read and written, with fingerprints. A file that was written over is an output alone.
+ManifestEntry manifestEntry(const GenerateOutcome& outcome, const std::string& options) {
+    ManifestEntry entry{.version = TSPACE_VERSION, .options = options, .job = outcome.job, .seconds = outcome.seconds};
+    if (!outcome.result) {
+        entry.job.error = outcome.result.error();
+        entry.inputs = hashFiles({outcome.job.input});
+        return entry;
+    }
+    const GenerateReport& report = *outcome.result;
+    std::vector<std::string> outputs = report.output_files;
+    if (outputs.empty()) outputs.push_back(outcome.job.output);
+    std::vector<std::string> inputs;
+    for (const std::string& input : report.input_files) {
+        if (std::find(outputs.begin(), outputs.end(), input) == outputs.end()) inputs.push_back(input);
+    }
+    entry.changed = report.changed;
+    entry.inputs = hashFiles(inputs);
+    entry.outputs = hashFiles(outputs);
+    return entry;
 }
+
+class GenerateRun {
+  public:
+    GenerateRun(const GenerateArguments& arguments, std::vector<Job> jobs)
+        : arguments_(arguments),
+          jobs_(std::move(jobs)),
+          outcomes_(jobs_.size()),
+          workers_(workerCount(arguments.batch, jobs_.size())),
+          wants_text_(!arguments.json && !arguments.quiet),
+          progress_(jobs_.size(), !arguments.quiet) {}
+
+    /// Reads and opens the manifest. An error ends the run before anything was done.
+    Result<Done> openManifest() {
+        const BatchArguments& batch = arguments_.batch;
+        if (batch.manifest.empty()) return Done{};
+        if (batch.resume) {
+            Result<ManifestRecord> record = ManifestRecord::read(batch.manifest);
+            if (!record) return record.error();
+            record_ = std::move(*record);
+        }
+        Result<ManifestWriter> writer = ManifestWriter::open(batch.manifest);
+        if (!writer) return writer.error();
+        writer_.emplace(std::move(*writer));
+        return Done{};
+    }
+
+    ExitCode run() {
+        runBatch(
+            jobs_.size(), workers_, [this](std::size_t job) { work(job); }, [this](std::size_t job) { finish(job); },
+            [this] { return wasInterrupted() || output_is_closed_; });
+        progress_.clear();
+        if (wasInterrupted()) endByInterrupt();
+        if (output_is_closed_) return ExitCode::cannotReadOrWrite;
+        std::vector<GenerateOutcome> outcomes;
+        for (std::optional<GenerateOutcome>& outcome : outcomes_) outcomes.push_back(std::move(*outcome));
+        std::string last;
+        if (arguments_.json) {
+            last = generateJson(outcomes, exit_code_, secondsSince(start_));
+        } else if (wants_text_ && outcomes.size() > 1) {
+            last = generateSummary(outcomes, secondsSince(start_));
+        }
+        return printResult(last) ? exit_code_ : ExitCode::cannotReadOrWrite;
+    }
+
+  private:
+    Result<GenerateReport> generate(const Job& job) {
+        if (job.error.code != ErrorCode::ok) return job.error;
+        GenerateOptions options = arguments_.options;
+        const unsigned threads = threadsPerFile(options.tangents.execution.thread_count, workers_);
+        options.tangents.execution.thread_count = threads;
+        options.normals.execution.thread_count = threads;
+        options.sanitize_options.execution.thread_count = threads;
+        options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
+            if (wasInterrupted()) throw Interrupted{};
+            progress_.update(job.input, what, done, total);
+        };
+        return generateFile(job.input, job.output, options);
+    }
+
+    void work(std::size_t number) {
+        const Clock::time_point start = Clock::now();
+        const Job& job = jobs_[number];
+        GenerateOutcome outcome{.job = job};
+        if (job.error.code == ErrorCode::ok && record_ && record_->isDone(job, arguments_.option_text)) {
+            outcome.was_done_before = true;
+            outcome.result = GenerateReport{};
+        } else {
+            outcome.result = generate(job);
+        }
+        outcome.seconds = secondsSince(start);
+        const bool is_given_up = !outcome.result && wasInterrupted();
+        if (!arguments_.batch.manifest.empty() && !outcome.was_done_before && !is_given_up) record(outcome);
+        progress_.fileDone(outcome.result.ok());
+        outcomes_[number] = std::move(outcome);
+    }
+
+    void record(const GenerateOutcome& outcome) {
+        const ManifestEntry entry = manifestEntry(outcome, arguments_.option_text);
+        const std::lock_guard lock(mutex_);
+        if (!writer_) return;
+        const Result<Done> written = writer_->append(entry);
+        if (written) return;
+        exit_code_ = worse(exit_code_, printError(arguments_.batch.manifest, written.error()));
+        writer_.reset();
+    }
+
+    /// Files in their order, one at a time.
+    void finish(std::size_t number) {
+        const GenerateOutcome& outcome = *outcomes_[number];
+        progress_.clear();
+        if (wasInterrupted()) {
+            const char* state = outcome.result ? "done, then interrupted" : "interrupted; nothing was written";
+            printError(outcome.job.input, {ErrorCode::internal, state});
+        } else if (!outcome.result) {
+            const ExitCode code = printError(outcome.job.input, outcome.result.error());
+            const std::lock_guard lock(mutex_);
+            exit_code_ = worse(exit_code_, code);
+        } else if (wants_text_ && !output_is_closed_) {
+            output_is_closed_ = !printResult(generateText(outcome));
+        }
+    }
+
+    const GenerateArguments& arguments_;
+    const Clock::time_point start_ = Clock::now();
+    std::vector<Job> jobs_;
+    std::vector<std::optional<GenerateOutcome>> outcomes_;
+    unsigned workers_;
+    bool wants_text_;
+    ProgressLine progress_;
+    std::optional<ManifestRecord> record_;
+    std::mutex mutex_;  ///< for the next two
+    std::optional<ManifestWriter> writer_;
+    ExitCode exit_code_ = ExitCode::done;
+    std::atomic<bool> output_is_closed_ = false;
+};
 
 }  // namespace
 
 ExitCode runGenerate(const GenerateArguments& arguments) {
     Result<std::vector<Job>> jobs = generateJobs(arguments);
     if (!jobs) return printUsageError(jobs.error().message);
-
+    takeShard(*jobs, arguments.batch.shard);
     catchInterrupts();
-    const Clock::time_point start = Clock::now();
-    const bool wants_text = !arguments.json && !arguments.quiet;
-    ExitCode exit_code = ExitCode::done;
-    std::vector<GenerateOutcome> outcomes;
-    for (Job& job : *jobs) {
-        const Clock::time_point job_start = Clock::now();
-        Result<GenerateReport> result = generateOne(job, arguments);
-        if (wasInterrupted()) {
-            const char* outcome = result ? "done, then interrupted" : "interrupted; nothing was written";
-            printError(job.input, {ErrorCode::internal, outcome});
-            endByInterrupt();
-        }
-        outcomes.push_back({std::move(job), std::move(result), secondsSince(job_start)});
-        const GenerateOutcome& outcome = outcomes.back();
-        if (!outcome.result) {
-            exit_code = worse(exit_code, printError(outcome.job.input, outcome.result.error()));
-        } else if (wants_text && !printResult(generateText(outcome))) {
-            return ExitCode::cannotReadOrWrite;
-        }
+    GenerateRun run(arguments, std::move(*jobs));
+    if (const Result<Done> opened = run.openManifest(); !opened) {
+        return printError(arguments.batch.manifest, opened.error());
     }
-    std::string last;
-    if (arguments.json) {
-        last = generateJson(outcomes, exit_code, secondsSince(start));
-    } else if (wants_text && outcomes.size() > 1) {
-        last = generateSummary(outcomes, secondsSince(start));
-    }
-    return printResult(last) ? exit_code : ExitCode::cannotReadOrWrite;
+    return run.run();
 }
 
 }  // namespace tspace::tool

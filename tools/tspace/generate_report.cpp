@@ -2,6 +2,7 @@
 // Results of tspace generate as text and JSON. The JSON is described in docs/json.md.
 #include <fmt/format.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "console.h"
@@ -48,13 +49,15 @@ const char* actionWords(PrimitiveAction action) {
             return "no triangles";
         case PrimitiveAction::impossible:
             return "impossible";
+        case PrimitiveAction::removed:
+            return "removed";
     }
     return "unknown";
 }
 constexpr PrimitiveAction kActions[] = {
     PrimitiveAction::generated,  PrimitiveAction::replaced,  PrimitiveAction::unchanged,
     PrimitiveAction::kept,       PrimitiveAction::notNeeded, PrimitiveAction::notTriangles,
-    PrimitiveAction::impossible,
+    PrimitiveAction::impossible, PrimitiveAction::removed,
 };
 
 bool wasComputed(PrimitiveAction action) {
@@ -70,6 +73,8 @@ struct Totals {
     std::uint64_t vertices_before = 0;
     std::uint64_t vertices_after = 0;
     std::uint64_t normals_generated = 0;
+    std::uint64_t morph_deltas_computed = 0;
+    std::uint64_t morph_sign_flip_count = 0;
     std::uint64_t degenerate_uv_count = 0;
     std::uint64_t degenerate_triangle_count = 0;
     SanitizeReport sanitize = {};
@@ -82,6 +87,8 @@ Totals totalsOf(const GenerateReport& report) {
         ++totals.primitive_count;
         ++totals.actions[static_cast<std::size_t>(primitive.action)];
         totals.normals_generated += primitive.normals_generated;
+        totals.morph_deltas_computed += primitive.morph_deltas_computed;
+        totals.morph_sign_flip_count += primitive.morph_sign_flip_count;
         if (!wasComputed(primitive.action)) continue;
         totals.triangle_count += primitive.triangle_count;
         totals.vertices_before += primitive.vertices_before;
@@ -155,7 +162,14 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     if (totals.normals_generated != 0) {
         table.addRow({"normals", "generated for " + counted(totals.normals_generated, "primitive")});
     }
+    if (totals.morph_deltas_computed != 0) {
+        table.addRow({"morph targets", "tangent deltas computed for " + std::to_string(totals.morph_deltas_computed)});
+    }
     for (const std::string& warning : report.warnings) table.addRow({"warning", printable(warning)});
+    if (totals.morph_sign_flip_count != 0) {
+        table.addRow({"warning", fmt::format("morph targets turn the sign of the frame at {}, which glTF cannot express",
+                                             counted(totals.morph_sign_flip_count, "corner"))});
+    }
     if (totals.reference_order_abandoned) {
         table.addRow({"warning",
                       "the reference's neighbour search would take quadratic time here; the corrected one "
@@ -173,6 +187,33 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     return table.text("  ");
 }
 
+/// Below the table, because they are long; one line for all primitives with the same note.
+std::string notesText(const GenerateReport& report) {
+    constexpr std::size_t kMostNotes = 20;
+    std::vector<std::pair<std::string, std::string>> notes;  // sentence, who
+    std::map<std::string, std::size_t> line_of, others;
+    for (const PrimitiveReport& primitive : report.primitives) {
+        for (const std::string& note : primitive.notes) {
+            const auto [line, is_new] = line_of.try_emplace(note, notes.size());
+            if (is_new) {
+                notes.emplace_back(note, fmt::format("mesh {}, primitive {}", primitive.mesh, primitive.primitive));
+            } else {
+                ++others[note];
+            }
+        }
+    }
+    std::string text;
+    for (std::size_t i = 0; i < std::min(notes.size(), kMostNotes); ++i) {
+        const auto& [note, who] = notes[i];
+        const std::size_t more = others.count(note) == 0 ? 0 : others[note];
+        text += fmt::format("  note: {}{}: {}\n", who, more == 0 ? "" : fmt::format(" and {} more", more),
+                            printable(note));
+    }
+    if (notes.size() > kMostNotes)
+        text += fmt::format("  note: {} (--json has all)\n", counted(notes.size() - kMostNotes, "more note"));
+    return text.empty() ? text : "\n" + text;
+}
+
 std::string primitiveRows(const GenerateReport& report) {
     Table table;
     table.addRow({"mesh", "prim", "name", "material", "tangents", "UV set", "triangles", "vertices", "why"});
@@ -188,7 +229,7 @@ std::string primitiveRows(const GenerateReport& report) {
                       primitive.uv_set < 0 ? "-" : std::to_string(primitive.uv_set),
                       std::to_string(primitive.triangle_count), vertices, printable(primitive.reason)});
     }
-    return table.text("  ");
+    return table.text("  ") + notesText(report);
 }
 
 Json sanitizeJson(const SanitizeReport& report) {
@@ -208,11 +249,15 @@ Json primitiveJson(const PrimitiveReport& primitive) {
         {"materialName", primitive.material_name},
         {"action", actionName(primitive.action)},
         {"reason", primitive.reason},
+        {"notes", primitive.notes},
         {"uvSet", primitive.uv_set},
         {"triangles", primitive.triangle_count},
         {"verticesBefore", primitive.vertices_before},
         {"verticesAfter", primitive.vertices_after},
         {"normalsGenerated", primitive.normals_generated},
+        {"morphTargets", primitive.morph_target_count},
+        {"morphDeltas", primitive.morph_deltas_computed},
+        {"morphSignFlips", primitive.morph_sign_flip_count},
         {"normals",
          {{"faces", primitive.normals.face_count},
           {"degenerateFaces", primitive.normals.degenerate_face_count},
@@ -241,6 +286,7 @@ Json totalsJson(const GenerateReport& report) {
     json["verticesBefore"] = totals.vertices_before;
     json["verticesAfter"] = totals.vertices_after;
     json["mended"] = totals.sanitize.mendedCount();
+    json["morphDeltas"] = totals.morph_deltas_computed;
     return json;
 }
 
@@ -252,7 +298,8 @@ Json outcomeJson(const GenerateOutcome& outcome) {
         {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())},
         {"seconds", outcome.seconds},
     };
-    if (!outcome.result) return json;
+    json["skipped"] = outcome.was_done_before;
+    if (!outcome.result || outcome.was_done_before) return json;
     const GenerateReport& report = *outcome.result;
     json["changed"] = report.changed;
     json["inputBytes"] = report.input_bytes;
@@ -269,6 +316,10 @@ Json outcomeJson(const GenerateOutcome& outcome) {
 }  // namespace
 
 std::string generateText(const GenerateOutcome& outcome) {
+    if (outcome.was_done_before) {
+        return fmt::format("{} -> {}\n  done before, and nothing has changed\n\n", printable(outcome.job.input),
+                           printable(outcome.job.output));
+    }
     const Totals totals = totalsOf(*outcome.result);
     return fmt::format("{} -> {}\n{}\n{}\n", printable(outcome.job.input), printable(outcome.job.output),
                        summaryRows(outcome, totals), primitiveRows(*outcome.result));
@@ -276,17 +327,23 @@ std::string generateText(const GenerateOutcome& outcome) {
 
 std::string generateSummary(const std::vector<GenerateOutcome>& outcomes, double seconds) {
     std::uint64_t done = 0;
+    std::uint64_t skipped = 0;
     std::uint64_t triangles = 0;
     std::uint64_t mended = 0;
     for (const GenerateOutcome& outcome : outcomes) {
         if (!outcome.result) continue;
+        if (outcome.was_done_before) {
+            ++skipped;
+            continue;
+        }
         const Totals totals = totalsOf(*outcome.result);
         ++done;
         triangles += totals.triangle_count;
         mended += totals.sanitize.mendedCount();
     }
-    return fmt::format("{} of {} written, {} failed; {}, {} mended, {:.2f} s\n", done,
-                       counted(outcomes.size(), "file"), outcomes.size() - done,
+    const std::string before = skipped == 0 ? "" : fmt::format("{} done before, ", skipped);
+    return fmt::format("{} of {} written, {}{} failed; {}, {} mended, {:.2f} s\n", done,
+                       counted(outcomes.size(), "file"), before, outcomes.size() - done - skipped,
                        counted(triangles, "triangle"), counted(mended, "corner"), seconds);
 }
 

@@ -12,14 +12,44 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kPi = 3.14159265358979323846;
+
 std::string joined(const std::vector<std::string>& parts) {
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string needText(const PrimitiveInfo& primitive) {
     if (!primitive.needs_tangents) return primitive.has_tangents ? "not needed, but there" : "not needed";
-    return fmt::format("{} ({})", primitive.has_tangents ? "needed and there" : "needed, missing",
-                       primitive.needed_by);
+    return fmt::format("{} ({}{})", primitive.has_tangents ? "needed and there" : "needed, missing",
+                       primitive.needed_by, primitive.tangent_uses[0].only_in_variant ? " of a variant" : "");
+}
+
+/// What a texture transform does besides shifting; empty: nothing.
+std::string transformText(const TangentUseInfo& use) {
+    std::string text;
+    if (use.uv_rotation_rad != 0) text += fmt::format(", turned by {:.6g} degrees", use.uv_rotation_rad * 180 / kPi);
+    if (use.uv_scale[0] != 1 || use.uv_scale[1] != 1)
+        text += fmt::format(", scaled by ({:.6g}, {:.6g})", use.uv_scale[0], use.uv_scale[1]);
+    return text;
+}
+
+/// A row for each use, unless the row "tangents" has said it all.
+void addUseRows(const PrimitiveInfo& primitive, Table& table) {
+    const std::vector<TangentUseInfo>& uses = primitive.tangent_uses;
+    if (uses.empty() || (uses.size() == 1 && transformText(uses[0]).empty())) return;
+    for (const TangentUseInfo& use : uses) {
+        table.addRow({&use == &uses[0] ? "needed for" : "",
+                      fmt::format("{} of material {}{}: UV set {}{}{}", use.needed_by, use.material,
+                                  use.only_in_variant ? " (a variant)" : "", use.uv_set, transformText(use),
+                                  use.follows_first ? "" : "; other tangents than the first")});
+    }
+}
+
+std::string drawsText(const PrimitiveInfo& primitive) {
+    std::string text = counted(primitive.node_count, "node");
+    if (primitive.instance_count != primitive.node_count)
+        text += fmt::format(", {}", counted(primitive.instance_count, "instance"));
+    return text;
 }
 
 std::string summaryLine(const InspectOutcome& outcome) {
@@ -55,6 +85,7 @@ std::string fileRows(const Inspection& file) {
                              counted(file.node_count, "node"), counted(file.animation_count, "animation"),
                              counted(file.image_count, "image")})});
     if (!file.extensions_used.empty()) table.addRow({"extensions", printable(joined(file.extensions_used))});
+    if (!file.variants.empty()) table.addRow({"variants", printable(joined(file.variants))});
     if (!file.extensions_required.empty())
         table.addRow({"required", printable(joined(file.extensions_required))});
     return table.text("  ");
@@ -71,11 +102,16 @@ std::string primitiveRows(const PrimitiveInfo& primitive) {
                                        counted(primitive.vertex_count, "vertex"), primitive.index_type);
     if (primitive.mode != "triangles") geometry += ", " + primitive.mode;
     if (primitive.skinned) geometry += ", skinned";
+    if (primitive.compression != "none") geometry += ", compressed by " + primitive.compression;
     if (primitive.morph_target_count != 0)
         geometry += ", " + counted(primitive.morph_target_count, "morph target");
     table.addRow({"geometry", geometry});
     table.addRow({"attributes", printable(joined(primitive.attributes))});
     table.addRow({"tangents", needText(primitive)});
+    addUseRows(primitive, table);
+    if (primitive.variant_material_count != 0)
+        table.addRow({"variants", counted(primitive.variant_material_count, "material")});
+    if (primitive.node_count != 1 || primitive.instance_count != 1) table.addRow({"drawn by", drawsText(primitive)});
     if (primitive.uv_set >= 0) {
         std::string uvs = fmt::format("set {} of {}: {}", primitive.uv_set, primitive.uv_set_count,
                                       counted(primitive.uv_island_count, "island"));
@@ -93,7 +129,23 @@ std::string primitiveRows(const PrimitiveInfo& primitive) {
                        table.text("    "));
 }
 
+Json useJson(const TangentUseInfo& use) {
+    return {
+        {"neededBy", use.needed_by},
+        {"place", use.place},
+        {"material", use.material},
+        {"onlyInVariant", use.only_in_variant},
+        {"uvSet", use.uv_set},
+        {"uvOffset", use.uv_offset},
+        {"uvRotation", use.uv_rotation_rad},
+        {"uvScale", use.uv_scale},
+        {"followsFirst", use.follows_first},
+    };
+}
+
 Json primitiveJson(const PrimitiveInfo& primitive) {
+    Json uses = Json::array();
+    for (const TangentUseInfo& use : primitive.tangent_uses) uses.push_back(useJson(use));
     return {
         {"mesh", primitive.mesh},
         {"primitive", primitive.primitive},
@@ -103,6 +155,7 @@ Json primitiveJson(const PrimitiveInfo& primitive) {
         {"triangles", primitive.triangle_count},
         {"vertices", primitive.vertex_count},
         {"indexType", primitive.index_type},
+        {"compression", primitive.compression},
         {"attributes", primitive.attributes},
         {"uvSets", primitive.uv_set_count},
         {"morphTargets", primitive.morph_target_count},
@@ -111,6 +164,10 @@ Json primitiveJson(const PrimitiveInfo& primitive) {
         {"hasTangents", primitive.has_tangents},
         {"needsTangents", primitive.needs_tangents},
         {"neededBy", primitive.needed_by},
+        {"tangentUses", uses},
+        {"variantMaterials", primitive.variant_material_count},
+        {"nodes", primitive.node_count},
+        {"instances", primitive.instance_count},
         {"uvSet", primitive.uv_set},
         {"degenerateUvTriangles", primitive.degenerate_uv_count},
         {"degenerateTriangles", primitive.degenerate_triangle_count},
@@ -138,6 +195,7 @@ Json outcomeJson(const InspectOutcome& outcome) {
     json["images"] = file.image_count;
     json["extensionsUsed"] = file.extensions_used;
     json["extensionsRequired"] = file.extensions_required;
+    json["variants"] = file.variants;
     json["primitives"] = Json::array();
     for (const PrimitiveInfo& primitive : file.primitives)
         json["primitives"].push_back(primitiveJson(primitive));

@@ -3,8 +3,11 @@
 #include "jobs.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
+
+#include "glob.h"
 
 namespace tspace::tool {
 namespace {
@@ -53,7 +56,8 @@ void findModels(const fs::path& folder, const std::string& skipped_folder, std::
     }
     std::sort(models.begin(), models.end());
     for (const fs::path& model : models) {
-        found.push_back({{.input = model.string()}, model.lexically_relative(folder)});
+        const fs::path relative = model.lexically_relative(folder);
+        found.push_back({{.input = model.string(), .name = relative.string()}, relative});
     }
     if (failed) {
         found.push_back({{.input = folder.string(),
@@ -62,9 +66,28 @@ void findModels(const fs::path& folder, const std::string& skipped_folder, std::
     } else if (models.empty()) {
         found.push_back(
             {{.input = folder.string(),
-              .error = {ErrorCode::invalidFile, "no model files (.glb, .gltf, .obj) in this folder"}},
+              .error = {ErrorCode::invalidFile, "no model files in this folder"}},
              {}});
     }
+}
+
+/// Model files that match. The output folder is no reason to leave one out: the pattern says what is meant.
+void findMatches(const std::string& pattern, std::vector<Found>& found) {
+    const fs::path root = patternRoot(pattern);
+    const std::size_t before = found.size();
+    for (const fs::path& match : matchPattern(pattern)) {
+        if (!isModelFile(match.string())) continue;
+        const fs::path relative = match.lexically_relative(root);
+        found.push_back({{.input = match.string(), .name = relative.string()}, relative});
+    }
+    if (found.size() == before) {
+        found.push_back({{.input = pattern, .error = {ErrorCode::cannotRead, "no model file matches this pattern"}}, {}});
+    }
+}
+
+bool isPatternInput(const std::string& input) {
+    std::error_code ignored;
+    return isPattern(input) && !fs::exists(input, ignored);
 }
 
 std::vector<Found> findInputs(const std::vector<std::string>& inputs, const std::string& skipped_folder) {
@@ -72,8 +95,10 @@ std::vector<Found> findInputs(const std::vector<std::string>& inputs, const std:
     for (const std::string& input : inputs) {
         if (isFolder(input)) {
             findModels(input, skipped_folder, found);
+        } else if (isPatternInput(input)) {
+            findMatches(input, found);
         } else {
-            found.push_back({{.input = input}, fs::path(input).filename()});
+            found.push_back({{.input = input, .name = input}, fs::path(input).filename()});
         }
     }
     return found;
@@ -91,15 +116,16 @@ Result<std::vector<Job>> jobsInPlace(const GenerateArguments& arguments) {
     std::vector<Job> jobs = inputJobs(arguments.inputs);
     for (Job& job : jobs) {
         job.output = job.input;
-        if (lowerExtension(job.input) == ".obj" && job.error.code == ErrorCode::ok) {
-            job.error = usage("an OBJ file cannot hold tangents; write a .glb with -o");
+        const std::string extension = lowerExtension(job.input);
+        if (extension != ".glb" && extension != ".gltf" && job.error.code == ErrorCode::ok && !extension.empty()) {
+            job.error = usage("only .glb and .gltf files can be changed in place; write a .glb with -o");
         }
     }
     return jobs;
 }
 
 Result<std::vector<Job>> jobWithNamedOutput(const GenerateArguments& arguments) {
-    Job job{.input = arguments.inputs.front(), .output = arguments.output};
+    Job job{.input = arguments.inputs.front(), .output = arguments.output, .name = arguments.inputs.front()};
     const std::string extension = lowerExtension(job.output);
     if (extension.empty()) {
         job.output += extensionFor(arguments.container, job.input);
@@ -146,9 +172,20 @@ Result<std::vector<Job>> jobsIntoFolder(const GenerateArguments& arguments) {
 
 }  // namespace
 
+std::string importerPath() {
+    std::error_code failed;
+    const fs::path own = fs::read_symlink("/proc/self/exe", failed);
+    if (failed) return {};
+    const fs::path importer = own.parent_path() / "tspace-import";
+    return fs::exists(importer, failed) ? importer.string() : std::string();
+}
+
 bool isModelFile(const std::string& path) {
     const std::string extension = lowerExtension(path);
-    return extension == ".glb" || extension == ".gltf" || extension == ".obj";
+    if (extension == ".glb" || extension == ".gltf" || extension == ".obj") return true;
+    static const bool has_importer = !importerPath().empty();
+    constexpr std::array kImported = {".fbx", ".ply", ".stl", ".dae", ".3ds"};
+    return has_importer && std::find(kImported.begin(), kImported.end(), extension) != kImported.end();
 }
 
 std::vector<Job> inputJobs(const std::vector<std::string>& inputs) {
@@ -164,7 +201,8 @@ Result<std::vector<Job>> generateJobs(const GenerateArguments& arguments) {
     if (output.empty())
         return usage("say where to write: -o OUT, or --in-place to change the inputs themselves");
 
-    const bool several = arguments.inputs.size() > 1 || isFolder(arguments.inputs.front());
+    const std::string& first = arguments.inputs.front();
+    const bool several = arguments.inputs.size() > 1 || isFolder(first) || isPatternInput(first);
     std::error_code ignored;
     const bool is_file = fs::exists(output, ignored) && !isFolder(output);
     const std::string extension = lowerExtension(output);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the inputs on the command line (files and folders) to single files and where their results go.
+// From the inputs on the command line (files, folders, patterns) to single files and where their results go.
 #pragma once
 
 #include <string>
@@ -13,13 +13,19 @@ namespace tspace::tool {
 struct Job {
     std::string input = {};
     std::string output = {};                ///< empty for commands that write nothing
+    std::string name = {};                  ///< path below the input folder; for files that were named: as named
     Error error = {.code = ErrorCode::ok};  ///< why it cannot even be tried
 };
 
-/// true for names that end in .glb, .gltf or .obj, in any case.
+/// The program that reads other formats: beside this one. Empty: it is not there.
+std::string importerPath();
+
+/// true for names that end in .glb, .gltf or .obj, in any case; also .fbx, .ply, .stl, .dae and .3ds where the importer is
+/// there. (Files that are named may be of any format that it reads.)
 bool isModelFile(const std::string& path);
 
-/// Every input file, and the model files of every input folder and below in the order of their names.
+/// Every input file, the model files of every input folder and below in the order of their names, and the model files
+/// that match a pattern (glob.h) that is not itself a file.
 std::vector<Job> inputJobs(const std::vector<std::string>& inputs);
 
 /// The same with outputs. Makes no folder: that happens when there is something to write. An Error of code

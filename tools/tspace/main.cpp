@@ -17,7 +17,10 @@ using namespace tspace::tool;
 ExitCode run(int argc, char** argv) {
     const Arguments arguments = parseArguments(argc, argv);
     if (const auto* generate = std::get_if<GenerateArguments>(&arguments)) return runGenerate(*generate);
+    if (const auto* diff = std::get_if<DiffArguments>(&arguments)) return runDiff(*diff);
+    if (const auto* identify = std::get_if<IdentifyArguments>(&arguments)) return runIdentify(*identify);
     if (const auto* inspect = std::get_if<InspectArguments>(&arguments)) return runInspect(*inspect);
+    if (const auto* check = std::get_if<CheckArguments>(&arguments)) return runCheck(*check);
     return std::get<ExitCode>(arguments);
 }
 

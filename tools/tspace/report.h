@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "arguments.h"
 #include "exit_code.h"
 #include "jobs.h"
 
@@ -17,17 +18,31 @@ struct Outcome {
     Job job = {};
     Result<Value> result = Error{};
     double seconds = 0;
+    bool was_done_before = false;  ///< the manifest says so, nothing has changed, and nothing was done; the value is empty
 };
 using GenerateOutcome = Outcome<GenerateReport>;
+using IdentifyOutcome = Outcome<Identification>;
 using InspectOutcome = Outcome<Inspection>;
+using CheckOutcome = Outcome<CheckReport>;
 
 std::string generateText(const GenerateOutcome& outcome);
 std::string generateJson(const std::vector<GenerateOutcome>& outcomes, ExitCode exit_code, double seconds);
 /// One line over several files.
 std::string generateSummary(const std::vector<GenerateOutcome>& outcomes, double seconds);
 
+std::string diffText(const DiffArguments& arguments, const FrameDiff& diff);
+std::string diffJson(const DiffArguments& arguments, const Result<FrameDiff>& diff, ExitCode exit_code);
+
+std::string identifyText(const IdentifyOutcome& outcome);
+std::string identifyJson(const std::vector<IdentifyOutcome>& outcomes, ExitCode exit_code);
+
 std::string inspectText(const InspectOutcome& outcome);
 std::string inspectJson(const std::vector<InspectOutcome>& outcomes, ExitCode exit_code);
+
+std::string checkText(const CheckOutcome& outcome, bool in_color);
+std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, Severity fail_on);
+/// One line over several files.
+std::string checkSummary(const std::vector<CheckOutcome>& outcomes);
 
 /// null, or the error as docs/json.md describes it.
 nlohmann::ordered_json errorJson(const Error* error);

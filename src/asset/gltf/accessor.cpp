@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "asset/file_error.h"
+#include "asset/gltf/compression/meshopt_views.h"
 #include "tspace/mesh.h"
 
 namespace tspace::gltf {
@@ -119,18 +120,24 @@ SparsePart readSparse(const Document& document, const Json& object, const Access
     return sparse;
 }
 
+bool viewHasData(const Document& document, std::size_t index) {
+    const BufferView range = readBufferView(document, index);
+    return range.byte_count == 0 || (document.buffers[range.buffer].source != BufferSource::absent &&
+                                     document.views_without_data.count(index) == 0);
+}
+
 /// Bytes of a view, `count` from `offset`. Its range was checked against the declared length, which the data has
 /// unless it is absent.
 const std::uint8_t* viewBytes(const Document& document, std::size_t index, std::size_t offset, std::size_t count) {
     const BufferView view = readBufferView(document, index);
     const Buffer& buffer = document.buffers[view.buffer];
-    if (buffer.source == BufferSource::absent && view.byte_count > 0) {
-        failFile(
-            ErrorCode::unsupportedFile,
-            view.compressed
-                ? "the buffer view is meshopt-compressed and has no plain data; this is not supported yet"
-                : "the buffer view lies in a buffer without data",
-            join("/bufferViews", index));
+    if (!viewHasData(document, index)) {
+        const char* extension = meshoptExtension(rootArray(document, "bufferViews")[index]);
+        failFile(ErrorCode::unsupportedFile,
+                 extension == nullptr ? "the buffer view lies in a buffer without data"
+                                      : std::string("the buffer view is compressed by ") + extension + ": " +
+                                            meshoptMissing(extension == kKhrMeshopt),
+                 join("/bufferViews", index));
     }
     return buffer.bytes.range(view.begin + offset, count).data();
 }
@@ -173,6 +180,12 @@ const std::uint8_t* elementSource(const Document& document, const Accessor& acce
     if (accessor.component_count == 0) {
         failAt("the accessor type " + inQuotes(accessor.type) + " does not exist",
                join(accessor.place(), "type"));
+    }
+    if (const auto decoded = document.elements.find(accessor.index); decoded != document.elements.end())
+        return decoded->second.data();
+    if (document.hidden_accessors.count(accessor.index) != 0) {
+        failFile(ErrorCode::unsupportedFile, "the accessor's data are compressed by Draco: " + dracoMissing(),
+                 accessor.place());
     }
     if (!accessor.view && accessor.count > kMaxZeroElements) {
         failFile(ErrorCode::unsupportedFile,
@@ -281,8 +294,6 @@ BufferView readBufferView(const Document& document, std::size_t index) {
     view.begin = readSize(object, "byteOffset", place, 0);
     view.byte_count = readSize(object, "byteLength", place);
     view.stride = readSize(object, "byteStride", place, 0);
-    view.compressed = findExtension(object, "EXT_meshopt_compression") != nullptr ||
-                      findExtension(object, "KHR_meshopt_compression") != nullptr;
     const Buffer& data = document.buffers[view.buffer];
     const std::size_t limit =
         data.source == BufferSource::absent
@@ -313,7 +324,8 @@ Accessor readAccessor(const Document& document, std::size_t index) {
                      std::to_string(kMaxCorners) + " are supported",
                  join(place, "count"));
     }
-    if (accessor.view) {
+    // Decoded elements are tight, whatever a view beside them says.
+    if (accessor.view && document.elements.count(index) == 0) {
         const BufferView view = readBufferView(document, *accessor.view);
         if (view.stride != 0) accessor.stride = view.stride;
         if (accessor.stride < accessor.element_bytes) {
@@ -333,12 +345,10 @@ Accessor readAccessor(const Document& document, std::size_t index) {
 }
 
 bool hasData(const Document& document, const Accessor& accessor) {
-    const auto has = [&](std::size_t view) {
-        const BufferView range = readBufferView(document, view);
-        return range.byte_count == 0 || document.buffers[range.buffer].source != BufferSource::absent;
-    };
-    return (!accessor.view || has(*accessor.view)) &&
-           (!accessor.sparse || (has(accessor.sparse->index_view) && has(accessor.sparse->value_view)));
+    if (document.hidden_accessors.count(accessor.index) != 0) return false;
+    return (!accessor.view || viewHasData(document, *accessor.view)) &&
+           (!accessor.sparse || (viewHasData(document, accessor.sparse->index_view) &&
+                                 viewHasData(document, accessor.sparse->value_view)));
 }
 
 Bytes copyElements(const Document& document, const Accessor& accessor) {
@@ -373,11 +383,13 @@ std::vector<std::uint32_t> decodeIndices(const Document& document, const Accesso
     const Bytes elements = copyElements(document, accessor);
     std::vector<std::uint32_t> indices(accessor.count);
     const std::size_t bytes = bytesOf(accessor.component);
+    const std::uint32_t restart = 0xffffffffu >> (32 - 8 * bytes);  // the largest of its type
     for (std::size_t i = 0; i < indices.size(); ++i) {
         indices[i] = unsignedAt(elements.data() + i * bytes, accessor.component);
         if (indices[i] >= vertex_count) {
             failAt("index " + std::to_string(i) + " is " + std::to_string(indices[i]) +
-                       ", but the primitive has " + std::to_string(vertex_count) + " vertices",
+                       ", but the primitive has " + std::to_string(vertex_count) + " vertices" +
+                       (indices[i] == restart ? "; as a mark that restarts a strip, glTF does not allow it" : ""),
                    place);
         }
     }

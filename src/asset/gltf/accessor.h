@@ -8,22 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "asset/gltf/component_type.h"
 #include "asset/gltf/document.h"
 #include "tspace/vec.h"
 
 namespace tspace::gltf {
-
-enum class ComponentType : std::uint32_t {
-    i8 = 5120,
-    u8 = 5121,
-    i16 = 5122,
-    u16 = 5123,
-    u32 = 5125,
-    f32 = 5126
-};
-
-/// 1, 2 or 4.
-std::size_t bytesOf(ComponentType type);
 
 /// A range of a buffer, already checked against the buffer's declared length.
 struct BufferView {
@@ -31,7 +20,6 @@ struct BufferView {
     std::size_t begin = 0;
     std::size_t byte_count = 0;
     std::size_t stride = 0;   ///< 0: tightly packed
-    bool compressed = false;  ///< has a meshopt extension; the range is its fallback
 };
 BufferView readBufferView(const Document& document, std::size_t index);
 

@@ -7,6 +7,9 @@
 #include <map>
 
 #include "asset/file_error.h"
+#include "asset/gltf/gather_elements.h"
+#include "asset/gltf/sparse_elements.h"
+#include "generate/unit_lattice.h"
 
 namespace tspace::gltf {
 
@@ -23,26 +26,30 @@ ElementData floatVectors(const std::vector<Vec>& values) {
     return data;
 }
 
-/// Elements of an accessor, gathered through `sources`: new element i is a copy of old element sources[i].
-ElementData gather(const Document& document, const Accessor& accessor,
-                   std::span<const std::uint32_t> sources) {
-    const Bytes old = copyElements(document, accessor);
+template <class Vec>
+ElementData unitVectors(const std::vector<Vec>& values, VectorFormat format) {
+    if (format == VectorFormat::float32) return floatVectors(values);
+    constexpr std::size_t components = sizeof(Vec) / sizeof(float);
     ElementData data;
-    data.component = accessor.component;
-    data.type = accessor.type;
-    data.normalized = accessor.normalized;
-    data.count = sources.size();
-    data.element_bytes = accessor.element_bytes;
-    data.bytes.resize(sources.size() * accessor.element_bytes);
-    for (std::size_t i = 0; i < sources.size(); ++i) {
-        std::memcpy(data.bytes.data() + i * data.element_bytes, old.data() + sources[i] * data.element_bytes,
-                    data.element_bytes);
-    }
-    // Copies change no bound.
-    const Json& object = rootArray(document, "accessors")[accessor.index];
-    if (const Json* low = findMember(object, "min")) data.min = *low;
-    if (const Json* high = findMember(object, "max")) data.max = *high;
+    data.component = format == VectorFormat::snorm8 ? ComponentType::i8 : ComponentType::i16;
+    data.type = "VEC" + std::to_string(components);
+    data.normalized = true;
+    data.count = values.size();
+    data.element_bytes = components * bytesOf(data.component);
+    const std::vector<std::uint8_t> packed = packUnits(std::span<const Vec>(values), format);
+    data.bytes.assign(packed.begin(), packed.end());
     return data;
+}
+
+bool hasFormatOf(const Accessor& accessor, const ElementData& data) {
+    return accessor.component == data.component && accessor.type == data.type &&
+           accessor.normalized == data.normalized && accessor.count == data.count;
+}
+
+ElementData offsetVectors(const VertexOffsets& offsets, std::size_t vertex_count) {
+    std::vector<Vec3> dense(vertex_count);
+    for (std::size_t i = 0; i < offsets.vertices.size(); ++i) dense[offsets.vertices[i]] = offsets.offsets[i];
+    return floatVectors(dense);
 }
 
 /// u8 and u16 keep their width while every vertex fits below the primitive restart value.
@@ -67,11 +74,12 @@ ElementData indexData(const std::vector<std::uint32_t>& indices, ComponentType n
 class Applier {
   public:
     Applier(Editor& editor, const Document& document, std::span<const Primitive> primitives, const Pool& pool,
-            const PoolFrames& frames)
-        : editor_(editor), document_(document), primitives_(primitives), pool_(pool), frames_(frames) {}
+            const PoolFrames& frames, VectorFormat format)
+        : editor_(editor), document_(document), primitives_(primitives), pool_(pool), frames_(frames), format_(format) {}
 
     /// Returns true when the document changed.
     bool run() {
+        if (pool_.keeps_tangents) return setTargets();
         const Primitive& first = primitives_[pool_.primitives[0]];
         const bool split = frames_.wasSplit(first.vertex_count);
         if (split) {
@@ -79,15 +87,23 @@ class Applier {
             for (std::size_t i = 0; i < pool_.geometries.size(); ++i)
                 replaceIndices(pool_.geometries[i], frames_.indices[i]);
         }
-        if (frames_.normals_generated) setAttribute("NORMAL", floatVectors(frames_.normals));
-        return setTangents(split) || split || frames_.normals_generated;
+        bool changed = split;
+        if (frames_.normals_generated) changed |= setAttribute(kBase, "NORMAL", unitVectors(frames_.normals, format_));
+        changed |= setAttribute(kBase, "TANGENT", unitVectors(frames_.tangents, format_));
+        changed |= setTargets();
+        return changed;
     }
 
+    /// Targets whose deltas were computed.
+    [[nodiscard]] std::uint32_t computedTargets() const { return computed_targets_; }
+
   private:
-    /// A reference of a primitive to an accessor: target -1 for the attributes themselves.
+    static constexpr std::ptrdiff_t kBase = -1;  ///< in place of a target: the attributes themselves
+
+    /// A reference of a primitive to an accessor.
     struct Slot {
         std::size_t primitive = 0;
-        std::ptrdiff_t target = -1;
+        std::ptrdiff_t target = kBase;
         std::string name = {};
     };
 
@@ -107,17 +123,18 @@ class Applier {
         for (const std::size_t number : pool_.primitives) {
             const Primitive& primitive = primitives_[number];
             for (const auto& [name, accessor] : primitive.attributes) {
-                if (!isReplaced(name)) slots[accessor].push_back({number, -1, name});
+                if (!isReplaced(name)) slots[accessor].push_back({number, kBase, name});
             }
             for (std::size_t target = 0; target < primitive.targets.size(); ++target) {
                 for (const auto& [name, accessor] : primitive.targets[target]) {
+                    if (isReplaced(name) && movesFrames(primitive.targets[target])) continue;
                     slots[accessor].push_back({number, static_cast<std::ptrdiff_t>(target), name});
                 }
             }
         }
         for (const auto& [index, users] : slots) {
             ElementData data =
-                gather(document_, readAccessor(document_, index), frames_.source_vertices);
+                gatherElements(document_, readAccessor(document_, index), frames_.source_vertices);
             const bool alone = editor_.accessorUses(index) == users.size();
             const std::size_t stored = editor_.store(std::move(data), alone ? std::optional(index) : std::nullopt);
             if (!alone) keepName(index, stored);
@@ -149,6 +166,7 @@ class Applier {
             data.min = Json::array({*low});
             data.max = Json::array({*high});
         }
+        data.like = first.indices ? *first.indices : attributesOf(geometry.primitives[0], kBase)["POSITION"].get<std::size_t>();
         const bool alone =
             first.indices && editor_.accessorUses(*first.indices) == geometry.primitives.size();
         const std::size_t stored = editor_.store(std::move(data), alone ? first.indices : std::nullopt);
@@ -161,33 +179,58 @@ class Applier {
         }
     }
 
-    void setAttribute(const char* name, ElementData&& data) {
-        const Primitive& first = primitives_[pool_.primitives[0]];
-        const auto old = first.find(name);
-        const bool alone = old && editor_.accessorUses(*old) == pool_.primitives.size();
-        const std::size_t stored = editor_.store(std::move(data), alone ? old : std::nullopt);
-        for (const std::size_t number : pool_.primitives) {
-            attributesOf(number, -1)[name] = stored;
-            editor_.moveUse(primitives_[number].find(name), stored);
-        }
+    [[nodiscard]] const AttributeList& attributesOf(const Primitive& primitive, std::ptrdiff_t target) const {
+        return target == kBase ? primitive.attributes : primitive.targets[static_cast<std::size_t>(target)];
     }
 
-    /// Returns false when the tangents in the file have these very bits already.
-    bool setTangents(bool split) {
-        ElementData data = floatVectors(frames_.tangents);
-        const auto index = primitives_[pool_.primitives[0]].find("TANGENT");
-        if (index && pool_.has_tangents && !split) {
-            const Accessor old = readAccessor(document_, *index);
-            if (old.isFloatVec(4) && old.count == data.count) {
-                if (copyElements(document_, old) == data.bytes) return false;
-                if (editor_.accessorUses(*index) == pool_.primitives.size() && editor_.canOverwrite(old)) {
-                    editor_.overwrite(old, data.bytes);
-                    return true;
-                }
+    /// Deltas of every target that moves the surface; where tangents are kept only those that are missing.
+    bool setTargets() {
+        const Primitive& first = primitives_[pool_.primitives[0]];
+        bool changed = false;
+        for (std::size_t i = 0; i < frames_.morphs.size(); ++i) {
+            if (!movesFrames(first.targets[i])) continue;
+            if (pool_.keeps_tangents && findAttribute(first.targets[i], "TANGENT")) continue;
+            ++computed_targets_;
+            const auto target = static_cast<std::ptrdiff_t>(i);
+            const std::size_t count = frames_.source_vertices.size();
+            if (frames_.normals_generated) {
+                changed |= setAttribute(target, "NORMAL", offsetVectors(frames_.morphs[i].normals, count));
             }
+            changed |= setAttribute(target, "TANGENT", offsetVectors(frames_.morphs[i].tangents, count));
         }
-        setAttribute("TANGENT", std::move(data));
+        return changed;
+    }
+
+    /// For all primitives of the pool. Returns false when the file has these very bits already.
+    bool setAttribute(std::ptrdiff_t target, const char* name, ElementData&& data) {
+        const auto old = findAttribute(attributesOf(primitives_[pool_.primitives[0]], target), name);
+        const bool alone = old && editor_.accessorUses(*old) == pool_.primitives.size();
+        std::optional<Accessor> current;
+        if (old && mayStay()) {
+            current = readAccessor(document_, *old);
+            if (!hasFormatOf(*current, data)) current.reset();
+        }
+        if (current && copyElements(document_, *current) == data.bytes) return false;
+        if (data.normalized) editor_.require("KHR_mesh_quantization");
+        if (target != kBase) makeSparseWhereSmaller(data);
+        // Of a target, as what moves its vertices: Draco holds no targets.
+        const Json& attributes = attributesOf(pool_.primitives[0], target);
+        data.like = (target == kBase ? attributes["POSITION"] : attributes.front()).get<std::size_t>();
+        if (current && alone && !data.places && editor_.canOverwrite(*current)) {
+            editor_.overwrite(*current, data.bytes);
+            return true;
+        }
+        const std::size_t stored = editor_.store(std::move(data), alone ? old : std::nullopt);
+        for (const std::size_t number : pool_.primitives) {
+            attributesOf(number, target)[name] = stored;
+            editor_.moveUse(findAttribute(attributesOf(primitives_[number], target), name), stored);
+        }
         return true;
+    }
+
+    /// Whether old accessors of frames may stay: not those of tangents without normals, nor what was split.
+    [[nodiscard]] bool mayStay() const {
+        return pool_.has_tangents && !frames_.wasSplit(primitives_[pool_.primitives[0]].vertex_count);
     }
 
     Editor& editor_;
@@ -195,15 +238,33 @@ class Applier {
     std::span<const Primitive> primitives_;
     const Pool& pool_;
     const PoolFrames& frames_;
+    const VectorFormat format_;
+    std::uint32_t computed_targets_ = 0;
 };
+
+std::string keptNote(const PoolFrames& frames) {
+    if (frames.morphs.empty()) {
+        return "; its morph targets lack tangent deltas and get none, because its tangents are not those that would be "
+               "computed (" +
+               std::to_string(frames.differing_count) + " corners differ)";
+    }
+    return "; tangent deltas were added to its morph targets that had none";
+}
 
 }  // namespace
 
 void applyFrames(Editor& editor, const Document& document, std::span<const Primitive> primitives,
-                 const Pool& pool, const PoolFrames& frames, std::span<PrimitiveReport> reports) {
-    const bool changed = Applier(editor, document, primitives, pool, frames).run();
+                 const Pool& pool, const PoolFrames& frames, VectorFormat format,
+                 std::span<PrimitiveReport> reports) {
+    Applier applier(editor, document, primitives, pool, frames, format);
+    const bool changed = applier.run();
     for (const std::size_t number : pool.primitives) {
         PrimitiveReport& report = reports[number];
+        report.morph_deltas_computed = applier.computedTargets();
+        if (pool.keeps_tangents) {
+            report.reason += keptNote(frames);
+            continue;
+        }
         report.action = !pool.has_tangents ? PrimitiveAction::generated
                         : changed          ? PrimitiveAction::replaced
                                            : PrimitiveAction::unchanged;

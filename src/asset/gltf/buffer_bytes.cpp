@@ -27,6 +27,19 @@ std::span<const std::uint8_t> BufferBytes::range(std::size_t begin, std::size_t 
     return const_cast<BufferBytes*>(this)->range(begin, count);
 }
 
+Bytes BufferBytes::copy(std::size_t begin, std::size_t count) const {
+    Bytes bytes;
+    bytes.reserve(count);
+    for (const Piece& piece : pieces_) {
+        const std::size_t from = std::max(begin, piece.begin);
+        const std::size_t to = std::min(begin + count, piece.begin + piece.bytes.size());
+        if (from >= to) continue;
+        const auto part = piece.bytes.subspan(from - piece.begin, to - from);
+        bytes.insert(bytes.end(), part.begin(), part.end());
+    }
+    return bytes;
+}
+
 std::size_t BufferBytes::append(Bytes bytes, std::size_t alignment) {
     if (const std::size_t rest = size_ % alignment; rest != 0) {
         addPiece(storage_.emplace_back(alignment - rest, std::uint8_t{0}));

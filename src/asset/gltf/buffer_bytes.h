@@ -32,6 +32,9 @@ class BufferBytes {
     [[nodiscard]] std::span<const std::uint8_t> range(std::size_t begin, std::size_t count) const;
     [[nodiscard]] std::span<std::uint8_t> range(std::size_t begin, std::size_t count);
 
+    /// The same as a copy, which may come from several pieces.
+    [[nodiscard]] Bytes copy(std::size_t begin, std::size_t count) const;
+
     /// Appends at the next multiple of `alignment`, behind zeros, and returns where that is.
     std::size_t append(Bytes bytes, std::size_t alignment);
 

@@ -19,28 +19,40 @@ namespace {
 /// Fewer corners are done sooner than threads are started.
 constexpr std::size_t kCornersForThreads = 3000;
 
+/// Targets of a pool are those of each of its primitives. `first` must outlive the result.
+MorphTargets targetsOf(const Document& document, const Primitive& first) {
+    return {first.targets.size(), [&document, &first](std::size_t target) {
+                return atFileBorder([&]() -> Result<MorphOffsets> {
+                    return MorphOffsets{.positions = readOffsets(document, first, target, "POSITION"),
+                                        .normals = readOffsets(document, first, target, "NORMAL")};
+                });
+            }};
+}
+
+void copyReport(const PrimitiveReport& computed, bool keeps_tangents, PrimitiveReport& report) {
+    report.morph_sign_flip_count = computed.morph_sign_flip_count;
+    if (keeps_tangents) return;
+    report.normals = computed.normals;
+    report.tangents = computed.tangents;
+    report.sanitize = computed.sanitize;
+}
+
 PoolFrames computePool(const Document& document, std::span<const Primitive> primitives, const Pool& pool,
                        const GenerateOptions& options, std::span<PrimitiveReport> reports) {
     const Primitive& first = primitives[pool.primitives[0]];
-    VertexPool vertices;
-    vertices.positions = readVec3(document, first, "POSITION");
-    if (pool.has_normals) vertices.normals = readVec3(document, first, "NORMAL");
-    if (pool.uses_uvs) vertices.uvs = readUvs(document, first, pool.uv_set);
-    std::vector<PrimitiveGeometry> geometries;
+    VertexPool vertices = readVertices(document, first, pool);
+    vertices.targets = targetsOf(document, first);
+    if (pool.keeps_tangents) vertices.kept_tangents = readTangents(document, first);
+    const std::vector<PrimitiveGeometry> geometries = readGeometries(document, primitives, pool);
     std::vector<PrimitiveReport> computed;
-    for (const PoolGeometry& geometry : pool.geometries) {
-        geometries.emplace_back().indices = readTriangleCorners(document, primitives[geometry.primitives[0]]);
-        computed.push_back(reports[geometry.primitives[0]]);
-    }
+    for (const PoolGeometry& geometry : pool.geometries) computed.push_back(reports[geometry.primitives[0]]);
     PoolFrames frames = valueOrThrow(computeFrames(vertices, geometries, options, computed));
     if (frames.tangents.size() != frames.source_vertices.size()) {
         failFile(ErrorCode::internal, "no tangents were computed", first.place());
     }
     for (std::size_t i = 0; i < pool.geometries.size(); ++i) {
         for (const std::size_t number : pool.geometries[i].primitives) {
-            reports[number].normals = computed[i].normals;
-            reports[number].tangents = computed[i].tangents;
-            reports[number].sanitize = computed[i].sanitize;
+            copyReport(computed[i], pool.keeps_tangents, reports[number]);
         }
     }
     return frames;
@@ -71,6 +83,23 @@ void setExecution(GenerateOptions& options, const Execution& execution) {
 }
 
 }  // namespace
+
+VertexPool readVertices(const Document& document, const Primitive& first, const Pool& pool) {
+    VertexPool vertices;
+    vertices.positions = readVec3(document, first, "POSITION");
+    if (pool.has_normals) vertices.normals = readVec3(document, first, "NORMAL");
+    if (pool.uses_uvs) vertices.uvs = readUvs(document, first, pool.uv_set);
+    vertices.uv_matrix = pool.uv_matrix;
+    return vertices;
+}
+
+std::vector<PrimitiveGeometry> readGeometries(const Document& document, std::span<const Primitive> primitives,
+                                              const Pool& pool) {
+    std::vector<PrimitiveGeometry> geometries;
+    for (const PoolGeometry& geometry : pool.geometries)
+        geometries.emplace_back().indices = readTriangleCorners(document, primitives[geometry.primitives[0]]);
+    return geometries;
+}
 
 std::vector<PoolFrames> computePools(const Document& document, std::span<const Primitive> primitives,
                                      std::span<const Pool> pools, const GenerateOptions& options,

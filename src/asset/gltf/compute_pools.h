@@ -10,6 +10,13 @@
 
 namespace tspace::gltf {
 
+/// What the tangents of a pool are computed from. `first`: any primitive of it.
+VertexPool readVertices(const Document& document, const Primitive& first, const Pool& pool);
+
+/// The triangles of each geometry of a pool.
+std::vector<PrimitiveGeometry> readGeometries(const Document& document, std::span<const Primitive> primitives,
+                                              const Pool& pool);
+
 /// Frames of each pool, in their order. Fills normals, tangents and sanitize of the reports of their primitives.
 /// Throws what the first pool with an error throws. Which threads work on what changes no bit.
 std::vector<PoolFrames> computePools(const Document& document, std::span<const Primitive> primitives,

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "asset/file_error.h"
+#include "asset/gltf/compression/meshopt_views.h"
 #include "asset/uri.h"
 
 namespace tspace::gltf {
@@ -32,7 +33,7 @@ std::string mimeTypeOf(const Bytes& bytes, const std::string& declared) {
 }
 
 /// The bytes and media type behind an image's URI, or nothing (with a warning) when they cannot be had.
-std::optional<DataUri> loadImage(const Document& document, const std::string& uri,
+std::optional<DataUri> loadImage(Document& document, const std::string& uri,
                                  const std::string& declared, const std::string& place,
                                  std::vector<std::string>& warnings) {
     DataUri image;
@@ -51,6 +52,7 @@ std::optional<DataUri> loadImage(const Document& document, const std::string& ur
             return {};
         }
         image.bytes = readFile(path, join(place, "uri"));
+        document.input_files.push_back(path.string());
         image.mime_type = declared;
     }
     image.mime_type = mimeTypeOf(image.bytes, image.mime_type);
@@ -103,7 +105,7 @@ void joinBuffers(Document& document) {
     bin.own = true;
     Json entries = Json::array();
     for (std::size_t i = 0; i < old.size(); ++i) {
-        if (old[i].source == BufferSource::absent) continue;
+        if (!old[i].hasStoredBytes()) continue;
         if (entries.empty()) entries.push_back(old_entries[i]);
         moved[i] = {0, appendAligned(bin, old[i].bytes.joined(), kJoinAlignment)};
         old[i].bytes = {};
@@ -113,25 +115,24 @@ void joinBuffers(Document& document) {
         bin.bytes = BufferBytes(Bytes(kJoinAlignment, 0));  // glTF has no empty buffers
     }
     entries[0].erase("uri");
+    // A mark of the old buffer, that readers of the extension need not load it, would be wrong here.
+    if (const char* mark = meshoptExtension(entries[0])) {
+        entries[0]["extensions"].erase(mark);
+        if (entries[0]["extensions"].empty()) entries[0].erase("extensions");
+    }
     entries[0]["byteLength"] = bin.bytes.size();
     for (std::size_t i = 0; i < old.size(); ++i) {
-        if (old[i].source != BufferSource::absent) continue;
+        if (old[i].hasStoredBytes()) continue;
         moved[i] = {entries.size(), 0};
         entries.push_back(old_entries[i]);
+        document.buffers.push_back(std::move(old[i]));
     }
-    document.buffers.resize(entries.size());
     document.json["buffers"] = std::move(entries);
     if (!document.json.contains("bufferViews")) return;
     for (std::size_t i = 0; i < document.json["bufferViews"].size(); ++i) {
         Json& view = document.json["bufferViews"][i];
         moveReference(view, moved);
-        for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-            if (findExtension(view, name) == nullptr) continue;
-            Json& extension = view["extensions"][name];
-            readIndex(extension, "buffer", join("/bufferViews", i) + "/extensions/" + name, moved.size(),
-                      "buffer");
-            moveReference(extension, moved);
-        }
+        if (const char* name = meshoptExtension(view)) moveReference(view["extensions"][name], moved);
     }
 }
 
@@ -181,6 +182,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
             warnings.push_back("the file " + inQuotes(uri) + " does not exist and was not copied");
         return;
     }
+    output.addSource(from);
     const fs::path to = folderOf(target.path) / relative;
     const std::vector<std::string> planned = output.files();
     if (std::find(planned.begin(), planned.end(), to.string()) != planned.end()) return;
@@ -233,7 +235,8 @@ OutputTarget outputTarget(const Document& document, const fs::path& path) {
                  "the output " + pathInQuotes(path) + " is neither .glb nor .gltf");
     }
     target.container = extension == ".glb" ? Container::glb : Container::gltf;
-    target.takes_images_in = target.container == Container::glb && document.container == Container::gltf;
+    target.takes_images_in =
+        target.container == Container::glb && (document.container == Container::gltf || document.imported);
     target.in_place = isSameFile(document.path, path);
     target.same_folder = isSameFile(document.folder, folderOf(path));
     return target;

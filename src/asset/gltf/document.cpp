@@ -8,15 +8,14 @@
 
 #include "asset/file_error.h"
 #include "asset/gltf/accessor.h"
+#include "asset/gltf/compression/draco_primitives.h"
+#include "asset/gltf/compression/meshopt_views.h"
+#include "asset/import/import_document.h"
 #include "asset/uri.h"
 
 namespace tspace::gltf {
 
 namespace {
-
-/// Extensions whose geometry is not in plain accessors.
-constexpr std::array<const char*, 3> kCompression = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                                     "KHR_meshopt_compression"};
 
 /// Required extensions that do not change how geometry is read.
 constexpr std::array<const char*, 28> kHarmless = {"KHR_mesh_quantization",
@@ -47,6 +46,15 @@ constexpr std::array<const char*, 28> kHarmless = {"KHR_mesh_quantization",
                                                    "EXT_lights_image_based",
                                                    "KHR_node_hoverability",
                                                    "KHR_interactivity"};
+
+bool isCompression(const std::string& name) {
+    return name == kExtMeshopt || name == kKhrMeshopt || name == kDraco;
+}
+
+/// Why this build cannot read it; empty when it can.
+std::string compressionMissing(const std::string& name) {
+    return name == kDraco ? dracoMissing() : meshoptMissing(name == kKhrMeshopt);
+}
 
 /// Once, so that later code may take every entry of these arrays for an object, and finding an array is
 /// cheap.
@@ -88,11 +96,6 @@ void checkVersion(const Json& root) {
     }
 }
 
-bool isFallbackBuffer(const Json& buffer) {
-    return findExtension(buffer, "EXT_meshopt_compression") != nullptr ||
-           findExtension(buffer, "KHR_meshopt_compression") != nullptr;
-}
-
 Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, const GlbChunks* glb) {
     const std::string place = join("/buffers", index);
     const std::size_t length = readSize(entry, "byteLength", place);
@@ -100,7 +103,7 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
     const Json* uri = findMember(entry, "uri");
     if (uri == nullptr) {
         if (index != 0 || glb == nullptr || !glb->bin) {
-            if (document.container == Container::glb && index == 0 && !isFallbackBuffer(entry) &&
+            if (document.container == Container::glb && index == 0 && meshoptExtension(entry) == nullptr &&
                 length > 0) {
                 failFile(ErrorCode::invalidFile, "the buffer is in the BIN chunk, but the file has none",
                          place);
@@ -129,6 +132,7 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
         buffer.path = resolveUri(document.folder, text, document.options.allow_external, join(place, "uri"));
         bytes = readFile(buffer.path, join(place, "uri"));
         document.input_bytes += bytes.size();
+        document.input_files.push_back(buffer.path.string());
     }
     if (length > bytes.size()) {
         failFile(ErrorCode::invalidFile,
@@ -207,11 +211,19 @@ Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, cons
     }
     checkImageUris(document);
     checkViewsAndAccessors(document);
+    decodeMeshoptViews(document);
+    decodeDracoPrimitives(document);
     return document;
 }
 
 Document loadDocument(const std::filesystem::path& path, const FileOptions& options) {
+    if (isImportedFormat(path)) return importDocument(path, options);
     return parseDocument(readFile(path), path, options);
+}
+
+std::string formatOf(const Document& document) {
+    if (document.imported) return lowerExtension(document.path).substr(1);
+    return document.container == Container::glb ? "glb" : "gltf";
 }
 
 std::vector<std::string> checkRequiredExtensions(const Document& document) {
@@ -222,9 +234,11 @@ std::vector<std::string> checkRequiredExtensions(const Document& document) {
         if (!required[i].is_string())
             failFile(ErrorCode::invalidFile, "the name of an extension is not a string", place);
         const auto& name = required[i].get_ref<const std::string&>();
-        if (std::find(kCompression.begin(), kCompression.end(), name) != kCompression.end()) {
-            failFile(ErrorCode::unsupportedFile, "the required extension " + name + " is not supported yet",
-                     place);
+        if (isCompression(name)) {
+            const std::string missing = compressionMissing(name);
+            if (!missing.empty())
+                failFile(ErrorCode::unsupportedFile, "the file requires " + name + ": " + missing, place);
+            continue;
         }
         if (std::find(kHarmless.begin(), kHarmless.end(), name) == kHarmless.end()) {
             warnings.push_back("the file requires the extension " + inQuotes(name) +

@@ -4,11 +4,15 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "asset/file_io.h"
 #include "asset/gltf/buffer_bytes.h"
+#include "asset/gltf/compression/draco.h"
 #include "asset/gltf/glb.h"
 #include "asset/gltf/json.h"
 #include "tspace/asset.h"
@@ -22,7 +26,8 @@ enum class BufferSource {
     bin,  ///< the BIN chunk
     dataUri,
     file,
-    absent,  ///< none: the fallback buffer of a compression extension, or data that somebody else provides
+    absent,   ///< none: the fallback buffer of a compression extension, or data that somebody else provides
+    decoded,  ///< a fallback buffer without data: what its compressed views decode to. In memory only
 };
 
 struct Buffer {
@@ -33,6 +38,11 @@ struct Buffer {
     /// edited. Other files belong to the input and are never changed.
     bool own = false;
     bool edited = false;  ///< the bytes differ from those that were read
+
+    /// False where no file holds these bytes.
+    [[nodiscard]] bool hasStoredBytes() const {
+        return source != BufferSource::absent && source != BufferSource::decoded;
+    }
 };
 
 struct Document {
@@ -43,8 +53,18 @@ struct Document {
     Json json = {};
     JsonStyle style = {};
     std::vector<Buffer> buffers = {};  ///< one per entry of /buffers
+    /// Views in a decoded buffer that no extension fills.
+    std::set<std::size_t> views_without_data = {};
+    /// Elements of accessors, tightly packed, that lie in the data of Draco primitives and in no buffer view.
+    std::map<std::size_t, Bytes> elements = {};
+    /// Accessors whose elements lie there and cannot be decoded by this build.
+    std::set<std::size_t> hidden_accessors = {};
+    /// How the values of a Draco attribute were rounded; by view and Draco id.
+    std::map<std::pair<std::size_t, std::uint32_t>, DracoRounding> draco_roundings = {};
     std::vector<ExtraChunk> extra_chunks = {};
     std::uint64_t input_bytes = 0;  ///< the model file and its buffer files
+    std::vector<std::string> input_files = {};  ///< what was read beside the model file
+    bool imported = false;  ///< made from a file of another format: `file_bytes` is not that file
     FileOptions options = {};
     std::vector<std::string> warnings = {};  ///< about how the file is stored
 };
@@ -57,9 +77,12 @@ Document loadDocument(const std::filesystem::path& path, const FileOptions& opti
 /// The same from bytes in memory; `path` says where relative URIs start.
 Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, const FileOptions& options);
 
-/// Fails with unsupportedFile when a required extension hides the geometry (Draco, meshopt). Returns one
+/// Fails with unsupportedFile when a required extension hides the geometry and this build cannot decode it. Returns one
 /// warning for each other required extension that this program does not know; their data survives untouched.
 std::vector<std::string> checkRequiredExtensions(const Document& document);
+
+/// "glb", "gltf", or the extension of a file of another format ("fbx"), for reports.
+std::string formatOf(const Document& document);
 
 /// Array of the root, whose entries are objects; only the names that loading checks ("meshes", "accessors");
 /// empty when absent.

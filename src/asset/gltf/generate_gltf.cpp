@@ -4,9 +4,12 @@
 
 #include "asset/file_error.h"
 #include "asset/gltf/apply_frames.h"
+#include "asset/gltf/compression/recompress.h"
 #include "asset/gltf/compute_pools.h"
 #include "asset/gltf/container.h"
 #include "asset/gltf/generate_plan.h"
+#include "asset/gltf/repair_plan.h"
+#include "asset/gltf/strip_tangents.h"
 #include "core/parallel.h"
 
 namespace tspace::gltf {
@@ -41,14 +44,22 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     report.warnings = document.warnings;
     for (std::string& warning : checkRequiredExtensions(document))
         report.warnings.push_back(std::move(warning));
-    const std::vector<Primitive> primitives = readPrimitives(document);
+    std::vector<Primitive> primitives = readPrimitives(document);
     GeneratePlan plan = planGenerate(document, primitives, options);
+    if (options.existing == ExistingTangents::repair) keepGoodPools(document, primitives, options, plan);
     report.input_bytes = document.input_bytes;
-    const bool converted = target.container != document.container;
-    convertContainer(document, target, !plan.pools.empty(), report.warnings);
+    const bool converted = target.container != document.container || document.imported;
+    const bool keeps_compression = options.compression == Compression::keep;
+    convertContainer(document, target, !plan.pools.empty() || !keeps_compression, report.warnings);
+    const std::string new_file = freeFileName(document, target, ".tspace.bin");
+    const bool repacked = recompress(document, options.compression, new_file);
+    if (repacked) {
+        primitives = readPrimitives(document);
+        plan = planGenerate(document, primitives, options);
+    }
     tell(options, "reading", 1, 1);
 
-    Editor editor(document, freeFileName(document, target, ".tspace.bin"));
+    Editor editor(document, new_file);
     std::uint64_t total = 0, done = 0;
     for (const Pool& pool : plan.pools) total += pool.corner_count;
     for (std::span<const Pool> rest = plan.pools; !rest.empty();) {
@@ -57,24 +68,30 @@ GenerateReport generate(const std::string& input, const std::string& output_path
         rest = rest.subspan(pools.size());
         std::vector<PoolFrames> frames = computePools(document, primitives, pools, options, plan.reports);
         for (std::size_t i = 0; i < pools.size(); ++i) {
-            applyFrames(editor, document, primitives, pools[i], frames[i], plan.reports);
+            applyFrames(editor, document, primitives, pools[i], frames[i], options.format, plan.reports);
             frames[i] = {};
             done += pools[i].corner_count;
         }
     }
     tell(options, "computing tangents", total, total);
+    stripTangents(editor, primitives, plan.reports);
     editor.finish();
+    // Views that could not be packed may be free now of what stood in the way.
+    const bool packed_more = options.compression == Compression::meshopt && recompress(document, options.compression, new_file);
 
     AtomicOutput files;
     tell(options, "writing", 0, 1);
-    if (editor.changed() || converted) {
+    report.changed = editor.changed() || converted || repacked || packed_more;
+    if (report.changed) {
         writeDocument(document, target, files, report.warnings);
     } else {
         writeUnchanged(document, target, files, report.warnings);
     }
     files.commit();
     tell(options, "writing", 1, 1);
-    report.changed = editor.changed() || converted;
+    report.input_files = std::move(document.input_files);
+    report.input_files.insert(report.input_files.begin(), input);
+    report.input_files.insert(report.input_files.end(), files.sources().begin(), files.sources().end());
     report.output_files = files.files();
     report.output_bytes = files.files().empty() ? document.input_bytes : files.byteCount();
     report.primitives = std::move(plan.reports);

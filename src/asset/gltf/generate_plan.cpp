@@ -3,12 +3,14 @@
 #include "asset/gltf/generate_plan.h"
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <string>
 #include <tuple>
 
-#include "asset/file_error.h"
 #include "asset/gltf/material_needs.h"
+#include "asset/gltf/primitive_notes.h"
+#include "asset/gltf/strip_tangents.h"
 
 namespace tspace::gltf {
 
@@ -21,48 +23,72 @@ bool hasUsableTangents(const Primitive& primitive) {
     return primitive.find("TANGENT").has_value() && primitive.find("NORMAL").has_value();
 }
 
+/// "its material", as a reason begins.
+std::string needWords(const TangentUse& use) {
+    return std::string(use.only_in_variant ? "a material variant" : "its material") + " needs tangents for " +
+           use.needed_by;
+}
+
+/// Whether nothing is to be computed because nobody asks for it. Fills action and reason then.
+bool isLeftAlone(PrimitiveReport& report, const Primitive& primitive, const std::vector<TangentUse>& uses,
+                 const GenerateOptions& options) {
+    std::string why;
+    if (!hasTriangles(primitive.mode)) {
+        report.action = PrimitiveAction::notTriangles;
+        why = std::string("it draws ") + modeName(primitive.mode) + ", which have no tangents";
+    } else if (uses.empty() && !options.all) {
+        report.action = PrimitiveAction::notNeeded;
+        why = primitive.material ? "its material has no texture that needs tangents" : "it has no material";
+    } else {
+        return false;
+    }
+    if (options.strip && uses.empty() && canStripTangents(primitive)) {
+        report.action = PrimitiveAction::removed;
+        why = "nothing needs its tangents: " + why;
+    } else if (options.strip && uses.empty() && primitive.find("TANGENT")) {
+        why += "; its tangents stay, because a morph target moves nothing else";
+    }
+    report.reason = std::move(why);
+    return true;
+}
+
+constexpr const char* kKeptReason = "it has tangents, and overwriting was not asked for";
+
 /// Fills action and reason. Returns true when tangents are to be computed; the action is then known only
-/// later.
-bool decide(PrimitiveReport& report, const Primitive& primitive, const TangentNeed& need,
+/// later, unless they are kept and only deltas of morph targets are computed.
+bool decide(PrimitiveReport& report, const Primitive& primitive, const std::vector<TangentUse>& uses,
             const GenerateOptions& options) {
     const auto leave = [&](PrimitiveAction action, std::string reason) {
         report.action = action;
         report.reason = std::move(reason);
         return false;
     };
-    if (!hasTriangles(primitive.mode)) {
-        return leave(PrimitiveAction::notTriangles,
-                     std::string("it draws ") + modeName(primitive.mode) + ", which have no tangents");
-    }
-    if (!need.needed() && !options.all) {
-        return leave(PrimitiveAction::notNeeded, primitive.material
-                                                     ? "its material has no texture that needs tangents"
-                                                     : "it has no material");
-    }
-    if (hasUsableTangents(primitive) && !options.overwrite) {
-        return leave(PrimitiveAction::kept, "it has tangents, and overwriting was not asked for");
-    }
-    if (!primitive.find("POSITION")) return leave(PrimitiveAction::impossible, "it has no positions");
-    if (primitive.triangleCount() == 0) return leave(PrimitiveAction::impossible, "it has no triangle");
+    if (isLeftAlone(report, primitive, uses, options)) return false;
+    const bool keeps = hasUsableTangents(primitive) && options.existing == ExistingTangents::keep;
+    if (keeps && !lacksDeltas(primitive)) return leave(PrimitiveAction::kept, kKeptReason);
+    const auto cannot = [&](const std::string& reason) {
+        if (!keeps) return leave(PrimitiveAction::impossible, reason);
+        return leave(PrimitiveAction::kept,
+                     std::string(kKeptReason) + "; its morph targets get no tangent deltas, because " + reason);
+    };
+    if (!primitive.find("POSITION")) return cannot("it has no positions");
+    if (primitive.triangleCount() == 0) return cannot("it has no triangle");
     if (options.tangents.method != Method::basis) {
-        if (!primitive.find(uvName(need.uv_set))) {
-            return leave(PrimitiveAction::impossible,
-                         "it has no " + uvName(need.uv_set) + " for the tangents to follow");
+        const std::size_t uv_set = uses.empty() ? 0 : uses[0].uv_set;
+        if (!primitive.find(uvName(uv_set))) {
+            return cannot("it has no " + uvName(uv_set) + " for the tangents to follow");
         }
-        report.uv_set = static_cast<std::int32_t>(need.uv_set);
+        report.uv_set = static_cast<std::int32_t>(uv_set);
     }
-    if (primitive.has_draco) {
-        failFile(ErrorCode::unsupportedFile,
-                 "the primitive is compressed by KHR_draco_mesh_compression, which is not supported yet",
-                 primitive.place() + "/extensions/KHR_draco_mesh_compression");
-    }
-    report.reason =
-        need.needed() ? "its material needs tangents for " + need.needed_by : "all primitives were asked for";
+    report.reason = uses.empty() ? "all primitives were asked for" : needWords(uses[0]);
+    if (hasUsableTangents(primitive) && options.existing == ExistingTangents::replace)
+        report.reason += ", and overwriting was asked for";
+    if (keeps) leave(PrimitiveAction::kept, kKeptReason);
     return true;
 }
 
 /// Two primitives with the same key share every vertex.
-std::string poolKey(const Primitive& primitive, std::int32_t uv_set) {
+std::string poolKey(const Primitive& primitive, std::int32_t uv_set, const UvMatrix& matrix) {
     const auto append = [](std::string& key, AttributeList list) {
         std::sort(list.begin(), list.end());
         for (const auto& [name, accessor] : list)
@@ -70,6 +96,8 @@ std::string poolKey(const Primitive& primitive, std::int32_t uv_set) {
         key += '|';
     };
     std::string key = std::to_string(uv_set);
+    for (const double entry : {matrix.uu, matrix.uv, matrix.vu, matrix.vv})
+        key += ',' + std::to_string(std::bit_cast<std::uint64_t>(entry));
     // Plain triangles without indices need no split, so no other primitive may force one on them.
     key += !primitive.indices && primitive.mode == Mode::triangles ? "n|" : "i|";
     append(key, primitive.attributes);
@@ -79,9 +107,16 @@ std::string poolKey(const Primitive& primitive, std::int32_t uv_set) {
 
 }  // namespace
 
+bool lacksDeltas(const Primitive& primitive) {
+    return std::any_of(primitive.targets.begin(), primitive.targets.end(), [](const AttributeList& target) {
+        return movesFrames(target) && !findAttribute(target, "TANGENT");
+    });
+}
+
 GeneratePlan planGenerate(const Document& document, std::span<const Primitive> primitives,
                           const GenerateOptions& options) {
     GeneratePlan plan;
+    const std::set<std::string> animated = animatedPointers(document);
     plan.reports.resize(primitives.size());
     std::map<std::string, std::size_t> pool_of;
     std::map<std::tuple<std::size_t, std::size_t, Mode>, std::size_t> geometry_of;
@@ -93,18 +128,29 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
         report.mesh_name = primitive.mesh_name;
         report.material_name = materialName(document, primitive);
         report.triangle_count = primitive.triangleCount();
+        report.morph_target_count = static_cast<std::uint32_t>(primitive.targets.size());
         report.vertices_before = report.vertices_after = primitive.vertex_count;
-        if (!decide(report, primitive, tangentNeed(document, primitive), options)) continue;
+        const std::vector<TangentUse> uses = tangentUses(document, primitive);
+        const bool computes = decide(report, primitive, uses, options);
+        if (hasTriangles(primitive.mode))
+            report.notes = notesOf(uses, animated, options.texture_transform, computes && report.uv_set >= 0);
+        if (!computes) continue;
+        if (primitive.find("TANGENT") && !hasUsableTangents(primitive))
+            report.notes.emplace_back("the tangents that it had did not count, because it had no normals");
 
+        UvMatrix matrix;
+        if (report.uv_set >= 0 && !uses.empty()) matrix = uvMatrixOf(uses[0], options.texture_transform);
         const auto [pool_entry, is_new_pool] =
-            pool_of.try_emplace(poolKey(primitive, report.uv_set), plan.pools.size());
+            pool_of.try_emplace(poolKey(primitive, report.uv_set, matrix), plan.pools.size());
         const std::size_t pool_number = pool_entry->second;
         if (is_new_pool) {
             Pool& created = plan.pools.emplace_back();
             created.uses_uvs = report.uv_set >= 0;
+            created.uv_matrix = matrix;
             created.uv_set = created.uses_uvs ? static_cast<std::size_t>(report.uv_set) : 0;
             created.has_normals = primitive.find("NORMAL").has_value();
             created.has_tangents = hasUsableTangents(primitive);
+            created.keeps_tangents = report.action == PrimitiveAction::kept;
         }
         Pool& pool = plan.pools[pool_number];
         pool.primitives.push_back(i);

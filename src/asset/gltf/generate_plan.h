@@ -8,6 +8,7 @@
 
 #include "asset/gltf/document.h"
 #include "asset/gltf/primitive_reader.h"
+#include "generate/uv_matrix.h"
 #include "tspace/asset.h"
 
 namespace tspace::gltf {
@@ -17,14 +18,17 @@ struct PoolGeometry {
     std::vector<std::size_t> primitives = {};  ///< numbers into the list of primitives; never empty
 };
 
-/// Primitives over the same attribute accessors and morph targets whose tangents follow the same UV set.
+/// Primitives over the same attribute accessors and morph targets whose tangents follow the same UV set, turned the
+/// same way.
 struct Pool {
     std::vector<PoolGeometry> geometries = {};
     std::vector<std::size_t> primitives = {};  ///< all of them, in file order
     bool uses_uvs = true;
     std::size_t uv_set = 0;
+    UvMatrix uv_matrix = {};
     bool has_normals = false;
     bool has_tangents = false;  ///< there are tangents with normals; others do not count
+    bool keeps_tangents = false;  ///< they stay, and morph targets without tangent deltas get some
     std::size_t corner_count = 0;
 };
 
@@ -33,7 +37,9 @@ struct GeneratePlan {
     std::vector<PrimitiveReport> reports = {};  ///< one per primitive; final for those in no pool
 };
 
-/// Fails with unsupportedFile when a primitive that would change is Draco-compressed.
+/// Whether a morph target that moves the surface leaves the tangents behind.
+bool lacksDeltas(const Primitive& primitive);
+
 GeneratePlan planGenerate(const Document& document, std::span<const Primitive> primitives,
                           const GenerateOptions& options);
 

@@ -87,7 +87,7 @@ GlbFrame frameGlb(const std::string& json, std::optional<std::size_t> bin_bytes,
         total += kChunkHeadBytes + chunk.bytes.size() + paddingOf(chunk.bytes.size());
     if (total > 0xffffffffu) {
         failFile(ErrorCode::cannotWrite,
-                 "the GLB would be larger than the 4 GiB that the format allows; write .gltf instead");
+                 "the GLB would be larger than the 4 GiB that the format allows; write .gltf, which has its data in a .bin");
     }
     GlbFrame frame;
     frame.head.reserve(kHeaderBytes + 2 * kChunkHeadBytes + json_bytes);

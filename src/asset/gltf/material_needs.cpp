@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Finding the texture that asks for tangents: normalTexture, KHR_materials_clearcoat,
-// KHR_materials_anisotropy.
+// Finding what asks for tangents: normalTexture, KHR_materials_clearcoat, KHR_materials_anisotropy, each with its UV
+// set, KHR_texture_transform and image.
 #include "asset/gltf/material_needs.h"
+
+#include <set>
+#include <utility>
 
 #include "asset/file_error.h"
 
@@ -18,61 +21,146 @@ std::size_t readUvSet(const Json& object, const std::string& place, std::size_t 
     return set;
 }
 
-/// texCoord of a texture reference; the one of KHR_texture_transform goes first.
-std::size_t uvSetOf(const Json& texture, const std::string& place) {
-    const std::size_t own = readUvSet(texture, place, 0);
-    const Json* extensions = readObject(texture, "extensions", place);
-    if (extensions == nullptr) return own;
-    const std::string transform_place = join(place, "extensions");
-    const Json* transform = readObject(*extensions, "KHR_texture_transform", transform_place);
-    if (transform == nullptr) return own;
-    return readUvSet(*transform, join(transform_place, "KHR_texture_transform"), own);
+/// Two numbers; `pair` stays as it is when the member is absent.
+void readPair(const Json& object, const char* key, const std::string& place, double (&pair)[2]) {
+    const Json* value = findMember(object, key);
+    if (value == nullptr) return;
+    if (!value->is_array() || value->size() != 2 || !(*value)[0].is_number() || !(*value)[1].is_number())
+        failFile(ErrorCode::invalidFile, std::string("'") + key + "' is not an array of two numbers", join(place, key));
+    for (std::size_t i = 0; i < 2; ++i) pair[i] = (*value)[i].get<double>();
 }
 
-TangentNeed needOf(const Json& material, const std::string& place) {
-    if (const Json* normal = readObject(material, "normalTexture", place)) {
-        return {"normalTexture", uvSetOf(*normal, join(place, "normalTexture"))};
-    }
-    const Json* extensions = readObject(material, "extensions", place);
-    if (extensions == nullptr) return {};
+/// UV set and transform of a texture reference. The texCoord of KHR_texture_transform goes before its own.
+void readUvs(const Json& texture, const std::string& place, TangentUse& use) {
+    use.uv_set = readUvSet(texture, place, 0);
+    const Json* extensions = readObject(texture, "extensions", place);
+    if (extensions == nullptr) return;
     const std::string extension_place = join(place, "extensions");
-    if (const Json* coat = readObject(*extensions, "KHR_materials_clearcoat", extension_place)) {
-        const std::string coat_place = join(extension_place, "KHR_materials_clearcoat");
-        if (const Json* normal = readObject(*coat, "clearcoatNormalTexture", coat_place)) {
-            return {"clearcoatNormalTexture", uvSetOf(*normal, join(coat_place, "clearcoatNormalTexture"))};
-        }
-    }
-    if (const Json* anisotropy = readObject(*extensions, "KHR_materials_anisotropy", extension_place)) {
-        const std::string anisotropy_place = join(extension_place, "KHR_materials_anisotropy");
-        const Json* texture = readObject(*anisotropy, "anisotropyTexture", anisotropy_place);
-        if (texture != nullptr)
-            return {"anisotropy", uvSetOf(*texture, join(anisotropy_place, "anisotropyTexture"))};
-        if (readNumber(*anisotropy, "anisotropyStrength", anisotropy_place, 0) != 0) return {"anisotropy", 0};
+    const Json* transform = readObject(*extensions, "KHR_texture_transform", extension_place);
+    if (transform == nullptr) return;
+    const std::string transform_place = join(extension_place, "KHR_texture_transform");
+    use.uv_set = readUvSet(*transform, transform_place, use.uv_set);
+    readPair(*transform, "offset", transform_place, use.transform.offset);
+    use.transform.rotation = readNumber(*transform, "rotation", transform_place, 0);
+    readPair(*transform, "scale", transform_place, use.transform.scale);
+}
+
+/// A member that is an index below `limit`, or nothing. Images do not matter to frames, so a wrong one is no reason to
+/// refuse the file.
+std::optional<std::size_t> indexBelow(const Json& object, const char* key, std::size_t limit) {
+    const Json* value = findMember(object, key);
+    if (value == nullptr || !value->is_number_integer()) return {};
+    const auto index = value->get<std::int64_t>();
+    if (index < 0 || static_cast<std::uint64_t>(index) >= limit) return {};
+    return static_cast<std::size_t>(index);
+}
+
+/// `source` where there is one: the other formats are alternatives to it.
+std::optional<std::size_t> imageOf(const Document& document, const Json& reference) {
+    const Json* textures = findMember(document.json, "textures");
+    const Json* images = findMember(document.json, "images");
+    if (textures == nullptr || !textures->is_array() || images == nullptr || !images->is_array()) return {};
+    const auto index = indexBelow(reference, "index", textures->size());
+    if (!index) return {};
+    const Json& texture = (*textures)[*index];
+    if (const auto source = indexBelow(texture, "source", images->size())) return source;
+    for (const char* name : {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"}) {
+        const Json* extension = findExtension(texture, name);
+        if (extension == nullptr) continue;
+        if (const auto source = indexBelow(*extension, "source", images->size())) return source;
     }
     return {};
 }
 
+/// Collects the uses of one material.
+class MaterialUses {
+  public:
+    MaterialUses(const Document& document, std::size_t material, bool only_in_variant, std::vector<TangentUse>& uses)
+        : document_(document),
+          material_(material),
+          only_in_variant_(only_in_variant),
+          uses_(uses),
+          first_(uses.size()) {}
+
+    void collect() {
+        const Json& material = rootArray(document_, "materials")[material_];
+        const std::string place = join("/materials", material_);
+        addTexture(material, place, "normalTexture", "normalTexture");
+        const Json* extensions = readObject(material, "extensions", place);
+        if (extensions == nullptr) return;
+        const std::string extension_place = join(place, "extensions");
+        if (const Json* coat = readObject(*extensions, "KHR_materials_clearcoat", extension_place)) {
+            addTexture(*coat, join(extension_place, "KHR_materials_clearcoat"), "clearcoatNormalTexture",
+                       "clearcoatNormalTexture");
+        }
+        if (const Json* anisotropy = readObject(*extensions, "KHR_materials_anisotropy", extension_place)) {
+            addAnisotropy(*anisotropy, join(extension_place, "KHR_materials_anisotropy"));
+        }
+    }
+
+  private:
+    TangentUse& add(const char* needed_by, std::string place) {
+        TangentUse& use = uses_.emplace_back();
+        use.needed_by = needed_by;
+        use.place = std::move(place);
+        use.material = material_;
+        use.only_in_variant = only_in_variant_;
+        return use;
+    }
+
+    /// Returns false when there is no such texture.
+    bool addTexture(const Json& object, const std::string& place, const char* key, const char* needed_by) {
+        const Json* texture = readObject(object, key, place);
+        if (texture == nullptr) return false;
+        TangentUse& use = add(needed_by, join(place, key));
+        readUvs(*texture, use.place, use);
+        use.image = imageOf(document_, *texture);
+        return true;
+    }
+
+    void addAnisotropy(const Json& anisotropy, const std::string& place) {
+        if (addTexture(anisotropy, place, "anisotropyTexture", "anisotropy")) return;
+        if (readNumber(anisotropy, "anisotropyStrength", place, 0) == 0) return;
+        TangentUse& use = add("anisotropy", place);
+        // Without a texture of its own it has no UVs of its own either: it turns with the material's other tangents.
+        if (uses_.size() - 1 == first_) return;
+        use.uv_set = uses_[first_].uv_set;
+        use.transform = uses_[first_].transform;
+    }
+
+    const Document& document_;
+    std::size_t material_;
+    bool only_in_variant_;
+    std::vector<TangentUse>& uses_;
+    std::size_t first_;  ///< where those of this material begin
+};
+
 }  // namespace
 
-TangentNeed tangentNeed(const Document& document, const Primitive& primitive) {
-    const Json& materials = rootArray(document, "materials");
-    TangentNeed need;
-    if (primitive.material)
-        need = needOf(materials[*primitive.material], join("/materials", *primitive.material));
-    if (need.needed()) return need;
+std::vector<std::size_t> variantMaterials(const Document& document, const Primitive& primitive) {
+    std::vector<std::size_t> materials;
     const Json& object = document.json["meshes"][primitive.mesh]["primitives"][primitive.index];
     const Json* variants = findExtension(object, "KHR_materials_variants");
-    if (variants == nullptr) return need;
+    if (variants == nullptr) return materials;
     const std::string place = primitive.place() + "/extensions/KHR_materials_variants";
     const Json& mappings = readArray(*variants, "mappings", place);
+    std::set<std::size_t> seen;
+    const std::size_t count = rootArray(document, "materials").size();
     for (std::size_t i = 0; i < mappings.size(); ++i) {
-        const auto material = readIndex(mappings[i], "material", join(join(place, "mappings"), i),
-                                        materials.size(), "material");
-        if (!material) continue;
-        need = needOf(materials[*material], join("/materials", *material));
-        if (need.needed()) return need;
+        // Exporters leave mappings to materials that they dropped. Viewers then keep the primitive's own material.
+        const std::size_t material = readSize(mappings[i], "material", join(place + "/mappings", i), count);
+        if (material < count && seen.insert(material).second) materials.push_back(material);
     }
-    return need;
+    return materials;
+}
+
+std::vector<TangentUse> tangentUses(const Document& document, const Primitive& primitive) {
+    std::vector<TangentUse> uses;
+    if (primitive.material) MaterialUses(document, *primitive.material, false, uses).collect();
+    for (const std::size_t material : variantMaterials(document, primitive)) {
+        if (material != primitive.material) MaterialUses(document, material, true, uses).collect();
+    }
+    return uses;
 }
 
 std::string materialName(const Document& document, const Primitive& primitive) {

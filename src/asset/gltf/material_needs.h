@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Which materials need tangents, because of which texture, and along which UV set.
+// Which textures and parameters of a primitive's materials are shaded in tangent space.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "asset/gltf/document.h"
 #include "asset/gltf/primitive_reader.h"
+#include "asset/tangent_use.h"
 
 namespace tspace::gltf {
 
-struct TangentNeed {
-    std::string needed_by =
-        {};                  ///< "normalTexture", "clearcoatNormalTexture" or "anisotropy"; empty: not needed
-    std::size_t uv_set = 0;  ///< n of TEXCOORD_n; 0 where no texture asks
+/// Everything in the primitive's materials that needs tangents; empty: nothing does. The first decides which UV set
+/// and transform the tangents follow.
+///
+/// The primitive's own material comes first, then those of KHR_materials_variants in the order of the mappings, each
+/// material once. Of one material: normalTexture, clearcoatNormalTexture (KHR_materials_clearcoat), anisotropy
+/// (KHR_materials_anisotropy: a texture, or only a strength that is not 0; that has the UVs of the material's first
+/// use, TEXCOORD_0 where it is the first, and `place` is that of the extension). An image is named where the texture
+/// leads to one. Fails with invalidFile.
+std::vector<TangentUse> tangentUses(const Document& document, const Primitive& primitive);
 
-    [[nodiscard]] bool needed() const { return !needed_by.empty(); }
-};
-
-/// What the primitive's material asks for. Where it asks for nothing, the materials of its
-/// KHR_materials_variants are looked at in file order.
-TangentNeed tangentNeed(const Document& document, const Primitive& primitive);
+/// The materials that KHR_materials_variants can put on the primitive, in the order of the mappings, each once.
+std::vector<std::size_t> variantMaterials(const Document& document, const Primitive& primitive);
 
 /// The name of the primitive's material, may be empty.
 std::string materialName(const Document& document, const Primitive& primitive);

@@ -57,7 +57,6 @@ Primitive readPrimitive(const Document& document, const Json& object, std::uint3
     primitive.indices = readIndex(object, "indices", place, accessor_count, "accessor");
     primitive.material =
         readIndex(object, "material", place, rootArray(document, "materials").size(), "material");
-    primitive.has_draco = findExtension(object, "KHR_draco_mesh_compression") != nullptr;
     const Json* attributes = readObject(object, "attributes", place);
     if (attributes == nullptr) failFile(ErrorCode::invalidFile, "the member 'attributes' is missing", place);
     primitive.attributes = readAttributes(*attributes, join(place, "attributes"), accessor_count);
@@ -114,8 +113,8 @@ const char* modeName(Mode mode) {
     return "";
 }
 
-std::optional<std::size_t> Primitive::find(const std::string& name) const {
-    for (const auto& [key, accessor] : attributes) {
+std::optional<std::size_t> findAttribute(const AttributeList& list, const std::string& name) {
+    for (const auto& [key, accessor] : list) {
         if (key == name) return accessor;
     }
     return {};
@@ -180,6 +179,14 @@ std::vector<Vec3> readVec3(const Document& document, const Primitive& primitive,
 std::vector<Vec4> readTangents(const Document& document, const Primitive& primitive) {
     return decodeVec4(document, attributeAccessor(document, primitive, "TANGENT"),
                       attributePlace(primitive, "TANGENT"));
+}
+
+std::vector<Vec3> readOffsets(const Document& document, const Primitive& primitive, std::size_t target,
+                              const char* attribute) {
+    const auto index = findAttribute(primitive.targets[target], attribute);
+    if (!index) return {};
+    const std::string place = join(join(join(primitive.place(), "targets"), target), attribute);
+    return decodeVec3(document, readAccessor(document, *index), place);
 }
 
 }  // namespace tspace::gltf

@@ -31,6 +31,13 @@ inline bool hasTriangles(Mode mode) { return mode >= Mode::triangles; }
 /// Attribute name -> accessor, in the order of the file.
 using AttributeList = std::vector<std::pair<std::string, std::size_t>>;
 
+std::optional<std::size_t> findAttribute(const AttributeList& list, const std::string& name);
+
+/// Whether a morph target can change frames.
+inline bool movesFrames(const AttributeList& target) {
+    return findAttribute(target, "POSITION").has_value() || findAttribute(target, "NORMAL").has_value();
+}
+
 struct Primitive {
     std::uint32_t mesh = 0;
     std::uint32_t index = 0;  ///< in its mesh
@@ -42,14 +49,15 @@ struct Primitive {
     std::vector<AttributeList> targets = {};
     std::size_t vertex_count = 0;
     std::size_t corner_count = 0;  ///< entries of the index list, or vertices
-    bool has_draco = false;        ///< KHR_draco_mesh_compression on this primitive
 
     /// JSON pointer.
     [[nodiscard]] std::string place() const {
         return "/meshes/" + std::to_string(mesh) + "/primitives/" + std::to_string(index);
     }
     /// The accessor of an attribute, if there.
-    [[nodiscard]] std::optional<std::size_t> find(const std::string& name) const;
+    [[nodiscard]] std::optional<std::size_t> find(const std::string& name) const {
+        return findAttribute(attributes, name);
+    }
     [[nodiscard]] std::size_t triangleCount() const;
 };
 
@@ -64,5 +72,8 @@ std::vector<std::uint32_t> readTriangleCorners(const Document& document, const P
 std::vector<Vec2> readUvs(const Document& document, const Primitive& primitive, std::size_t uv_set);
 std::vector<Vec3> readVec3(const Document& document, const Primitive& primitive, const char* attribute);
 std::vector<Vec4> readTangents(const Document& document, const Primitive& primitive);
+/// Offsets of morph target `target`; empty where it does not move the attribute.
+std::vector<Vec3> readOffsets(const Document& document, const Primitive& primitive, std::size_t target,
+                              const char* attribute);
 
 }  // namespace tspace::gltf

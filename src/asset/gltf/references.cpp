@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "asset/file_error.h"
+#include "asset/gltf/compression/meshopt_views.h"
 
 namespace tspace::gltf {
 
@@ -138,21 +139,15 @@ void moveOffset(Json& object, const Mover& moved, std::size_t view_begin) {
     setOffset(object, moved(view_begin + offset) - moved(view_begin), "byteOffset");
 }
 
-bool isNamedByExtension(const Document& document, std::size_t buffer) {
-    for (const Json& view : rootArray(document, "bufferViews")) {
-        for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-            const Json* extension = findExtension(view, name);
-            if (extension != nullptr && readSize(*extension, "buffer", "", 0) == buffer) return true;
-        }
-    }
-    return false;
-}
-
 void cutBuffer(Document& document, std::size_t buffer, std::span<const ByteRange> cuts) {
     const Mover moved(cuts);
     std::vector<std::size_t> old_begin;
     for (std::size_t i = 0; i < rootArray(document, "bufferViews").size(); ++i) {
         const BufferView view = readBufferView(document, i);
+        if (const auto packed = readMeshoptView(document, i); packed && packed->buffer == buffer) {
+            setOffset(document.json["bufferViews"][i]["extensions"][packed->extension], moved(packed->begin),
+                      "byteOffset");
+        }
         old_begin.push_back(view.buffer == buffer ? view.begin : Extent::kNoAccessor);
         if (view.buffer != buffer) continue;
         Json& object = document.json["bufferViews"][i];
@@ -238,6 +233,12 @@ std::vector<Extent> collectExtents(const Document& document) {
                                       known ? sparse.count * accessor.element_bytes
                                             : readBufferView(document, sparse.value_view).byte_count));
     }
+    for (std::size_t i = 0; i < rootArray(document, "bufferViews").size(); ++i) {
+        if (const auto packed = readMeshoptView(document, i)) {
+            extents.push_back({Extent::kNoAccessor, packed->buffer, packed->begin,
+                               packed->begin + packed->byte_count, 0, 0});
+        }
+    }
     // Views that images, extensions or nobody we know reads are taken as a whole.
     const std::vector<std::size_t> all = countViewUses(document), known = accessorViewUses(document);
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -262,7 +263,7 @@ bool overlaps(const Extent& a, const Extent& b) {
 void cutVacated(Document& document, std::span<const ByteRange> vacated) {
     const std::vector<Extent> live = collectExtents(document);
     for (std::size_t i = 0; i < document.buffers.size(); ++i) {
-        if (!document.buffers[i].own || isNamedByExtension(document, i)) continue;
+        if (!document.buffers[i].own && document.buffers[i].source != BufferSource::decoded) continue;
         const std::vector<ByteRange> cuts = cutsOf(i, vacated, live);
         if (!cuts.empty()) cutBuffer(document, i, cuts);
     }

@@ -8,6 +8,7 @@
 #include "asset/obj/obj_primitives.h"
 #include "asset/obj/obj_reader.h"
 #include "asset/obj/obj_writer.h"
+#include "generate/unit_lattice.h"
 #include "tspace/triangulate.h"
 
 namespace tspace {
@@ -83,10 +84,14 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, cons
     report.mesh_name = model.shape_names[primitive.shape];
     report.material_name = material.name;
     ObjGeometry geometry = buildGeometry(model, primitive);
+    // Before tangents are computed: they belong to the normals that are written.
+    if (primitive.normals_generated) roundUnits(geometry.pool.normals, options.format);
     const bool computes = decide(material, primitive, options, report);
     FinishedPrimitive finished = computes ? finishWithFrames(std::move(geometry), options, report)
                                           : finishWithoutFrames(std::move(geometry), report);
     report.normals_generated = primitive.normals_generated;
+    if (primitive.normals_generated) finished.normal_format = options.format;
+    finished.tangent_format = options.format;
     finished.shape = primitive.shape;
     finished.material = primitive.material;
     return finished;
@@ -98,6 +103,10 @@ void tell(const GenerateOptions& options, const char* what, std::uint64_t done, 
 
 GenerateReport generate(const std::string& input, const std::string& output, const GenerateOptions& options) {
     checkOutput(output);
+    if (options.compression == Compression::meshopt || options.compression == Compression::draco) {
+        failFile(ErrorCode::invalidOption,
+                 "what is made from OBJ is not compressed in the same run; compress the result in a second one");
+    }
     tell(options, "reading", 0, 0);
     Model model = readModel(input, options.file);
     std::vector<ObjPrimitive> primitives = collectPrimitives(model);
@@ -123,6 +132,8 @@ GenerateReport generate(const std::string& input, const std::string& output, con
     AtomicOutput files;
     writeScene(model, finished, output, options.file, files, report.warnings);
     files.commit();
+    report.input_files = std::move(model.input_files);
+    report.input_files.insert(report.input_files.end(), files.sources().begin(), files.sources().end());
     report.output_files = files.files();
     report.output_bytes = files.byteCount();
     return report;

@@ -87,6 +87,7 @@ bool readLibrary(const fs::path& folder, const std::string& name, const FileOpti
     if (!fs::is_regular_file(path, ignored)) return false;
     const Bytes bytes = readFile(path, "mtllib");
     model.input_bytes += bytes.size();
+    model.input_files.push_back(path.string());
     std::string text(bytes.begin(), bytes.end());
     makeLineEndsPlain(text);
 

@@ -60,6 +60,7 @@ struct Model {
     std::vector<Material> materials = {};  ///< in order of first use by a face
     bool has_smoothing_groups = false;     ///< the file has `s` lines
     std::uint64_t input_bytes = 0;         ///< the OBJ and its MTL files
+    std::vector<std::string> input_files = {};  ///< the same
     std::vector<std::string> warnings = {};
 };
 

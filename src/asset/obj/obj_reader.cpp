@@ -279,6 +279,7 @@ Model readModel(const std::filesystem::path& path, const FileOptions& options) {
     Model model;
     model.folder = folderOf(path);
     model.input_bytes = bytes.size();
+    model.input_files.push_back(path.string());
     std::string text(bytes.begin(), bytes.end());
     Bytes().swap(bytes);
     const LineNotes notes = prepareLines(text);

@@ -8,6 +8,7 @@
 
 #include "asset/file_error.h"
 #include "asset/uri.h"
+#include "generate/unit_lattice.h"
 
 namespace tspace::obj {
 namespace {
@@ -17,6 +18,8 @@ using gltf::Json;
 
 constexpr int kArrayBuffer = 34962;
 constexpr int kElementArrayBuffer = 34963;
+constexpr int kByte = 5120;
+constexpr int kShort = 5122;
 constexpr int kUnsignedShort = 5123;
 constexpr int kUnsignedInt = 5125;
 constexpr int kFloat = 5126;
@@ -29,6 +32,27 @@ class BufferBuilder {
         const std::size_t view = addView(values.data(), values.size() * sizeof(T), kArrayBuffer);
         accessors_.push_back(
             {{"bufferView", view}, {"componentType", kFloat}, {"count", values.size()}, {"type", type}});
+        return accessors_.size() - 1;
+    }
+
+    /// Normals or tangents; elements start at multiples of 4 bytes.
+    template <class T>
+    std::size_t addUnits(const std::vector<T>& values, const char* type, VectorFormat format) {
+        if (format == VectorFormat::float32) return addVertices(values, type);
+        const std::vector<std::uint8_t> packed = packUnits(std::span<const T>(values), format);
+        const std::size_t element = packed.size() / values.size(), stride = (element + 3) / 4 * 4;
+        Bytes rows(values.size() * stride, 0);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            std::copy_n(packed.begin() + static_cast<std::ptrdiff_t>(i * element), element,
+                        rows.begin() + static_cast<std::ptrdiff_t>(i * stride));
+        const std::size_t view = addView(rows.data(), rows.size(), kArrayBuffer);
+        if (stride != element) views_[view]["byteStride"] = stride;
+        accessors_.push_back({{"bufferView", view},
+                              {"componentType", format == VectorFormat::snorm8 ? kByte : kShort},
+                              {"normalized", true},
+                              {"count", values.size()},
+                              {"type", type}});
+        has_integers_ = true;
         return accessors_.size() - 1;
     }
 
@@ -73,6 +97,8 @@ class BufferBuilder {
         return views_.size() - 1;
     }
 
+    /// Whether KHR_mesh_quantization is needed.
+    [[nodiscard]] bool hasIntegers() const { return has_integers_; }
     [[nodiscard]] const Bytes& bytes() const { return bytes_; }
     [[nodiscard]] const Json& views() const { return views_; }
     [[nodiscard]] const Json& accessors() const { return accessors_; }
@@ -81,6 +107,7 @@ class BufferBuilder {
     Bytes bytes_ = {};
     Json views_ = Json::array();
     Json accessors_ = Json::array();
+    bool has_integers_ = false;
 };
 
 /// By content, because names lie. Null for anything that core glTF does not have.
@@ -99,11 +126,12 @@ const char* imageType(const Bytes& bytes) {
 class ImageBuilder {
   public:
     ImageBuilder(const Model& model, const fs::path& output, const FileOptions& options,
-                 BufferBuilder& buffer, std::vector<std::string>& warnings)
+                 BufferBuilder& buffer, AtomicOutput& files, std::vector<std::string>& warnings)
         : names_by_uri_(isSameFile(folderOf(output), model.folder)),
           folder_(model.folder),
           options_(options),
           buffer_(buffer),
+          files_(files),
           warnings_(warnings) {}
 
     /// Sets material[key] to a reference to the texture; nothing where it cannot be had.
@@ -123,6 +151,7 @@ class ImageBuilder {
             const fs::path path =
                 resolveUri(texture.folder, percentEncode(texture.file), options_.allow_external, "material");
             const Bytes bytes = readFile(path);
+            files_.addSource(path);
             const char* type = imageType(bytes);
             if (type == nullptr) {
                 warnings_.push_back("the texture '" + texture.file +
@@ -155,6 +184,7 @@ class ImageBuilder {
     const fs::path& folder_;
     const FileOptions& options_;
     BufferBuilder& buffer_;
+    AtomicOutput& files_;
     std::vector<std::string>& warnings_;
     std::map<std::string, int> textures_by_file_ = {};
     Json images_ = Json::array();
@@ -200,8 +230,9 @@ std::vector<int> addMaterials(const Model& model, ImageBuilder& images, Json& ma
 
 Json primitiveJson(const FinishedPrimitive& primitive, int material, BufferBuilder& buffer) {
     Json attributes = {{"POSITION", buffer.addPositions(primitive.positions)},
-                       {"NORMAL", buffer.addVertices(primitive.normals, "VEC3")}};
-    if (!primitive.tangents.empty()) attributes["TANGENT"] = buffer.addVertices(primitive.tangents, "VEC4");
+                       {"NORMAL", buffer.addUnits(primitive.normals, "VEC3", primitive.normal_format)}};
+    if (!primitive.tangents.empty())
+        attributes["TANGENT"] = buffer.addUnits(primitive.tangents, "VEC4", primitive.tangent_format);
     if (!primitive.uvs.empty()) attributes["TEXCOORD_0"] = buffer.addVertices(primitive.uvs, "VEC2");
     Json json = {{"attributes", std::move(attributes)},
                  {"indices", buffer.addIndices(primitive.indices, primitive.positions.size())}};
@@ -263,7 +294,7 @@ void writeFiles(Json& root, const Bytes& bytes, const fs::path& output, AtomicOu
 void writeScene(const Model& model, const std::vector<FinishedPrimitive>& primitives, const fs::path& output,
                 const FileOptions& options, AtomicOutput& files, std::vector<std::string>& warnings) {
     BufferBuilder buffer;
-    ImageBuilder images(model, output, options, buffer, warnings);
+    ImageBuilder images(model, output, options, buffer, files, warnings);
     Json root = {{"asset", {{"version", "2.0"}, {"generator", "tspace"}}}};
     Json materials = Json::array();
     const std::vector<int> material_numbers = addMaterials(model, images, materials);
@@ -272,6 +303,7 @@ void writeScene(const Model& model, const std::vector<FinishedPrimitive>& primit
     addTextures(images, root);
     root["accessors"] = buffer.accessors();
     root["bufferViews"] = buffer.views();
+    if (buffer.hasIntegers()) root["extensionsUsed"] = root["extensionsRequired"] = {"KHR_mesh_quantization"};
     writeFiles(root, buffer.bytes(), output, files);
 }
 

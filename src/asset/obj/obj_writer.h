@@ -21,6 +21,7 @@ struct FinishedPrimitive {
     std::vector<Vec2> uvs = {};       ///< empty: none
     std::vector<Vec4> tangents = {};  ///< empty: none
     std::vector<std::uint32_t> indices = {};
+    VectorFormat normal_format = VectorFormat::float32, tangent_format = VectorFormat::float32;
 };
 
 /// Writes to `output` (.glb, else .gltf with a .bin beside it). Images that lie in the output's own folder

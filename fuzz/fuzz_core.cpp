@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// The core's border: any mesh with any options. One thread with plain C++ and three threads with the best SIMD give the same
+// bits, as do generate and plan + evaluate; sanitize leaves nothing broken.
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "tspace/normals.h"
+#include "tspace/sanitize.h"
+#include "tspace/split.h"
+#include "tspace/tangents.h"
+#include "tspace/triangulate.h"
+
+namespace {
+
+using namespace tspace;
+
+void require(bool holds, const char* what) {
+    if (holds) return;
+    std::fprintf(stderr, "fuzz: this does not hold: %s\n", what);
+    std::abort();
+}
+
+/// Reads values off the input; zeros once it is used up.
+class Reader {
+  public:
+    Reader(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
+
+    std::uint8_t byte() { return at_ < size_ ? data_[at_++] : 0; }
+    float any() {
+        std::uint8_t bytes[4] = {byte(), byte(), byte(), byte()};
+        float value = 0;
+        std::memcpy(&value, bytes, sizeof value);
+        return value;
+    }
+    /// Few different values, so that corners weld and triangles collapse; now and then any bits at all.
+    float value() {
+        const std::uint8_t b = byte();
+        return b == 255 ? any() : static_cast<float>(b % 7) - 3;
+    }
+
+  private:
+    const std::uint8_t* data_;
+    std::size_t size_, at_ = 0;
+};
+
+struct Input {
+    std::vector<Vec3> positions = {}, normals = {};
+    std::vector<Vec2> uvs = {};
+    std::vector<std::uint32_t> indices = {}, sizes = {};
+
+    explicit Input(Reader& in) {
+        const std::size_t vertex_count = 1 + in.byte() % 48;
+        for (std::size_t i = 0; i < vertex_count; ++i) {
+            positions.push_back({in.value(), in.value(), in.value()});
+            normals.push_back({in.value(), in.value(), in.value()});
+            uvs.push_back({in.value(), in.value()});
+        }
+        const std::size_t face_count = in.byte() % 64;
+        for (std::size_t f = 0; f < face_count; ++f) {
+            const std::uint8_t kind = in.byte();
+            sizes.push_back(kind < 200 ? 3 + kind % 2 : kind % 8);
+            for (std::uint32_t k = 0; k < sizes.back(); ++k)
+                indices.push_back(in.byte() % static_cast<std::uint32_t>(vertex_count));
+        }
+    }
+
+    [[nodiscard]] MeshView view() const {
+        MeshView mesh;
+        mesh.positions = std::span<const Vec3>(positions);
+        mesh.normals = std::span<const Vec3>(normals);
+        mesh.uvs = std::span<const Vec2>(uvs);
+        mesh.indices = std::span<const std::uint32_t>(indices);
+        mesh.face_sizes = sizes;
+        return mesh;
+    }
+};
+
+/// All outputs of one call. A NaN equals any NaN: which one a sum of two gives is the processor's choice.
+struct Outputs {
+    std::vector<Vec4> tangents;
+    std::vector<Vec3> bitangents;
+
+    explicit Outputs(std::size_t count) : tangents(count), bitangents(count) {}
+    TangentOutput spans() { return {.tangents = std::span(tangents), .bitangents = std::span(bitangents)}; }
+
+    static bool sameFloat(float a, float b) {
+        return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b));
+    }
+    bool operator==(const Outputs& o) const {
+        for (std::size_t i = 0; i < tangents.size(); ++i) {
+            const Vec4 &a = tangents[i], &b = o.tangents[i];
+            const Vec3 &c = bitangents[i], &d = o.bitangents[i];
+            if (!sameFloat(a.x, b.x) || !sameFloat(a.y, b.y) || !sameFloat(a.z, b.z) || !sameFloat(a.w, b.w)) return false;
+            if (!sameFloat(c.x, d.x) || !sameFloat(c.y, d.y) || !sameFloat(c.z, d.z)) return false;
+        }
+        return true;
+    }
+};
+
+void checkTangents(const MeshView& mesh, TangentOptions options) {
+    Outputs one(mesh.cornerCount()), three(mesh.cornerCount()), evaluated(mesh.cornerCount());
+    options.execution = {.thread_count = 1};
+    options.execution.simd = SimdTarget::scalar;
+    const Result<TangentReport> done = generateTangents(mesh, options, one.spans());
+    require(done.ok() || !done.error().message.empty(), "an error has a message");
+    if (!done) return;
+    TangentOptions other = options;
+    other.execution = {.thread_count = 3};
+    require(generateTangents(mesh, other, three.spans()).ok(), "threads do not decide about success");
+    require(one == three, "threads and SIMD change no bit");
+    const Result<TangentPlan> plan = planTangents(mesh, options);
+    require(plan.ok(), "what can be generated can be planned");
+    require(evaluateTangents(*plan, {mesh.positions, mesh.normals}, evaluated.spans()).ok(), "a plan fits its own pose");
+    require(one == evaluated, "generate gives the bits of plan and evaluate");
+
+    require(sanitizeTangents(mesh, std::span(one.tangents), {}).ok(), "any tangents can be sanitized");
+    std::size_t corner = 0;
+    for (const std::uint32_t size : mesh.face_sizes) {
+        for (std::uint32_t k = 0; k < size; ++k, ++corner) {
+            const Vec4& t = one.tangents[corner];
+            if (size < 3) continue;
+            require(std::fabs(std::sqrt(t.x * t.x + t.y * t.y + t.z * t.z) - 1) < 1e-3f, "a sanitized tangent is unit");
+            require(t.w == 1 || t.w == -1, "a sanitized sign is +1 or -1");
+        }
+    }
+    const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec4>(std::span<const Vec4>(one.tangents)));
+    require(splitVertices(mesh.indices, mesh.vertexCount(), mesh.cornerCount(), {&attribute, 1}).ok(), "results can be split");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    Reader in(data, size);
+    TangentOptions options;
+    options.method = static_cast<Method>(in.byte() % 10);
+    options.pairing = static_cast<Pairing>(in.byte() % 2);
+    options.ngons = static_cast<Ngons>(in.byte() % 2);
+    const std::uint8_t threshold = in.byte();
+    options.angular_threshold_deg = threshold == 255 ? in.any() : static_cast<float>(threshold) * 1.5f;
+    NormalOptions normals;
+    normals.weighting = static_cast<NormalWeighting>(in.byte() % 8);
+    normals.crease_angle_deg = static_cast<float>(in.byte());
+    const Input input(in);
+    const MeshView mesh = input.view();
+    checkTangents(mesh, options);
+    std::vector<Vec3> result(mesh.cornerCount());
+    (void)generateNormals(mesh, normals, std::span(result));
+    (void)triangulate(mesh);
+    return 0;
+}

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// What is wrong with the frames of a model file: signs, directions, seams, normals, UVs, morph targets, normal maps.
+// CMake target tspace::asset. Reads what asset.h reads, and changes nothing. docs/check.md explains every code.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tspace/asset.h"
+#include "tspace/convention.h"
+#include "tspace/execution.h"
+#include "tspace/result.h"
+
+namespace tspace {
+
+/// How much a finding matters.
+enum class Severity : std::uint32_t {
+    note = 0,     ///< worth knowing; it renders as it should
+    warning = 1,  ///< it renders wrong in some renderers, in a small part, or only perhaps
+    error = 2,    ///< it surely renders wrong
+};
+/// "note", "warning" or "error".
+const char* severityName(Severity severity);
+
+/// What was found. Names (findingName) and numbers are stable and never reused.
+enum class FindingCode : std::uint32_t {
+    positionsNotFinite = 0,
+    uvsMissing = 1,             ///< a texture needs tangents along a UV set that the primitive does not have
+    uvsNotFinite = 2,
+    uvsDegenerate = 3,          ///< triangles without UV area: no direction can be had from them
+    normalsMissing = 4,
+    normalsNotFinite = 5,
+    normalsNotUnit = 6,         ///< also those of length 0
+    normalsAgainstWinding = 7,  ///< they point to the back of their triangles
+    tangentsMissing = 8,
+    tangentsUnused = 9,         ///< no material asks for them
+    tangentsIgnored = 10,       ///< tangents without normals, which glTF tells readers to ignore
+    tangentsNotFinite = 11,
+    tangentsNotUnit = 12,       ///< also those of length 0
+    tangentsNotOrthogonal = 13, ///< they lean out of the plane of the surface
+    signsNotOne = 14,           ///< w is not +1 or -1
+    signsMixed = 15,            ///< w differs between the corners of a triangle
+    signsInverted = 16,         ///< every sign is the opposite of what the UVs say
+    signsWrong = 17,            ///< some signs are
+    mirroredSeamAveraged = 18,  ///< one tangent serves both sides of a seam between mirrored and other triangles
+    uvSeamAveraged = 19,        ///< one tangent serves both sides of a seam in the UV map
+    directionsWrong = 20,       ///< tangents do not point where u grows
+    uvSetWrong = 21,            ///< tangents follow another UV set than the texture
+    textureTransformIgnored = 22,  ///< tangents follow the UVs before KHR_texture_transform
+    splitFramesDiffer = 23,     ///< vertices that are equal but for their tangents: a seam without a cause
+    morphTangentsMissing = 24,
+    morphTangentsWrong = 25,
+    texturesDisagree = 26,      ///< two textures of one primitive need different frames
+    greenFlipped = 27,          ///< a normal map whose green points down (DirectX)
+    normalMapUnreadable = 28,   ///< the image could not be looked at
+};
+inline constexpr std::uint32_t kFindingCodeCount = 29;
+
+/// Stable lowerCamelCase name: the name of the enumerator.
+const char* findingName(FindingCode code);
+
+/// How to mend it: one or two sentences.
+const char* findingRemedy(FindingCode code);
+
+struct Finding {
+    FindingCode code = FindingCode::positionsNotFinite;
+    Severity severity = Severity::note;
+    std::string place = {};          ///< JSON pointer (OBJ: "usemtl NAME")
+    std::uint32_t mesh = 0;
+    std::uint32_t primitive = 0;     ///< in its mesh
+    std::string mesh_name = {};      ///< may be empty
+    std::string material_name = {};  ///< may be empty
+    std::string unit = {};           ///< what is counted: "vertices", "triangles", "blocks" (of an image), "primitives"
+    std::uint64_t count = 0;         ///< how many have it
+    std::uint64_t total = 0;         ///< of how many that could have it
+    double surface_share = 0;        ///< their part of the primitive's surface, 0 to 1; 0 where that says nothing
+    double worst_deg = 0;            ///< the largest angle, for findings about angles; else 0
+    double confidence = 1;           ///< 0 to 1; below 1 for findings that rest on statistics
+    std::vector<std::uint32_t> vertices = {};  ///< the first of them, at most 8
+    std::string message = {};        ///< one plain sentence
+    std::string remedy = {};         ///< findingRemedy(code)
+};
+
+struct CheckOptions {
+    /// How far a tangent may lie outside the directions that the triangles around it give, in degrees. All common ways to
+    /// average lie between those directions.
+    double direction_deg = 10;
+    /// From here on a direction is so wrong that it is an error.
+    double error_deg = 45;
+    /// How far a tangent may lean out of the plane of the surface, in degrees. Quantised normals make a degree.
+    double orthogonal_deg = 3;
+    /// How much the tangents of equal vertices may differ, in degrees.
+    double split_deg = 2;
+    /// How far lengths may be from 1. The default is what storing in 8 bits takes, and what the glTF validator allows.
+    double unit_tolerance = 0.00674;
+    /// What would be an error is a warning where it concerns less than this part of a primitive's surface.
+    double error_share = 0.001;
+    /// Whose signs are right for the data as they are in the file.
+    Convention convention = conventions::gltf;
+    /// Look at normal maps (PNG and JPEG, where tspace was built with their decoders).
+    bool images = true;
+    /// Larger images are not looked at.
+    std::uint64_t most_pixels = std::uint64_t{1} << 26;
+    FileOptions file = {};
+    /// Primitives are checked at the same time. An allocator is not used.
+    Execution execution = {};
+};
+
+struct CheckReport {
+    std::string format = {};                ///< as Inspection::format
+    std::string generator = {};             ///< the program that wrote the file; may be empty
+    std::vector<Finding> findings = {};     ///< errors first; among equals in file order, then by code
+    std::uint64_t error_count = 0;
+    std::uint64_t warning_count = 0;
+    std::uint64_t note_count = 0;
+    std::uint64_t primitive_count = 0;      ///< in the file
+    std::uint64_t tangents_count = 0;       ///< primitives of those whose tangents were examined
+    std::uint64_t image_count = 0;          ///< normal maps that were looked at
+};
+
+/// Reads a model and says what is wrong with its frames. Near-linear in the size of the model. Memory: the model as
+/// floats, and about 150 bytes per triangle of the primitives at work. Thread-safe; the report does not depend on the
+/// number of threads. Errors as generateFile; also invalidOption (an angle or share that is negative or not finite).
+Result<CheckReport> checkFile(const std::string& input, const CheckOptions& options = {});
+
+}  // namespace tspace

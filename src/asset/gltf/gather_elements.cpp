@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Gathering of elements.
+#include "asset/gltf/gather_elements.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "asset/gltf/sparse_elements.h"
+
+namespace tspace::gltf {
+
+ElementData gatherElements(const Document& document, const Accessor& accessor,
+                           std::span<const std::uint32_t> sources) {
+    const Bytes old = copyElements(document, accessor);
+    ElementData data;
+    data.component = accessor.component;
+    data.type = accessor.type;
+    data.normalized = accessor.normalized;
+    data.like = accessor.index;
+    data.filter = filterOf(document, accessor);
+    data.unfiltered = gatherUnfiltered(document, accessor, sources);
+    data.count = sources.size();
+    data.element_bytes = accessor.element_bytes;
+    data.bytes.resize(sources.size() * accessor.element_bytes);
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        std::memcpy(data.bytes.data() + i * data.element_bytes, old.data() + sources[i] * data.element_bytes,
+                    data.element_bytes);
+    }
+    if (accessor.sparse && !accessor.view) makeSparseWhereSmaller(data);
+    // Copies change no bound.
+    const Json& object = rootArray(document, "accessors")[accessor.index];
+    if (const Json* low = findMember(object, "min")) data.min = *low;
+    if (const Json* high = findMember(object, "max")) data.max = *high;
+    return data;
+}
+
+void renewBounds(ElementData& data) {
+    if (data.component != ComponentType::f32 || (data.min.is_null() && data.max.is_null())) return;
+    const std::size_t components = data.element_bytes / sizeof(float);
+    std::vector<double> low(components, std::numeric_limits<double>::infinity()), high(components, -low[0]);
+    bool is_finite = true;
+    for (std::size_t i = 0; i < data.bytes.size() / sizeof(float); ++i) {
+        float value;
+        std::memcpy(&value, data.bytes.data() + i * sizeof(float), sizeof(float));
+        is_finite = is_finite && std::isfinite(value);
+        low[i % components] = std::min<double>(low[i % components], value);
+        high[i % components] = std::max<double>(high[i % components], value);
+    }
+    if (!data.min.is_null()) data.min = is_finite ? Json(low) : Json();
+    if (!data.max.is_null()) data.max = is_finite ? Json(high) : Json();
+}
+
+}  // namespace tspace::gltf

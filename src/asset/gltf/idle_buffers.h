@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// Buffers that are left without a reader when geometry was packed or unpacked.
+#pragma once
+
+#include "asset/gltf/document.h"
+
+namespace tspace::gltf {
+
+/// Removes buffers that no view and no compression extension names, but for those that the output writes itself. Views and
+/// extensions follow.
+void removeIdleBuffers(Document& document);
+
+}  // namespace tspace::gltf

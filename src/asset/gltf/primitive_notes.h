@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// What a person should know about a primitive's tangents besides what was done to it.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "asset/gltf/document.h"
+#include "asset/tangent_use.h"
+#include "generate/uv_matrix.h"
+#include "tspace/asset.h"
+
+namespace tspace::gltf {
+
+/// The matrix that the tangents of a use follow.
+UvMatrix uvMatrixOf(const TangentUse& use, TextureTransform reading);
+
+/// True when tangents for one fit the other: the same UV set, turned the same way.
+bool haveSameTangents(const TangentUse& a, const TangentUse& b, TextureTransform reading);
+
+/// JSON pointers that animations move (KHR_animation_pointer).
+std::set<std::string> animatedPointers(const Document& document);
+
+/// Sentences about `uses`, those of one primitive: textures whose tangents would have to differ from the first's, and
+/// animated transforms. `computed`: also about the transform that the new tangents follow, or do not.
+std::vector<std::string> notesOf(const std::vector<TangentUse>& uses, const std::set<std::string>& animated,
+                                 TextureTransform reading, bool computed);
+
+}  // namespace tspace::gltf

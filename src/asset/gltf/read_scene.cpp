@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// A glTF file as a Scene. Every accessor is decoded once, however many primitives draw it.
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "asset/file_error.h"
+#include "asset/gltf/accessor.h"
+#include "asset/gltf/document.h"
+#include "asset/gltf/material_needs.h"
+#include "asset/gltf/mirrored_nodes.h"
+#include "asset/gltf/primitive_reader.h"
+#include "asset/scene.h"
+#include "asset/uri.h"
+
+namespace tspace::gltf {
+
+namespace {
+
+/// Sets beyond are not looked at: no renderer has so many, and a file may claim billions.
+constexpr std::size_t kMaxUvSets = 64;
+
+/// Accessors that overlap, or that have few bytes or none, can make arrays far larger than the file. Honest ones grow
+/// by at most four (bytes that become floats), but for sparse morph targets.
+class MemoryBudget {
+  public:
+    explicit MemoryBudget(const Document& document) {
+        for (const Buffer& buffer : document.buffers) left_ += 16 * static_cast<std::uint64_t>(buffer.bytes.size());
+        for (const auto& [accessor, elements] : document.elements) left_ += 16 * static_cast<std::uint64_t>(elements.size());
+    }
+    void take(std::uint64_t bytes, const std::string& place) {
+        if (bytes > left_) {
+            failFile(ErrorCode::tooLarge, "the arrays of the file need far more memory than the file has bytes", place);
+        }
+        left_ -= bytes;
+    }
+
+  private:
+    std::uint64_t left_ = std::uint64_t{256} << 20;
+};
+
+/// Attributes as float vectors, each accessor decoded once.
+template <class Vec>
+class VectorCache {
+  public:
+    using Decode = std::vector<Vec> (*)(const Document&, const Accessor&, const std::string& place);
+    explicit VectorCache(Decode decode) : decode_(decode) {}
+
+    /// Empty where the list has no such attribute. `place`: that of the list.
+    SharedArray<Vec> read(const Document& document, const AttributeList& list, const std::string& name,
+                          const std::string& place, MemoryBudget& budget) {
+        for (const auto& [key, index] : list) {
+            if (key != name) continue;
+            const auto found = arrays_.find(index);
+            if (found != arrays_.end()) return found->second;
+            const Accessor accessor = readAccessor(document, index);
+            budget.take(accessor.count * sizeof(Vec), accessor.place());
+            return arrays_.emplace(index, decode_(document, accessor, join(place, name))).first->second;
+        }
+        return {};
+    }
+
+  private:
+    Decode decode_;
+    std::map<std::size_t, SharedArray<Vec>> arrays_ = {};
+};
+
+class PrimitiveLoader {
+  public:
+    explicit PrimitiveLoader(const Document& document)
+        : document_(document), budget_(document), mirrored_(findMirroredMeshes(document)) {}
+
+    ScenePrimitive load(const Primitive& primitive) {
+        ScenePrimitive result;
+        result.place = primitive.place();
+        result.mesh = primitive.mesh;
+        result.primitive = primitive.index;
+        result.mesh_name = primitive.mesh_name;
+        result.material_name = materialName(document_, primitive);
+        result.mode = modeName(primitive.mode);
+        result.drawn_mirrored = mirrored_[primitive.mesh];
+        result.uses = tangentUses(document_, primitive);
+        loadAttributes(primitive, result);
+        for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
+            const AttributeList& list = primitive.targets[i];
+            const std::string place = join(join(result.place, "targets"), i);
+            result.morph_targets.push_back({.positions = vec3(list, "POSITION", place),
+                                            .normals = vec3(list, "NORMAL", place),
+                                            .tangents = vec3(list, "TANGENT", place)});
+        }
+        if (hasTriangles(primitive.mode) && !result.positions.empty()) result.corners = corners(primitive);
+        return result;
+    }
+
+  private:
+    void loadAttributes(const Primitive& primitive, ScenePrimitive& result) {
+        const AttributeList& list = primitive.attributes;
+        const std::string place = join(result.place, "attributes");
+        result.positions = vec3(list, "POSITION", place);
+        result.normals = vec3(list, "NORMAL", place);
+        result.tangents = vec4_.read(document_, list, "TANGENT", place, budget_);
+        for (std::size_t set = 0; set < kMaxUvSets; ++set) {
+            SharedArray<Vec2> uvs =
+                vec2_.read(document_, list, "TEXCOORD_" + std::to_string(set), place, budget_);
+            if (uvs.empty()) continue;
+            result.uv_sets.resize(set + 1);
+            result.uv_sets[set] = std::move(uvs);
+        }
+    }
+
+    SharedArray<Vec3> vec3(const AttributeList& list, const char* name, const std::string& place) {
+        return vec3_.read(document_, list, name, place, budget_);
+    }
+
+    SharedArray<std::uint32_t> corners(const Primitive& primitive) {
+        const std::size_t no_indices = rootArray(document_, "accessors").size();
+        const CornerKey key{primitive.indices.value_or(no_indices), primitive.vertex_count, primitive.mode};
+        const auto found = corners_.find(key);
+        if (found != corners_.end()) return found->second;
+        budget_.take(primitive.triangleCount() * std::uint64_t{12}, primitive.place());
+        return corners_.emplace(key, readTriangleCorners(document_, primitive)).first->second;
+    }
+
+    using CornerKey = std::tuple<std::size_t, std::size_t, Mode>;
+
+    const Document& document_;
+    MemoryBudget budget_;
+    std::vector<bool> mirrored_;
+    VectorCache<Vec2> vec2_{decodeVec2};
+    VectorCache<Vec3> vec3_{decodeVec3};
+    VectorCache<Vec4> vec4_{decodeVec4};
+    std::map<CornerKey, SharedArray<std::uint32_t>> corners_ = {};
+};
+
+Bytes readImageBytes(const Document& document, const Json& image, const std::string& place) {
+    const auto view =
+        readIndex(image, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
+    if (view) {
+        const BufferView range = readBufferView(document, *view);
+        const Buffer& buffer = document.buffers[range.buffer];
+        if (buffer.source == BufferSource::absent || range.byte_count == 0) return {};
+        const auto bytes = buffer.bytes.range(range.begin, range.byte_count);
+        return Bytes(bytes.begin(), bytes.end());
+    }
+    const std::string uri = readString(image, "uri", place);
+    if (uriKind(uri) == UriKind::data) return decodeDataUri(uri, join(place, "uri")).bytes;
+    if (uri.empty() || uriKind(uri) == UriKind::otherScheme) return {};
+    return readFile(resolveUri(document.folder, uri, document.options.allow_external, join(place, "uri")));
+}
+
+std::vector<SceneImage> readImages(const Document& document, const std::set<std::size_t>& wanted) {
+    std::vector<SceneImage> images;
+    const Json& list = rootArray(document, "images");
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const std::string place = join("/images", i);
+        SceneImage& image = images.emplace_back();
+        image.name = readString(list[i], "name", place);
+        const std::string uri = readString(list[i], "uri", place);
+        if (uriKind(uri) != UriKind::data) image.uri = uri;
+        if (!wanted.contains(i)) continue;
+        try {
+            const Bytes bytes = readImageBytes(document, list[i], place);
+            image.bytes.assign(bytes.begin(), bytes.end());
+        } catch (const FileError&) {
+            // The geometry is none the worse for it.
+        }
+    }
+    return images;
+}
+
+}  // namespace
+
+Scene readGltfScene(const std::string& input, const FileOptions& options, bool with_images) {
+    const Document document = loadDocument(input, options);
+    checkRequiredExtensions(document);
+    Scene scene;
+    scene.format = formatOf(document);
+    if (const Json* asset = readObject(document.json, "asset", "")) {
+        scene.generator = readString(*asset, "generator", "/asset");
+    }
+    PrimitiveLoader loader(document);
+    std::set<std::size_t> images;
+    for (const Primitive& primitive : readPrimitives(document)) {
+        scene.primitives.push_back(loader.load(primitive));
+        for (const TangentUse& use : scene.primitives.back().uses) {
+            if (use.image && with_images) images.insert(*use.image);
+        }
+    }
+    scene.images = readImages(document, images);
+    return scene;
+}
+
+}  // namespace tspace::gltf

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Taking away tangents that nobody needs.
+#pragma once
+
+#include <span>
+
+#include "asset/gltf/editor.h"
+#include "asset/gltf/primitive_reader.h"
+
+namespace tspace::gltf {
+
+/// True when the primitive or one of its morph targets has tangents, and they can go. They cannot where a morph target
+/// moves nothing else: an empty target is not allowed, and taking it away would renumber the weights.
+bool canStripTangents(const Primitive& primitive);
+
+/// Takes TANGENT out of the primitives whose report says `removed`, and of their morph targets. Data that nothing else
+/// uses go too.
+void stripTangents(Editor& editor, std::span<const Primitive> primitives, std::span<const PrimitiveReport> reports);
+
+}  // namespace tspace::gltf

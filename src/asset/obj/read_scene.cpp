@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// An OBJ file as a Scene: the primitives that a glTF made from it would have, before any normal is made.
+#include "asset/scene.h"
+
+#include <map>
+
+#include "asset/file_error.h"
+#include "asset/obj/obj_primitives.h"
+#include "asset/obj/obj_reader.h"
+#include "asset/uri.h"
+#include "tspace/triangulate.h"
+
+namespace tspace::obj {
+
+namespace {
+
+/// Number of each normal map among the images of the scene, one per file.
+class NormalMaps {
+  public:
+    NormalMaps(const FileOptions& options, bool with_bytes) : options_(options), with_bytes_(with_bytes) {}
+
+    std::size_t indexOf(const Texture& texture) {
+        const auto [entry, is_new] = numbers_.emplace((texture.folder / texture.file).string(), images.size());
+        if (is_new) {
+            SceneImage& image = images.emplace_back();
+            image.uri = texture.file;
+            if (with_bytes_) readBytes(texture, image);
+        }
+        return entry->second;
+    }
+
+    std::vector<SceneImage> images = {};
+
+  private:
+    void readBytes(const Texture& texture, SceneImage& image) const {
+        try {
+            const Bytes bytes = readFile(
+                resolveUri(texture.folder, percentEncode(texture.file), options_.allow_external, "material"));
+            image.bytes.assign(bytes.begin(), bytes.end());
+        } catch (const FileError&) {
+            // The geometry is none the worse for it.
+        }
+    }
+
+    const FileOptions& options_;
+    bool with_bytes_;
+    std::map<std::string, std::size_t> numbers_ = {};
+};
+
+SharedArray<std::uint32_t> triangleCorners(const ObjGeometry& geometry) {
+    const Triangulation triangles = valueOrThrow(triangulate(geometry.view()));
+    std::vector<std::uint32_t> corners;
+    corners.reserve(triangles.corners.size());
+    for (const std::uint32_t corner : triangles.corners) corners.push_back(geometry.polygons.indices[corner]);
+    return corners;
+}
+
+ScenePrimitive loadPrimitive(const Model& model, const ObjPrimitive& primitive, NormalMaps& maps) {
+    const Material& material = model.materials[primitive.material];
+    ObjGeometry geometry = buildGeometry(model, primitive);
+    ScenePrimitive result;
+    result.place = "usemtl " + material.name;
+    result.mesh = primitive.shape;
+    result.mesh_name = model.shape_names[primitive.shape];
+    result.material_name = material.name;
+    result.mode = geometry.polygons.face_sizes.empty() ? "triangles" : "polygons";
+    result.corners = triangleCorners(geometry);
+    result.positions = std::move(geometry.pool.positions);
+    result.normals = std::move(geometry.pool.normals);
+    if (primitive.has_uvs) result.uv_sets.emplace_back(std::move(geometry.pool.uvs));
+    if (material.normal_texture.used()) {
+        result.uses.push_back({.needed_by = "normalTexture",
+                               .place = result.place,
+                               .image = maps.indexOf(material.normal_texture),
+                               .material = primitive.material});
+    }
+    return result;
+}
+
+}  // namespace
+
+Scene readObjScene(const std::string& input, const FileOptions& options, bool with_images) {
+    const Model model = readModel(input, options);
+    Scene scene;
+    scene.format = "obj";
+    NormalMaps maps(options, with_images);
+    std::vector<std::uint32_t> next_in_mesh(model.shape_names.size(), 0);
+    for (const ObjPrimitive& primitive : collectPrimitives(model)) {
+        scene.primitives.push_back(loadPrimitive(model, primitive, maps));
+        scene.primitives.back().primitive = next_in_mesh[primitive.shape]++;
+    }
+    scene.images = std::move(maps.images);
+    return scene;
+}
+
+}  // namespace tspace::obj

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// What a model file holds that frames depend on, in one form for every format. Read-only: check, diff and identify look
+// at it. `generate` edits files in place and does not use it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "asset/tangent_use.h"
+#include "tspace/asset.h"
+#include "tspace/vec.h"
+
+namespace tspace {
+
+/// A read-only array that its copies share: files draw one accessor in many places.
+template <class T>
+class SharedArray {
+  public:
+    SharedArray() = default;
+    SharedArray(std::vector<T> values) : values_(std::make_shared<const std::vector<T>>(std::move(values))) {}
+
+    [[nodiscard]] const T* data() const { return values_ ? values_->data() : nullptr; }
+    [[nodiscard]] std::size_t size() const { return values_ ? values_->size() : 0; }
+    [[nodiscard]] bool empty() const { return size() == 0; }
+    [[nodiscard]] const T* begin() const { return data(); }
+    [[nodiscard]] const T* end() const { return data() + size(); }
+    const T& operator[](std::size_t i) const { return (*values_)[i]; }
+    [[nodiscard]] std::span<const T> span() const { return {data(), size()}; }
+
+  private:
+    std::shared_ptr<const std::vector<T>> values_ = {};
+};
+
+/// Offsets of one morph target, one per vertex of its primitive. Empty: the target does not move this attribute.
+struct SceneMorphTarget {
+    SharedArray<Vec3> positions = {};
+    SharedArray<Vec3> normals = {};
+    SharedArray<Vec3> tangents = {};
+};
+
+struct ScenePrimitive {
+    std::string place = {};          ///< JSON pointer (glTF), or "usemtl NAME" (OBJ)
+    std::uint32_t mesh = 0;
+    std::uint32_t primitive = 0;     ///< in its mesh
+    std::string mesh_name = {};      ///< may be empty
+    std::string material_name = {};  ///< may be empty
+    std::string mode = {};           ///< "triangles", "triangle strip", "points", ...; OBJ: "triangles" or "polygons"
+    /// Three vertices per triangle, every one smaller than positions.size(). Empty for points and lines.
+    SharedArray<std::uint32_t> corners = {};
+    SharedArray<Vec3> positions = {};
+    SharedArray<Vec3> normals = {};                ///< one per vertex, or empty: absent
+    SharedArray<Vec4> tangents = {};               ///< one per vertex, or empty: absent
+    std::vector<SharedArray<Vec2>> uv_sets = {};   ///< entry n: TEXCOORD_n, empty where absent; v runs down
+    std::vector<SceneMorphTarget> morph_targets = {};
+    /// Everything in the primitive's materials (variants too) that needs tangents; the first decides which UV set the
+    /// tangents follow.
+    std::vector<TangentUse> uses = {};
+    bool drawn_mirrored = false;  ///< a node draws it with a negative determinant
+};
+
+struct SceneImage {
+    std::string name = {};           ///< may be empty
+    std::string uri = {};            ///< as the file says; empty when embedded
+    /// The encoded image (PNG, JPEG, ...); empty when it was not asked for or cannot be read.
+    std::vector<std::uint8_t> bytes = {};
+};
+
+struct Scene {
+    std::string format = {};     ///< "glb", "gltf", "obj"
+    std::string generator = {};  ///< may be empty
+    std::vector<ScenePrimitive> primitives = {};  ///< in file order
+    std::vector<SceneImage> images = {};          ///< TangentUse::image points here
+};
+
+/// Reads a model. `with_images`: also the bytes of images that a TangentUse names; an image that cannot be read is no
+/// error. Fails as generateFile does, also with tooLarge where a small file makes arrays that are far larger than itself.
+/// Throws FileError.
+Scene readScene(const std::string& input, const FileOptions& options, bool with_images);
+
+// One function per format behind readScene.
+namespace gltf {
+Scene readGltfScene(const std::string& input, const FileOptions& options, bool with_images);
+}
+namespace obj {
+Scene readObjScene(const std::string& input, const FileOptions& options, bool with_images);
+}
+
+}  // namespace tspace

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Why a primitive needs tangents: one texture or parameter of a material that is shaded in tangent space.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace tspace {
+
+/// KHR_texture_transform: uv' = translation * rotation * scale * uv. `rotation` in radians, counter-clockwise as the
+/// extension defines it.
+struct UvTransform {
+    double offset[2] = {0, 0};
+    double rotation = 0;
+    double scale[2] = {1, 1};
+
+    /// true when it turns, mirrors or squeezes directions: an offset alone does not touch frames.
+    [[nodiscard]] bool changesFrames() const { return rotation != 0 || scale[0] != 1 || scale[1] != 1; }
+    [[nodiscard]] bool mirrors() const { return scale[0] * scale[1] < 0; }
+};
+
+struct TangentUse {
+    std::string needed_by = {};  ///< "normalTexture", "clearcoatNormalTexture" or "anisotropy"
+    std::string place = {};      ///< JSON pointer of the texture reference, or of the extension
+    std::size_t uv_set = 0;      ///< n of TEXCOORD_n; KHR_texture_transform's own texCoord goes first
+    UvTransform transform = {};
+    std::optional<std::size_t> image = {};  ///< index into the file's images
+    std::size_t material = 0;
+    bool only_in_variant = false;  ///< the material is one of KHR_materials_variants, not the primitive's own
+};
+
+}  // namespace tspace

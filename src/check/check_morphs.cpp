@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// Morph targets: whether base plus delta is still a frame of the morphed surface.
+#include <array>
+#include <set>
+
+#include "check/direction_cones.h"
+#include "check/findings.h"
+#include "check/primitive_checks.h"
+#include "core/angle.h"
+#include "core/unit.h"
+
+namespace tspace {
+
+namespace {
+
+struct MorphedMesh {
+    std::vector<Vec3> positions = {}, normals = {};
+    std::vector<Vec4> tangents = {};
+    TangentView view = {};
+};
+
+std::vector<Vec3> moved(std::span<const Vec3> base, const SharedArray<Vec3>& deltas) {
+    std::vector<Vec3> result(base.begin(), base.end());
+    for (std::size_t v = 0; v < deltas.size(); ++v) result[v] = result[v] + deltas[v];
+    return result;
+}
+
+void applyTarget(const TangentView& base, const SceneMorphTarget& target, MorphedMesh& morphed) {
+    morphed.positions = moved(base.positions, target.positions);
+    morphed.normals = moved(base.normals, target.normals);
+    morphed.tangents.assign(base.tangents.begin(), base.tangents.end());
+    for (std::size_t v = 0; v < target.tangents.size(); ++v) {
+        Vec4& tangent = morphed.tangents[v];
+        const Vec3 sum = xyz(tangent) + target.tangents[v];
+        tangent = {sum.x, sum.y, sum.z, tangent.w};
+    }
+    morphed.view = {.positions = morphed.positions,
+                    .normals = morphed.normals,
+                    .tangents = morphed.tangents,
+                    .uvs = base.uvs,
+                    .corners = base.corners};
+}
+
+/// How wrong each vertex's tangent is, in degrees: its direction in the surface, or its lean out of it.
+std::vector<float> frameErrors(const TangentView& mesh, const CheckOptions& options) {
+    std::vector<float> errors = directionDistances(mesh, describeSurface(mesh), options.direction_deg);
+    for (std::size_t v = 0; v < errors.size(); ++v) {
+        DVec3 normal = toDouble(mesh.normals[v]), tangent = toDouble(xyz(mesh.tangents[v]));
+        if (!normalize(normal)) continue;
+        const bool has_tangent = normalize(tangent);
+        const double lean =
+            has_tangent ? std::fabs(90 - angleBetween(normal, tangent) * 180 / kPi) : 90;
+        errors[v] = std::max(errors[v], static_cast<float>(lean));
+    }
+    return errors;
+}
+
+/// Targets with the same fault.
+struct MorphFault {
+    Tally targets = {};      ///< vertices of the first; count and total in targets
+    double far_share = 0;    ///< largest share of the surface that is off by more than error_deg
+    std::size_t first = 0;
+};
+
+class MorphChecker {
+  public:
+    explicit MorphChecker(PrimitiveFacts& facts)
+        : facts_(facts), base_errors_(frameErrors(facts.mesh, facts.options)) {}
+
+    void check(std::size_t number, const SceneMorphTarget& target) {
+        const bool missing = target.tangents.empty();
+        if (missing && target.positions.empty() && target.normals.empty()) return;
+        MorphFault& fault = missing ? missing_ : wrong_;
+        ++fault.targets.total;
+        MorphedMesh morphed;
+        applyTarget(facts_.mesh, target, morphed);
+        const std::vector<float> errors = frameErrors(morphed.view, facts_.options);
+        const double limit = facts_.options.direction_deg;
+        Tally tally;
+        double far_area = 0;
+        for (std::uint32_t v = 0; v < errors.size(); ++v) {
+            // What is wrong without the target is found without it.
+            if (!(errors[v] > limit) || base_errors_[v] > limit) continue;
+            tally.add(v, facts_.surface.vertex_areas[v], errors[v]);
+            if (errors[v] > facts_.options.error_deg) far_area += facts_.surface.vertex_areas[v];
+        }
+        if (tally.count == 0) return;
+        tally.finish(facts_.surface.area);
+        if (fault.targets.count++ == 0) {
+            fault.first = number;
+            fault.targets.vertices = tally.vertices;
+        }
+        fault.targets.worst_deg = std::max(fault.targets.worst_deg, tally.worst_deg);
+        fault.targets.surface_share = std::max(fault.targets.surface_share, tally.surface_share);
+        if (facts_.surface.area > 0) fault.far_share = std::max(fault.far_share, far_area / facts_.surface.area);
+    }
+
+    void report() {
+        const CheckOptions& options = facts_.options;
+        const auto angle = [](const MorphFault& fault) {
+            return "; at full weight tangents are off by up to " + decimalText(fault.targets.worst_deg) + " degrees";
+        };
+        if (missing_.targets.count > 0) {
+            add(FindingCode::morphTangentsMissing,
+                missing_.targets.surface_share >= options.error_share ? Severity::warning : Severity::note, missing_,
+                countText(missing_.targets, "targets") + " without tangents turn the surface" + angle(missing_));
+        }
+        if (wrong_.targets.count > 0) {
+            add(FindingCode::morphTangentsWrong,
+                wrong_.far_share >= options.error_share ? Severity::error : Severity::warning, wrong_,
+                "the tangents of " + countText(wrong_.targets, "targets") + " do not fit the morphed surface" +
+                    angle(wrong_));
+        }
+    }
+
+  private:
+    void add(FindingCode code, Severity severity, const MorphFault& fault, std::string message) {
+        facts_.add(code, severity, fault.targets, "targets", std::move(message));
+        facts_.findings.back().place = facts_.primitive.place + "/targets/" + std::to_string(fault.first);
+    }
+
+    PrimitiveFacts& facts_;
+    std::vector<float> base_errors_;
+    MorphFault missing_ = {}, wrong_ = {};
+};
+
+}  // namespace
+
+void checkMorphTargets(PrimitiveFacts& facts) {
+    const bool is_needed = !facts.primitive.uses.empty();
+    if (!is_needed || facts.mesh.tangents.empty() || facts.mesh.normals.empty() || facts.mesh.uvs.empty() ||
+        facts.primitive.morph_targets.empty()) {
+        return;
+    }
+    MorphChecker checker(facts);
+    // A file may name the same arrays any number of times.
+    std::set<std::array<const Vec3*, 3>> seen;
+    for (std::size_t i = 0; i < facts.primitive.morph_targets.size(); ++i) {
+        const SceneMorphTarget& target = facts.primitive.morph_targets[i];
+        if (seen.insert({target.positions.data(), target.normals.data(), target.tangents.data()}).second) {
+            checker.check(i, target);
+        }
+    }
+    checker.report();
+}
+
+}  // namespace tspace

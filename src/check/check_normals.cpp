@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Positions and normals: finite, unit, and on the front of their triangles.
+#include <cmath>
+
+#include "check/findings.h"
+#include "check/primitive_checks.h"
+#include "core/unit.h"
+
+namespace tspace {
+
+namespace {
+
+/// Beyond 96 degrees a normal points to the back, with some room for coarse smooth shading.
+constexpr double kLeastFacing = -0.1;
+/// From this share of the surface on it is the whole mesh that is inside out.
+constexpr double kMostly = 0.5;
+constexpr double kSome = 0.01;
+/// Lengths below cannot be told from zero.
+constexpr double kShortest = 1e-6;
+
+std::vector<bool> usedVertices(const TangentView& mesh) {
+    std::vector<bool> used(mesh.positions.size(), false);
+    for (const std::uint32_t vertex : mesh.corners) used[vertex] = true;
+    return used;
+}
+
+void checkNormalValues(PrimitiveFacts& facts) {
+    const TangentView& mesh = facts.mesh;
+    Tally not_finite, not_unit;
+    bool any_is_zero = false;
+    const std::vector<bool> used = usedVertices(mesh);
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+        if (!used[v]) continue;
+        ++not_finite.total;
+        ++not_unit.total;
+        if (!isFinite(mesh.normals[v])) {
+            not_finite.add(v, facts.surface.vertex_areas[v]);
+            continue;
+        }
+        const double size = length(toDouble(mesh.normals[v]));
+        if (std::fabs(size - 1) > facts.options.unit_tolerance) not_unit.add(v, facts.surface.vertex_areas[v]);
+        any_is_zero = any_is_zero || size < kShortest;
+    }
+    not_finite.finish(facts.surface.area);
+    not_unit.finish(facts.surface.area);
+    if (not_finite.count > 0) {
+        facts.add(FindingCode::normalsNotFinite, Severity::error, not_finite, "vertices",
+                  "the normals of " + countText(not_finite, "vertices") + " are NaN or infinite");
+    }
+    if (not_unit.count > 0) {
+        facts.add(FindingCode::normalsNotUnit,
+                  any_is_zero ? onShare(Severity::error, not_unit.surface_share, facts.options) : Severity::warning,
+                  not_unit, "vertices",
+                  "the normals of " + countText(not_unit, "vertices") + " do not have length 1" +
+                      (any_is_zero ? ", some have none at all" : ""));
+    }
+}
+
+void checkWinding(PrimitiveFacts& facts) {
+    const TangentView& mesh = facts.mesh;
+    Tally against;
+    for (std::size_t f = 0; f < facts.surface.faces.size(); ++f) {
+        const FaceFrame& face = facts.surface.faces[f];
+        if (face.area == 0) continue;
+        ++against.total;
+        DVec3 mean;
+        for (std::size_t k = 0; k < 3; ++k) {
+            DVec3 normal = toDouble(mesh.normals[mesh.corners[3 * f + k]]);
+            if (normalize(normal)) mean = mean + normal;
+        }
+        if (normalize(mean) && dot(mean, toDouble(face.normal)) < kLeastFacing) against.add(mesh.corners[3 * f], face.area);
+    }
+    against.finish(facts.surface.area);
+    if (against.count == 0) return;
+    const Severity severity = against.surface_share >= kMostly ? Severity::error
+                              : against.surface_share >= kSome ? Severity::warning
+                                                               : Severity::note;
+    facts.add(FindingCode::normalsAgainstWinding, severity, against, "triangles",
+              "the normals of " + countText(against, "triangles") + " point to the back (" +
+                  shareText(against.surface_share) + " of the surface)");
+}
+
+}  // namespace
+
+void checkPositions(PrimitiveFacts& facts) {
+    Tally bad;
+    const std::vector<bool> used = usedVertices(facts.mesh);
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+        if (!used[v]) continue;
+        ++bad.total;
+        if (!isFinite(facts.mesh.positions[v])) bad.add(v, 0);
+    }
+    if (bad.count == 0) return;
+    facts.add(FindingCode::positionsNotFinite, Severity::error, bad, "vertices",
+              "the positions of " + countText(bad, "vertices") + " are NaN or infinite");
+}
+
+void checkNormals(PrimitiveFacts& facts) {
+    if (facts.mesh.normals.empty()) {
+        Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
+        facts.add(FindingCode::normalsMissing, Severity::note, all, "vertices",
+                  facts.is_gltf ? "it has no normals, so it is shaded flat"
+                                          : "not all faces have normals, so new ones are made for those without");
+        return;
+    }
+    checkNormalValues(facts);
+    checkWinding(facts);
+}
+
+}  // namespace tspace

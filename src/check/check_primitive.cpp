@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// One primitive: what it should follow, then family by family.
+#include "check/primitive_checks.h"
+
+#include "check/findings.h"
+#include "generate/uv_matrix.h"
+
+namespace tspace {
+
+UvReading plainReading(const ScenePrimitive& primitive, std::size_t uv_set) {
+    UvReading reading{.uv_set = uv_set};
+    if (uv_set < primitive.uv_sets.size()) reading.uvs = primitive.uv_sets[uv_set].span();
+    return reading;
+}
+
+UvReading readingOf(const ScenePrimitive& primitive, const TangentUse& use) {
+    UvReading reading = plainReading(primitive, use.uv_set);
+    const UvMatrix matrix = uvMatrix(use.transform.rotation, use.transform.scale[0], use.transform.scale[1]);
+    if (matrix.isIdentity() || reading.uvs.empty()) return reading;
+    reading.transformed = true;
+    reading.own = transformUvs(reading.uvs, matrix);
+    reading.uvs = reading.own;
+    return reading;
+}
+
+void PrimitiveFacts::add(FindingCode code, Severity severity, const Tally& tally, const char* unit,
+                         std::string message) {
+    findings.push_back(makeFinding(code, severity, tally, unit, std::move(message)));
+}
+
+Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, const CheckOptions& options,
+                                            bool is_gltf) {
+    PrimitiveFacts facts{.primitive = primitive, .options = options, .is_gltf = is_gltf};
+    if (primitive.corners.empty()) {
+        if (!primitive.tangents.empty()) {
+            Tally all{.count = 1, .total = 1};
+            facts.add(FindingCode::tangentsUnused, Severity::note, all, "primitives",
+                      "it has tangents, but draws " + primitive.mode);
+        }
+        return std::move(facts.findings);
+    }
+    facts.reading = primitive.uses.empty() ? plainReading(primitive, 0) : readingOf(primitive, primitive.uses.front());
+    facts.mesh = {.positions = primitive.positions.span(),
+                  .normals = primitive.normals.span(),
+                  .tangents = primitive.tangents.span(),
+                  .uvs = facts.reading.uvs,
+                  .corners = primitive.corners.span()};
+    facts.surface = describeSurface(facts.mesh);
+    checkPositions(facts);
+    checkNormals(facts);
+    checkUvs(facts);
+    checkTextures(facts);
+    if (const Result<Done> done = checkTangents(facts); !done) return done.error();
+    checkMorphTargets(facts);
+    return std::move(facts.findings);
+}
+
+}  // namespace tspace

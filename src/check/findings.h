@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Making findings: numbers into sentences.
+#pragma once
+
+#include <string>
+
+#include "check/tally.h"
+#include "tspace/check.h"
+
+namespace tspace {
+
+/// A finding with the tally's numbers, without a place.
+Finding makeFinding(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message);
+
+/// `severity`, but a warning where an error concerns less than `options.error_share` of the surface.
+Severity onShare(Severity severity, double surface_share, const CheckOptions& options);
+
+/// "12 of 345 vertices"; "all 345 vertices".
+std::string countText(const Tally& tally, const char* unit);
+/// "34.5 %", "less than 0.1 %".
+std::string shareText(double share);
+/// "12.3".
+std::string decimalText(double value);
+
+}  // namespace tspace

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Runs the examinations in order.
+#include "check/frame_health.h"
+
+namespace tspace {
+
+Result<FrameHealth> examineTangents(const TangentView& mesh, const Surface& surface, const CheckOptions& options) {
+    FrameHealth health;
+    examineValues(mesh, surface, options, health);
+    if (!mesh.normals.empty() && !mesh.uvs.empty()) {
+        const std::vector<float> directions = directionDistances(mesh, surface, options.direction_deg);
+        examineSigns(mesh, surface, options, directions, health);
+        examineDirections(mesh, surface, options, directions, health);
+        if (const Result<Done> done = examineSplits(mesh, surface, options, health); !done) return done.error();
+    }
+    for (Tally* tally : {&health.not_finite, &health.not_unit, &health.not_orthogonal, &health.sign_not_one,
+                         &health.signs_mixed, &health.signs_wrong, &health.mirrored_seams, &health.uv_seams,
+                         &health.directions_wrong, &health.frames_differ}) {
+        tally->finish(surface.area);
+    }
+    if (surface.area > 0) {
+        health.far_from_unit /= surface.area;
+        health.parallel /= surface.area;
+        health.far_directions /= surface.area;
+    }
+    return health;
+}
+
+Result<FrameHealth> examineTangents(const TangentView& mesh, const CheckOptions& options) {
+    return examineTangents(mesh, describeSurface(mesh), options);
+}
+
+}  // namespace tspace

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Based on: Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001 (dP/du of a triangle).
+#include "check/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/unit.h"
+#include "core/uv_frame.h"
+
+namespace tspace {
+
+namespace {
+
+/// The reference takes smaller determinants for zero.
+constexpr double kSmallestDeterminant = 1.17549435e-38;
+
+/// Whether the sign of the determinant survives rounding: of the UVs when they were stored as floats, and of a reader's
+/// float arithmetic. 2^-23 is the largest relative error of a difference of floats.
+bool isReliable(double determinant, const Vec2& a, const Vec2& b, const Vec2& c) {
+    constexpr double kStep = 1.0 / (1 << 23);
+    const double s1 = std::fabs(double{b.x} - double{a.x}), t1 = std::fabs(double{b.y} - double{a.y});
+    const double s2 = std::fabs(double{c.x} - double{a.x}), t2 = std::fabs(double{c.y} - double{a.y});
+    const double size = std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(b.x), std::fabs(b.y), std::fabs(c.x),
+                                  std::fabs(c.y)});
+    const double stored = kStep * size * (s1 + t1 + s2 + t2);
+    const double computed = 4 * kStep * (s1 * t2 + s2 * t1);
+    return std::fabs(determinant) > stored + computed;
+}
+
+FaceFrame describeFace(const TangentView& mesh, const std::uint32_t* corner) {
+    FaceFrame face;
+    const Vec3 &a = mesh.positions[corner[0]], &b = mesh.positions[corner[1]], &c = mesh.positions[corner[2]];
+    DVec3 normal = cross(toDouble(b) - toDouble(a), toDouble(c) - toDouble(a));
+    const double area = 0.5 * length(normal);
+    if (!std::isfinite(area) || a == b || b == c || c == a) return face;
+    face.area = static_cast<float>(area);
+    if (normalize(normal)) face.normal = toFloat(normal);
+    if (mesh.uvs.empty()) return face;
+    const Vec2 &ua = mesh.uvs[corner[0]], &ub = mesh.uvs[corner[1]], &uc = mesh.uvs[corner[2]];
+    const UvFrame frame = uvFrame(a, b, c, ua, ub, uc);
+    if (!(std::fabs(frame.determinant) > kSmallestDeterminant) || !hasUvArea(frame.determinant)) return face;
+    DVec3 tangent = (frame.determinant < 0 ? -1.0 : 1.0) * frame.tangent;
+    if (!normalize(tangent)) return face;
+    face.tangent = toFloat(tangent);
+    if (isReliable(frame.determinant, ua, ub, uc)) face.orientation = frame.determinant < 0 ? -1 : 1;
+    return face;
+}
+
+}  // namespace
+
+Surface describeSurface(const TangentView& mesh) {
+    Surface surface;
+    surface.faces.reserve(mesh.corners.size() / 3);
+    surface.vertex_areas.assign(mesh.positions.size(), 0.0);
+    for (std::size_t c = 0; c + 2 < mesh.corners.size(); c += 3) {
+        surface.faces.push_back(describeFace(mesh, mesh.corners.data() + c));
+        const double area = surface.faces.back().area;
+        surface.area += area;
+        for (std::size_t k = 0; k < 3; ++k) surface.vertex_areas[mesh.corners[c + k]] += area / 3;
+    }
+    return surface;
+}
+
+}  // namespace tspace

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// What every triangle says on its own: its normal and area, where u grows on it, and on which side v lies.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "check/tangent_view.h"
+
+namespace tspace {
+
+struct FaceFrame {
+    Vec3 normal = {};      ///< unit, by the right-hand rule; zero where the triangle has no area
+    Vec3 tangent = {};     ///< unit dP/du; zero where the UVs have no area
+    float area = 0;
+    /// Sign of the UV determinant; 0 where the UVs have no area, or so little that rounding decides. In that last case
+    /// `tangent` may as well point the other way.
+    std::int8_t orientation = 0;
+};
+
+struct Surface {
+    std::vector<FaceFrame> faces = {};         ///< one per triangle
+    std::vector<double> vertex_areas = {};     ///< a third of each triangle around the vertex
+    double area = 0;
+};
+
+/// Positions, UVs (empty: no orientation anywhere) and corners of the view are looked at. Triangles that are not finite
+/// have no area. Linear.
+Surface describeSurface(const TangentView& mesh);
+
+}  // namespace tspace

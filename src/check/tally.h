@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// How often something was met, on how much of the surface, and where first.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace tspace {
+
+struct Tally {
+    static constexpr std::size_t kMostVertices = 8;
+
+    std::uint64_t count = 0;
+    std::uint64_t total = 0;  ///< of how many
+    double area = 0;
+    double surface_share = 0;  ///< of the mesh's area, once finish() was called
+    double worst_deg = 0;
+    std::vector<std::uint32_t> vertices = {};  ///< the first
+
+    void add(std::uint32_t vertex, double its_area, double deg = 0) {
+        ++count;
+        area += its_area;
+        worst_deg = std::max(worst_deg, deg);
+        if (vertices.size() < kMostVertices) vertices.push_back(vertex);
+    }
+    void finish(double whole_area) { surface_share = whole_area > 0 ? std::min(1.0, area / whole_area) : 0; }
+};
+
+}  // namespace tspace

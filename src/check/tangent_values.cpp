@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// What tangents must be whatever the UVs are: finite, unit, in the plane of the surface, with a sign of +1 or -1 that all
+// corners of a triangle share.
+#include <cmath>
+
+#include "check/frame_health.h"
+#include "core/angle.h"
+#include "core/unit.h"
+
+namespace tspace {
+
+namespace {
+
+/// Lengths from which nobody's normalisation hides the fault.
+constexpr double kFarFromUnit = 0.1;
+
+/// Beyond there is hardly a frame left, whatever a renderer does.
+constexpr double kParallel = 85;
+
+/// w is exact in every format that glTF allows.
+constexpr double kSignTolerance = 1e-6;
+
+void examineMixedSigns(const TangentView& mesh, const Surface& surface, FrameHealth& health) {
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+        const std::uint32_t* corner = mesh.corners.data() + 3 * f;
+        ++health.signs_mixed.total;
+        const bool positive = mesh.tangents[corner[0]].w > 0;
+        if ((mesh.tangents[corner[1]].w > 0) != positive || (mesh.tangents[corner[2]].w > 0) != positive) {
+            health.signs_mixed.add(corner[0], surface.faces[f].area);
+        }
+    }
+}
+
+}  // namespace
+
+void examineValues(const TangentView& mesh, const Surface& surface, const CheckOptions& options, FrameHealth& health) {
+    std::vector<bool> used(mesh.positions.size(), false);
+    // Where no triangle has UV area the texture shows one texel, and a tangent is but a placeholder.
+    std::vector<bool> knows_direction(mesh.positions.size(), false);
+    for (std::size_t c = 0; c < surface.faces.size() * 3; ++c) {
+        used[mesh.corners[c]] = true;
+        if (surface.faces[c / 3].orientation != 0) knows_direction[mesh.corners[c]] = true;
+    }
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+        if (!used[v]) continue;
+        const Vec4& stored = mesh.tangents[v];
+        const double area = surface.vertex_areas[v];
+        DVec3 tangent = toDouble(xyz(stored));
+        for (Tally* tally : {&health.not_finite, &health.not_unit, &health.sign_not_one}) ++tally->total;
+        if (!isFinite(xyz(stored)) || !std::isfinite(stored.w)) {
+            health.not_finite.add(v, area);
+            continue;
+        }
+        if (std::fabs(std::fabs(double{stored.w}) - 1) > kSignTolerance) {
+            health.sign_not_one.add(v, area);
+            health.sign_vanishes = health.sign_vanishes || std::fabs(stored.w) < 0.5f;
+        }
+        const double off = std::fabs(length(tangent) - 1);
+        if (off > options.unit_tolerance) health.not_unit.add(v, area);
+        if (off > kFarFromUnit) health.far_from_unit += area;
+        DVec3 normal = mesh.normals.empty() ? DVec3{} : toDouble(mesh.normals[v]);
+        if (!normalize(tangent) || !normalize(normal)) continue;
+        if (!mesh.uvs.empty() && !knows_direction[v]) continue;
+        ++health.not_orthogonal.total;
+        const double lean = std::fabs(90 - angleBetween(normal, tangent) * 180 / kPi);
+        if (lean > options.orthogonal_deg) health.not_orthogonal.add(v, area, lean);
+        if (lean > kParallel) health.parallel += area;
+    }
+    examineMixedSigns(mesh, surface, health);
+}
+
+}  // namespace tspace

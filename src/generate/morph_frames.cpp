@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// Each target is evaluated on the plan of the base, mended as the base was, and compared with the base corner by corner.
+// Where nothing near a corner moves the evaluation has the base's bits, so the offset is exactly zero. Where a target
+// makes faces collapse (an eye that closes), the corner has no tangent of its own and keeps that of the base.
+#include "generate/morph_frames.h"
+
+#include <cfloat>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/vec_math.h"
+#include "tspace/frame.h"
+#include "tspace/sanitize.h"
+
+namespace tspace {
+
+namespace {
+
+constexpr double kCosineOfFiveDegrees = 0.99619469809174555;
+
+bool isZero(const Vec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
+Vec3 sum(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+
+/// What a viewer makes of a normal and its offset. Without a direction it stays as it is, and is mended later.
+Vec3 unitSum(const Vec3& normal, const Vec3& offset) {
+    const Vec3 moved = sum(normal, offset);
+    const DVec3 wide = toDouble(moved);
+    const double size = length(wide);
+    return size > 0 && std::isfinite(size) ? toFloat((1 / size) * wide) : moved;
+}
+
+bool hasDirection(const Vec4& tangent) {
+    return isFinite(xyz(tangent)) && length(toDouble(xyz(tangent))) >= double{FLT_MIN};
+}
+
+/// The tangent of the base, made orthogonal to another normal that has a direction.
+Vec4 carried(const Vec4& tangent, const Vec3& from, const Vec3& to) {
+    if (from == to || !isFinite(to) || isZero(to)) return tangent;
+    const Vec3 t = orthonormalize({.tangent = xyz(tangent), .bitangent = {}, .normal = to}).tangent;
+    return {t.x, t.y, t.z, tangent.w};
+}
+
+/// values + offsets, vertex by vertex; a vertex with the offset zero keeps its bits. Returns whether one has another.
+template <class Add>
+bool move(std::span<const Vec3> values, const LocalMesh& mesh, const std::vector<Vec3>& offsets, Add&& add,
+          std::vector<Vec3>& out) {
+    out.assign(values.begin(), values.end());
+    if (offsets.empty() || values.empty()) return false;
+    bool moves = false;
+    for (std::size_t v = 0; v < out.size(); ++v) {
+        const Vec3& offset = offsets[mesh.sources.empty() ? v : mesh.sources[v]];
+        if (isZero(offset)) continue;
+        out[v] = add(out[v], offset);
+        moves = true;
+    }
+    return moves;
+}
+
+}  // namespace
+
+Result<MorphOffsets> readTarget(const VertexPool& pool, std::size_t i) {
+    Result<MorphOffsets> offsets = pool.targets.read(i);
+    if (!offsets) return offsets;
+    for (const std::vector<Vec3>* list : {&offsets->positions, &offsets->normals}) {
+        if (list->empty() || list->size() == pool.positions.size()) continue;
+        return Error{ErrorCode::countMismatch, "morph target " + std::to_string(i) + " has " +
+                                                   std::to_string(list->size()) + " offsets for " +
+                                                   std::to_string(pool.positions.size()) + " vertices"};
+    }
+    return offsets;
+}
+
+bool MorphPose::take(const LocalMesh& mesh, const MorphOffsets& offsets) {
+    const bool moves_positions = move(mesh.positions, mesh, offsets.positions, sum, positions_);
+    const bool moves_normals = move(mesh.normals, mesh, offsets.normals, unitSum, normals_);
+    return moves_positions || moves_normals;
+}
+
+Vec3 offsetBetween(const Vec3& from, const Vec3& to) {
+    // A sum with +0 is never -0.
+    const Vec3 offset{to.x - from.x + 0.0f, to.y - from.y + 0.0f, to.z - from.z + 0.0f};
+    return isFinite(offset) ? offset : Vec3{};
+}
+
+Result<Done> MorphTangents::add(LocalMesh&& mesh, PrimitiveReport& report) {
+    Result<TangentPlan> plan = planTangents(mesh.view(), options_.tangents);
+    if (!plan) return std::move(plan).error();
+    const MeshView view = mesh.view();
+    tangents_.resize(mesh.indices.size());
+    const Result<TangentReport> made = evaluateTangents(*plan, {view.positions, view.normals}, {.tangents = tangents_},
+                                                        options_.tangents.execution);
+    if (!made) return made.error();
+    std::vector<bool> has_direction(tangents_.size());
+    for (std::size_t c = 0; c < tangents_.size(); ++c) has_direction[c] = hasDirection(tangents_[c]);
+    pieces_.push_back({std::move(mesh), *std::move(plan), std::move(has_direction), &report});
+    return Done{};
+}
+
+Result<Done> MorphTangents::compute(std::span<const Vec4> tangents, MorphSplit& split) {
+    std::vector<Vec3> offsets(tangents.size());
+    for (std::size_t target = 0; target < pool_.targets.count; ++target) {
+        const Result<MorphOffsets> moved = readTarget(pool_, target);
+        if (!moved) return moved.error();
+        std::size_t first = 0;
+        for (const Piece& piece : pieces_) {
+            const std::size_t count = piece.mesh.indices.size();
+            const std::span<Vec3> own = std::span<Vec3>(offsets).subspan(first, count);
+            if (!pose_.take(piece.mesh, *moved)) {
+                std::fill(own.begin(), own.end(), Vec3{});
+            } else if (Result<Done> done = evaluate(piece, tangents.subspan(first, count), own); !done) {
+                return done;
+            }
+            first += count;
+        }
+        if (Result<Done> done = split.add(offsets, 0, options_.tangents.execution); !done) return done;
+    }
+    return Done{};
+}
+
+Result<Done> MorphTangents::evaluate(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets) {
+    tangents_.resize(base.size());
+    MeshView posed = piece.mesh.view();
+    posed.positions = StridedSpan<const Vec3>(pose_.positions());
+    posed.normals = StridedSpan<const Vec3>(pose_.normals());
+    const Result<TangentReport> made = evaluateTangents(piece.plan, {posed.positions, posed.normals},
+                                                        {.tangents = tangents_}, options_.tangents.execution);
+    if (!made) return made.error();
+    if (options_.sanitize) {
+        carryOver(piece, base);
+        const Result<SanitizeReport> mended = sanitizeTangents(posed, tangents_, options_.sanitize_options);
+        if (!mended) return mended.error();
+    }
+    for (std::size_t c = 0; c < base.size(); ++c) {
+        offsets[c] = offsetBetween(xyz(base[c]), xyz(tangents_[c]));
+        if (base[c].w != tangents_[c].w) ++piece.report->morph_sign_flip_count;
+    }
+    return Done{};
+}
+
+/// Where faces collapsed.
+void MorphTangents::carryOver(const Piece& piece, std::span<const Vec4> base) {
+    for (std::size_t c = 0; c < base.size(); ++c) {
+        if (!piece.has_direction[c] || hasDirection(tangents_[c])) continue;
+        const std::uint32_t v = piece.mesh.indices[c];
+        tangents_[c] = carried(base[c], piece.mesh.normals[v], pose_.normals()[v]);
+    }
+}
+
+std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec4> of_vertices,
+                             std::span<const std::uint32_t> vertices) {
+    std::uint64_t count = 0;
+    for (std::size_t c = 0; c < computed.size(); ++c) {
+        const Vec4& kept = of_vertices[vertices[c]];
+        const DVec3 a = toDouble(xyz(computed[c])), b = toDouble(xyz(kept));
+        const bool same = computed[c].w == kept.w && dot(a, b) >= kCosineOfFiveDegrees * length(a) * length(b);
+        count += same ? 0 : 1;
+    }
+    return count;
+}
+
+}  // namespace tspace

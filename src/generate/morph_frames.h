@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// What morph targets add to the tangents of a pool: tangents of the moved shape with the groups of the base, minus those
+// of the base.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "generate/local_mesh.h"
+#include "generate/morph_split.h"
+#include "tspace/tangents.h"
+
+namespace tspace {
+
+/// Target `i` of a pool. Fails with countMismatch where its counts are not those of the pool.
+Result<MorphOffsets> readTarget(const VertexPool& pool, std::size_t i);
+
+/// A mesh moved by a target. Its arrays are used again for the next one.
+class MorphPose {
+  public:
+    /// Returns false, and has no pose, when no vertex of the mesh moves.
+    bool take(const LocalMesh& mesh, const MorphOffsets& offsets);
+
+    [[nodiscard]] std::span<const Vec3> positions() const { return positions_; }
+    [[nodiscard]] std::span<const Vec3> normals() const { return normals_; }
+
+  private:
+    std::vector<Vec3> positions_, normals_;
+};
+
+/// to - from, without signed zeros; zero where it is not finite.
+Vec3 offsetBetween(const Vec3& from, const Vec3& to);
+
+class MorphTangents {
+  public:
+    MorphTangents(const VertexPool& pool, const GenerateOptions& options) : pool_(pool), options_(options) {}
+
+    /// The next primitive as it was computed: triangles, with normals. `report` gets its counts later.
+    Result<Done> add(LocalMesh&& mesh, PrimitiveReport& report);
+
+    /// One target after the other. `tangents`: of the base, one per corner of all primitives. Goes on with the split.
+    Result<Done> compute(std::span<const Vec4> tangents, MorphSplit& split);
+
+  private:
+    struct Piece {
+        LocalMesh mesh;
+        TangentPlan plan;
+        std::vector<bool> has_direction;  ///< per corner: the base has a tangent there that needs no substitute
+        PrimitiveReport* report = nullptr;
+    };
+    Result<Done> evaluate(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets);
+    void carryOver(const Piece& piece, std::span<const Vec4> base);
+
+    const VertexPool& pool_;
+    const GenerateOptions& options_;
+    std::vector<Piece> pieces_ = {};
+    MorphPose pose_ = {};
+    std::vector<Vec4> tangents_ = {};
+};
+
+/// Corners whose tangent differs from that of their vertex by sign, or in direction by more than 5 degrees. `computed`
+/// is unit.
+std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec4> of_vertices,
+                             std::span<const std::uint32_t> vertices);
+
+}  // namespace tspace

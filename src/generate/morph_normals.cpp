@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Normals of the base split the vertices first; then each target in turn, where it bends faces that lie in one plane on
+// the base and are not smooth.
+#include "generate/morph_normals.h"
+
+#include <utility>
+
+#include "generate/local_mesh.h"
+#include "generate/morph_frames.h"
+#include "generate/morph_split.h"
+#include "normals/pose_normals.h"
+
+namespace tspace {
+
+namespace {
+
+/// Corners whose normals a target turns alike, but for rounding, stay together. Of unit vectors; 0.0006 degrees.
+constexpr float kTolerance = 1e-5f;
+
+class PoolNormals {
+  public:
+    PoolNormals(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives, const GenerateOptions& options,
+                std::span<PrimitiveReport> reports)
+        : pool_(pool), primitives_(primitives), options_(options), reports_(reports) {}
+
+    Result<Done> compute(PoolWithNormals& result) {
+        if (Result<Done> done = computeBase(); !done) return done;
+        const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec3>(normals_));
+        Result<SplitResult> split = splitVertices(IndexView(spanOf(indices_)), pool_.positions.size(), indices_.size(),
+                                                  {&attribute, 1}, options_.normals.execution);
+        if (!split) return std::move(split).error();
+        MorphSplit morph_split(*std::move(split), true);
+        for (std::size_t target = 0; target < pool_.targets.count; ++target) {
+            if (Result<Done> done = addTarget(target, morph_split); !done) return done;
+        }
+        write(morph_split, result);
+        return Done{};
+    }
+
+  private:
+    Result<Done> computeBase() {
+        LocalMeshes local(pool_, primitives_.size());
+        for (std::size_t p = 0; p < primitives_.size(); ++p) {
+            const std::vector<std::uint32_t>& corners = primitives_[p].indices;
+            if (Result<Done> valid = validate(viewInPool(pool_, primitives_[p])); !valid) return valid;
+            if (indices_.size() + corners.size() > kMaxCorners) {
+                return Error{ErrorCode::tooLarge,
+                             "the primitives that share these vertices have more than 2^31-1 corners"};
+            }
+            const std::size_t first = indices_.size();
+            indices_.insert(indices_.end(), corners.begin(), corners.end());
+            normals_.resize(indices_.size());
+            meshes_.push_back(local.make(primitives_[p]));
+            if (corners.empty()) continue;
+            const Result<NormalReport> made =
+                generateNormals(meshes_[p].view(), optionsOf(p), std::span(normals_).subspan(first));
+            if (!made) return made.error();
+            reports_[p].normals = *made;
+            reports_[p].normals_generated = true;
+        }
+        return Done{};
+    }
+
+    [[nodiscard]] NormalOptions optionsOf(std::size_t primitive) const {
+        NormalOptions options = options_.normals;
+        options.smoothing_groups = primitives_[primitive].smoothing_groups;
+        return options;
+    }
+
+    Result<Done> addTarget(std::size_t target, MorphSplit& split) {
+        Result<MorphOffsets> moved = readTarget(pool_, target);
+        if (!moved) return std::move(moved).error();
+        std::vector<Vec3> offsets(normals_.size());
+        std::size_t first = 0;
+        for (std::size_t p = 0; p < meshes_.size(); first += primitives_[p++].indices.size()) {
+            if (!pose_.take(meshes_[p], *moved)) continue;
+            const std::span<Vec3> own = std::span(offsets).subspan(first, primitives_[p].indices.size());
+            const Result<NormalReport> made = generatePoseNormals(
+                meshes_[p].view(), StridedSpan<const Vec3>(pose_.positions()), optionsOf(p), own);
+            if (!made) return made.error();
+            for (std::size_t c = 0; c < own.size(); ++c) own[c] = offsetBetween(normals_[first + c], own[c]);
+        }
+        return split.add(offsets, kTolerance, options_.normals.execution);
+    }
+
+    void write(MorphSplit& morph_split, PoolWithNormals& result) const {
+        result.offsets = morph_split.finish();
+        SplitResult& split = morph_split.split();
+        result.pool.positions = gather(std::span<const Vec3>(pool_.positions), split.source_vertices);
+        result.pool.uvs = gather(std::span<const Vec2>(pool_.uvs), split.source_vertices);
+        result.pool.normals = gatherNormals(normals_, split.source_corners);
+        result.source_vertices = std::move(split.source_vertices);
+        std::size_t first = 0;
+        for (const PrimitiveGeometry& primitive : primitives_) {
+            const auto begin = split.indices.begin() + static_cast<std::ptrdiff_t>(first);
+            first += primitive.indices.size();
+            const auto end = split.indices.begin() + static_cast<std::ptrdiff_t>(first);
+            result.primitives.push_back({.indices = {begin, end}, .face_sizes = primitive.face_sizes});
+        }
+        result.pool.targets.count = pool_.targets.count;
+        result.pool.targets.read = [&old = pool_, &result](std::size_t target) { return readSplit(old, result, target); };
+    }
+
+    /// A target of the old pool, for the new vertices, with the normals that were computed.
+    static Result<MorphOffsets> readSplit(const VertexPool& old, const PoolWithNormals& result, std::size_t target) {
+        Result<MorphOffsets> offsets = readTarget(old, target);
+        if (!offsets) return offsets;
+        offsets->positions = gather(std::span<const Vec3>(offsets->positions), result.source_vertices);
+        const VertexOffsets& normals = result.offsets[target];
+        offsets->normals.assign(result.source_vertices.size(), Vec3{});
+        for (std::size_t i = 0; i < normals.vertices.size(); ++i) {
+            offsets->normals[normals.vertices[i]] = normals.offsets[i];
+        }
+        return offsets;
+    }
+
+    const VertexPool& pool_;
+    std::span<const PrimitiveGeometry> primitives_;
+    const GenerateOptions& options_;
+    std::span<PrimitiveReport> reports_;
+    std::vector<LocalMesh> meshes_ = {};
+    std::vector<std::uint32_t> indices_ = {};  ///< corners of all primitives
+    std::vector<Vec3> normals_ = {};           ///< of the base, one per corner
+    MorphPose pose_ = {};
+};
+
+}  // namespace
+
+Result<Done> generatePoolNormals(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,
+                                 const GenerateOptions& options, std::span<PrimitiveReport> reports,
+                                 PoolWithNormals& result) {
+    return PoolNormals(pool, primitives, options, reports).compute(result);
+}
+
+}  // namespace tspace

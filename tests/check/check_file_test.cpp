@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// checkFile: findings of a whole file, their places and order.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "asset/gltf_builder.h"
+#include "check/images.h"
+#include "check/patch.h"
+#include "support/temp_folder.h"
+
+namespace tspace::test {
+namespace {
+
+using gltf::Json;
+
+template <class T>
+std::vector<float> floatsOf(const SharedArray<T>& values) {
+    const auto* first = reinterpret_cast<const float*>(values.data());
+    return {first, first + values.size() * sizeof(T) / sizeof(float)};
+}
+
+/// Adds a patch to mesh 0; material 0.
+void addPatch(GltfBuilder& builder, const ScenePrimitive& patch) {
+    Json attributes = Json::object();
+    attributes["POSITION"] = builder.addFloats(floatsOf(patch.positions), 3);
+    attributes["NORMAL"] = builder.addFloats(floatsOf(patch.normals), 3);
+    attributes["TANGENT"] = builder.addFloats(floatsOf(patch.tangents), 4);
+    attributes["TEXCOORD_0"] = builder.addFloats(floatsOf(patch.uv_sets[0]), 2);
+    const std::vector<std::uint32_t> corners(patch.corners.begin(), patch.corners.end());
+    const std::size_t indices = builder.addAccessor(corners, 5125, "SCALAR", corners.size());
+    Json& primitive = builder.addPrimitive(attributes);
+    primitive["indices"] = indices;
+    primitive["material"] = 0;
+}
+
+/// A model with a normal map in a file beside it.
+struct TestModel {
+    TempFolder folder = {};
+    GltfBuilder builder = {};
+
+    explicit TestModel(bool green_down = false, bool inverted = false) {
+        folder.write("normal.png", pngFile(normalMapOf(256, bumps, green_down)));
+        builder.json()["images"] = Json::parse(R"([{"uri":"normal.png"}])");
+        builder.json()["textures"] = Json::parse(R"([{"source":0}])");
+        builder.json()["materials"] = Json::parse(R"([{"name":"skin","normalTexture":{"index":0}}])");
+        ScenePrimitive patch = goodPatch(Seam::turned);
+        if (inverted) {
+            edit(patch.tangents, [](auto& tangents) {
+                for (Vec4& t : tangents) t.w = -t.w;
+            });
+        }
+        addPatch(builder, patch);
+        builder.json()["meshes"][0]["name"] = "patch";
+    }
+
+    [[nodiscard]] CheckReport check(const CheckOptions& options = {}) const {
+        const Result<CheckReport> report = checkFile(folder.write("model.gltf", builder.gltfText()), options);
+        EXPECT_TRUE(report) << report.error().message;
+        return report ? *report : CheckReport{};
+    }
+};
+
+std::multiset<std::string> codes(const CheckReport& report) {
+    std::multiset<std::string> result;
+    for (const Finding& finding : report.findings) {
+        result.insert(std::string(severityName(finding.severity)) + " " + findingName(finding.code));
+    }
+    return result;
+}
+
+using Codes = std::multiset<std::string>;
+
+TEST(CheckFile, FindsNothingInAGoodFile) {
+    const CheckReport report = TestModel().check();
+    EXPECT_EQ(codes(report), Codes{});
+    EXPECT_EQ(report.primitive_count, 1u);
+    EXPECT_EQ(report.tangents_count, 1u);
+    EXPECT_EQ(report.image_count, 1u);
+    EXPECT_EQ(report.format, "gltf");
+}
+
+TEST(CheckFile, SaysWhereAndInWhat) {
+    const CheckReport report = TestModel(false, true).check();
+    ASSERT_EQ(codes(report), Codes{"error signsInverted"});
+    const Finding& finding = report.findings[0];
+    EXPECT_EQ(finding.place, "/meshes/0/primitives/0");
+    EXPECT_EQ(finding.mesh_name, "patch");
+    EXPECT_EQ(finding.material_name, "skin");
+    EXPECT_EQ(finding.count, 2 * kHalf);
+    EXPECT_EQ(finding.vertices.size(), 8u);
+    EXPECT_EQ(finding.remedy, findingRemedy(FindingCode::signsInverted));
+    EXPECT_EQ(report.error_count, 1u);
+}
+
+TEST(CheckFile, FindsANormalMapWhoseGreenPointsDown) {
+    const CheckReport report = TestModel(true).check();
+    ASSERT_EQ(codes(report), Codes{"warning greenFlipped"});
+    EXPECT_EQ(report.findings[0].place, "/materials/0/normalTexture");
+    EXPECT_GT(report.findings[0].confidence, 0.9);
+    EXPECT_NE(report.findings[0].message.find("'normal.png'"), std::string::npos);
+    EXPECT_EQ(codes(TestModel(true).check({.images = false})), Codes{});
+}
+
+TEST(CheckFile, KnowsThatInvertedSignsAndGreenDownCancelOut) {
+    const CheckReport report = TestModel(true, true).check();
+    EXPECT_EQ(codes(report), (Codes{"warning signsInverted", "note greenFlipped"}));
+    for (const Finding& finding : report.findings) {
+        EXPECT_NE(finding.message.find("cancel out"), std::string::npos) << finding.message;
+    }
+    TestModel mixed(true, true);
+    addPatch(mixed.builder, goodPatch());
+    EXPECT_EQ(codes(mixed.check()), (Codes{"warning signsInverted", "warning greenFlipped"})) << "not in the other patch";
+}
+
+TEST(CheckFile, SaysThatAnImageWasNotLookedAt) {
+    TestModel model;
+    model.folder.write("normal.png", "RIFF0000WEBP");
+    CheckReport report = model.check();
+    EXPECT_EQ(codes(report), Codes{"note normalMapUnreadable"});
+    EXPECT_EQ(report.image_count, 0u);
+    std::filesystem::remove(model.folder.path("normal.png"));
+    EXPECT_EQ(codes(model.check()), Codes{"note normalMapUnreadable"});
+}
+
+TEST(CheckFile, GivesEachPrimitiveItsOwnFindings) {
+    TestModel model(false, true);
+    Json& primitives = model.builder.json()["meshes"][0]["primitives"];
+    primitives.push_back(primitives[0]);  // the same arrays: checked once
+    addPatch(model.builder, goodPatch());
+    primitives.push_back(primitives[0]);
+    primitives[3].erase("material");
+    const CheckReport report = model.check();
+    EXPECT_EQ(codes(report), (Codes{"error signsInverted", "error signsInverted", "warning signsInverted",
+                                    "note tangentsUnused"}));
+    EXPECT_EQ(report.findings[0].place, "/meshes/0/primitives/0");
+    EXPECT_EQ(report.findings[1].place, "/meshes/0/primitives/1");
+    EXPECT_EQ(report.findings[1].primitive, 1u);
+    EXPECT_EQ(report.findings[2].place, "/meshes/0/primitives/3");
+    EXPECT_TRUE(std::is_sorted(report.findings.begin(), report.findings.end(), [](const Finding& a, const Finding& b) {
+        return a.severity > b.severity;
+    }));
+}
+
+TEST(CheckFile, IsTheSameForAnyNumberOfThreads) {
+    TestModel model(true, true);
+    for (int i = 0; i < 5; ++i) addPatch(model.builder, goodPatch(Seam::mirrored));
+    const auto texts = [&](unsigned threads) {
+        std::vector<std::string> result;
+        for (const Finding& finding : model.check({.execution = {.thread_count = threads}}).findings) {
+            result.push_back(finding.place + finding.message);
+        }
+        return result;
+    };
+    EXPECT_EQ(texts(1), texts(4));
+    EXPECT_FALSE(texts(1).empty());
+}
+
+TEST(CheckFile, LooksAtAnObjWithoutComplainingThatItHasNoTangents) {
+    const TempFolder folder;
+    folder.write("m.mtl", "newmtl a\nnorm n.png\n");
+    folder.write("n.png", pngFile(normalMapOf(256, bumps, true)));
+    const std::string file = folder.write("a.obj",
+                                          "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n"
+                                          "usemtl a\nf 1/1/1 2/2/1 3/3/1\n");
+    const Result<CheckReport> report = checkFile(file);
+    ASSERT_TRUE(report);
+    EXPECT_EQ(codes(*report), (Codes{"note tangentsMissing", "warning greenFlipped"}));
+    EXPECT_EQ(report->findings[0].place, "usemtl a");
+}
+
+TEST(CheckFile, RefusesOptionsWithoutMeaning) {
+    for (const CheckOptions& options : {CheckOptions{.direction_deg = -1}, CheckOptions{.error_share = NAN}}) {
+        const Result<CheckReport> report = checkFile("unread.glb", options);
+        ASSERT_FALSE(report);
+        EXPECT_EQ(report.error().code, ErrorCode::invalidOption);
+    }
+}
+
+}  // namespace
+}  // namespace tspace::test

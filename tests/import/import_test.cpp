@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+// Models in other formats become glTF with frames, and a broken one is only an error.
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <gtest/gtest.h>
+
+#include <assimp/Exporter.hpp>
+#include <assimp/Importer.hpp>
+
+#include "asset/gltf/primitive_reader.h"
+#include "asset/import/import_document.h"
+#include "asset/scene.h"
+#include "support/scene_file.h"
+#include "support/shared_data.h"
+#include "tspace/diff.h"
+
+namespace tspace::test {
+namespace {
+
+const FileOptions kWithImporter{.importer = TSPACE_IMPORTER};
+
+/// A file in Assimp's format `format` with what the glTF file holds.
+std::string exported(const TempFolder& folder, const std::string& gltf, const std::string& format,
+                     const std::string& extension) {
+    Assimp::Importer importer;
+    const aiScene* scene = importer.ReadFile(gltf, 0);
+    if (scene == nullptr) throw std::runtime_error(importer.GetErrorString());
+    const std::string path = folder.path("model." + extension).string();
+    Assimp::Exporter exporter;
+    if (exporter.Export(scene, format, path) != AI_SUCCESS) throw std::runtime_error(exporter.GetErrorString());
+    return path;
+}
+
+Result<GenerateReport> generate(const std::string& input, const std::string& output, FileOptions file = kWithImporter) {
+    GenerateOptions options{.all = true};
+    options.file = std::move(file);
+    return generateFile(input, output, options);
+}
+
+ErrorCode codeOf(const Result<GenerateReport>& report) { return report ? ErrorCode::ok : report.error().code; }
+
+/// What the library throws inside itself, as something that a test prints.
+template <class Body>
+auto readable(Body&& body) {
+    try {
+        return body();
+    } catch (const FileError& failure) {
+        throw std::runtime_error(failure.error.message);
+    }
+}
+
+Scene sceneOf(const std::string& path) {
+    return readable([&] { return readScene(path, kWithImporter, false); });
+}
+
+struct Format {
+    const char* name;
+    const char* extension;
+    bool has_uvs;
+};
+
+class EachFormat : public testing::TestWithParam<Format> {};
+
+TEST_P(EachFormat, KeepsTheSurfaceAndGetsFrames) {
+    const auto& [format, extension, has_uvs] = GetParam();
+    const TempFolder folder;
+    ModelData sheet = bentSheet(5);
+    const std::string original = writeModel(folder, "sheet.glb", {sheet});
+    const std::string path = exported(folder, original, format, extension);
+    const std::string output = folder.path("out.glb").string();
+    const Result<GenerateReport> report = generate(path, output);
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    const Scene scene = sceneOf(output);
+    ASSERT_EQ(scene.primitives.size(), 1U);
+    const ScenePrimitive& primitive = scene.primitives[0];
+    EXPECT_EQ(primitive.corners.size(), sheet.indices.size());
+    EXPECT_EQ(primitive.normals.size(), primitive.positions.size());
+    if (!has_uvs) {
+        EXPECT_EQ(report->primitives[0].action, PrimitiveAction::impossible);
+        return;
+    }
+    EXPECT_EQ(report->primitives[0].action, PrimitiveAction::generated);
+    // Text formats write few digits; the frames of the sheet are those of the glTF file all the same.
+    const std::string direct = folder.path("direct.glb").string();
+    ASSERT_TRUE(generate(original, direct).ok());
+    const Result<FrameDiff> diff = diffFiles(direct, output);
+    ASSERT_TRUE(diff.ok());
+    EXPECT_EQ(diff->unpaired_triangle_count, 0U);
+    EXPECT_EQ(diff->sign_change_count, 0U);
+    EXPECT_LT(diff->tangents.max_deg, 0.1);
+    EXPECT_LT(diff->normals.max_deg, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Import, EachFormat,
+                         testing::Values(Format{"fbxa", "fbx", true}, Format{"collada", "dae", true},
+                                         Format{"ply", "ply", true}, Format{"plyb", "ply", true},
+                                         Format{"stlb", "stl", false}),
+                         [](const auto& format) { return std::string(format.param.name); });
+
+TEST(Import, VerticesAreJoinedOnlyWhereAllBitsAgree) {
+    const TempFolder folder;
+    const std::string path = exported(folder, writeModel(folder, "sheet.glb", {bentSheet(5)}), "fbxa", "fbx");
+    EXPECT_EQ(sceneOf(path).primitives[0].positions.size(), 36U) << "Assimp itself gives every corner its vertex";
+}
+
+TEST(Import, PolygonsAreCutByTheRuleOfTspace) {
+    const TempFolder folder;
+    // The diagonal 0-2 is the shorter one.
+    const std::string path = folder.write("quad.ply",
+                                          "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                                          "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                                          "end_header\n0 0 0\n3 0 0\n1 1 0\n0 3 0\n4 0 1 2 3\n");
+    const Scene scene = sceneOf(path);
+    EXPECT_EQ(std::vector<std::uint32_t>(scene.primitives[0].corners.begin(), scene.primitives[0].corners.end()),
+              (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
+}
+
+TEST(Import, NormalMapsUvSetsAndImagesGoAlong) {
+    const TempFolder folder;
+    folder.write("bump%20map.png", "not looked at");
+    GltfBuilder builder;
+    const ModelData sheet = bentSheet(2);
+    Json& primitive = builder.addPrimitive({{"POSITION", builder.addFloats(floatsOf(sheet.positions), 3)},
+                                            {"NORMAL", builder.addFloats(floatsOf(sheet.normals), 3)},
+                                            {"TEXCOORD_0", builder.addFloats(floatsOf(sheet.uvs), 2)}});
+    primitive["material"] = 0;
+    primitive["indices"] = builder.addAccessor(sheet.indices, 5125, "SCALAR", sheet.indices.size());
+    builder.json()["images"] = Json::array({Json{{"uri", "bump.png"}}});
+    builder.json()["textures"] = Json::array({Json{{"source", 0}}});
+    builder.json()["materials"] =
+        Json::array({Json{{"name", "skin"}, {"normalTexture", {{"index", 0}}}}});
+    builder.json()["nodes"] = Json::array({Json{{"mesh", 0}}});
+    builder.json()["scenes"] = Json::array({Json{{"nodes", {0}}}});
+    builder.json()["scene"] = 0;
+    const std::string gltf = folder.write("a.glb", std::span<const std::uint8_t>(builder.glb()));
+    const Scene scene = sceneOf(exported(folder, gltf, "fbxa", "fbx"));
+    ASSERT_EQ(scene.primitives.size(), 1U);
+    EXPECT_EQ(scene.primitives[0].material_name, "skin");
+    ASSERT_EQ(scene.primitives[0].uses.size(), 1U);
+    EXPECT_EQ(scene.primitives[0].uses[0].needed_by, "normalTexture");
+    ASSERT_TRUE(scene.primitives[0].uses[0].image.has_value());
+    EXPECT_EQ(scene.images[*scene.primitives[0].uses[0].image].uri, "bump.png");
+}
+
+TEST(Import, SkinsMorphsAndAnimationsGoAlong) {
+    struct Case {
+        const char* file;
+        const char* what;  ///< a name in the JSON
+    };
+    for (const auto& [file, what] : {Case{"models/features/box-morph.gltf", "\"targets\""},
+                                     Case{"models/asset-generator/Animation_SkinType/Animation_SkinType_02.gltf", "\"skins\""},
+                                     Case{"models/asset-generator/Animation_SkinType/Animation_SkinType_02.gltf", "\"WEIGHTS_0\""},
+                                     Case{"models/asset-generator/Animation_SkinType/Animation_SkinType_02.gltf", "\"animations\""}}) {
+        TSPACE_NEEDS_SHARED(file);
+        const TempFolder folder;
+        const std::string path = exported(folder, shared(file).string(), "fbxa", "fbx");
+        const gltf::Document document = readable([&] { return importDocument(path, kWithImporter); });
+        EXPECT_NE(document.json.dump().find(what), std::string::npos) << file << " " << what;
+        EXPECT_TRUE(generate(path, folder.path("out.glb").string()).ok());
+    }
+}
+
+TEST(Import, WithoutTheImporterTheErrorSaysWhatIsMissing) {
+    const TempFolder folder;
+    const Result<GenerateReport> report = generate(folder.write("a.fbx", "x"), folder.path("a.glb").string(), {});
+    ASSERT_FALSE(report.ok());
+    EXPECT_EQ(report.error().code, ErrorCode::unsupportedFile);
+    EXPECT_NE(report.error().message.find("tspace-import"), std::string::npos);
+}
+
+TEST(Import, BrokenFilesAndAbsentFilesAreErrorsAndLeaveNothing) {
+    const TempFolder folder;
+    const std::string output = folder.path("out/a.glb").string();
+    EXPECT_EQ(codeOf(generate(folder.write("a.fbx", "Kaydara FBX Binary  "), output)), ErrorCode::invalidFile);
+    EXPECT_EQ(codeOf(generate(folder.write("a.ply", ""), output)), ErrorCode::invalidFile);
+    EXPECT_EQ(codeOf(generate(folder.path("none.stl").string(), output)), ErrorCode::cannotRead);
+    EXPECT_FALSE(folder.has("out"));
+}
+
+TEST(Import, ACrashOfTheImporterIsAnError) {
+    const char* file = "bad/assimp-invalid/crash-30d6d0f7c529b3b66b4131700b7a4580cd7082df.ply";
+    TSPACE_NEEDS_SHARED(file);
+    const TempFolder folder;
+    const Result<GenerateReport> report = generate(shared(file).string(), folder.path("a.glb").string());
+    ASSERT_FALSE(report.ok());
+    EXPECT_EQ(report.error().code, ErrorCode::invalidFile);
+}
+
+TEST(Import, MemoryAndSizeAreLimited) {
+    const TempFolder folder;
+    const std::string path = exported(folder, writeModel(folder, "sheet.glb", {bentSheet(200)}), "plyb", "ply");
+    FileOptions small_file = kWithImporter, little_memory = kWithImporter;
+    small_file.import_max_file_bytes = 1000;
+    little_memory.import_max_memory_bytes = 24 << 20;
+    EXPECT_EQ(codeOf(generate(path, folder.path("a.glb").string(), small_file)), ErrorCode::unsupportedFile);
+    EXPECT_EQ(codeOf(generate(path, folder.path("a.glb").string(), little_memory)), ErrorCode::invalidFile);
+    EXPECT_EQ(codeOf(generate(path, folder.path("a.glb").string())), ErrorCode::ok);
+}
+
+TEST(Import, AnImporterThatHangsIsStopped) {
+    const TempFolder folder;
+    const std::string hanging = folder.write("hang", "#!/bin/sh\nexec sleep 60\n");
+    std::filesystem::permissions(hanging, std::filesystem::perms::owner_all);
+    FileOptions file{.importer = hanging};
+    file.import_max_seconds = 1;
+    const Result<GenerateReport> report = generate(folder.write("a.ply", "ply"), folder.path("a.glb").string(), file);
+    ASSERT_FALSE(report.ok());
+    EXPECT_EQ(report.error().code, ErrorCode::invalidFile);
+    EXPECT_NE(report.error().message.find("stopped after 1 s"), std::string::npos) << report.error().message;
+}
+
+}  // namespace
+}  // namespace tspace::test

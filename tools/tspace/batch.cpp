@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Threads that take one job after the other.
+#include "batch.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include "file_hash.h"
+
+namespace tspace::tool {
+
+void takeShard(std::vector<Job>& jobs, const Shard& shard) {
+    if (shard.count <= 1) return;
+    std::erase_if(jobs, [&](const Job& job) { return hashText(job.name) % shard.count + 1 != shard.index; });
+}
+
+unsigned workerCount(const BatchArguments& batch, std::size_t job_count) {
+    const unsigned asked = batch.jobs != 0 ? batch.jobs : std::max(1U, std::thread::hardware_concurrency());
+    return static_cast<unsigned>(std::clamp<std::size_t>(job_count, 1, asked));
+}
+
+unsigned threadsPerFile(unsigned asked, unsigned workers) {
+    if (asked != 0 || workers == 1) return asked;
+    return std::max(1U, std::thread::hardware_concurrency() / workers);
+}
+
+void runBatch(std::size_t count, unsigned workers, const std::function<void(std::size_t)>& work,
+              const std::function<void(std::size_t)>& finished, const std::function<bool()>& stop) {
+    std::atomic<std::size_t> next = 0;
+    std::mutex mutex;
+    std::vector<char> is_done(count, 0);
+    std::size_t reported = 0;
+    const auto report = [&](std::size_t job) {
+        const std::lock_guard lock(mutex);
+        is_done[job] = 1;
+        while (reported < count && is_done[reported] != 0) finished(reported++);
+    };
+    const auto take = [&] {
+        while (!stop()) {
+            const std::size_t job = next.fetch_add(1);
+            if (job >= count) return;
+            work(job);
+            report(job);
+        }
+    };
+    std::vector<std::thread> threads;
+    for (unsigned i = 1; i < workers; ++i) threads.emplace_back(take);
+    take();
+    for (std::thread& thread : threads) thread.join();
+    // After stop() a job may be missing in between; those behind it are done all the same.
+    for (; reported < count; ++reported) {
+        if (is_done[reported] != 0) finished(reported);
+    }
+}
+
+}  // namespace tspace::tool

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Many files: several at one time, results in the order of the files, and a share of them for each of several machines.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "jobs.h"
+
+namespace tspace::tool {
+
+/// Keeps the jobs of the shard. A file belongs to the same shard whatever other files there are: the hash of
+/// the name that it has below its input decides.
+void takeShard(std::vector<Job>& jobs, const Shard& shard);
+
+/// How many files are worked on at one time.
+unsigned workerCount(const BatchArguments& batch, std::size_t job_count);
+
+/// Threads for each file when the user did not say: the cores, shared by those files.
+unsigned threadsPerFile(unsigned asked, unsigned workers);
+
+/// Calls work(i) for every i below `count` on `workers` threads, and finished(i) for each in ascending order, one at a
+/// time, as soon as it and all before it are done. No work begins after stop() is true; finished() is then called
+/// for those alone that were worked on.
+void runBatch(std::size_t count, unsigned workers, const std::function<void(std::size_t)>& work,
+              const std::function<void(std::size_t)>& finished, const std::function<bool()>& stop);
+
+}  // namespace tspace::tool

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// Results of tspace check as text and JSON. The JSON is described in docs/json.md.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "console.h"
+#include "report.h"
+
+namespace tspace::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Places listed of one kind of finding; the JSON has all of them.
+constexpr std::size_t kMostPlaces = 5;
+
+std::string countsText(std::uint64_t errors, std::uint64_t warnings, std::uint64_t notes) {
+    return fmt::format("{}, {}, {}", counted(errors, "error"), counted(warnings, "warning"), counted(notes, "note"));
+}
+
+std::string summaryLine(const CheckOutcome& outcome) {
+    const CheckReport& report = *outcome.result;
+    const std::string what = report.findings.empty()
+                                 ? "nothing found"
+                                 : countsText(report.error_count, report.warning_count, report.note_count);
+    std::string text = fmt::format("{}: {} in {}, {} of them with tangents", printable(outcome.job.input), what,
+                                   counted(report.primitive_count, "primitive"), report.tangents_count);
+    if (report.image_count > 0) text += fmt::format("; looked at {}", counted(report.image_count, "normal map"));
+    return text + "\n";
+}
+
+std::string severityText(Severity severity, bool in_color) {
+    const std::string name = fmt::format("{:<7}", severityName(severity));
+    if (!in_color) return name;
+    const int color = severity == Severity::error ? 31 : severity == Severity::warning ? 33 : 36;
+    return fmt::format("\033[1;{}m{}\033[0m", color, name);
+}
+
+std::string whereText(const Finding& finding) {
+    std::string text = fmt::format("mesh {}", finding.mesh);
+    if (!finding.mesh_name.empty()) text += fmt::format(" \"{}\"", printable(finding.mesh_name));
+    text += fmt::format(", primitive {}", finding.primitive);
+    if (!finding.material_name.empty()) text += fmt::format(", material \"{}\"", printable(finding.material_name));
+    return text;
+}
+
+std::string verticesText(const Finding& finding) {
+    if (finding.vertices.empty()) return {};
+    return fmt::format("        first at {} {}\n", finding.vertices.size() == 1 ? "vertex" : "vertices",
+                       fmt::join(finding.vertices, ", "));
+}
+
+/// The findings of one code and severity, with the remedy once.
+std::string groupText(std::span<const Finding* const> group, bool in_color) {
+    const Finding& first = *group.front();
+    std::string text =
+        fmt::format("\n  {}  {}", severityText(first.severity, in_color), findingName(first.code));
+    if (first.confidence < 1) text += fmt::format(" (confidence {:.0f} %)", 100 * first.confidence);
+    if (group.size() > 1) text += fmt::format(", {} places", group.size());
+    text += "\n";
+    for (std::size_t i = 0; i < group.size() && i < kMostPlaces; ++i) {
+        text += fmt::format("      {} (at {})\n        {}\n", whereText(*group[i]), printable(group[i]->place),
+                            printable(group[i]->message));
+        if (group.size() == 1) text += verticesText(first);
+    }
+    if (group.size() > kMostPlaces) text += fmt::format("      and {} more\n", group.size() - kMostPlaces);
+    return text + fmt::format("      mend: {}\n", first.remedy);
+}
+
+Json findingJson(const Finding& finding) {
+    return {
+        {"code", findingName(finding.code)},
+        {"severity", severityName(finding.severity)},
+        {"place", finding.place},
+        {"mesh", finding.mesh},
+        {"primitive", finding.primitive},
+        {"meshName", finding.mesh_name},
+        {"materialName", finding.material_name},
+        {"unit", finding.unit},
+        {"count", finding.count},
+        {"total", finding.total},
+        {"surfaceShare", finding.surface_share},
+        {"worstDegrees", finding.worst_deg},
+        {"confidence", finding.confidence},
+        {"vertices", finding.vertices},
+        {"message", finding.message},
+        {"remedy", finding.remedy},
+    };
+}
+
+Json outcomeJson(const CheckOutcome& outcome) {
+    Json json = {
+        {"input", outcome.job.input},
+        {"ok", outcome.result.ok()},
+        {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())},
+    };
+    if (!outcome.result) return json;
+    const CheckReport& report = *outcome.result;
+    json["format"] = report.format;
+    json["generator"] = report.generator;
+    json["primitives"] = report.primitive_count;
+    json["primitivesWithTangents"] = report.tangents_count;
+    json["normalMaps"] = report.image_count;
+    json["counts"] = {
+        {"error", report.error_count}, {"warning", report.warning_count}, {"note", report.note_count}};
+    json["findings"] = Json::array();
+    for (const Finding& finding : report.findings) json["findings"].push_back(findingJson(finding));
+    return json;
+}
+
+}  // namespace
+
+std::string checkText(const CheckOutcome& outcome, bool in_color) {
+    std::string text = summaryLine(outcome);
+    // By severity, then code by code in the order in which they first occur.
+    std::vector<std::vector<const Finding*>> groups;
+    for (const Finding& finding : outcome.result->findings) {
+        const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& candidate) {
+            return candidate.front()->code == finding.code && candidate.front()->severity == finding.severity;
+        });
+        if (group != groups.end()) {
+            group->push_back(&finding);
+        } else {
+            groups.push_back({&finding});
+        }
+    }
+    for (const auto& group : groups) text += groupText(group, in_color);
+    return text;
+}
+
+std::string checkSummary(const std::vector<CheckOutcome>& outcomes) {
+    std::uint64_t errors = 0, warnings = 0, notes = 0, clean = 0, unread = 0;
+    for (const CheckOutcome& outcome : outcomes) {
+        if (!outcome.result) {
+            ++unread;
+            continue;
+        }
+        errors += outcome.result->error_count;
+        warnings += outcome.result->warning_count;
+        notes += outcome.result->note_count;
+        clean += outcome.result->error_count == 0;
+    }
+    std::string text = fmt::format("\n{}: {}; {} without errors", counted(outcomes.size(), "file"),
+                                   countsText(errors, warnings, notes), clean);
+    if (unread > 0) text += fmt::format(", {} could not be read", unread);
+    return text + "\n";
+}
+
+std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, Severity fail_on) {
+    Json json = {
+        {"schema", "tspace.check/1"},
+        {"version", TSPACE_VERSION},
+        {"ok", exit_code == ExitCode::done},
+        {"exitCode", static_cast<int>(exit_code)},
+        {"failOn", severityName(fail_on)},
+        {"files", Json::array()},
+    };
+    for (const CheckOutcome& outcome : outcomes) json["files"].push_back(outcomeJson(outcome));
+    return jsonText(json);
+}
+
+}  // namespace tspace::tool

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// Results of tspace diff as text and JSON. The JSON is described in docs/json.md.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "console.h"
+#include "report.h"
+
+namespace tspace::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Few digits, and as many as a small angle needs.
+std::string degrees(double value) { return fmt::format("{:.{}f}", value, value != 0 && value < 0.1 ? 4 : 2); }
+
+std::string summary(const DiffArguments& arguments, const FrameDiff& diff) {
+    const bool has_tangents = diff.tangents.count + diff.tangents.unusable_count != 0;
+    std::string text = fmt::format("{} against {}: ", printable(arguments.a), printable(arguments.b));
+    if (diff.corner_count == 0) return text + "no triangle of one is in the other\n";
+    if (!has_tangents) return text + "no primitive has tangents in both\n";
+    const bool equal = diff.isWithin(0);
+    if (equal) return text + fmt::format("equal frames at all {}\n", counted(diff.corner_count, "corner"));
+    text += fmt::format("tangents differ by {} degrees at half of the corners, {} at most", degrees(diff.tangents.median_deg),
+                        degrees(diff.tangents.max_deg));
+    if (diff.sign_change_count != 0) {
+        text += fmt::format("; {} of {} signs differ", diff.sign_change_count, diff.tangents.count);
+    }
+    return text + "\n";
+}
+
+void addAngles(Table& table, const char* name, const AngleStatistics& angles) {
+    if (angles.count == 0) return;
+    table.addRow({name, std::to_string(angles.count), degrees(angles.mean_deg), degrees(angles.median_deg),
+                  degrees(angles.p95_deg), degrees(angles.max_deg), std::to_string(angles.unusable_count)});
+}
+
+std::string angleTable(const FrameDiff& diff) {
+    Table table;
+    table.addRow({"angles", "corners", "mean", "median", "95 %", "max", "unusable"});
+    addAngles(table, "T", diff.tangents);
+    addAngles(table, "N", diff.normals);
+    addAngles(table, "B", diff.bitangents);
+    return table.text("  ");
+}
+
+std::string bar(std::uint64_t count, std::uint64_t most) {
+    constexpr std::uint64_t kColumns = 40;
+    if (count == 0) return "";
+    return std::string(std::max<std::uint64_t>(1, count * kColumns / most), '#');
+}
+
+std::string histogramText(const AngleStatistics& tangents) {
+    if (tangents.count == 0) return "";
+    const std::uint64_t most = *std::max_element(tangents.histogram.begin(), tangents.histogram.end());
+    Table table;
+    for (std::size_t i = 0; i < kAngleBins.size(); ++i) {
+        const std::string range = fmt::format("{} {:g}", i + 1 == kAngleBins.size() ? "to" : "up to", kAngleBins[i]);
+        table.addRow({range, std::to_string(tangents.histogram[i]), bar(tangents.histogram[i], most)});
+    }
+    return "  T, degrees and corners\n" + table.text("    ");
+}
+
+std::string placeText(const PrimitiveDiff& primitive) {
+    const bool in_a = !primitive.place_a.empty();
+    const std::string place = fmt::format("{}:{}", in_a ? primitive.mesh_a : primitive.mesh_b,
+                                          in_a ? primitive.primitive_a : primitive.primitive_b);
+    if (!in_a) return "only in B " + place;
+    return primitive.place_b.empty() ? "only in A " + place
+                                     : fmt::format("{} = {}:{}", place, primitive.mesh_b, primitive.primitive_b);
+}
+
+std::string primitiveTable(const FrameDiff& diff) {
+    Table table;
+    table.addRow({"primitive", "name", "paired by", "triangles", "paired", "T median", "T 95 %", "T max", "signs", "N max", "B max"});
+    for (const PrimitiveDiff& primitive : diff.primitives) {
+        const bool both = primitive.has_tangents_a && primitive.has_tangents_b;
+        const auto angle = [&](bool there, double value) { return there ? degrees(value) : std::string("-"); };
+        const bool normals = primitive.normals.count != 0;
+        table.addRow({placeText(primitive), primitive.mesh_name.empty() ? "-" : printable(primitive.mesh_name),
+                      primitive.paired_by, std::to_string(std::max(primitive.triangle_count_a, primitive.triangle_count_b)),
+                      std::to_string(primitive.paired_triangle_count), angle(both, primitive.tangents.median_deg),
+                      angle(both, primitive.tangents.p95_deg), angle(both, primitive.tangents.max_deg),
+                      both ? std::to_string(primitive.sign_change_count) : "-", angle(normals, primitive.normals.max_deg),
+                      angle(both && normals, primitive.bitangents.max_deg)});
+    }
+    return table.text("  ");
+}
+
+std::string worstTable(const FrameDiff& diff) {
+    if (diff.worst.empty()) return "";
+    Table table;
+    table.addRow({"worst", "vertex A", "vertex B", "T", "N", "B", "sign", "position"});
+    for (const FrameDifference& place : diff.worst) {
+        table.addRow({fmt::format("{}:{}", place.mesh_a, place.primitive_a), std::to_string(place.vertex_a),
+                      std::to_string(place.vertex_b), degrees(place.tangent_deg), degrees(place.normal_deg),
+                      degrees(place.bitangent_deg), place.sign_differs ? "differs" : "same",
+                      fmt::format("{:.4g} {:.4g} {:.4g}", place.position.x, place.position.y, place.position.z)});
+    }
+    return table.text("  ");
+}
+
+Json anglesJson(const AngleStatistics& angles) {
+    return {{"corners", angles.count},       {"unusable", angles.unusable_count}, {"meanDeg", angles.mean_deg},
+            {"medianDeg", angles.median_deg}, {"p95Deg", angles.p95_deg},         {"maxDeg", angles.max_deg},
+            {"histogram", angles.histogram}};
+}
+
+Json sideJson(bool there, const std::string& place, std::uint32_t mesh, std::uint32_t primitive,
+              std::uint64_t triangles, bool has_tangents, bool has_normals) {
+    if (!there) return nullptr;
+    return {{"place", place},         {"mesh", mesh},
+            {"primitive", primitive}, {"triangles", triangles},
+            {"hasTangents", has_tangents}, {"hasNormals", has_normals}};
+}
+
+Json primitiveJson(const PrimitiveDiff& p) {
+    return {{"a", sideJson(!p.place_a.empty(), p.place_a, p.mesh_a, p.primitive_a, p.triangle_count_a, p.has_tangents_a,
+                           p.has_normals_a)},
+            {"b", sideJson(!p.place_b.empty(), p.place_b, p.mesh_b, p.primitive_b, p.triangle_count_b, p.has_tangents_b,
+                           p.has_normals_b)},
+            {"meshName", p.mesh_name},
+            {"pairedBy", p.paired_by},
+            {"pairedTriangles", p.paired_triangle_count},
+            {"signChanges", p.sign_change_count},
+            {"tangents", anglesJson(p.tangents)},
+            {"normals", anglesJson(p.normals)},
+            {"bitangents", anglesJson(p.bitangents)}};
+}
+
+Json worstJson(const FrameDifference& d) {
+    return {{"meshA", d.mesh_a},           {"primitiveA", d.primitive_a}, {"vertexA", d.vertex_a},
+            {"meshB", d.mesh_b},           {"primitiveB", d.primitive_b}, {"vertexB", d.vertex_b},
+            {"position", {d.position.x, d.position.y, d.position.z}},
+            {"tangentDeg", d.tangent_deg}, {"normalDeg", d.normal_deg},   {"bitangentDeg", d.bitangent_deg},
+            {"signDiffers", d.sign_differs}};
+}
+
+}  // namespace
+
+std::string diffText(const DiffArguments& arguments, const FrameDiff& diff) {
+    std::string text = summary(arguments, diff);
+    if (diff.unpaired_triangle_count != 0) {
+        text += fmt::format("  {} without a partner\n", counted(diff.unpaired_triangle_count, "triangle"));
+    }
+    if (diff.missing_count != 0) {
+        text += fmt::format("  {} with tangents in one file only\n", counted(diff.missing_count, "primitive"));
+    }
+    for (const std::string& part : {angleTable(diff), histogramText(diff.tangents), primitiveTable(diff), worstTable(diff)}) {
+        if (!part.empty()) text.append("\n").append(part);
+    }
+    return text;
+}
+
+std::string diffJson(const DiffArguments& arguments, const Result<FrameDiff>& diff, ExitCode exit_code) {
+    Json json = {
+        {"schema", "tspace.diff/1"},
+        {"version", TSPACE_VERSION},
+        {"ok", diff.ok()},
+        {"exitCode", static_cast<int>(exit_code)},
+        {"a", arguments.a},
+        {"b", arguments.b},
+        {"error", errorJson(diff ? nullptr : &diff.error())},
+    };
+    if (!diff) return jsonText(json);
+    json["toleranceDeg"] = arguments.tolerance_deg;
+    json["isWithinTolerance"] = diff->isWithin(arguments.tolerance_deg);
+    json["corners"] = diff->corner_count;
+    json["signChanges"] = diff->sign_change_count;
+    json["unpairedTriangles"] = diff->unpaired_triangle_count;
+    json["missingTangents"] = diff->missing_count;
+    json["histogramUpperDeg"] = kAngleBins;
+    json["tangents"] = anglesJson(diff->tangents);
+    json["normals"] = anglesJson(diff->normals);
+    json["bitangents"] = anglesJson(diff->bitangents);
+    json["worst"] = Json::array();
+    for (const FrameDifference& place : diff->worst) json["worst"].push_back(worstJson(place));
+    json["primitives"] = Json::array();
+    for (const PrimitiveDiff& primitive : diff->primitives) json["primitives"].push_back(primitiveJson(primitive));
+    return jsonText(json);
+}
+
+}  // namespace tspace::tool

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Fingerprints by xxHash.
+#include "file_hash.h"
+
+#define XXH_INLINE_ALL
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+namespace tspace::tool {
+
+std::optional<FileHash> hashFile(const std::string& path) {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+    const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(),
+                                                                              XXH3_freeState);
+    if (!file || !state || XXH3_128bits_reset(state.get()) != XXH_OK) return {};
+    FileHash result;
+    std::vector<unsigned char> block(std::size_t{1} << 18);
+    while (const std::size_t count = std::fread(block.data(), 1, block.size(), file.get())) {
+        if (XXH3_128bits_update(state.get(), block.data(), count) != XXH_OK) return {};
+        result.bytes += count;
+    }
+    if (std::ferror(file.get()) != 0) return {};
+    const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
+    result.hash = fmt::format("xxh3:{:016x}{:016x}", hash.high64, hash.low64);
+    return result;
+}
+
+std::uint64_t hashText(std::string_view text) { return XXH3_64bits(text.data(), text.size()); }
+
+}  // namespace tspace::tool

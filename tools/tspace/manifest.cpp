@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// Lines of JSON, and what they say is done.
+#include "manifest.h"
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <ctime>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "report.h"
+
+namespace tspace::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSchema = "tspace.manifest/1";
+
+std::string timeNow() {
+    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    std::tm utc = {};
+    char text[sizeof "2026-01-01T00:00:00Z"] = {};
+    gmtime_r(&now, &utc);
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    return text;
+}
+
+std::string keyOf(const Job& job) { return job.input + '\n' + job.output; }
+
+Json filesJson(const std::vector<HashedFile>& files) {
+    Json list = Json::array();
+    for (const HashedFile& file : files) {
+        list.push_back({{"path", file.path}, {"bytes", file.hash.bytes}, {"hash", file.hash.hash}});
+    }
+    return list;
+}
+
+std::vector<HashedFile> filesFromJson(const Json& list) {
+    std::vector<HashedFile> files;
+    for (const Json& file : list) {
+        files.push_back({file.at("path").get<std::string>(),
+                         {file.at("bytes").get<std::uint64_t>(), file.at("hash").get<std::string>()}});
+    }
+    return files;
+}
+
+/// Throws Json::exception where something is missing or of another type.
+ManifestEntry entryFromJson(const Json& line) {
+    ManifestEntry entry;
+    entry.version = line.at("version").get<std::string>();
+    entry.options = line.at("options").get<std::string>();
+    entry.job.input = line.at("input").get<std::string>();
+    entry.job.output = line.at("output").get<std::string>();
+    entry.job.error.code = line.at("ok").get<bool>() ? ErrorCode::ok : ErrorCode::internal;
+    entry.inputs = filesFromJson(line.at("inputs"));
+    entry.outputs = filesFromJson(line.at("outputs"));
+    return entry;
+}
+
+bool areUnchanged(const std::vector<HashedFile>& files) {
+    for (const HashedFile& file : files) {
+        if (hashFile(file.path) != file.hash) return false;
+    }
+    return true;
+}
+
+Error fileError(ErrorCode code, const std::string& path) {
+    return {code, std::string(code == ErrorCode::cannotRead ? "cannot read" : "cannot write") + " the manifest " +
+                      path + ": " + std::strerror(errno)};
+}
+
+/// A run that was killed while it wrote leaves a line without an end.
+bool endsInsideALine(const std::string& path) {
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    if (!file || file.tellg() <= 0) return false;
+    file.seekg(-1, std::ios::end);
+    return file.get() != '\n';
+}
+
+}  // namespace
+
+Result<ManifestRecord> ManifestRecord::read(const std::string& path) {
+    ManifestRecord record;
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        if (errno == ENOENT) return record;
+        return fileError(ErrorCode::cannotRead, path);
+    }
+    for (std::string text; std::getline(file, text);) {
+        const Json line = Json::parse(text, nullptr, false);
+        if (!line.is_object() || line.value("schema", Json()) != kSchema) continue;
+        try {
+            ManifestEntry entry = entryFromJson(line);
+            record.entries_[keyOf(entry.job)] = std::move(entry);
+        } catch (const Json::exception&) {
+            continue;
+        }
+    }
+    if (file.bad()) return fileError(ErrorCode::cannotRead, path);
+    return record;
+}
+
+bool ManifestRecord::isDone(const Job& job, const std::string& options) const {
+    const auto found = entries_.find(keyOf(job));
+    if (found == entries_.end()) return false;
+    const ManifestEntry& entry = found->second;
+    return entry.job.error.code == ErrorCode::ok && entry.version == TSPACE_VERSION && entry.options == options &&
+           !entry.outputs.empty() && areUnchanged(entry.inputs) && areUnchanged(entry.outputs);
+}
+
+Result<ManifestWriter> ManifestWriter::open(const std::string& path) {
+    ManifestWriter writer;
+    const bool needs_line_end = endsInsideALine(path);
+    writer.path_ = path;
+    writer.file_.reset(std::fopen(path.c_str(), "ab"));
+    if (!writer.file_) return fileError(ErrorCode::cannotWrite, path);
+    std::setvbuf(writer.file_.get(), nullptr, _IOFBF, std::size_t{1} << 20);
+    if (needs_line_end) std::fputc('\n', writer.file_.get());
+    return writer;
+}
+
+Result<Done> ManifestWriter::append(const ManifestEntry& entry) {
+    const bool ok = entry.job.error.code == ErrorCode::ok;
+    const Json line = {
+        {"schema", kSchema},
+        {"version", entry.version},
+        {"time", timeNow()},
+        {"options", entry.options},
+        {"input", entry.job.input},
+        {"output", entry.job.output},
+        {"ok", ok},
+        {"error", errorJson(ok ? nullptr : &entry.job.error)},
+        {"changed", entry.changed},
+        {"seconds", entry.seconds},
+        {"inputs", filesJson(entry.inputs)},
+        {"outputs", filesJson(entry.outputs)},
+    };
+    const std::string text = line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size() || std::fflush(file_.get()) != 0) {
+        return fileError(ErrorCode::cannotWrite, path_);
+    }
+    return Done{};
+}
+
+std::vector<HashedFile> hashFiles(const std::vector<std::string>& paths) {
+    std::vector<HashedFile> files;
+    for (const std::string& path : paths) {
+        if (const std::optional<FileHash> hash = hashFile(path)) files.push_back({path, *hash});
+    }
+    return files;
+}
+
+}  // namespace tspace::tool

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+// Assimp's scene as glTF: nodes, meshes with their skins, animations.
+#include "import_scene.h"
+
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <map>
+#include <optional>
+
+#include "glb_builder.h"
+#include "materials.h"
+#include "meshes.h"
+
+namespace tspace::import {
+
+namespace {
+
+/// Column by column, as glTF wants it; Assimp stores rows.
+std::vector<float> columnsOf(const aiMatrix4x4& m) {
+    return {m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2, m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4};
+}
+
+class SceneWriter {
+  public:
+    explicit SceneWriter(const aiScene& scene) : scene_(scene) {}
+
+    std::vector<std::uint8_t> write() {
+        listNodes();
+        addMaterials(builder_, scene_);
+        for (std::size_t i = 0; i < nodes_.size(); ++i) builder_.append("nodes", nodeJson(i));
+        for (std::size_t i = 0; i < nodes_.size(); ++i) addMesh(i);
+        addAnimations();
+        builder_.json()["scene"] = 0;
+        builder_.json()["scenes"] = Json::array({Json{{"nodes", {0}}}});
+        return builder_.finish();
+    }
+
+  private:
+    /// Breadth first, so that depth costs no stack.
+    void listNodes() {
+        nodes_.push_back(scene_.mRootNode);
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            const aiNode& node = *nodes_[i];
+            index_of_.emplace(node.mName.C_Str(), i);
+            first_child_.push_back(nodes_.size());
+            for (unsigned k = 0; k < node.mNumChildren; ++k) nodes_.push_back(node.mChildren[k]);
+        }
+    }
+
+    Json nodeJson(std::size_t i) const {
+        const aiNode& node = *nodes_[i];
+        Json json = Json::object();
+        if (node.mName.length > 0) json["name"] = node.mName.C_Str();
+        if (node.mNumChildren > 0) {
+            for (unsigned k = 0; k < node.mNumChildren; ++k) json["children"].push_back(first_child_[i] + k);
+        }
+        if (isAnimated(node)) {
+            // A matrix cannot be animated.
+            aiVector3D scale, translation;
+            aiQuaternion rotation;
+            node.mTransformation.Decompose(scale, rotation, translation);
+            json["translation"] = {translation.x, translation.y, translation.z};
+            json["rotation"] = {rotation.x, rotation.y, rotation.z, rotation.w};
+            json["scale"] = {scale.x, scale.y, scale.z};
+        } else if (!node.mTransformation.IsIdentity()) {
+            json["matrix"] = columnsOf(node.mTransformation);
+        }
+        return json;
+    }
+
+    bool isAnimated(const aiNode& node) const {
+        for (unsigned a = 0; a < scene_.mNumAnimations; ++a) {
+            const aiAnimation& animation = *scene_.mAnimations[a];
+            for (unsigned c = 0; c < animation.mNumChannels; ++c) {
+                if (animation.mChannels[c]->mNodeName == node.mName) return true;
+            }
+        }
+        return false;
+    }
+
+    /// One glTF mesh for all meshes of the node; nodes with the same list and skin share it.
+    void addMesh(std::size_t i) {
+        const aiNode& node = *nodes_[i];
+        if (node.mNumMeshes == 0) return;
+        const std::vector<unsigned> list(node.mMeshes, node.mMeshes + node.mNumMeshes);
+        const auto known = mesh_of_.find(list);
+        if (known == mesh_of_.end()) mesh_of_[list] = makeMesh(list, node);
+        const MeshNumbers& numbers = mesh_of_[list];
+        if (!numbers.mesh) return;
+        Json& json = builder_.json()["nodes"][i];
+        json["mesh"] = *numbers.mesh;
+        if (numbers.skin) json["skin"] = *numbers.skin;
+    }
+
+    struct MeshNumbers {
+        std::optional<std::size_t> mesh = {}, skin = {};
+    };
+
+    MeshNumbers makeMesh(const std::vector<unsigned>& list, const aiNode& node) {
+        Skin skin = skinOf(list);
+        Json primitives = Json::array();
+        std::vector<float> weights;
+        std::vector<std::string> target_names;
+        std::string name = node.mName.C_Str();
+        for (const unsigned number : list) {
+            const aiMesh& mesh = *scene_.mMeshes[number];
+            std::vector<std::uint16_t> joints;
+            for (unsigned b = 0; b < mesh.mNumBones && !skin.joints.empty(); ++b)
+                joints.push_back(skin.place_of.at(mesh.mBones[b]->mName.C_Str()));
+            std::optional<Json> primitive = addPrimitive(builder_, mesh, joints);
+            if (!primitive) continue;
+            if (mesh.mMaterialIndex < scene_.mNumMaterials) (*primitive)["material"] = mesh.mMaterialIndex;
+            if (list.size() == 1 && mesh.mName.length > 0) name = mesh.mName.C_Str();
+            if (primitives.empty()) {
+                for (unsigned t = 0; t < mesh.mNumAnimMeshes; ++t) {
+                    weights.push_back(mesh.mAnimMeshes[t]->mWeight);
+                    target_names.emplace_back(mesh.mAnimMeshes[t]->mName.C_Str());
+                }
+            }
+            primitives.push_back(std::move(*primitive));
+        }
+        if (primitives.empty()) return {};
+        Json mesh = {{"primitives", std::move(primitives)}};
+        if (!name.empty()) mesh["name"] = name;
+        if (mesh["primitives"][0].contains("targets") && mesh["primitives"][0]["targets"].size() == weights.size()) {
+            mesh["weights"] = weights;
+            mesh["extras"]["targetNames"] = target_names;
+        }
+        MeshNumbers numbers{builder_.append("meshes", std::move(mesh))};
+        if (!skin.joints.empty()) numbers.skin = addSkin(skin);
+        return numbers;
+    }
+
+    struct Skin {
+        std::vector<std::size_t> joints = {};  ///< nodes
+        std::vector<float> inverse_bind = {};
+        std::map<std::string, std::uint16_t> place_of = {};
+    };
+
+    /// The bones of all meshes of a node. None where a bone has no node.
+    Skin skinOf(const std::vector<unsigned>& list) const {
+        Skin skin;
+        for (const unsigned number : list) {
+            const aiMesh& mesh = *scene_.mMeshes[number];
+            for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+                const aiBone& bone = *mesh.mBones[b];
+                const auto node = index_of_.find(bone.mName.C_Str());
+                if (node == index_of_.end() || skin.joints.size() == 0xffff) return {};
+                if (!skin.place_of.try_emplace(bone.mName.C_Str(), static_cast<std::uint16_t>(skin.joints.size())).second)
+                    continue;
+                skin.joints.push_back(node->second);
+                const std::vector<float> matrix = columnsOf(bone.mOffsetMatrix);
+                skin.inverse_bind.insert(skin.inverse_bind.end(), matrix.begin(), matrix.end());
+            }
+        }
+        return skin;
+    }
+
+    std::size_t addSkin(const Skin& skin) {
+        const std::size_t matrices = builder_.addFloats(skin.inverse_bind, 16, "MAT4", 0);
+        return builder_.append("skins", {{"joints", skin.joints}, {"inverseBindMatrices", matrices}});
+    }
+
+    void addAnimations() {
+        for (unsigned a = 0; a < scene_.mNumAnimations; ++a) {
+            const aiAnimation& source = *scene_.mAnimations[a];
+            const double ticks = source.mTicksPerSecond > 0 ? source.mTicksPerSecond : 25;
+            Json animation = {{"channels", Json::array()}, {"samplers", Json::array()}};
+            if (source.mName.length > 0) animation["name"] = source.mName.C_Str();
+            for (unsigned c = 0; c < source.mNumChannels; ++c) {
+                const aiNodeAnim& channel = *source.mChannels[c];
+                const auto node = index_of_.find(channel.mNodeName.C_Str());
+                if (node == index_of_.end()) continue;
+                addTrack(animation, node->second, "translation", channel.mPositionKeys, channel.mNumPositionKeys, ticks);
+                addTrack(animation, node->second, "rotation", channel.mRotationKeys, channel.mNumRotationKeys, ticks);
+                addTrack(animation, node->second, "scale", channel.mScalingKeys, channel.mNumScalingKeys, ticks);
+            }
+            if (!animation["channels"].empty()) builder_.append("animations", std::move(animation));
+        }
+    }
+
+    static void appendValue(std::vector<float>& values, const aiVector3D& v) { values.insert(values.end(), {v.x, v.y, v.z}); }
+    static void appendValue(std::vector<float>& values, const aiQuaternion& q) {
+        values.insert(values.end(), {q.x, q.y, q.z, q.w});
+    }
+
+    /// Keys whose time does not grow are left out: glTF forbids them.
+    template <class Key>
+    void addTrack(Json& animation, std::size_t node, const char* path, const Key* keys, unsigned count, double ticks) {
+        std::vector<float> times, values;
+        for (unsigned k = 0; k < count; ++k) {
+            const auto time = static_cast<float>(std::max(0.0, keys[k].mTime) / ticks);
+            if (!times.empty() && !(time > times.back())) continue;
+            times.push_back(time);
+            appendValue(values, keys[k].mValue);
+        }
+        if (times.empty()) return;
+        const std::size_t width = values.size() / times.size();
+        const std::size_t input = builder_.addFloats(times, 1, "SCALAR", 0, true);
+        const std::size_t output = builder_.addFloats(values, width, "VEC" + std::to_string(width), 0);
+        animation["samplers"].push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
+        animation["channels"].push_back(
+            {{"sampler", animation["samplers"].size() - 1}, {"target", {{"node", node}, {"path", path}}}});
+    }
+
+    const aiScene& scene_;
+    GlbBuilder builder_;
+    std::vector<const aiNode*> nodes_ = {};
+    std::vector<std::size_t> first_child_ = {};
+    std::map<std::string, std::size_t> index_of_ = {};
+    std::map<std::vector<unsigned>, MeshNumbers> mesh_of_ = {};
+};
+
+}  // namespace
+
+Imported importScene(const std::string& path) {
+    Assimp::Importer importer;
+    // No step after reading: seams, duplicates and polygons stay as the file has them.
+    const aiScene* scene = importer.ReadFile(path, 0);
+    if (scene == nullptr || scene->mRootNode == nullptr) {
+        std::string why = importer.GetErrorString();
+        std::replace(why.begin(), why.end(), '\n', ' ');
+        return {.error = "the importer cannot read it: " + (why.empty() ? "no scene" : why)};
+    }
+    bool has_faces = false;
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i) has_faces = has_faces || scene->mMeshes[i]->HasFaces();
+    if (!has_faces) return {.error = "it has no faces"};
+    return {.glb = SceneWriter(*scene).write()};
+}
+
+}  // namespace tspace::import

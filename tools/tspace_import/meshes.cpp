@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// Faces, attributes, weights and morph targets of a mesh.
+#include "meshes.h"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+
+#include "tspace/triangulate.h"
+
+namespace tspace::import {
+
+namespace {
+
+constexpr unsigned kVertexTarget = 34962;
+
+/// One attribute: `components` floats per vertex.
+struct Attribute {
+    std::string name = {};  ///< "POSITION", or "target 3 NORMAL"
+    std::size_t components = 0;
+    std::vector<float> values = {};
+};
+
+std::vector<float> vectors(const aiVector3D* values, std::size_t count, std::size_t components, bool turn_v = false) {
+    std::vector<float> floats;
+    floats.reserve(count * components);
+    for (std::size_t i = 0; i < count; ++i) {
+        floats.push_back(values[i].x);
+        floats.push_back(turn_v ? 1 - values[i].y : values[i].y);
+        if (components == 3) floats.push_back(values[i].z);
+    }
+    return floats;
+}
+
+std::vector<float> differences(const aiVector3D* moved, const aiVector3D* base, std::size_t count) {
+    std::vector<float> floats;
+    floats.reserve(count * 3);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (unsigned k = 0; k < 3; ++k) floats.push_back(moved[i][k] - base[i][k]);
+    }
+    return floats;
+}
+
+/// The joints of every vertex with the largest weights first, four to a set, at most two sets. Weights add up to 1.
+void addWeights(const aiMesh& mesh, const std::vector<std::uint16_t>& joints, std::vector<Attribute>& attributes) {
+    constexpr std::size_t kPerSet = 4, kMostSets = 2;
+    struct Influence {
+        float weight = 0;
+        std::uint16_t joint = 0;
+    };
+    std::vector<std::vector<Influence>> influences(mesh.mNumVertices);
+    for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+        const aiBone& bone = *mesh.mBones[b];
+        for (unsigned w = 0; w < bone.mNumWeights; ++w) {
+            const aiVertexWeight& entry = bone.mWeights[w];
+            if (entry.mVertexId < mesh.mNumVertices && entry.mWeight > 0)
+                influences[entry.mVertexId].push_back({entry.mWeight, joints[b]});
+        }
+    }
+    std::size_t most = 1;
+    for (std::vector<Influence>& list : influences) {
+        std::stable_sort(list.begin(), list.end(), [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
+        if (list.size() > kPerSet * kMostSets) list.resize(kPerSet * kMostSets);
+        float sum = 0;
+        for (const Influence& influence : list) sum += influence.weight;
+        for (Influence& influence : list) influence.weight /= sum;
+        most = std::max(most, list.size());
+    }
+    for (std::size_t set = 0; set * kPerSet < most; ++set) {
+        Attribute joint{"JOINTS_" + std::to_string(set), kPerSet}, weight{"WEIGHTS_" + std::to_string(set), kPerSet};
+        for (const std::vector<Influence>& list : influences) {
+            for (std::size_t i = set * kPerSet; i < (set + 1) * kPerSet; ++i) {
+                joint.values.push_back(i < list.size() ? list[i].joint : 0);
+                weight.values.push_back(i < list.size() ? list[i].weight : 0);
+            }
+            if (set == 0 && list.empty()) weight.values[weight.values.size() - kPerSet] = 1;
+        }
+        attributes.push_back(std::move(joint));
+        attributes.push_back(std::move(weight));
+    }
+}
+
+std::vector<Attribute> attributesOf(const aiMesh& mesh, const std::vector<std::uint16_t>& joints) {
+    const std::size_t count = mesh.mNumVertices;
+    std::vector<Attribute> attributes;
+    attributes.push_back({"POSITION", 3, vectors(mesh.mVertices, count, 3)});
+    if (mesh.HasNormals()) attributes.push_back({"NORMAL", 3, vectors(mesh.mNormals, count, 3)});
+    std::size_t uv_set = 0;
+    for (unsigned set = 0; set < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++set) {
+        if (mesh.mTextureCoords[set] == nullptr) continue;
+        attributes.push_back({"TEXCOORD_" + std::to_string(uv_set++), 2, vectors(mesh.mTextureCoords[set], count, 2, true)});
+    }
+    std::size_t color_set = 0;
+    for (unsigned set = 0; set < AI_MAX_NUMBER_OF_COLOR_SETS; ++set) {
+        if (mesh.mColors[set] == nullptr) continue;
+        Attribute color{"COLOR_" + std::to_string(color_set++), 4};
+        for (std::size_t i = 0; i < count; ++i) {
+            const aiColor4D& c = mesh.mColors[set][i];
+            for (const float value : {c.r, c.g, c.b, c.a}) color.values.push_back(std::clamp(value, 0.0f, 1.0f));
+        }
+        attributes.push_back(std::move(color));
+    }
+    if (!joints.empty()) addWeights(mesh, joints, attributes);
+    for (unsigned t = 0; t < mesh.mNumAnimMeshes; ++t) {
+        const aiAnimMesh& target = *mesh.mAnimMeshes[t];
+        if (target.mNumVertices != mesh.mNumVertices) continue;
+        const std::string name = "target " + std::to_string(t) + " ";
+        if (target.HasPositions())
+            attributes.push_back({name + "POSITION", 3, differences(target.mVertices, mesh.mVertices, count)});
+        if (target.HasNormals() && mesh.HasNormals())
+            attributes.push_back({name + "NORMAL", 3, differences(target.mNormals, mesh.mNormals, count)});
+    }
+    return attributes;
+}
+
+/// Which vertex stands for each: the first with the same bits in every attribute.
+struct Joined {
+    std::vector<std::uint32_t> place = {};    ///< of each old vertex among those kept
+    std::vector<std::uint32_t> kept = {};     ///< old numbers
+};
+
+Joined joinEqual(const std::vector<Attribute>& attributes, std::size_t count) {
+    std::size_t width = 0;
+    for (const Attribute& attribute : attributes) width += attribute.components;
+    std::unordered_map<std::string, std::uint32_t> known;
+    Joined joined;
+    std::string bits;
+    for (std::size_t i = 0; i < count; ++i) {
+        bits.clear();
+        for (const Attribute& attribute : attributes) {
+            bits.append(reinterpret_cast<const char*>(&attribute.values[i * attribute.components]),
+                        attribute.components * sizeof(float));
+        }
+        const auto [entry, is_new] = known.try_emplace(bits, static_cast<std::uint32_t>(joined.kept.size()));
+        if (is_new) joined.kept.push_back(static_cast<std::uint32_t>(i));
+        joined.place.push_back(entry->second);
+    }
+    return joined;
+}
+
+/// Vertices of triangles. Points and lines are left out.
+std::vector<std::uint32_t> trianglesOf(const aiMesh& mesh) {
+    std::vector<std::uint32_t> indices, sizes;
+    bool only_triangles = true;
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+        const aiFace& face = mesh.mFaces[f];
+        if (face.mNumIndices < 3) continue;
+        only_triangles = only_triangles && face.mNumIndices == 3;
+        sizes.push_back(face.mNumIndices);
+        for (unsigned k = 0; k < face.mNumIndices; ++k) {
+            if (face.mIndices[k] >= mesh.mNumVertices) throw std::runtime_error("a face names a vertex that is not there");
+            indices.push_back(face.mIndices[k]);
+        }
+    }
+    if (only_triangles) return indices;
+    const std::vector<float> positions = vectors(mesh.mVertices, mesh.mNumVertices, 3);
+    std::vector<float> uvs;
+    if (mesh.HasTextureCoords(0)) uvs = vectors(mesh.mTextureCoords[0], mesh.mNumVertices, 2, true);
+    MeshView view;
+    view.positions = {reinterpret_cast<const Vec3*>(positions.data()), mesh.mNumVertices, sizeof(Vec3)};
+    if (!uvs.empty()) view.uvs = {reinterpret_cast<const Vec2*>(uvs.data()), mesh.mNumVertices, sizeof(Vec2)};
+    view.indices = std::span<const std::uint32_t>(indices);
+    view.face_sizes = sizes;
+    const Result<Triangulation> cut = triangulate(view);
+    if (!cut) throw std::runtime_error(cut.error().message);
+    std::vector<std::uint32_t> triangles;
+    triangles.reserve(cut->corners.size());
+    for (const std::uint32_t corner : cut->corners) triangles.push_back(indices[corner]);
+    return triangles;
+}
+
+std::size_t addAttribute(GlbBuilder& builder, const Attribute& attribute, const std::vector<std::uint32_t>& kept,
+                         bool is_target) {
+    std::vector<float> values;
+    values.reserve(kept.size() * attribute.components);
+    for (const std::uint32_t i : kept) {
+        const auto first = attribute.values.begin() + static_cast<std::ptrdiff_t>(i * attribute.components);
+        values.insert(values.end(), first, first + static_cast<std::ptrdiff_t>(attribute.components));
+    }
+    const std::string type = "VEC" + std::to_string(attribute.components);
+    if (attribute.name.starts_with("JOINTS")) {
+        return builder.addShorts(std::vector<std::uint16_t>(values.begin(), values.end()), attribute.components, type);
+    }
+    const bool bounds = attribute.name.ends_with("POSITION");
+    return builder.addFloats(values, attribute.components, type, is_target && !bounds ? 0 : kVertexTarget, bounds);
+}
+
+}  // namespace
+
+std::optional<Json> addPrimitive(GlbBuilder& builder, const aiMesh& mesh, const std::vector<std::uint16_t>& joints) {
+    std::vector<std::uint32_t> triangles = trianglesOf(mesh);
+    if (triangles.empty()) return {};
+    const std::vector<Attribute> attributes = attributesOf(mesh, joints);
+    const Joined joined = joinEqual(attributes, mesh.mNumVertices);
+    for (std::uint32_t& vertex : triangles) vertex = joined.place[vertex];
+
+    Json primitive = {{"attributes", Json::object()}};
+    std::unordered_map<std::string, std::size_t> target_of;
+    for (const Attribute& attribute : attributes) {
+        const bool is_target = attribute.name.starts_with("target ");
+        const std::size_t accessor = addAttribute(builder, attribute, joined.kept, is_target);
+        if (!is_target) {
+            primitive["attributes"][attribute.name] = accessor;
+            continue;
+        }
+        const std::size_t space = attribute.name.rfind(' ');
+        const auto [entry, is_new] =
+            target_of.try_emplace(attribute.name.substr(0, space), target_of.size());
+        if (is_new) primitive["targets"].push_back(Json::object());
+        primitive["targets"][entry->second][attribute.name.substr(space + 1)] = accessor;
+    }
+    primitive["indices"] = builder.addIndices(triangles, joined.kept.size());
+    return primitive;
+}
+
+}  // namespace tspace::import
