@@ -21,22 +21,32 @@ using test::expectOrderWhateverByteIsChanged;
 using test::generateAll;
 using test::GltfBuilder;
 using test::Outcome;
+using test::TempFolder;
 
 constexpr int kI8 = 5120, kU16 = 5123, kFloat = 5126;
+
+void encodeExponential(Bytes& rows, std::size_t count, std::size_t stride, int bits, const std::vector<float>& values) {
+#if MESHOPTIMIZER_VERSION >= 200
+    meshopt_encodeFilterExp(rows.data(), count, stride, bits, values.data(), meshopt_EncodeExpSharedVector);
+#else
+    meshopt_encodeFilterExp(rows.data(), count, stride, bits, values.data());
+#endif
+}
 
 /// A model whose views are all compressed, with a fallback buffer that has no data.
 class PackedModel {
   public:
-    PackedModel() {
+    explicit PackedModel(const char* extension = kExtMeshopt) : extension_(extension) {
         Json& json = builder_.json();
         json["buffers"] = Json::array({Json::object(), Json::object()});
-        json["extensionsUsed"] = json["extensionsRequired"] = {kExtMeshopt};
+        json["extensionsUsed"] = json["extensionsRequired"] = {extension_};
         builder_.addView(Bytes(4, 0));  // a plain view in front, so that no offset is 0
     }
 
     /// `rows`: as before the filter.
     std::size_t addView(MeshoptCoding coding, const Bytes& rows, const char* mode, const char* filter = nullptr) {
         coding.stride = rows.size() / coding.count;
+        coding.is_khr = extension_ == kKhrMeshopt;
         Bytes data;
         EXPECT_TRUE(encodeMeshopt(coding, rows, data));
         const std::size_t view = builder_.addView(data);
@@ -50,7 +60,7 @@ class PackedModel {
         object["byteOffset"] = fallback_bytes_;
         object["byteLength"] = rows.size();
         if (coding.mode == MeshoptMode::attributes) object["byteStride"] = coding.stride;
-        object["extensions"][kExtMeshopt] = extension;
+        object["extensions"][extension_] = extension;
         fallback_bytes_ += (rows.size() + 3) / 4 * 4;
         return view;
     }
@@ -62,14 +72,14 @@ class PackedModel {
     }
 
     Json& json() { return builder_.json(); }
-    Json& extension(std::size_t view) { return json()["bufferViews"][view]["extensions"][kExtMeshopt]; }
+    Json& extension(std::size_t view) { return json()["bufferViews"][view]["extensions"][extension_]; }
     Bytes& bytes() { return builder_.bytes(); }
 
     [[nodiscard]] Bytes glb() const {
         Json json = GltfBuilder(builder_).json();
         json["buffers"] = Json::array({Json{{"byteLength", GltfBuilder(builder_).bytes().size()}},
                                        Json{{"byteLength", fallback_bytes_},
-                                            {"extensions", {{kExtMeshopt, {{"fallback", true}}}}}}});
+                                            {"extensions", {{extension_, {{"fallback", true}}}}}}});
         const Bytes bin = GltfBuilder(builder_).bytes();
         const GlbFrame frame = frameGlb(json.dump(), bin.size(), {});
         Bytes file = frame.head;
@@ -81,6 +91,7 @@ class PackedModel {
     [[nodiscard]] Document load() const { return parseDocument(glb(), "model.glb", {}); }
 
   private:
+    std::string extension_;
     GltfBuilder builder_;
     std::size_t fallback_bytes_ = 0;
 };
@@ -196,7 +207,7 @@ TEST(Meshopt, AppliesTheExponentialFilter) {
     std::vector<float> expected;
     for (std::size_t i = 0; i < kCount * 3; ++i) expected.push_back(static_cast<float>(i) * 0.75f - 20);
     Bytes rows(kCount * 12);
-    meshopt_encodeFilterExp(rows.data(), kCount, 12, 20, expected.data());
+    encodeExponential(rows, kCount, 12, 20, expected);
     PackedModel model;
     const std::size_t view = model.addView({.count = kCount}, rows, "ATTRIBUTES", "EXPONENTIAL");
     const std::size_t accessor = model.addAccessor(view, kFloat, "VEC3", kCount);
@@ -207,7 +218,7 @@ TEST(Meshopt, AppliesTheExponentialFilter) {
 
 /// A grid of 4 x 4 quads with a UV map that is mirrored at the middle column, so that its 5 vertices are split. Normals have
 /// the octahedral filter, positions the exponential one. POSITION 0, NORMAL 1, TEXCOORD_0 2, indices 3.
-PackedModel packedGrid() {
+PackedModel packedGrid(const char* extension = kExtMeshopt) {
     constexpr std::size_t kCount = 25;
     std::vector<float> positions, normals, uvs;
     std::vector<std::uint16_t> indices;
@@ -221,9 +232,9 @@ PackedModel packedGrid() {
             for (const std::size_t i : {a, a + 1, a + 6, a, a + 6, a + 5}) indices.push_back(static_cast<std::uint16_t>(i));
         }
     }
-    PackedModel model;
+    PackedModel model(extension);
     Bytes rows(kCount * 12);
-    meshopt_encodeFilterExp(rows.data(), kCount, 12, 16, positions.data());
+    encodeExponential(rows, kCount, 12, 16, positions);
     model.addAccessor(model.addView({.count = kCount}, rows, "ATTRIBUTES", "EXPONENTIAL"), kFloat, "VEC3", kCount);
     rows.resize(kCount * 4);
     meshopt_encodeFilterOct(rows.data(), kCount, 4, 8, normals.data());
@@ -311,6 +322,50 @@ TEST(MeshoptKeep, LeavesNoOldCompressedBytesBehind) {
         compressed += readMeshoptView(outcome.after, i)->byte_count;
     EXPECT_LT(outcome.after.buffers[0].bytes.size(), compressed + 16 * 6) << "a little stays at each cut";
 }
+
+#if MESHOPTIMIZER_VERSION >= 1000
+
+TEST(MeshoptKhr, IsReadAndKept) {
+    const Outcome outcome = generateAll(packedGrid(kKhrMeshopt).glb());
+    const Primitive primitive = readPrimitives(outcome.after).at(0);
+    for (const auto& [name, index] : primitive.attributes) {
+        const auto view = readMeshoptView(outcome.after, *readAccessor(outcome.after, index).view);
+        ASSERT_TRUE(view) << name;
+        EXPECT_TRUE(view->coding.is_khr) << name;
+    }
+    EXPECT_EQ(outcome.after.json["extensionsRequired"], Json{kKhrMeshopt});
+}
+
+TEST(MeshoptKhr, AppliesTheColorFilter) {
+    constexpr std::size_t kCount = 37;
+    std::vector<float> expected;
+    for (std::size_t i = 0; i < kCount * 4; ++i) expected.push_back(static_cast<float>(i * 7 % 256) / 255);
+    Bytes rows(kCount * 8);
+    meshopt_encodeFilterColor(rows.data(), kCount, 8, 16, expected.data());
+    PackedModel model(kKhrMeshopt);
+    const std::size_t view = model.addView({.count = kCount}, rows, "ATTRIBUTES", "COLOR");
+    const std::size_t accessor = model.addAccessor(view, kU16, "VEC4", kCount, true);
+    const Document document = model.load();
+    const std::vector<Vec4> decoded = decodeVec4(document, readAccessor(document, accessor), "");
+    for (std::size_t i = 0; i < kCount; ++i) {
+        EXPECT_NEAR(decoded[i].x, expected[i * 4], 0.001);
+        EXPECT_NEAR(decoded[i].w, expected[i * 4 + 3], 0.001);
+    }
+}
+
+#else
+
+TEST(MeshoptKhr, IsRefusedWithTheVersionsThatAreThereAndNeeded) {
+    const TempFolder folder;
+    const std::string input = folder.write("in.glb", packedGrid(kKhrMeshopt).glb());
+    const auto report = generateFile(input, folder.path("out.glb").string(), {.all = true});
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().code, ErrorCode::unsupportedFile);
+    EXPECT_NE(report.error().message.find(kKhrMeshopt), std::string::npos) << report.error().message;
+    EXPECT_NE(report.error().message.find("too old for it (1.0 is needed)"), std::string::npos) << report.error().message;
+}
+
+#endif
 
 Error loadError(const PackedModel& model) {
     return errorOf([&] { static_cast<void>(model.load()); });

@@ -47,7 +47,8 @@ class Comparison {
     /// How bytes are packed may change; what they unpack to is compared elsewhere.
     static Json withoutCompression(Json object) {
         if (!object.is_object() || !object.contains("extensions")) return object;
-        for (const char* name : {"EXT_meshopt_compression", "KHR_draco_mesh_compression"}) object["extensions"].erase(name);
+        for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression"})
+            object["extensions"].erase(name);
         if (object["extensions"].empty()) object.erase("extensions");
         return object;
     }
