@@ -40,7 +40,7 @@ struct FrameDifference {
     bool sign_differs = false;
 };
 
-
+/// Two primitives that show the same surface, or one without a partner.
 struct PrimitiveDiff {
     std::string place_a = {}, place_b = {};  ///< JSON pointers (OBJ: "usemtl NAME"); empty: no partner
     std::uint32_t mesh_a = 0, primitive_a = 0;
