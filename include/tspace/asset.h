@@ -63,6 +63,9 @@ enum class VectorFormat : std::uint32_t {
 struct GenerateOptions {
     bool all = false;    ///< also primitives whose material needs no tangents
     bool strip = false;  ///< take tangents away where no material needs them; not together with `all` (invalidOption)
+    /// Also write the direction of dP/dv (TangentOutput::bitangents) where tangents are computed, as the attribute
+    /// _BITANGENT (VEC3, in `format`). It takes part in the split. Morph targets get no deltas of it.
+    bool bitangents = false;
     ExistingTangents existing = ExistingTangents::keep;
     TextureTransform texture_transform = TextureTransform::apply;
     /// Its execution serves the whole file: primitives are computed at the same time, and normals and sanitize run where
@@ -105,6 +108,7 @@ struct PrimitiveReport {
     std::vector<std::string> notes = {};  ///< further sentences: textures that want other tangents, transforms, repairs
     std::int32_t uv_set = -1;    ///< n of TEXCOORD_n the tangents follow, or -1
     bool normals_generated = false;
+    bool bitangents_generated = false;  ///< _BITANGENT was computed
     std::uint64_t triangle_count = 0;
     std::uint64_t vertices_before = 0;
     std::uint64_t vertices_after = 0;

@@ -5,6 +5,7 @@
 
 #include "core/border.h"
 #include "generate/local_mesh.h"
+#include "generate/mend_bitangents.h"
 #include "generate/morph_frames.h"
 #include "generate/morph_normals.h"
 #include "generate/primitive.h"
@@ -36,6 +37,7 @@ class FrameComputer {
           reports_(reports),
           generates_normals_(pool.normals.empty()),
           generates_tangents_(options.tangents.method == Method::basis || !pool.uvs.empty()),
+          generates_bitangents_(options.bitangents && generates_tangents_ && pool.kept_tangents.empty()),
           local_meshes_(pool, primitives.size()),
           morph_tangents_(pool, options) {}
 
@@ -73,8 +75,9 @@ class FrameComputer {
             mesh.face_sizes = {};
         }
         std::vector<Vec4> tangents;
+        std::vector<Vec3> bitangents;
         if (generates_tangents_) {
-            if (Result<Done> done = computeTangents(mesh, tangents, report); !done) return done;
+            if (Result<Done> done = computeTangents(mesh, tangents, bitangents, report); !done) return done;
         }
         const bool is_cut = !primitive.face_sizes.empty();
         const std::vector<std::uint32_t>& vertices = is_cut ? cut_vertices : primitive.indices;
@@ -82,7 +85,7 @@ class FrameComputer {
         if (generates_tangents_ && pool_.targets.count != 0) {
             if (Result<Done> done = morph_tangents_.add(std::move(mesh), report); !done) return done;
         }
-        return append(vertices, std::move(normals), std::move(tangents));
+        return append(vertices, std::move(normals), std::move(tangents), std::move(bitangents));
     }
 
     /// Normals per corner, and in the mesh one per vertex: vertices with several normals are split first, so
@@ -112,36 +115,46 @@ class FrameComputer {
         return Done{};
     }
 
-    Result<Done> computeTangents(const LocalMesh& mesh, std::vector<Vec4>& tangents,
+    Result<Done> computeTangents(const LocalMesh& mesh, std::vector<Vec4>& tangents, std::vector<Vec3>& bitangents,
                                  PrimitiveReport& report) const {
         tangents.resize(mesh.indices.size());
-        Result<TangentReport> made = generateTangents(mesh.view(), options_.tangents, {.tangents = tangents});
+        TangentOutput out{.tangents = tangents};
+        if (generates_bitangents_) {
+            bitangents.resize(tangents.size());
+            out.bitangents = bitangents;
+            report.bitangents_generated = true;
+        }
+        Result<TangentReport> made = generateTangents(mesh.view(), options_.tangents, out);
         if (!made) return std::move(made).error();
         report.tangents = *made;
         if (!options_.sanitize) return Done{};
+        const std::vector<Vec4> computed = generates_bitangents_ ? tangents : std::vector<Vec4>{};
         Result<SanitizeReport> mended = sanitizeTangents(mesh.view(), tangents, options_.sanitize_options);
         if (!mended) return std::move(mended).error();
         report.sanitize = *mended;
+        if (generates_bitangents_) mendBitangents(mesh.normals, mesh.indices, computed, tangents, bitangents);
         return Done{};
     }
 
+    template <class T>
+    static void append(std::vector<T>&& values, std::vector<T>& all) {
+        if (all.empty()) {
+            all = std::move(values);
+        } else {
+            all.insert(all.end(), values.begin(), values.end());
+        }
+    }
+
     Result<Done> append(const std::vector<std::uint32_t>& vertices, std::vector<Vec3>&& normals,
-                        std::vector<Vec4>&& tangents) {
+                        std::vector<Vec4>&& tangents, std::vector<Vec3>&& bitangents) {
         if (indices_.size() + vertices.size() > kMaxCorners) {
             return Error{ErrorCode::tooLarge,
                          "the primitives that share these vertices have more than 2^31-1 corners"};
         }
         indices_.insert(indices_.end(), vertices.begin(), vertices.end());
-        if (normals_.empty()) {
-            normals_ = std::move(normals);
-        } else {
-            normals_.insert(normals_.end(), normals.begin(), normals.end());
-        }
-        if (tangents_.empty()) {
-            tangents_ = std::move(tangents);
-        } else {
-            tangents_.insert(tangents_.end(), tangents.begin(), tangents.end());
-        }
+        append(std::move(normals), normals_);
+        append(std::move(tangents), tangents_);
+        append(std::move(bitangents), bitangents_);
         corner_counts_.push_back(vertices.size());
         return Done{};
     }
@@ -150,6 +163,7 @@ class FrameComputer {
         std::vector<CornerAttribute> attributes;
         if (!normals_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec3>(normals_)));
         if (!tangents_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec4>(tangents_)));
+        if (!bitangents_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec3>(bitangents_)));
         Result<SplitResult> split = splitVertices(IndexView(spanOf(indices_)), pool_.positions.size(), indices_.size(),
                                                   attributes, options_.tangents.execution);
         if (!split) return std::move(split).error();
@@ -219,14 +233,17 @@ class FrameComputer {
     void writeTangents(const SplitResult& split, PoolFrames& frames) const {
         const float unused_sign = signFactor(options_.tangents.convention);
         frames.tangents.reserve(split.vertexCount());
+        if (generates_bitangents_) frames.bitangents.reserve(split.vertexCount());
         for (std::size_t v = 0; v < split.vertexCount(); ++v) {
             if (const std::uint32_t corner = split.source_corners[v]; corner != kNoCorner) {
                 frames.tangents.push_back(tangents_[corner]);
+                if (generates_bitangents_) frames.bitangents.push_back(bitangents_[corner]);
                 continue;
             }
             const Vec3 normal = generates_normals_ ? Vec3{0, 0, 1} : pool_.normals[split.source_vertices[v]];
             const Vec3 t = orthonormalize({.tangent = {}, .bitangent = {}, .normal = normal}).tangent;
             frames.tangents.push_back({t.x, t.y, t.z, unused_sign});
+            if (generates_bitangents_) frames.bitangents.push_back(bitangentOf(frames.tangents.back(), normal));
         }
     }
 
@@ -236,6 +253,7 @@ class FrameComputer {
     std::span<PrimitiveReport> reports_;
     bool generates_normals_;
     bool generates_tangents_;
+    bool generates_bitangents_;
     LocalMeshes local_meshes_;
     MorphTangents morph_tangents_;
 
@@ -243,6 +261,7 @@ class FrameComputer {
     std::vector<std::uint32_t> indices_;
     std::vector<Vec3> normals_;
     std::vector<Vec4> tangents_;
+    std::vector<Vec3> bitangents_;
     std::vector<std::size_t> corner_counts_;
 };
 

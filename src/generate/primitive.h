@@ -40,6 +40,7 @@ struct PoolFrames {
     std::vector<std::uint32_t> source_vertices = {};
     std::vector<Vec3> normals = {};   ///< one per new vertex when normals_generated, else empty
     std::vector<Vec4> tangents = {};  ///< one per new vertex; empty when no tangents were asked for or possible
+    std::vector<Vec3> bitangents = {};  ///< the same where GenerateOptions::bitangents asks for them, else empty
     /// Per primitive: triangles after cutting n-gons, three new vertices each, in face order.
     std::vector<std::vector<std::uint32_t>> indices = {};
     /// One per morph target. With kept tangents it is empty where these are not the tangents that would be computed.
@@ -51,7 +52,8 @@ struct PoolFrames {
 };
 
 /// Runs normals (if missing), tangents per primitive, sanitize, and one split over all primitives of the pool.
-/// Vertices that no corner uses get a frame from their normal, so that every tangent written is unit.
+/// Vertices that no corner uses get a frame from their normal, so that every tangent written is unit. With sanitize every
+/// bitangent is unit as well (mend_bitangents.h).
 /// `reports` has one entry per primitive; its normals, tangents, sanitize and count fields are filled (vertices are
 /// those of the pool).
 /// Morph targets: base + offset is the frame of the moved shape, computed with the base's hard edges and groups. There is

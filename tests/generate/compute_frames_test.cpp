@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "core/vec_math.h"
 #include "generate/pools.h"
 
 namespace tspace {
@@ -19,6 +20,22 @@ RC_GTEST_PROP(ComputeFrames, ReproducesItselfOnItsOwnOutput, ()) {
     RC_ASSERT(!second.frames.wasSplit(written.positions.size()));
     RC_ASSERT(second.frames.indices == first.frames.indices);
     RC_ASSERT(sameBits(second.frames.tangents, first.frames.tangents));
+    RC_ASSERT(sameBits(second.frames.bitangents, first.frames.bitangents));
+}
+
+RC_GTEST_PROP(ComputeFrames, WritesOnlyUnitBitangentsOnTheSideOfTheSign, ()) {
+    const VertexPool pool = anyPool();
+    GenerateOptions options = anyOptions();
+    options.sanitize = options.bitangents = true;
+    const PoolFrames frames = compute(pool, anyTriangles(pool), options).frames;
+    RC_ASSERT(frames.bitangents.size() == frames.tangents.size());
+    const std::vector<Vec3> normals = rebuilt(pool, frames).normals;
+    for (std::size_t v = 0; v < frames.tangents.size(); ++v) {
+        const DVec3 b = toDouble(frames.bitangents[v]), t = toDouble(xyz(frames.tangents[v])), n = toDouble(normals[v]);
+        RC_ASSERT(std::abs(length(b) - 1) <= 5e-4);
+        if (!(dot(n, n) > 0) || !std::isfinite(dot(n, n))) continue;
+        RC_ASSERT(double{frames.tangents[v].w} * dot(cross(n, t), b) > 0);
+    }
 }
 
 RC_GTEST_PROP(ComputeFrames, WritesOnlyUnitTangentsWithOneSignPerFace, ()) {

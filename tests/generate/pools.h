@@ -121,6 +121,7 @@ inline GenerateOptions anyOptions() {
     options.normals.crease_angle_deg = *rc::gen::element(180.0f, 30.0f);
     options.tangents.pairing = *rc::gen::element(Pairing::reference, Pairing::corrected);
     options.sanitize = *rc::gen::inRange(0, 4) != 0;
+    options.bitangents = *rc::gen::arbitrary<bool>();
     return options;
 }
 

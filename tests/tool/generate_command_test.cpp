@@ -40,6 +40,17 @@ TEST(Generate, QuietPrintsNothing) {
     EXPECT_TRUE(folder.has("out.glb"));
 }
 
+TEST(Generate, WritesBitangentsOfObjFilesToo) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "folded.obj");
+    const ToolRun run = runTool(folder, "generate folded.obj -o out.glb --method best --bitangents");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("bitangents"), std::string::npos) << run.out;
+    EXPECT_NE(runTool(folder, "inspect out.glb").out.find("_BITANGENT float3"), std::string::npos);
+    ASSERT_EQ(runTool(folder, "generate folded.obj -o plain.glb --method best").exit_code, 0);
+    EXPECT_EQ(runTool(folder, "inspect plain.glb").out.find("_BITANGENT"), std::string::npos);
+}
+
 TEST(Generate, HintsAtAllWhenNothingNeedsTangents) {
     const TempFolder folder;
     folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");

@@ -114,7 +114,7 @@ void addSelection(CLI::App* command, GenerateOptions& options, RawGenerate& raw)
         ->group(group);
 }
 
-void addTangentOptions(CLI::App* command, RawGenerate& raw) {
+void addTangentOptions(CLI::App* command, bool& bitangents, RawGenerate& raw) {
     const char* group = "Tangents";
     command
         ->add_option("--texture-transform", raw.texture_transform,
@@ -159,6 +159,12 @@ void addTangentOptions(CLI::App* command, RawGenerate& raw) {
         ->type_name("NAME")
         ->check(oneOf(kFrames))
         ->default_str("gram-schmidt")
+        ->group(group);
+    command
+        ->add_flag("--bitangents", bitangents,
+                   "Also write the direction of dP/dv, which is not cross(N, T) where UVs are sheared, as the attribute "
+                   "_BITANGENT: for shaders that read it. Only where tangents are computed; morph targets get no deltas "
+                   "of it.")
         ->group(group);
     command
         ->add_option("--convention", raw.convention,
@@ -267,7 +273,7 @@ CLI::App* addGenerate(CLI::App& app, GenerateArguments& arguments, RawGenerate& 
         std::string(kExitCodes));
     addOutputOptions(command, arguments, raw);
     addSelection(command, arguments.options, raw);
-    addTangentOptions(command, raw);
+    addTangentOptions(command, arguments.options.bitangents, raw);
     addOtherOptions(command, arguments, raw);
     addBatch(command, arguments.batch, true);
     addReporting(command, arguments.json, arguments.quiet);

@@ -73,6 +73,7 @@ struct Totals {
     std::uint64_t vertices_before = 0;
     std::uint64_t vertices_after = 0;
     std::uint64_t normals_generated = 0;
+    std::uint64_t bitangents_generated = 0;
     std::uint64_t morph_deltas_computed = 0;
     std::uint64_t morph_sign_flip_count = 0;
     std::uint64_t degenerate_uv_count = 0;
@@ -87,6 +88,7 @@ Totals totalsOf(const GenerateReport& report) {
         ++totals.primitive_count;
         ++totals.actions[static_cast<std::size_t>(primitive.action)];
         totals.normals_generated += primitive.normals_generated;
+        totals.bitangents_generated += primitive.bitangents_generated;
         totals.morph_deltas_computed += primitive.morph_deltas_computed;
         totals.morph_sign_flip_count += primitive.morph_sign_flip_count;
         if (!wasComputed(primitive.action)) continue;
@@ -161,6 +163,9 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     }
     if (totals.normals_generated != 0) {
         table.addRow({"normals", "generated for " + counted(totals.normals_generated, "primitive")});
+    }
+    if (totals.bitangents_generated != 0) {
+        table.addRow({"bitangents", "written for " + counted(totals.bitangents_generated, "primitive")});
     }
     if (totals.morph_deltas_computed != 0) {
         table.addRow({"morph targets", "tangent deltas computed for " + std::to_string(totals.morph_deltas_computed)});
@@ -255,6 +260,7 @@ Json primitiveJson(const PrimitiveReport& primitive) {
         {"verticesBefore", primitive.vertices_before},
         {"verticesAfter", primitive.vertices_after},
         {"normalsGenerated", primitive.normals_generated},
+        {"bitangentsGenerated", primitive.bitangents_generated},
         {"morphTargets", primitive.morph_target_count},
         {"morphDeltas", primitive.morph_deltas_computed},
         {"morphSignFlips", primitive.morph_sign_flip_count},

@@ -90,6 +90,8 @@ class Applier {
         bool changed = split;
         if (frames_.normals_generated) changed |= setAttribute(kBase, "NORMAL", unitVectors(frames_.normals, format_));
         changed |= setAttribute(kBase, "TANGENT", unitVectors(frames_.tangents, format_));
+        if (!frames_.bitangents.empty())
+            changed |= setAttribute(kBase, "_BITANGENT", unitVectors(frames_.bitangents, format_));
         changed |= setTargets();
         return changed;
     }
@@ -107,7 +109,8 @@ class Applier {
         std::string name = {};
     };
 
-    [[nodiscard]] bool isReplaced(const std::string& name) const {
+    [[nodiscard]] bool isReplaced(const std::string& name, std::ptrdiff_t target) const {
+        if (name == "_BITANGENT") return target == kBase && !frames_.bitangents.empty();
         return name == "TANGENT" || (name == "NORMAL" && frames_.normals_generated);
     }
 
@@ -123,12 +126,13 @@ class Applier {
         for (const std::size_t number : pool_.primitives) {
             const Primitive& primitive = primitives_[number];
             for (const auto& [name, accessor] : primitive.attributes) {
-                if (!isReplaced(name)) slots[accessor].push_back({number, kBase, name});
+                if (!isReplaced(name, kBase)) slots[accessor].push_back({number, kBase, name});
             }
             for (std::size_t target = 0; target < primitive.targets.size(); ++target) {
                 for (const auto& [name, accessor] : primitive.targets[target]) {
-                    if (isReplaced(name) && movesFrames(primitive.targets[target])) continue;
-                    slots[accessor].push_back({number, static_cast<std::ptrdiff_t>(target), name});
+                    const auto place = static_cast<std::ptrdiff_t>(target);
+                    if (isReplaced(name, place) && movesFrames(primitive.targets[target])) continue;
+                    slots[accessor].push_back({number, place, name});
                 }
             }
         }
@@ -270,6 +274,7 @@ void applyFrames(Editor& editor, const Document& document, std::span<const Primi
                                            : PrimitiveAction::unchanged;
         report.vertices_after = frames.source_vertices.size();
         report.normals_generated = frames.normals_generated;
+        report.bitangents_generated = !frames.bitangents.empty();
     }
 }
 

@@ -12,7 +12,7 @@
 namespace tspace::gltf {
 
 /// Changes the document so that the pool's primitives have `frames`, in `format`. Without a split only TANGENT (and NORMAL
-/// where it was generated) changes, in the primitives and in those morph targets that move positions or normals (their
+/// and _BITANGENT where they were made) changes, in the primitives and in those morph targets that move positions or normals (their
 /// offsets are floats). Fills action and vertices_after of the reports of the pool's primitives.
 void applyFrames(Editor& editor, const Document& document, std::span<const Primitive> primitives,
                  const Pool& pool, const PoolFrames& frames, VectorFormat format,

@@ -35,6 +35,15 @@ std::size_t countTogether(std::span<const Pool> pools, const Execution& executio
     return count;
 }
 
+/// Bitangents go with tangents that were computed; says where there are none.
+void noteMissingBitangents(std::span<const Primitive> primitives, std::span<PrimitiveReport> reports) {
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        if (reports[i].action != PrimitiveAction::kept || primitives[i].find("_BITANGENT")) continue;
+        reports[i].notes.emplace_back("its tangents stay, so it gets no bitangents: those are computed only together "
+                                      "(--overwrite)");
+    }
+}
+
 GenerateReport generate(const std::string& input, const std::string& output_path,
                         const GenerateOptions& options) {
     GenerateReport report;
@@ -74,6 +83,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
         }
     }
     tell(options, "computing tangents", total, total);
+    if (options.bitangents) noteMissingBitangents(primitives, plan.reports);
     stripTangents(editor, primitives, plan.reports);
     editor.finish();
     // Views that could not be packed may be free now of what stood in the way.

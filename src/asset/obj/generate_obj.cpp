@@ -61,6 +61,7 @@ FinishedPrimitive finishWithFrames(ObjGeometry geometry, const GenerateOptions& 
     finished.normals = gather(geometry.pool.normals, frames.source_vertices);
     if (!geometry.pool.uvs.empty()) finished.uvs = gather(geometry.pool.uvs, frames.source_vertices);
     finished.tangents = std::move(frames.tangents);
+    finished.bitangents = std::move(frames.bitangents);
     finished.indices = std::move(frames.indices.front());
     return finished;
 }

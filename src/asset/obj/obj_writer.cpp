@@ -233,6 +233,8 @@ Json primitiveJson(const FinishedPrimitive& primitive, int material, BufferBuild
                        {"NORMAL", buffer.addUnits(primitive.normals, "VEC3", primitive.normal_format)}};
     if (!primitive.tangents.empty())
         attributes["TANGENT"] = buffer.addUnits(primitive.tangents, "VEC4", primitive.tangent_format);
+    if (!primitive.bitangents.empty())
+        attributes["_BITANGENT"] = buffer.addUnits(primitive.bitangents, "VEC3", primitive.tangent_format);
     if (!primitive.uvs.empty()) attributes["TEXCOORD_0"] = buffer.addVertices(primitive.uvs, "VEC2");
     Json json = {{"attributes", std::move(attributes)},
                  {"indices", buffer.addIndices(primitive.indices, primitive.positions.size())}};

@@ -309,7 +309,8 @@ class Encoder {
 
     /// Attributes without a view exist in the Draco data only; with one, those that were there, and frames.
     [[nodiscard]] bool belongs(const Packed& packed, const std::string& name, std::size_t accessor) const {
-        return document_.elements.count(accessor) != 0 || name == "TANGENT" || name == "NORMAL" || oldId(packed, name);
+        return document_.elements.count(accessor) != 0 || name == "TANGENT" || name == "NORMAL" || name == "_BITANGENT" ||
+               oldId(packed, name);
     }
 
     static std::optional<std::uint32_t> oldId(const Packed& packed, const std::string& name) {
