@@ -150,8 +150,8 @@ inline ExpectedFrame recoveryAtFirst(const Shape& shape) {
         e.x = {u, v, u * u / 2, u * v, v * v / 2};
         for (int k = 0; k < 3; ++k) q[k] += e.weight * e.x[k + 2] * e.x[k + 2];
     }
-    std::array<double, 3> diagonal{};
-    for (int k = 0; k < 3; ++k) diagonal[k] = q[k] + 1e-3 * (q[0] + q[1] + q[2]);
+    const double trace = q[0] + q[1] + q[2];
+    const std::array<double, 3> diagonal{0.3 * trace, 0.6 * trace, 0.3 * trace};
 
     const double k0 = 3e-4;
     const std::array<DVec3, 5> first = solveFit(equations, diagonal, k0),

@@ -11,7 +11,7 @@
 //   R += w d l^T,  P += w f l^T,  L += w l.l b += g/|g| A^2 / (|e1|^2 + |e2|^2 + |e3|^2)^(3/4) g: dP/du, or
 //   dP/dv, of the triangle
 // Then per group, with UVs scaled so that M has ones on its diagonal:
-//   q(k) = (Q - C^T M^-1 C + k diag)^-1 (P - C^T M^-1 R),  J(k) = M^-1 (R - C q(k))
+//   q(k) = (Q - C^T M^-1 C + k D)^-1 (P - C^T M^-1 R),  J(k) = M^-1 (R - C q(k)),  D = 0.3 trace(Q) diag(1, 2, 1)
 //   from k0 = 0.0003:  bend = (energy of the quadratic part) / (energy of the linear part)
 //                      miss = (what the fit leaves unexplained) / (what its quadratic part explains)
 //   k = k0 + 512 bend^2 + 5 miss bend / (bend + 0.001),  m = (k - k0) / (k - k0 + 2)
@@ -43,7 +43,10 @@ constexpr float kMostRidge = 1e6f;
 constexpr float kRoundingShare = 1e-9f;
 constexpr float kLongestArc =
     2.0f;  // an edge that climbs more than 60 degrees from the tangent plane is no arc in it
-constexpr float kDiagonalShare = 1e-3f;  // of the mean of Q's diagonal, added to it: where UVs lie on a line
+// The ridge weighs the second derivatives as their Frobenius norm does: uu, uv, vv as 1, 2, 1. This is the share of
+// trace(Q) that Q's entries for uu and vv have where edges point everywhere. Q's own diagonal will not do: where four
+// edges make a cross, which leaves the part uv open, it hardly holds that part, and u^2 v^2 then explains what it must not.
+constexpr float kRidgeShare = 0.3f;
 constexpr float kSmallestDeterminant = 1e-6f;
 
 constexpr std::size_t kFitRows = 7;
@@ -212,10 +215,9 @@ struct Reduced {
         i2 = f.m0 * inverse;
         linear[0] = i0 * f.r[0] + i1 * f.r[1];
         linear[1] = i1 * f.r[0] + i2 * f.r[1];
-        const Floats share = broadcast(kDiagonalShare) * (f.q[0] + f.q[3] + f.q[5]);
-        ridge[0] = f.q[0] + share;
-        ridge[1] = f.q[3] + share;
-        ridge[2] = f.q[5] + share;
+        ridge[0] = broadcast(kRidgeShare) * (f.q[0] + f.q[3] + f.q[5]);
+        ridge[1] = ridge[0] + ridge[0];
+        ridge[2] = ridge[0];
         std::size_t n = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             const Floats a = i0 * f.c[0][i] + i1 * f.c[1][i], b = i1 * f.c[0][i] + i2 * f.c[1][i];
