@@ -5,6 +5,8 @@
 // fit around each point, here of the height above a plane; a ridge keeps it solvable); Max, "Weights for Computing
 // Vertex Normals from Facet Normals", 1999 (the plane).
 //
+// The same from sums, for the common case, is in best_sums_kernel.h.
+//
 // A fit follows noise, and across a bevel it bends what is flat. What tells these from a smooth surface is an edge e
 // between normals m and n: on a circle, and nearly on everything that is smooth at the mesh's scale, dot(e, m + n) is 0.
 #include "normals/best_normal.h"
@@ -14,24 +16,13 @@
 
 #include "core/basis.h"
 #include "core/vec_math.h"
+#include "normals/best_constants.h"
 
 namespace tspace {
 
 namespace {
 
-// Where each doubt is even (the blend half and half), found by trying values on analytic surfaces with and without noise
-// and on bevels (docs/accuracy.md). A fifth more or less changes errors by up to a tenth.
-constexpr double kNoise = 0.45;   // of the bend of the edges, what no normal explains
-constexpr double kKink = 1.5;     // misfit of the sharp normals, in that of the robust ones
-constexpr double kJump = 2.5;     // turn over the longest edge if all of it bent like the most bent one, in radians,
-                                  // times the sine between the two means
-constexpr double kTurn = 0.8;    // twice the sine of half the angle between the sharp normals at both ends of an edge
-constexpr double kSpread = 0.42;  // sine between fit and robust mean
-
-// Of the quadratic part's own size: enough for rings with too few edges, and too little to matter elsewhere.
-constexpr double kRidge = 3e-4;
-
-constexpr double kNoTrust = 1e12;  // so large that a blend has the bits of one side
+using namespace smooth;
 
 double square(double x) { return x * x; }
 
@@ -154,15 +145,16 @@ class HeightFit {
     /// Eliminates the linear part, adds the ridge, and solves for the quadratic one. Zeros where that has no answer.
     void solveCurvature(double inverse_determinant, double (&curvature)[3]) const {
         double rows[3][4];
+        const double ridge = kFitRidge * kFitRidgeShare * (bend_bend_[0][0] + bend_bend_[1][1] + bend_bend_[2][2]);
         for (int i = 0; i < 3; ++i) {
             const double along_x = (yy_ * x_bend_[i] - xy_ * y_bend_[i]) * inverse_determinant;
             const double along_y = (xx_ * y_bend_[i] - xy_ * x_bend_[i]) * inverse_determinant;
             for (int k = 0; k < 3; ++k) rows[i][k] = bend_bend_[i][k] - along_x * x_bend_[k] - along_y * y_bend_[k];
-            rows[i][i] += kRidge * bend_bend_[i][i];
+            rows[i][i] += i == 1 ? 2 * ridge : ridge;
             rows[i][3] = bend_slope_[i] - along_x * x_slope_ - along_y * y_slope_;
         }
         for (int i = 0; i < 3; ++i) {
-            if (!(rows[i][i] > 1e-9 * bend_bend_[i][i])) return;
+            if (!(rows[i][i] > 0)) return;
             for (int below = i + 1; below < 3; ++below) {
                 const double factor = rows[below][i] / rows[i][i];
                 for (int k = i; k < 4; ++k) rows[below][k] -= factor * rows[i][k];

@@ -16,6 +16,7 @@
 #include "core/sum_ranges.h"
 #include "core/vec_math.h"
 #include "core/vertex_ranges.h"
+#include "normals/best_triangles.h"
 #include "normals/face_terms.h"
 #include "normals/weld.h"
 
@@ -88,10 +89,12 @@ class TriangleSmoother {
                      StridedSpan<Vec3> out, Parallel& parallel)
         : mesh_(mesh),
           positions_(positions),
+          options_(options),
+          is_best_(options.weighting == NormalWeighting::best),
           by_angle_(options.weighting == NormalWeighting::angle ||
-                    options.weighting == NormalWeighting::angleArea),
+                    options.weighting == NormalWeighting::angleArea || is_best_),
           by_area_(options.weighting == NormalWeighting::area ||
-                   options.weighting == NormalWeighting::angleArea),
+                   options.weighting == NormalWeighting::angleArea || is_best_),
           factor_(normalFactor(options.convention)),
           kernel_(smooth::faceKernelFor(options.execution.simd)),
           out_(out),
@@ -122,6 +125,7 @@ class TriangleSmoother {
             count != 0) {
             sumDoubtful(count);
         }
+        if (is_best_) smooth::refineTriangles(mesh_, positions_, points_, options_, sums_.data()->floats(), parallel_);
         copyToRepeated();
         report.fallback_corner_count =
             sumRanges(parallel_, triangle_count_, kGrain,
@@ -308,6 +312,8 @@ class TriangleSmoother {
 
     const MeshView& mesh_;
     StridedSpan<const Vec3> positions_;
+    const NormalOptions& options_;
+    bool is_best_;  ///< the sums are means by angle * area first
     bool by_angle_, by_area_;
     double factor_;
     smooth::FaceKernel kernel_;
@@ -325,7 +331,7 @@ class TriangleSmoother {
 bool canSmoothTriangles(const MeshView& mesh, const NormalOptions& options) {
     return mesh.face_sizes.empty() && mesh.face_size == 3 && mesh.vertexCount() != 0 &&
            options.crease_angle_deg >= 180 && options.smoothing_groups.empty() &&
-           options.weighting != NormalWeighting::flat && options.weighting < NormalWeighting::max;
+           options.weighting != NormalWeighting::flat && options.weighting != NormalWeighting::max;
 }
 
 NormalReport smoothTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positions, const NormalOptions& options,

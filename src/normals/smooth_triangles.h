@@ -10,12 +10,12 @@
 
 namespace tspace {
 
-/// Whether smoothTriangles does this: a mesh of triangles, all weightings but flat, max and best, no
-/// crease, no groups.
+/// Whether smoothTriangles does this: a mesh of triangles, all weightings but flat and max, no crease, no groups.
 bool canSmoothTriangles(const MeshView& mesh, const NormalOptions& options);
 
 /// The result of generateNormals, or with other positions than the mesh's that of generatePoseNormals. The mesh has been
-/// validated. Scratch memory: 36 bytes per vertex, and while vertices are welded 10 to 24. Throws OutOfMemory.
+/// validated. Scratch memory: 36 bytes per vertex, for `best` 32 more (best_triangles.h), and while vertices
+/// are welded 10 to 24. Throws OutOfMemory.
 NormalReport smoothTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positions, const NormalOptions& options,
                              StridedSpan<Vec3> out, Parallel& parallel);
 

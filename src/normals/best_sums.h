@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// NormalWeighting::best from sums: what each corner of a triangle adds to its point, and what a point makes of it. Two
+// rounds, since the second one needs the `max` normals of the first at both ends of an edge. Written once
+// (best_sums_kernel.h), compiled for several CPUs, same bits from all of them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "tspace/execution.h"
+
+namespace tspace::smooth {
+
+/// Points have a normal of each kind, or zero.
+struct BestSource {
+    const std::byte* positions = nullptr;
+    std::size_t stride = 0;
+    std::uint32_t last_vertex = 0;    ///< right after its position nothing may be read
+    float scale = 1;                  ///< of positions: a power of four that brings them near 1
+    float factor = 1;                 ///< normalFactor(convention)
+    const std::byte* robust = nullptr;  ///< by angle * area: eight floats per point, the first three of which count
+    const std::byte* sharp = nullptr;   ///< by max: four floats per point
+};
+
+inline constexpr std::size_t kBestTriangles = 32;  ///< of one block
+inline constexpr std::size_t kBestGroup = 16;      ///< lanes; vertices and points are read by whole groups
+inline constexpr std::size_t kFitRows = 7;         ///< of four floats; the last one has maxima in the place of sums
+
+/// The functions for one CPU. `vertices` and `points`: three per triangle, and valid ones up to the end of the last
+/// group. Corner k of triangle t writes to rows + 4 * (rows per corner) * (3 * t + k). Triangles without area, or with
+/// values that are not finite, write zeros.
+struct BestKernel {
+    /// One row per corner: the normal with the weight of `max`.
+    void (*add_sharp)(const BestSource& source, const std::uint32_t* vertices, std::size_t count, float* rows);
+    /// Makes `count` rows unit, or zero. A multiple of kBestGroup.
+    void (*finish_sharp)(float* rows, std::size_t count);
+    /// kFitRows per corner.
+    void (*add_fit)(const BestSource& source, const std::uint32_t* vertices, const std::uint32_t* points,
+                    std::size_t count, float* rows);
+    /// Makes the first row of each point its unit normal. robust, sharp: four floats per point. A multiple of
+    /// kBestGroup.
+    void (*finish_fit)(float* sums, const float* robust, const float* sharp, std::size_t count);
+};
+
+/// See simd/dispatch.h.
+BestKernel bestKernelFor(SimdTarget wish);
+
+namespace scalar {
+BestKernel bestKernel();
+}
+namespace sse2 {
+BestKernel bestKernel();
+}
+namespace avx2 {
+BestKernel bestKernel();
+}
+namespace avx512 {
+BestKernel bestKernel();
+}
+
+}  // namespace tspace::smooth
