@@ -169,8 +169,8 @@ Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& opt
 
 /// Computes frames for a pose with the plan's groups and splits. Each corner has the pose's position and normal of its own
 /// vertex, also where vertices that were equal on the mesh come apart. On the pose the plan was made from the result is
-/// bit for bit that of generateTangents. `execution` replaces the plan's. Scratch memory of the grouping methods: 16 bytes
-/// per group when only tangents are asked for, else 48.
+/// bit for bit that of generateTangents. `execution` replaces the plan's. Scratch memory of the grouping methods: 12 bytes
+/// per group when only tangents are asked for, else 44.
 /// Errors: planMismatch when counts differ from the plan's, and those of span checks.
 Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose, const TangentOutput& out,
                                        const Execution& execution = {});

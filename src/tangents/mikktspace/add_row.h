@@ -18,4 +18,16 @@ inline void addRow(float* to, const float* row) {
 #endif
 }
 
+/// to[0..2] += row[0..2], where only `row` is aligned to 16 bytes.
+inline void addVector(float* to, const float* row) {
+#if defined(TSPACE_SIMD_X86)
+    const __m128 xy = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(to)));
+    const __m128 sum = _mm_add_ps(_mm_movelh_ps(xy, _mm_load_ss(to + 2)), _mm_load_ps(row));
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(to), _mm_castps_si128(sum));
+    _mm_store_ss(to + 2, _mm_movehl_ps(sum, sum));
+#else
+    for (int i = 0; i < 3; ++i) to[i] = to[i] + row[i];
+#endif
+}
+
 }  // namespace tspace::mikk

@@ -88,7 +88,7 @@ class Evaluation {
                                    execution_, parallel_);
     }
 
-    /// Turns sums into results, in place: the weight becomes the stored sign.
+    /// Turns sums into results, in place.
     void finishGroups() {
         std::atomic<bool> zero{false}, not_finite{false}, unequal{false};
         const bool replaces = plan_.method != Method::mikktspace;
@@ -127,15 +127,15 @@ class Evaluation {
         r.t = unit(Vec3{rest.t[0], rest.t[1], rest.t[2]});
         r.mag_s = rest.t[3];
         r.mag_t = rest.length_t;
-        if (s[3] > 0) {
-            r.mag_s /= s[3];
-            r.mag_t /= s[3];
+        if (rest.weight > 0) {
+            r.mag_s /= rest.weight;
+            r.mag_t /= rest.weight;
         }
         return r;
     }
 
     void store(std::size_t g, const Tangents& r) {
-        sums_.groups[g] = {{r.s.x, r.s.y, r.s.z, sink_.sign(plan_.group_positive[g] != 0)}};
+        sums_.groups[g] = {{r.s.x, r.s.y, r.s.z}};
         if (!sums_.rest.empty()) sums_.rest[g] = {{r.t.x, r.t.y, r.t.z, r.mag_s}, r.mag_t};
     }
 
@@ -155,13 +155,14 @@ class Evaluation {
 
     void writeCorners() {
         const bool tangents_only = wantsTangentsOnly(out_);
+        const float signs[2] = {sink_.sign(false), sink_.sign(true)};
         parallel_.forRanges(plan_.corner_count, kCornerGrain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t c = begin; c < end; ++c) {
                 const std::uint32_t g = plan_.groupOfCorner(c);
                 if (g >= plan_.group_count) continue;
                 if (tangents_only) {
                     const float* s = sums_.groups[g].s;
-                    out_.tangents[c] = {s[0], s[1], s[2], s[3]};
+                    out_.tangents[c] = {s[0], s[1], s[2], signs[plan_.group_positive[g]]};
                 } else {
                     sink_.write(c, resultOf(g));
                 }

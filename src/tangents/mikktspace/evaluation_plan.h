@@ -71,8 +71,8 @@ struct EvaluationPlan {
 EvaluationPlan makeEvaluationPlan(GroupedPlan plan, const MeshView& mesh, PlanUse use, const Allocator* allocator,
                                   Parallel& parallel);
 
-/// Evaluates one pose into checked outputs and completes the plan's report. Scratch memory: 16 bytes per
-/// group when only tangents are asked for, else 48. `scale`: for `fast` and `best`, where it is not to be found from
+/// Evaluates one pose into checked outputs and completes the plan's report. Scratch memory: 12 bytes per
+/// group when only tangents are asked for, else 44. `scale`: for `fast` and `best`, where it is not to be found from
 /// the pose itself. Throws OutOfMemory.
 TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const TangentOutput& out,
                              const Execution& execution, Parallel& parallel,

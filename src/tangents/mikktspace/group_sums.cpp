@@ -60,15 +60,17 @@ class Summer {
         terms_of_(source_, vertices, count, terms_);
         if (sums_.rest.empty()) {
             for (std::size_t i = 0; i < 3 * count; ++i) {
-                if (owns(groups[i])) addRow(sums_.groups[groups[i]].s, terms_.s[i]);
+                if (owns(groups[i])) addVector(sums_.groups[groups[i]].s, terms_.s[i]);
             }
             return;
         }
         for (std::size_t i = 0; i < 3 * count; ++i) {
             if (!owns(groups[i])) continue;
-            addRow(sums_.groups[groups[i]].s, terms_.s[i]);
-            addRow(sums_.rest[groups[i]].t, terms_.t[i]);
-            sums_.rest[groups[i]].length_t += terms_.lengths_t[i % 3][i / 3];
+            addVector(sums_.groups[groups[i]].s, terms_.s[i]);
+            GroupRest& rest = sums_.rest[groups[i]];
+            addRow(rest.t, terms_.t[i]);
+            rest.length_t += terms_.lengths_t[i % 3][i / 3];
+            rest.weight += terms_.s[i][3];
         }
     }
 

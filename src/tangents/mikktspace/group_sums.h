@@ -8,14 +8,16 @@
 
 namespace tspace::mikk {
 
-struct alignas(16) GroupSum {
-    float s[4] = {0, 0, 0, 0};  ///< sum of weighted tangents, and of weights
+/// Three floats and no more: these are most of what evaluating holds.
+struct GroupSum {
+    float s[3] = {0, 0, 0};  ///< of weighted tangents
 };
 
 /// The rest, when more than tangents is asked for.
 struct alignas(32) GroupRest {
     float t[4] = {0, 0, 0, 0};  ///< of weighted bitangents, and of weighted |dP/du|
     float length_t = 0;         ///< of weighted |dP/dv|
+    float weight = 0;
 };
 
 struct GroupSums {
