@@ -36,6 +36,8 @@ class Growing {
     const T& operator[](std::size_t i) const { return buffer_[i]; }
     T* begin() { return buffer_.data(); }
     T* end() { return buffer_.data() + count_; }
+    const T* begin() const { return buffer_.data(); }
+    const T* end() const { return buffer_.data() + count_; }
 
     /// Takes the last `count` elements off.
     void drop(std::size_t count) { count_ -= count; }

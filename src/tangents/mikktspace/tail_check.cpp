@@ -16,9 +16,14 @@
 //
 // Few triangles are enough, nearly always: in a mesh in natural order most nodes of the last ones have no
 // other corners; in a mesh without order each edge of a late triangle has its key there once in 36 times.
+//
+// For a small mesh there is a shorter way. The first and the last corner of a node are bounds
+// of its representative, so they give a lower bound of V, and S can be the nodes whose last corner is not
+// below that: a handful. Where their edges cannot matter, whatever the representatives, nobody asks for those.
 #include "tangents/mikktspace/tail_check.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/vec_math.h"
 #include "tangents/mikktspace/collect.h"
@@ -32,6 +37,8 @@ namespace {
 
 constexpr std::size_t kFirstTail = 24;  // triangles
 constexpr std::size_t kLonger = 4;      // times, when that was not enough
+constexpr std::size_t kManyEdges = 512;
+constexpr std::size_t kFewEntries = 4096;  // of the corner list; then each node gets bounds
 
 /// A half-edge with both ends in S.
 struct LateEdge {
@@ -47,18 +54,27 @@ class TailCheck {
           nodes_(nodes),
           allocator_(allocator),
           parallel_(parallel),
-          order_(mesh, triangles, nodes, allocator, parallel),
           late_nodes_(noMarks(allocator, nodes.count)),
           late_vertices_(allocator),
           representatives_(allocator, nodes.count),
           edges_(allocator) {}
 
     bool run() {
+        if (3 * triangles_.count <= kFewEntries) {
+            findBounds();
+            if (findEdgesByBounds()) {
+                if (!anyMayMatter()) return false;
+                findKey();
+                return bucketMatters();
+            }
+            std::fill(late_nodes_.begin(), late_nodes_.end(), std::uint8_t{0});
+        }
+        const WeldOrder order(mesh_, triangles_, nodes_, allocator_, parallel_);
         std::size_t end = triangles_.count;
         for (std::size_t length = kFirstTail;; length *= kLonger) {
             const std::size_t begin = tailOf(length);
             addNodes(begin, end);
-            findEdges();
+            findEdges(order);
             if (!edges_.empty() && key_ >= firstCorner(begin)) break;
             if (begin == 0) return false;  // no edge at all
             end = begin;
@@ -67,6 +83,104 @@ class TailCheck {
     }
 
   private:
+    void findBounds() {
+        bounds_ = Buffer<CornerRange>(allocator_, nodes_.count, CornerRange{kNone, 0});
+        withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
+            for (std::size_t i = 0; i < 3 * triangles_.count; ++i) {
+                CornerRange& range = bounds_[nodes_.ofVertex(vertexOf(i))];
+                const std::uint32_t corner = triangles_.corner(i);
+                range = {std::min(range.first, corner), std::max(range.last, corner)};
+            }
+        });
+    }
+
+    /// A lower bound of V: the key of some edge is not below the first corners of its nodes.
+    [[nodiscard]] std::uint32_t leastKey() const {
+        std::uint32_t least = 0;
+        withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
+            const auto first = [&](std::size_t i) { return bounds_[nodes_.ofVertex(vertexOf(i))].first; };
+            for (std::size_t t = triangles_.count; t-- > 0;) {
+                const std::uint32_t a = first(3 * t), b = first(3 * t + 1), c = first(3 * t + 2);
+                const std::uint32_t middle = std::max(std::min(a, b), std::min(std::max(a, b), c));
+                if (middle > least && isGood(t)) least = middle;
+            }
+        });
+        return least;
+    }
+
+    /// Returns false when there are too many to be worth it.
+    bool findEdgesByBounds() {
+        const std::uint32_t least = leastKey();
+        for (std::size_t n = 0; n < nodes_.count; ++n)
+            late_nodes_[n] = bounds_[n].first != kNone && bounds_[n].last >= least ? 1 : 0;
+        withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
+            for (std::size_t t = 0; t < triangles_.count && edges_.size() <= kManyEdges; ++t) {
+                const std::uint32_t a = nodes_.ofVertex(vertexOf(3 * t)),
+                                    b = nodes_.ofVertex(vertexOf(3 * t + 1)),
+                                    c = nodes_.ofVertex(vertexOf(3 * t + 2));
+                if (late_nodes_[a] + late_nodes_[b] + late_nodes_[c] < 2 || !isGood(t)) continue;
+                for (const LateEdge& edge : {LateEdge{a, b}, LateEdge{b, c}, LateEdge{c, a}}) {
+                    if (late_nodes_[edge.from] + late_nodes_[edge.to] == 2) edges_.push(edge);
+                }
+            }
+        });
+        return edges_.size() <= kManyEdges;
+    }
+
+    /// Whether some node may have a bucket that matters: more than two edges to nodes that may be higher, and
+    /// one of them in both directions.
+    [[nodiscard]] bool anyMayMatter() const {
+        struct Record {
+            std::uint64_t nodes;  // the lower one, the higher one
+            bool ascending;
+            bool operator<(const Record& other) const {
+                return nodes != other.nodes ? nodes < other.nodes : ascending < other.ascending;
+            }
+        };
+        Growing<Record> records(allocator_);
+        const auto add = [&](std::uint32_t low, std::uint32_t high, bool ascending) {
+            if (bounds_[low].first < bounds_[high].last)
+                records.push({std::uint64_t{low} << 32 | high, ascending});
+        };
+        for (const LateEdge& e : edges_) {
+            add(e.from, e.to, true);
+            add(e.to, e.from, false);
+        }
+        std::sort(records.begin(), records.end());
+        for (std::size_t begin = 0; begin < records.size();) {
+            std::size_t end = begin + 1;
+            bool both = false;
+            for (; end < records.size() && records[end].nodes >> 32 == records[begin].nodes >> 32; ++end) {
+                both |= records[end].nodes == records[end - 1].nodes &&
+                        records[end].ascending != records[end - 1].ascending;
+            }
+            if (both && end - begin > 2) return true;
+            begin = end;
+        }
+        return false;
+    }
+
+    /// The representatives of all nodes that edges have, and V.
+    void findKey() {
+        std::fill(late_nodes_.begin(), late_nodes_.end(), std::uint8_t{0});
+        const auto want = [&](std::uint32_t node) {
+            if (std::exchange(late_nodes_[node], std::uint8_t{1}) != 0) return;
+            const CornerRange range = bounds_[node];
+            representatives_[node] = range.first;
+            if (range.first != range.last) late_vertices_.push(mesh_.indices[range.first]);
+        };
+        for (const LateEdge& e : edges_) {
+            want(e.from);
+            want(e.to);
+        }
+        if (!late_vertices_.empty()) {
+            WeldOrder(mesh_, triangles_, nodes_, allocator_, parallel_, {bounds_.data(), bounds_.size()})
+                .findSome({late_vertices_.begin(), late_vertices_.size()}, representatives_.data());
+        }
+        key_ = 0;
+        for (const LateEdge& e : edges_) key_ = std::max(key_, keyOf(e));
+    }
+
     /// Where the last `length` triangles begin, or a few more: a face is not cut in two.
     [[nodiscard]] std::size_t tailOf(std::size_t length) const {
         if (length >= triangles_.count) return 0;
@@ -108,9 +222,9 @@ class TailCheck {
     }
 
     /// The edges that have both ends in S, and L.
-    void findEdges() {
+    void findEdges(const WeldOrder& order) {
         Growing<std::uint32_t> shared(allocator_);
-        order_.findSome({late_vertices_.begin(), late_vertices_.size()}, representatives_.data(), &shared);
+        order.findSome({late_vertices_.begin(), late_vertices_.size()}, representatives_.data(), &shared);
         edges_.drop(edges_.size());
         key_ = 0;
         for (const std::uint32_t t : shared) {
@@ -156,7 +270,7 @@ class TailCheck {
     const Nodes& nodes_;
     const Allocator* allocator_;
     Parallel& parallel_;
-    WeldOrder order_;
+    Buffer<CornerRange> bounds_;            // one per node; only on the shorter way
     Marks late_nodes_;                      // 1: in S
     Growing<std::uint32_t> late_vertices_;  // a vertex of each node in S
     Buffer<std::uint32_t> representatives_;

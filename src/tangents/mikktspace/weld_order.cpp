@@ -184,8 +184,9 @@ bool isListed(std::uint32_t vertex, const MeshView& mesh, const TriangleList& tr
 
 /// The same box. Reading vertices in order is much faster than reading those of the list; nearly always they
 /// make the same box, which is so when vertices on its six sides are in the list. Not for a NaN in the list.
-Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator,
-                Parallel& parallel) {
+template <class IsListed>
+Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const IsListed& isListed,
+                const Allocator* allocator, Parallel& parallel) {
     constexpr std::size_t kBoxed = 512;  // vertices
     constexpr std::size_t kGrain = 64;   // boxes
     if (triangles.corner(0) != 0) return listedBox(mesh, triangles);
@@ -212,7 +213,7 @@ Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const Alloc
             std::size_t v = 0;
             while (side(boxes[v / kBoxed]) != side(whole)) v += kBoxed;
             while (component(mesh.positions[v], axis) != side(whole)) ++v;
-            if (!isListed(static_cast<std::uint32_t>(v), mesh, triangles)) return listedBox(mesh, triangles);
+            if (!isListed(static_cast<std::uint32_t>(v))) return listedBox(mesh, triangles);
         }
     }
     return whole;
@@ -261,11 +262,16 @@ class NearCells {
 }  // namespace
 
 WeldOrder::WeldOrder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                     const Allocator* allocator, Parallel& parallel)
+                     const Allocator* allocator, Parallel& parallel, std::span<const CornerRange> corners)
     : mesh_(mesh), triangles_(triangles), nodes_(nodes), allocator_(allocator), parallel_(parallel) {
     if (triangles.count == 0) return;
-    const Box box =
-        nodes.tame ? boundingBox(mesh, triangles, allocator, parallel) : listedBox(mesh, triangles);
+    // A node's vertices are in one place: one in the list is as good as another.
+    const auto is_listed = [&](std::uint32_t vertex) {
+        if (corners.empty()) return isListed(vertex, mesh, triangles);
+        return corners[nodes.ofVertex(vertex)].first != kNone;
+    };
+    const Box box = nodes.tame ? boundingBox(mesh, triangles, is_listed, allocator, parallel)
+                               : listedBox(mesh, triangles);
     axis_ = box.longestAxis();
     low_ = component(box.low, axis_);
     high_ = component(box.high, axis_);

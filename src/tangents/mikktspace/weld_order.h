@@ -14,11 +14,16 @@
 
 namespace tspace::mikk {
 
+/// The first and the last corner of a node; kNone as the first where it has none.
+struct CornerRange {
+    std::uint32_t first, last;
+};
+
 class WeldOrder {
   public:
-    /// All must outlive this object.
+    /// All must outlive this object. `corners`: one per node, or empty; saves looking which vertices are used.
     WeldOrder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-              const Allocator* allocator, Parallel& parallel);
+              const Allocator* allocator, Parallel& parallel, std::span<const CornerRange> corners = {});
 
     /// Sets representatives[node] to the corner that the reference keeps, for all nodes that have corners.
     /// `not_welded` may be null; else it has one zero byte per corner of the mesh, which becomes 1 where the
