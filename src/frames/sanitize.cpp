@@ -14,6 +14,7 @@
 #include "core/basis.h"
 #include "core/border.h"
 #include "core/face_walk.h"
+#include "core/float4.h"
 #include "core/hash.h"
 #include "core/memory.h"
 #include "core/parallel.h"
@@ -147,17 +148,26 @@ bool isOrthonormal(const Vec3& tangent, const DVec3& n) {
     return std::abs(length(t) - 1) <= kOrthogonalTolerance && std::abs(dot(n, t)) <= kOrthogonalTolerance;
 }
 
-/// True only for tangents that causeOf calls sound, with a normal that has a direction. Cheap; all limits lie inside
-/// of the exact ones by far more than floats round.
-bool isSurelySound(const Vec4& tangent, const Vec3& n) {
-    constexpr float kSquareTolerance = 9.9e-4f;     // below 2 * kUnitTolerance
-    constexpr float kSquareCosine = 0.99f;          // of 5.7 degrees
-    constexpr float kLeast = 1e-20f, kMost = 1e20f;  // squares of components neither vanish nor overflow
-    const Vec3 t = xyz(tangent);
-    const float nn = dot(n, n), nt = dot(n, t);
-    return (std::fabs(dot(t, t) - 1) <= kSquareTolerance) & (nn >= kLeast) & (nn <= kMost) &
-           (nt * nt <= kSquareCosine * nn) & (std::fabs(tangent.w) == 1.0f);
-}
+/// Set only for tangents that causeOf calls sound, with a normal that has a direction. Cheap; all limits lie inside of
+/// the exact ones by far more than floats round.
+struct SurelySound {
+    static constexpr float kSquareTolerance = 9.9e-4f;      // below 2 * kUnitTolerance
+    static constexpr float kSquareCosine = 0.99f;           // of 5.7 degrees
+    static constexpr float kLeast = 1e-20f, kMost = 1e20f;  // squares of components neither vanish nor overflow
+
+    static bool of(const Vec4& tangent, const Vec3& n) {
+        const Vec3 t = xyz(tangent);
+        const float nn = dot(n, n), nt = dot(n, t);
+        return (std::fabs(dot(t, t) - 1) <= kSquareTolerance) & (nn >= kLeast) & (nn <= kMost) &
+               (nt * nt <= kSquareCosine * nn) & (std::fabs(tangent.w) == 1.0f);
+    }
+    /// The same of four, with their signs apart.
+    static Mask4 of(const Vec3x4& t, Float4 w, const Vec3x4& n) {
+        const Float4 nn = dot(n, n), nt = dot(n, t);
+        return (abs4(dot(t, t) - splat(1)) <= splat(kSquareTolerance)) & (nn >= splat(kLeast)) & (nn <= splat(kMost)) &
+               (nt * nt <= splat(kSquareCosine) * nn) & (abs4(w) == splat(1));
+    }
+};
 
 /// The first sound tangent at each of the positions that were asked for.
 class SoundPositions {
@@ -283,16 +293,40 @@ class Sanitizer {
 
     [[nodiscard]] bool isFine(std::size_t block) const {
         return withIndices(mesh_.indices, [&](auto vertexOf) {
+            const bool has_triangles = mesh_.face_sizes.empty() && mesh_.face_size == 3;
+            const std::size_t begin = block * kFacesPerBlock;
+            if (has_triangles && begin + kFacesPerBlock <= mesh_.faceCount()) return areFine(3 * begin, vertexOf);
             bool fine = true;
             forEachFaceOf(block, [&](std::size_t first, std::uint32_t size) {
                 const float sign = tangents_[first].w;
                 for (std::size_t c = first; c < first + size; ++c) {
                     const Vec4& tangent = tangents_[c];
-                    fine &= isSurelySound(tangent, mesh_.normals[vertexOf(c)]) & (tangent.w == sign);
+                    fine &= SurelySound::of(tangent, mesh_.normals[vertexOf(c)]) & (tangent.w == sign);
                 }
             });
             return fine;
         });
+    }
+
+    /// The triangles of a full block, four at a time.
+    template <class VertexOf>
+    [[nodiscard]] bool areFine(std::size_t first, VertexOf vertexOf) const {
+        constexpr unsigned kFirstTwoOfThree = 0b011'011'011'011;
+        for (std::size_t c = first; c < first + 3 * kFacesPerBlock; c += 12) {
+            unsigned signs = 0;
+            Mask4 sound = Mask4{} - 1;
+            for (unsigned i = 0; i < 12; i += 4) {
+                Float4 x = loadFloat4(&tangents_[c + i].x), y = loadFloat4(&tangents_[c + i + 1].x),
+                       z = loadFloat4(&tangents_[c + i + 2].x), w = loadFloat4(&tangents_[c + i + 3].x);
+                transpose4(x, y, z, w);
+                const auto normal = [&](unsigned k) -> const Vec3& { return mesh_.normals[vertexOf(c + i + k)]; };
+                sound &= SurelySound::of({x, y, z}, w, gatherVec3(normal(0), normal(1), normal(2), normal(3)));
+                signs |= laneBits(std::bit_cast<Mask4>(w)) << i;
+            }
+            // A bit of `signs` is like the next one but at the end of a triangle.
+            if (laneBits(sound) != 0b1111 || ((signs ^ signs >> 1) & kFirstTwoOfThree) != 0) return false;
+        }
+        return true;
     }
 
     /// body(first_corner, corner_count, counts) for each face that scan() did not clear; faces are independent.
@@ -326,6 +360,7 @@ class Sanitizer {
     void detect(std::size_t first, std::uint32_t size, Counts& counts) {
         bool all_sound = true;
         for (std::size_t c = first; c < first + size; ++c) {
+            if (SurelySound::of(tangents_[c], mesh_.normals[mesh_.indices[c]])) continue;  // as causes_ begins
             const DVec3 n = normalAt(c);
             if (isZero(n)) ++counts.bad_normals;
             causes_[c] = causeOf(tangents_[c], n);
@@ -360,13 +395,14 @@ class Sanitizer {
         parallel_.forRanges(is_asked.size(), kBlocksPerTask * kFacesPerBlock, [&](std::size_t begin, std::size_t end) {
             for (std::size_t v = begin; v < end; ++v) is_asked[v] = positions.isAsked(mesh_.positions[v]) ? 1 : 0;
         });
-        forEachFace(mesh_, [&](std::size_t, std::size_t first, std::uint32_t size) {
-            if (size < 3) return;
-            for (std::size_t c = first; c < first + size; ++c) {
-                if (is_asked[mesh_.indices[c]] != 0 && causes_[c] == Cause::sound) {
-                    positions.offer(positionAt(c), tangents_[c]);
+        withIndices(mesh_.indices, [&](auto vertexOf) {
+            forEachFace(mesh_, [&](std::size_t, std::size_t first, std::uint32_t size) {
+                if (size < 3) return;
+                for (std::size_t c = first; c < first + size; ++c) {
+                    if (is_asked[vertexOf(c)] != 0 && causes_[c] == Cause::sound)
+                        positions.offer(positionAt(c), tangents_[c]);
                 }
-            }
+            });
         });
     }
 
@@ -391,7 +427,15 @@ class Sanitizer {
         return 1.0f;
     }
 
+    [[nodiscard]] bool isSound(std::size_t first, std::uint32_t size) const {
+        for (std::size_t c = first; c < first + size; ++c) {
+            if (causes_[c] != Cause::sound || tangents_[c].w != tangents_[first].w) return false;
+        }
+        return true;
+    }
+
     void mend(std::size_t first, std::uint32_t size, const SoundPositions& positions, Counts& counts) {
+        if (!options_.orthogonalize_all && isSound(first, size)) return;
         const float sign = signOf(first, size, positions);
         const std::size_t sound = firstSound(first, size);
         const Vec4 neighbor = sound < first + size ? tangents_[sound] : Vec4{};

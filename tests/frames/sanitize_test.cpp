@@ -99,6 +99,27 @@ TEST(Sanitize, CountsEachCornerByItsFirstCauseAndByItsCure) {
     for (const Vec4& t : scene.tangents) expectMended(t, {0, 0, 1});
 }
 
+TEST(Sanitize, FindsABrokenCornerWhereverItLies) {
+    Scene scene = twoTriangles();
+    scene.face_sizes = {};
+    for (std::uint32_t face = 2; face < 130; ++face) scene.indices.insert(scene.indices.end(), {0, 1, 2});
+    // Faces of either sign side by side.
+    for (std::size_t c = scene.tangents.size(); c < scene.indices.size(); ++c)
+        scene.tangents.push_back({1, 0, 0, c / 3 % 4 == 1 ? -1.0f : 1.0f});
+    ASSERT_EQ(scene.sanitize().mendedCount(), 0u);
+    for (std::size_t c = 0; c < scene.tangents.size(); ++c) {
+        const Vec4 sound = scene.tangents[c];
+        const Vec4 other_sign{1, 0, 0, -sound.w}, half_sign{1, 0, 0, 0.5f};
+        for (const Vec4& broken : {other_sign, half_sign, Vec4{0, 0, 1, sound.w}, Vec4{0, 2, 0, sound.w},
+                                   Vec4{kNan, 0, 0, sound.w}, Vec4{1, 0, 0, kNan}}) {
+            scene.tangents[c] = broken;
+            ASSERT_EQ(scene.sanitize().mendedCount(), 1u) << "corner " << c;
+            ASSERT_EQ(scene.tangents[c].w, sound.w);
+        }
+        scene.tangents[c] = sound;
+    }
+}
+
 TEST(Sanitize, TakesTheFirstSoundTangentAtThePositionWhenTheFaceHasNone) {
     Scene scene = twoTriangles();
     scene.positions[2].x = -0.0f;
