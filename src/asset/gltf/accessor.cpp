@@ -203,9 +203,28 @@ void pack(const Accessor& accessor, const std::uint8_t* source, std::uint8_t* el
         std::memcpy(elements, source, (accessor.count - 1) * accessor.element_bytes + accessor.data_bytes);
         return;
     }
-    for (std::size_t i = 0; i < accessor.count; ++i) {
-        std::memcpy(elements + i * accessor.element_bytes, source + i * accessor.stride, accessor.data_bytes);
-    }
+    withElementSize(accessor.data_bytes, [&](auto size) {
+        for (std::size_t i = 0; i < accessor.count; ++i) {
+            std::memcpy(elements + i * accessor.element_bytes, source + i * accessor.stride, size);
+        }
+    });
+}
+
+/// Indices of one type as numbers; returns the largest.
+template <class Index>
+std::uint32_t widen(const ElementView& elements, std::span<std::uint32_t> numbers) {
+    const auto widenFrom = [&](auto stride) {
+        std::uint32_t largest = 0;
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            Index index;
+            std::memcpy(&index, elements.data + i * stride, sizeof index);
+            numbers[i] = index;
+            largest = std::max<std::uint32_t>(largest, index);
+        }
+        return largest;
+    };
+    constexpr std::integral_constant<std::size_t, sizeof(Index)> kTight;
+    return elements.stride == kTight ? widenFrom(kTight) : widenFrom(elements.stride);
 }
 
 template <class Component>
@@ -351,6 +370,12 @@ bool hasData(const Document& document, const Accessor& accessor) {
                                  viewHasData(document, accessor.sparse->value_view)));
 }
 
+std::optional<ElementView> viewElements(const Document& document, const Accessor& accessor) {
+    const std::uint8_t* source = elementSource(document, accessor);
+    if (source == nullptr || accessor.sparse || accessor.data_bytes != accessor.element_bytes) return {};
+    return ElementView{source, accessor.stride};
+}
+
 Bytes copyElements(const Document& document, const Accessor& accessor) {
     const std::uint8_t* source = elementSource(document, accessor);
     // Zeros only where something stays unset.
@@ -380,20 +405,24 @@ std::vector<std::uint32_t> decodeIndices(const Document& document, const Accesso
     if (!is_unsigned || accessor.component_count != 1 || accessor.normalized) {
         failAt("indices must be unsigned scalars, not " + formatName(accessor), place);
     }
-    const Bytes elements = copyElements(document, accessor);
+    Bytes packed;
+    std::optional<ElementView> elements = viewElements(document, accessor);
+    if (!elements) {
+        packed = copyElements(document, accessor);
+        elements = {packed.data(), accessor.element_bytes};
+    }
     std::vector<std::uint32_t> indices(accessor.count);
     const std::size_t bytes = bytesOf(accessor.component);
+    const std::uint32_t largest = bytes == 1   ? widen<std::uint8_t>(*elements, indices)
+                                  : bytes == 2 ? widen<std::uint16_t>(*elements, indices)
+                                               : widen<std::uint32_t>(*elements, indices);
+    if (indices.empty() || largest < vertex_count) return indices;
+    const auto wrong = std::find_if(indices.begin(), indices.end(), [&](std::uint32_t v) { return v >= vertex_count; });
     const std::uint32_t restart = 0xffffffffu >> (32 - 8 * bytes);  // the largest of its type
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-        indices[i] = unsignedAt(elements.data() + i * bytes, accessor.component);
-        if (indices[i] >= vertex_count) {
-            failAt("index " + std::to_string(i) + " is " + std::to_string(indices[i]) +
-                       ", but the primitive has " + std::to_string(vertex_count) + " vertices" +
-                       (indices[i] == restart ? "; as a mark that restarts a strip, glTF does not allow it" : ""),
-                   place);
-        }
-    }
-    return indices;
+    failAt("index " + std::to_string(wrong - indices.begin()) + " is " + std::to_string(*wrong) +
+               ", but the primitive has " + std::to_string(vertex_count) + " vertices" +
+               (*wrong == restart ? "; as a mark that restarts a strip, glTF does not allow it" : ""),
+           place);
 }
 
 std::string formatName(const Accessor& accessor) {

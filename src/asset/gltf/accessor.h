@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "asset/gltf/component_type.h"
@@ -58,6 +60,16 @@ Accessor readAccessor(const Document& document, std::size_t index);
 /// True when copyElements finds the data that it needs.
 bool hasData(const Document& document, const Accessor& accessor);
 
+/// Elements where they lie: data_bytes each, `stride` apart, at any address.
+struct ElementView {
+    const std::uint8_t* data = nullptr;
+    std::size_t stride = 0;
+};
+
+/// Nothing when elements have to be put together: those that are zero, sparse, or not stored to the last byte of the
+/// last one. Fails as copyElements.
+std::optional<ElementView> viewElements(const Document& document, const Accessor& accessor);
+
 /// All elements, tightly packed (element_bytes each), sparse values put in. Fails where a buffer has no data,
 /// and for an unknown type.
 Bytes copyElements(const Document& document, const Accessor& accessor);
@@ -72,6 +84,19 @@ std::vector<Vec4> decodeVec4(const Document& document, const Accessor& accessor,
 /// values.
 std::vector<std::uint32_t> decodeIndices(const Document& document, const Accessor& accessor,
                                          std::size_t vertex_count, const std::string& place);
+
+/// body(size), where size is a constant for the usual ones: copies of single elements are then moves, not calls.
+template <class Body>
+void withElementSize(std::size_t bytes, Body&& body) {
+    switch (bytes) {
+        case 2: return body(std::integral_constant<std::size_t, 2>{});
+        case 4: return body(std::integral_constant<std::size_t, 4>{});
+        case 8: return body(std::integral_constant<std::size_t, 8>{});
+        case 12: return body(std::integral_constant<std::size_t, 12>{});
+        case 16: return body(std::integral_constant<std::size_t, 16>{});
+        default: return body(bytes);
+    }
+}
 
 /// "float3", "snorm16x3", "uint8": for people.
 std::string formatName(const Accessor& accessor);

@@ -52,6 +52,16 @@ ElementData offsetVectors(const VertexOffsets& offsets, std::size_t vertex_count
     return floatVectors(dense);
 }
 
+template <class Index>
+Bytes narrow(const std::vector<std::uint32_t>& indices) {
+    Bytes bytes(indices.size() * sizeof(Index));
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        const auto index = static_cast<Index>(indices[i]);
+        std::memcpy(bytes.data() + i * sizeof index, &index, sizeof index);
+    }
+    return bytes;
+}
+
 /// u8 and u16 keep their width while every vertex fits below the primitive restart value.
 ElementData indexData(const std::vector<std::uint32_t>& indices, ComponentType narrowest,
                       std::size_t vertex_count) {
@@ -62,12 +72,9 @@ ElementData indexData(const std::vector<std::uint32_t>& indices, ComponentType n
     if (data.component == ComponentType::u16 && vertex_count > 65535) data.component = ComponentType::u32;
     data.count = indices.size();
     data.element_bytes = bytesOf(data.component);
-    data.bytes.resize(indices.size() * data.element_bytes);
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-        for (std::size_t byte = 0; byte < data.element_bytes; ++byte) {
-            data.bytes[i * data.element_bytes + byte] = static_cast<std::uint8_t>(indices[i] >> (8 * byte));
-        }
-    }
+    data.bytes = data.element_bytes == 1   ? narrow<std::uint8_t>(indices)
+                 : data.element_bytes == 2 ? narrow<std::uint16_t>(indices)
+                                           : narrow<std::uint32_t>(indices);
     return data;
 }
 

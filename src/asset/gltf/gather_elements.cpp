@@ -13,7 +13,12 @@ namespace tspace::gltf {
 
 ElementData gatherElements(const Document& document, const Accessor& accessor,
                            std::span<const std::uint32_t> sources) {
-    const Bytes old = copyElements(document, accessor);
+    Bytes packed;
+    std::optional<ElementView> old = viewElements(document, accessor);
+    if (!old) {
+        packed = copyElements(document, accessor);
+        old = {packed.data(), accessor.element_bytes};
+    }
     ElementData data;
     data.component = accessor.component;
     data.type = accessor.type;
@@ -24,10 +29,11 @@ ElementData gatherElements(const Document& document, const Accessor& accessor,
     data.count = sources.size();
     data.element_bytes = accessor.element_bytes;
     data.bytes.resize(sources.size() * accessor.element_bytes);
-    for (std::size_t i = 0; i < sources.size(); ++i) {
-        std::memcpy(data.bytes.data() + i * data.element_bytes, old.data() + sources[i] * data.element_bytes,
-                    data.element_bytes);
-    }
+    withElementSize(data.element_bytes, [&](auto size) {
+        std::uint8_t* const to = data.bytes.data();
+        for (std::size_t i = 0; i < sources.size(); ++i)
+            std::memcpy(to + i * size, old->data + sources[i] * old->stride, size);
+    });
     if (accessor.sparse && !accessor.view) makeSparseWhereSmaller(data);
     // Copies change no bound.
     const Json& object = rootArray(document, "accessors")[accessor.index];
