@@ -4,9 +4,12 @@
 
 #include <bit>
 #include <limits>
+#include <optional>
+#include <random>
 
 #include "simd/dispatch.h"
 #include "tangents/golden_mesh.h"
+#include "tangents/mikktspace/one_pass.h"
 #include "tangents/shapes.h"
 
 namespace tspace::test {
@@ -156,6 +159,77 @@ TEST(OnePass, GivesTheBitsOfPlanAndEvaluationForAnyNumberOfThreads) {
             }
         }
     }
+}
+
+/// Soups of few vertices, as in grouped_property_test.cpp, but many more of them.
+Shape soup(std::uint32_t seed) {
+    std::mt19937 random(seed);
+    const auto number = [&](std::uint32_t most) { return 0.25f * static_cast<float>(random() % most); };
+    Shape shape;
+    const std::uint32_t vertices = 3 + random() % 12;
+    for (std::uint32_t v = 0; v < vertices; ++v)
+        shape.vertex({number(9), number(9), number(9)}, {number(5) - 0.5f, number(5) - 0.5f, 1},
+                     {number(5), number(5)});
+    const std::uint32_t sizes = 1 + random() % 3, faces = 1 + random() % 40;
+    for (std::uint32_t f = 0; f < faces; ++f) {
+        std::vector<std::uint32_t> face(3 + random() % sizes);
+        for (std::uint32_t& corner : face) corner = random() % vertices;
+        shape.face(face);
+    }
+    return shape;
+}
+
+/// The outputs for one first look; nothing when all is left to the general steps.
+std::optional<Outputs> look(const Shape& shape, const TangentOptions& options, mikk::FirstLook first_look,
+                            bool tangents_only) {
+    const MeshView mesh = shape.view();
+    Parallel parallel(options.execution);
+    const mikk::TriangleList triangles = mikk::cutFaces(mesh, options.ngons, nullptr);
+    mikk::Nodes nodes = mikk::weld(mesh, triangles, nullptr, parallel);
+    if (!nodes.tame) return std::nullopt;
+    mikk::listVertices(nodes, nullptr);
+    Outputs outputs(shape.cornerCount());
+    TangentOutput to = outputs.view();
+    if (tangents_only) to = {.tangents = to.tangents};
+    const auto report =
+        mikk::evaluateInOnePass(mesh, options, triangles, nodes, to, parallel, first_look);
+    if (!report) return std::nullopt;
+    outputs.report = *report;
+    return outputs;
+}
+
+TEST(OnePass, AndALookAtEachNodeGiveTheSameBits) {
+    std::vector<Shape> list = shapes();
+    for (std::uint32_t seed = 0; seed < 3000; ++seed) list.push_back(soup(seed));
+    std::size_t compared = 0;
+    for (const Shape& shape : list) {
+        for (const Method method : {Method::mikktspace, Method::angle}) {
+            TangentOptions options;
+            options.method = method;
+            options.pairing = Pairing::corrected;
+            options.execution.thread_count = 1;
+            const auto plan = planTangents(shape.view(), options);
+            ASSERT_TRUE(plan.ok());
+            Outputs want(shape.cornerCount());
+            const auto report = evaluateTangents(*plan, {shape.positions, shape.normals}, want.view());
+            ASSERT_TRUE(report.ok());
+            want.report = *report;
+            options.execution.thread_count = 1 + compared % 3;
+            for (const auto first : {mikk::FirstLook::onePass, mikk::FirstLook::eachNode}) {
+                const auto got = look(shape, options, first, false);
+                if (!got) continue;
+                ++compared;
+                ASSERT_TRUE(sameBits(want, *got)) << static_cast<int>(first);
+                const auto tangents = look(shape, options, first, true);
+                ASSERT_TRUE(tangents);
+                for (std::size_t c = 0; c < shape.cornerCount(); ++c) {
+                    ASSERT_EQ((std::bit_cast<std::array<std::uint32_t, 4>>(tangents->tangents[c])),
+                              (std::bit_cast<std::array<std::uint32_t, 4>>(want.tangents[c])));
+                }
+            }
+        }
+    }
+    EXPECT_GT(compared, list.size());
 }
 
 TEST(OnePass, GivesTheSameTangentsWithoutTheOtherOutputs) {

@@ -79,6 +79,13 @@ Buffer<std::uint32_t> collect(std::size_t count, const Test& test, const MayHold
     return found;
 }
 
+/// 0, 1, 2, ...
+inline Buffer<std::uint32_t> numbersBelow(std::size_t count, const Allocator* allocator) {
+    Buffer<std::uint32_t> numbers(allocator, count);
+    for (std::size_t i = 0; i < count; ++i) numbers[i] = static_cast<std::uint32_t>(i);
+    return numbers;
+}
+
 /// Calls body(vertexOf), where vertexOf(i) is the vertex of entry i of the corner list (3 per triangle). The
 /// usual kinds of mesh get code of their own.
 template <class Body>

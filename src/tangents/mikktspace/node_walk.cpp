@@ -67,12 +67,12 @@ class NodeWalk {
           corners_(allocator_) {}
 
     WalkedNodes run(std::span<const std::uint32_t> doubtful, CornerSource source, CornerTermsFunction terms,
-                    NodeSums& sums) {
+                    NodeSums* sums) {
         source.tangents_only = !full_ && !may_split_;
         corners_ = readCorners(
             {mesh_, triangles_, nodes_, chosen_, source, full_, terms, sums, allocator_, parallel_});
         state_ = Buffer<std::uint8_t>(allocator_, chosen_.size(), std::uint8_t{kDone});
-        if (findContested(doubtful)) groupContested();
+        if (sums == nullptr ? findContestedOfAll() : findContested(doubtful)) groupContested();
         std::atomic<std::uint64_t> groups{0}, defaults{0};
         parallel_.forRanges(chosen_.size(), kNodeGrain, [&](std::size_t begin, std::size_t end) {
             Counts counts;
@@ -84,6 +84,7 @@ class NodeWalk {
             defaults += counts.defaults;
         });
         WalkedNodes result;
+        countTriangles(result);
         result.group_count = groups + contested_counts_.groups;
         result.default_corner_count = defaults + contested_counts_.defaults + copyToDegenerate();
         for (std::uint8_t& state : state_) {
@@ -115,6 +116,42 @@ class NodeWalk {
             for (std::size_t k = 0; k < 3; ++k) contested_[p[k]] = 1;
         }
         return any;
+    }
+
+    /// The same among all triangles.
+    bool findContestedOfAll() {
+        Buffer<std::uint8_t> facing(allocator_, chosen_.size(), std::uint8_t{0});
+        bool any_flat = false;
+        const auto forEachTriangle = [&](const auto& body) {
+            for (std::size_t t = 0; t < corners_.found.size(); ++t)
+                body(corners_.triangles[t].flags, corners_.triangles[t].nodes, t);
+        };
+        forEachTriangle([&](std::uint32_t flags, const std::uint32_t* nodes, std::size_t) {
+            any_flat |= (flags & kAny) != 0;
+            if ((flags & (kAny | kDegenerate)) != 0) return;
+            const std::uint8_t up = (flags & kPositive) != 0 ? 1 : 2;
+            for (std::size_t k = 0; k < 3; ++k) facing[nodes[k]] |= up;
+        });
+        if (!any_flat) return false;
+        bool any = false;
+        forEachTriangle([&](std::uint32_t flags, const std::uint32_t* nodes, std::size_t t) {
+            if ((flags & kAny) == 0 || (facing[nodes[0]] | facing[nodes[1]] | facing[nodes[2]]) != 3) return;
+            if (!any) contested_ = noMarks(allocator_, chosen_.size());
+            any = true;
+            corners_.triangles[t].flags |= kContested;
+            for (std::size_t k = 0; k < 3; ++k) contested_[nodes[k]] = 1;
+        });
+        return any;
+    }
+
+    void countTriangles(WalkedNodes& result) const {
+        for (std::size_t t = 0; t < corners_.found.size(); ++t) {
+            const std::uint32_t flags = corners_.triangles[t].flags;
+            const bool degenerate = (flags & kDegenerate) != 0, flat = (flags & kAny) != 0;
+            result.degenerate_count += degenerate ? 1 : 0;
+            result.no_uv_area_count += flat ? 1 : 0;
+            result.mirrored_count += !degenerate && !flat && (corners_.marks[3 * t] & kFacesDown) != 0 ? 1 : 0;
+        }
     }
 
     /// Which orientations the triangles at a node have.
@@ -523,7 +560,7 @@ class NodeWalk {
 WalkedNodes walkNodes(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
                       const Nodes& nodes, std::span<const std::uint32_t> chosen,
                       std::span<const std::uint32_t> doubtful, const CornerSource& source,
-                      CornerTermsFunction terms, NodeSums& sums, const TangentOutput& out,
+                      CornerTermsFunction terms, NodeSums* sums, const TangentOutput& out,
                       Parallel& parallel) {
     return NodeWalk(mesh, options, triangles, nodes, chosen, out, parallel)
         .run(doubtful, source, terms, sums);

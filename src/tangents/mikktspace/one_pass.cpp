@@ -18,6 +18,8 @@
 #include "tangents/mikktspace/growing.h"
 #include "tangents/mikktspace/node_sums.h"
 #include "tangents/mikktspace/node_walk.h"
+#include "tangents/mikktspace/results.h"
+#include "tangents/mikktspace/trouble.h"
 #include "tangents/mikktspace/vector_rules.h"
 
 namespace tspace::mikk {
@@ -81,10 +83,13 @@ class OnePass {
           estimates_(estimators::isEstimated(options.method)),
           sign_factor_(signFactor(options.convention) * normalFactor(options.convention)) {}
 
-    std::optional<TangentReport> run() {
+    std::optional<TangentReport> run(FirstLook first_look) {
         const CornerTermsFunction terms = cornerTermsFor(options_.execution.simd);
         CornerSource source = cornerSource({mesh_.positions, mesh_.normals}, mesh_.uvs, options_.method,
                                            estimates_ || wantsTangentsOnly(out_));
+        const bool walks = first_look == FirstLook::eachNode ||
+                           (first_look == FirstLook::asItSeems && mostNodesSeemUnclear(mesh_, triangles_));
+        if (walks && !estimates_) return walkAll(source, terms);
         sums_ = sumNodes(mesh_, triangles_, nodes_, source, terms, outputRoom(), allocator_, parallel_);
         checkFlatTriangles();
         if (estimates_) estimateNodes();
@@ -95,19 +100,46 @@ class OnePass {
             collectRest();
             if (too_much_rest_) return std::nullopt;
         }
+        return finishReport(sums_);
+    }
+
+  private:
+    /// Looks at all nodes as it otherwise does at those that the pass leaves unclear, without the pass.
+    std::optional<TangentReport> walkAll(const CornerSource& source, CornerTermsFunction terms) {
+        for (const std::uint32_t c : triangles_.skipped_corners)
+            Sink(out_, sign_factor_, signFactor(options_.convention)).clear(c);
+        const Buffer<std::uint32_t> all = numbersBelow(nodes_.count, allocator_);
+        const WalkedNodes walked = walkNodes(mesh_, options_, triangles_, nodes_, {all.data(), all.size()}, {},
+                                             source, terms, nullptr, out_, parallel_);
+        unclear_count_ = walked.left_count;
+        group_count_ = walked.group_count;
+        default_corner_count_ = walked.default_corner_count;
+        if (unclear_count_ != 0) {
+            unclear_ = Buffer<std::uint64_t>(allocator_, nodes_.count / 64 + 1, std::uint64_t{0});
+            for (std::size_t n = 0; n < nodes_.count; ++n)
+                unclear_[n / 64] |= std::uint64_t{walked.left[n]} << (n % 64);
+            numbers_ = Buffer<std::uint32_t>(allocator_, nodes_.count, kNone);
+            collectRest();
+            if (too_much_rest_) return std::nullopt;
+        }
+        return finishReport(walked);
+    }
+
+    /// `counted`: who knows the numbers of triangles.
+    template <class Counted>
+    TangentReport finishReport(const Counted& counted) {
         TangentReport report;
         report.triangle_count = triangles_.count;
         report.skipped_face_count = triangles_.skipped_face_count;
-        report.degenerate_triangle_count = sums_.degenerate_count;
-        report.degenerate_uv_count = sums_.no_uv_area_count;
-        report.mirrored_count = sums_.mirrored_count;
+        report.degenerate_triangle_count = counted.degenerate_count;
+        report.degenerate_uv_count = counted.no_uv_area_count;
+        report.mirrored_count = counted.mirrored_count;
         report.group_count = group_count_;
         report.default_corner_count = default_corner_count_;
         if (unclear_count_ != 0) evaluateRest(report);
         return report;
     }
 
-  private:
     [[nodiscard]] bool isUnclear(std::uint32_t node) const {
         return (unclear_[node / 64] >> (node % 64) & 1) != 0;
     }
@@ -229,7 +261,7 @@ class OnePass {
         forEachUnclear([&](std::uint32_t node) { chosen[count++] = node; });
         const WalkedNodes walked =
             walkNodes(mesh_, options_, triangles_, nodes_, {chosen.data(), count},
-                      {doubtful_.begin(), doubtful_.size()}, source, terms, sums_, out_, parallel_);
+                      {doubtful_.begin(), doubtful_.size()}, source, terms, &sums_, out_, parallel_);
         for (std::size_t i = 0; i < count; ++i) {
             if (walked.left[i] == 0) unclear_[chosen[i] / 64] &= ~(std::uint64_t{1} << (chosen[i] % 64));
         }
@@ -353,18 +385,22 @@ class OnePass {
         rest_sizes_.push(size);
         for (std::uint32_t k = 0; k < size; ++k) {
             const std::uint32_t node = nodes_.ofVertex(mesh_.indices[first + k]);
-            std::uint32_t number = sums_.nodes[node].fan.leaves[1];
+            std::uint32_t number = restNumber(node);
             if (number >= rest_node_of_.size() || rest_node_of_[number] != node) number = numberNode(node);
             rest_corners_.push(static_cast<std::uint32_t>(first + k));
             rest_nodes_.push(number);
         }
     }
 
-    /// The place of a node's second path holds its number in the smaller mesh from here on; what it held
-    /// before is no such number, or that of another node.
+    /// Where a node's number in the smaller mesh is. After a pass the place of its second path holds it from
+    /// here on; what it held before is no such number, or that of another node.
+    std::uint32_t& restNumber(std::uint32_t node) {
+        return numbers_.empty() ? sums_.nodes[node].fan.leaves[1] : numbers_[node];
+    }
+
     std::uint32_t numberNode(std::uint32_t node) {
         const auto number = static_cast<std::uint32_t>(rest_node_of_.size());
-        sums_.nodes[node].fan.leaves[1] = number;
+        restNumber(node) = number;
         rest_node_of_.push(node);
         return number;
     }
@@ -434,6 +470,7 @@ class OnePass {
     std::uint64_t group_count_ = 0, default_corner_count_ = 0;
 
     // The mesh that is left to the general steps.
+    Buffer<std::uint32_t> numbers_;  // without sums: one per node, see restNumber
     bool too_much_rest_ = false;
     Growing<std::uint32_t> rest_sizes_{allocator_};    // one per face
     Growing<std::uint32_t> rest_corners_{allocator_};  // its corners, as corners of the mesh
@@ -445,8 +482,9 @@ class OnePass {
 
 std::optional<TangentReport> evaluateInOnePass(const MeshView& mesh, const TangentOptions& options,
                                                const TriangleList& triangles, const Nodes& nodes,
-                                               const TangentOutput& out, Parallel& parallel) {
-    return OnePass(mesh, options, triangles, nodes, out, parallel).run();
+                                               const TangentOutput& out, Parallel& parallel,
+                                               FirstLook first_look) {
+    return OnePass(mesh, options, triangles, nodes, out, parallel).run(first_look);
 }
 
 }  // namespace tspace::mikk

@@ -13,12 +13,17 @@
 
 namespace tspace::mikk {
 
+/// What to begin with: the pass, or, where it would leave most nodes unclear, a look at each node alone. Both give
+/// the same bits, and tests ask for both.
+enum class FirstLook { asItSeems, onePass, eachNode };
+
 /// Writes tangents of the mesh's own pose. Returns nothing, and leaves the outputs undefined, when the
 /// general steps are the better way for all of it: most nodes need them. `nodes` must be tame, the threshold
 /// 180 degrees, and the order of the reference's last edge bucket without effect (tail_check.h) or not asked
 /// for. Throws OutOfMemory.
 std::optional<TangentReport> evaluateInOnePass(const MeshView& mesh, const TangentOptions& options,
                                                const TriangleList& triangles, const Nodes& nodes,
-                                               const TangentOutput& out, Parallel& parallel);
+                                               const TangentOutput& out, Parallel& parallel,
+                                               FirstLook first_look = FirstLook::asItSeems);
 
 }  // namespace tspace::mikk

@@ -41,24 +41,28 @@ class CornerReader {
     /// The place of a node's second path holds its number in `chosen` from here on; what it held before is no
     /// such number, or that of another node.
     [[nodiscard]] std::uint32_t placeOf(std::uint32_t node) const {
-        const std::uint32_t number = from_.sums.nodes[node].fan.leaves[1];
+        if (from_.sums == nullptr) return node;
+        const std::uint32_t number = from_.sums->nodes[node].fan.leaves[1];
         return number < from_.chosen.size() && from_.chosen[number] == node ? number : kNone;
     }
 
     void findTriangles() {
-        for (std::size_t i = 0; i < from_.chosen.size(); ++i)
-            from_.sums.nodes[from_.chosen[i]].fan.leaves[1] = static_cast<std::uint32_t>(i);
-        Marks marks = noMarks(from_.allocator, mesh_.vertexCount());
-        for (std::size_t v = 0; v < marks.size(); ++v)
-            marks[v] = placeOf(from_.nodes.ofVertex(static_cast<std::uint32_t>(v))) != kNone ? 1 : 0;
-        to_.found =
-            collectTriangles(mesh_, triangles_, from_.nodes, marks, 1, from_.allocator, from_.parallel);
+        to_.found = from_.sums == nullptr ? numbersBelow(triangles_.count, from_.allocator) : aroundChosen();
         const std::size_t count = to_.found.size(), corners = 3 * count;
         to_.triangles = Buffer<FoundTriangle>(from_.allocator, count);
         to_.places = Buffer<std::uint32_t>(from_.allocator, corners);
         to_.marks = Buffer<std::uint16_t>(from_.allocator, corners);
         to_.directions = Buffer<Directions>(from_.allocator, corners);
         if (from_.with_lengths) to_.lengths_t = Buffer<float>(from_.allocator, corners);
+    }
+
+    Buffer<std::uint32_t> aroundChosen() {
+        for (std::size_t i = 0; i < from_.chosen.size(); ++i)
+            from_.sums->nodes[from_.chosen[i]].fan.leaves[1] = static_cast<std::uint32_t>(i);
+        Marks marks = noMarks(from_.allocator, mesh_.vertexCount());
+        for (std::size_t v = 0; v < marks.size(); ++v)
+            marks[v] = placeOf(from_.nodes.ofVertex(static_cast<std::uint32_t>(v))) != kNone ? 1 : 0;
+        return collectTriangles(mesh_, triangles_, from_.nodes, marks, 1, from_.allocator, from_.parallel);
     }
 
     template <class VertexOf>

@@ -80,7 +80,7 @@ struct CornerReading {
     CornerSource source;                    ///< tangents_only: neither t nor lengths_t
     bool with_lengths = false;
     CornerTermsFunction terms = nullptr;
-    NodeSums& sums;  ///< the places of second paths are used
+    NodeSums* sums;  ///< the places of second paths are used; null: `chosen` are all nodes
     const Allocator* allocator = nullptr;
     Parallel& parallel;
 };
