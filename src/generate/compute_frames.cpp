@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/border.h"
+#include "core/memory.h"
 #include "generate/local_mesh.h"
 #include "generate/mend_bitangents.h"
 #include "generate/morph_frames.h"
@@ -27,6 +28,14 @@ GenerateOptions inFileCoordinates(GenerateOptions options) {
     return options;
 }
 
+/// Corners after polygons are cut.
+std::size_t cornersOfTriangles(const PrimitiveGeometry& primitive) {
+    if (primitive.face_sizes.empty()) return primitive.indices.size();
+    std::size_t triangle_count = 0;
+    for (const std::uint32_t size : primitive.face_sizes) triangle_count += size < 3 ? 0 : size - 2;
+    return 3 * triangle_count;
+}
+
 class FrameComputer {
   public:
     FrameComputer(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,
@@ -42,6 +51,18 @@ class FrameComputer {
           morph_tangents_(pool, options) {}
 
     Result<PoolFrames> compute() {
+        std::size_t corner_count = 0;
+        for (const PrimitiveGeometry& primitive : primitives_) {
+            if (Result<Done> valid = validate(viewInPool(pool_, primitive)); !valid) return std::move(valid).error();
+            corner_count += cornersOfTriangles(primitive);
+        }
+        if (corner_count > kMaxCorners) {
+            return Error{ErrorCode::tooLarge,
+                         "the primitives that share these vertices have more than 2^31-1 corners"};
+        }
+        const Allocator* allocator = options_.tangents.execution.allocator;
+        if (generates_tangents_) tangents_ = Buffer<Vec4>(allocator, corner_count);
+        if (generates_bitangents_) bitangents_ = Buffer<Vec3>(allocator, corner_count);
         for (std::size_t p = 0; p < primitives_.size(); ++p) {
             if (Result<Done> done = computePrimitive(primitives_[p], reports_[p]); !done) {
                 return std::move(done).error();
@@ -54,7 +75,6 @@ class FrameComputer {
     /// Frames of one primitive, appended to what the split works on. Polygons are cut after the normals, which want
     /// whole faces, and before the tangents: whoever reads the result sees triangles, and would compute with these.
     Result<Done> computePrimitive(const PrimitiveGeometry& primitive, PrimitiveReport& report) {
-        if (Result<Done> valid = validate(viewInPool(pool_, primitive)); !valid) return valid;
         if (primitive.indices.empty()) {
             corner_counts_.push_back(0);
             return Done{};
@@ -74,10 +94,9 @@ class FrameComputer {
             normals = gather(std::span<const Vec3>(normals), triangles->corners);
             mesh.face_sizes = {};
         }
-        std::vector<Vec4> tangents;
-        std::vector<Vec3> bitangents;
         if (generates_tangents_) {
-            if (Result<Done> done = computeTangents(mesh, tangents, bitangents, report); !done) return done;
+            const std::span<Vec4> tangents = this->tangents().subspan(indices_.size(), mesh.indices.size());
+            if (Result<Done> done = computeTangents(mesh, tangents, report); !done) return done;
         }
         const bool is_cut = !primitive.face_sizes.empty();
         const std::vector<std::uint32_t>& vertices = is_cut ? cut_vertices : primitive.indices;
@@ -85,7 +104,8 @@ class FrameComputer {
         if (generates_tangents_ && pool_.targets.count != 0) {
             if (Result<Done> done = morph_tangents_.add(std::move(mesh), report); !done) return done;
         }
-        return append(vertices, std::move(normals), std::move(tangents), std::move(bitangents));
+        append(vertices, std::move(normals));
+        return Done{};
     }
 
     /// Normals per corner, and in the mesh one per vertex: vertices with several normals are split first, so
@@ -115,12 +135,12 @@ class FrameComputer {
         return Done{};
     }
 
-    Result<Done> computeTangents(const LocalMesh& mesh, std::vector<Vec4>& tangents, std::vector<Vec3>& bitangents,
-                                 PrimitiveReport& report) const {
-        tangents.resize(mesh.indices.size());
+    /// `tangents`: those of the mesh, of which bitangents() has the counterpart.
+    Result<Done> computeTangents(const LocalMesh& mesh, std::span<Vec4> tangents, PrimitiveReport& report) {
         TangentOutput out{.tangents = tangents};
+        std::span<Vec3> bitangents;
         if (generates_bitangents_) {
-            bitangents.resize(tangents.size());
+            bitangents = this->bitangents().subspan(indices_.size(), tangents.size());
             out.bitangents = bitangents;
             report.bitangents_generated = true;
         }
@@ -128,7 +148,8 @@ class FrameComputer {
         if (!made) return std::move(made).error();
         report.tangents = *made;
         if (!options_.sanitize) return Done{};
-        const std::vector<Vec4> computed = generates_bitangents_ ? tangents : std::vector<Vec4>{};
+        std::vector<Vec4> computed;
+        if (generates_bitangents_) computed.assign(tangents.begin(), tangents.end());
         Result<SanitizeReport> mended = sanitizeTangents(mesh.view(), tangents, options_.sanitize_options);
         if (!mended) return std::move(mended).error();
         report.sanitize = *mended;
@@ -136,34 +157,21 @@ class FrameComputer {
         return Done{};
     }
 
-    template <class T>
-    static void append(std::vector<T>&& values, std::vector<T>& all) {
-        if (all.empty()) {
-            all = std::move(values);
-        } else {
-            all.insert(all.end(), values.begin(), values.end());
-        }
-    }
-
-    Result<Done> append(const std::vector<std::uint32_t>& vertices, std::vector<Vec3>&& normals,
-                        std::vector<Vec4>&& tangents, std::vector<Vec3>&& bitangents) {
-        if (indices_.size() + vertices.size() > kMaxCorners) {
-            return Error{ErrorCode::tooLarge,
-                         "the primitives that share these vertices have more than 2^31-1 corners"};
-        }
+    void append(const std::vector<std::uint32_t>& vertices, std::vector<Vec3>&& normals) {
         indices_.insert(indices_.end(), vertices.begin(), vertices.end());
-        append(std::move(normals), normals_);
-        append(std::move(tangents), tangents_);
-        append(std::move(bitangents), bitangents_);
+        if (normals_.empty()) {
+            normals_ = std::move(normals);
+        } else {
+            normals_.insert(normals_.end(), normals.begin(), normals.end());
+        }
         corner_counts_.push_back(vertices.size());
-        return Done{};
     }
 
     Result<PoolFrames> splitPool() {
         std::vector<CornerAttribute> attributes;
         if (!normals_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec3>(normals_)));
-        if (!tangents_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec4>(tangents_)));
-        if (!bitangents_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec3>(bitangents_)));
+        if (!tangents_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec4>(tangents())));
+        if (!bitangents_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec3>(bitangents())));
         Result<SplitResult> split = splitVertices(IndexView(spanOf(indices_)), pool_.positions.size(), indices_.size(),
                                                   attributes, options_.tangents.execution);
         if (!split) return std::move(split).error();
@@ -177,7 +185,7 @@ class FrameComputer {
     /// Nothing is split, and the base's tangents are only compared.
     Result<PoolFrames> keepPool() {
         PoolFrames frames;
-        frames.differing_count = countDiffering(tangents_, pool_.kept_tangents, indices_);
+        frames.differing_count = countDiffering(tangents(), pool_.kept_tangents, indices_);
         SplitResult whole;
         whole.source_vertices.resize(pool_.positions.size());
         std::iota(whole.source_vertices.begin(), whole.source_vertices.end(), 0u);
@@ -197,7 +205,7 @@ class FrameComputer {
         frames.morphs.resize(pool_.targets.count);
         if (!generates_tangents_ || pool_.targets.count == 0) return Done{};
         MorphSplit morph_split(std::move(split), may_split);
-        if (Result<Done> done = morph_tangents_.compute(tangents_, morph_split); !done) return done;
+        if (Result<Done> done = morph_tangents_.compute(tangents(), morph_split); !done) return done;
         std::vector<VertexOffsets> offsets = morph_split.finish();
         for (std::size_t i = 0; i < offsets.size(); ++i) frames.morphs[i].tangents = std::move(offsets[i]);
         split = std::move(morph_split.split());
@@ -232,20 +240,23 @@ class FrameComputer {
 
     void writeTangents(const SplitResult& split, PoolFrames& frames) const {
         const float unused_sign = signFactor(options_.tangents.convention);
-        frames.tangents.reserve(split.vertexCount());
-        if (generates_bitangents_) frames.bitangents.reserve(split.vertexCount());
+        frames.tangents.resize(split.vertexCount());
+        if (generates_bitangents_) frames.bitangents.resize(split.vertexCount());
         for (std::size_t v = 0; v < split.vertexCount(); ++v) {
             if (const std::uint32_t corner = split.source_corners[v]; corner != kNoCorner) {
-                frames.tangents.push_back(tangents_[corner]);
-                if (generates_bitangents_) frames.bitangents.push_back(bitangents_[corner]);
+                frames.tangents[v] = tangents_[corner];
+                if (generates_bitangents_) frames.bitangents[v] = bitangents_[corner];
                 continue;
             }
             const Vec3 normal = generates_normals_ ? Vec3{0, 0, 1} : pool_.normals[split.source_vertices[v]];
             const Vec3 t = orthonormalize({.tangent = {}, .bitangent = {}, .normal = normal}).tangent;
-            frames.tangents.push_back({t.x, t.y, t.z, unused_sign});
-            if (generates_bitangents_) frames.bitangents.push_back(bitangentOf(frames.tangents.back(), normal));
+            frames.tangents[v] = {t.x, t.y, t.z, unused_sign};
+            if (generates_bitangents_) frames.bitangents[v] = bitangentOf(frames.tangents[v], normal);
         }
     }
+
+    [[nodiscard]] std::span<Vec4> tangents() { return {tangents_.data(), tangents_.size()}; }
+    [[nodiscard]] std::span<Vec3> bitangents() { return {bitangents_.data(), bitangents_.size()}; }
 
     const VertexPool& pool_;
     std::span<const PrimitiveGeometry> primitives_;
@@ -260,8 +271,9 @@ class FrameComputer {
     // All corners of all primitives, what was computed for them, and how many of them each primitive has.
     std::vector<std::uint32_t> indices_;
     std::vector<Vec3> normals_;
-    std::vector<Vec4> tangents_;
-    std::vector<Vec3> bitangents_;
+    // What was computed for them has room for all from the start.
+    Buffer<Vec4> tangents_;
+    Buffer<Vec3> bitangents_;
     std::vector<std::size_t> corner_counts_;
 };
 

@@ -1,104 +1,39 @@
 // SPDX-License-Identifier: MIT
-// From PoolFrames to accessors.
+// From PoolElements to accessors.
 #include "asset/gltf/apply_frames.h"
 
-#include <algorithm>
-#include <cstring>
-#include <map>
+#include <utility>
 
-#include "asset/file_error.h"
-#include "asset/gltf/gather_elements.h"
 #include "asset/gltf/sparse_elements.h"
-#include "generate/unit_lattice.h"
 
 namespace tspace::gltf {
 
 namespace {
-
-template <class Vec>
-ElementData floatVectors(const std::vector<Vec>& values) {
-    ElementData data;
-    data.type = "VEC" + std::to_string(sizeof(Vec) / sizeof(float));
-    data.count = values.size();
-    data.element_bytes = sizeof(Vec);
-    data.bytes.resize(values.size() * sizeof(Vec));
-    if (!values.empty()) std::memcpy(data.bytes.data(), values.data(), data.bytes.size());
-    return data;
-}
-
-template <class Vec>
-ElementData unitVectors(const std::vector<Vec>& values, VectorFormat format) {
-    if (format == VectorFormat::float32) return floatVectors(values);
-    constexpr std::size_t components = sizeof(Vec) / sizeof(float);
-    ElementData data;
-    data.component = format == VectorFormat::snorm8 ? ComponentType::i8 : ComponentType::i16;
-    data.type = "VEC" + std::to_string(components);
-    data.normalized = true;
-    data.count = values.size();
-    data.element_bytes = components * bytesOf(data.component);
-    const std::vector<std::uint8_t> packed = packUnits(std::span<const Vec>(values), format);
-    data.bytes.assign(packed.begin(), packed.end());
-    return data;
-}
 
 bool hasFormatOf(const Accessor& accessor, const ElementData& data) {
     return accessor.component == data.component && accessor.type == data.type &&
            accessor.normalized == data.normalized && accessor.count == data.count;
 }
 
-ElementData offsetVectors(const VertexOffsets& offsets, std::size_t vertex_count) {
-    std::vector<Vec3> dense(vertex_count);
-    for (std::size_t i = 0; i < offsets.vertices.size(); ++i) dense[offsets.vertices[i]] = offsets.offsets[i];
-    return floatVectors(dense);
-}
-
-template <class Index>
-Bytes narrow(const std::vector<std::uint32_t>& indices) {
-    Bytes bytes(indices.size() * sizeof(Index));
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-        const auto index = static_cast<Index>(indices[i]);
-        std::memcpy(bytes.data() + i * sizeof index, &index, sizeof index);
-    }
-    return bytes;
-}
-
-/// u8 and u16 keep their width while every vertex fits below the primitive restart value.
-ElementData indexData(const std::vector<std::uint32_t>& indices, ComponentType narrowest,
-                      std::size_t vertex_count) {
-    ElementData data;
-    data.target = kIndexTarget;
-    data.component = narrowest;
-    if (data.component == ComponentType::u8 && vertex_count > 255) data.component = ComponentType::u16;
-    if (data.component == ComponentType::u16 && vertex_count > 65535) data.component = ComponentType::u32;
-    data.count = indices.size();
-    data.element_bytes = bytesOf(data.component);
-    data.bytes = data.element_bytes == 1   ? narrow<std::uint8_t>(indices)
-                 : data.element_bytes == 2 ? narrow<std::uint16_t>(indices)
-                                           : narrow<std::uint32_t>(indices);
-    return data;
-}
-
 class Applier {
   public:
     Applier(Editor& editor, const Document& document, std::span<const Primitive> primitives, const Pool& pool,
-            const PoolFrames& frames, VectorFormat format)
-        : editor_(editor), document_(document), primitives_(primitives), pool_(pool), frames_(frames), format_(format) {}
+            PoolElements& elements)
+        : editor_(editor), document_(document), primitives_(primitives), pool_(pool), elements_(elements) {}
 
     /// Returns true when the document changed.
     bool run() {
         if (pool_.keeps_tangents) return setTargets();
-        const Primitive& first = primitives_[pool_.primitives[0]];
-        const bool split = frames_.wasSplit(first.vertex_count);
-        if (split) {
+        bool changed = elements_.was_split;
+        if (elements_.was_split) {
             carryAttributes();
             for (std::size_t i = 0; i < pool_.geometries.size(); ++i)
-                replaceIndices(pool_.geometries[i], frames_.indices[i]);
+                replaceIndices(pool_.geometries[i], std::move(elements_.indices[i]));
         }
-        bool changed = split;
-        if (frames_.normals_generated) changed |= setAttribute(kBase, "NORMAL", unitVectors(frames_.normals, format_));
-        changed |= setAttribute(kBase, "TANGENT", unitVectors(frames_.tangents, format_));
-        if (!frames_.bitangents.empty())
-            changed |= setAttribute(kBase, "_BITANGENT", unitVectors(frames_.bitangents, format_));
+        if (elements_.normals_generated) changed |= setAttribute(kBase, "NORMAL", std::move(elements_.normals));
+        changed |= setAttribute(kBase, "TANGENT", std::move(elements_.tangents));
+        if (elements_.bitangents_generated)
+            changed |= setAttribute(kBase, "_BITANGENT", std::move(elements_.bitangents));
         changed |= setTargets();
         return changed;
     }
@@ -107,49 +42,19 @@ class Applier {
     [[nodiscard]] std::uint32_t computedTargets() const { return computed_targets_; }
 
   private:
-    static constexpr std::ptrdiff_t kBase = -1;  ///< in place of a target: the attributes themselves
-
-    /// A reference of a primitive to an accessor.
-    struct Slot {
-        std::size_t primitive = 0;
-        std::ptrdiff_t target = kBase;
-        std::string name = {};
-    };
-
-    [[nodiscard]] bool isReplaced(const std::string& name, std::ptrdiff_t target) const {
-        if (name == "_BITANGENT") return target == kBase && !frames_.bitangents.empty();
-        return name == "TANGENT" || (name == "NORMAL" && frames_.normals_generated);
-    }
-
     Json& attributesOf(std::size_t number, std::ptrdiff_t target) {
         const Primitive& primitive = primitives_[number];
         Json& object = editor_.primitive(primitive.mesh, primitive.index);
         return target < 0 ? object["attributes"] : object["targets"][static_cast<std::size_t>(target)];
     }
 
-    /// Every attribute and morph target by accessor, so that what was shared stays shared.
     void carryAttributes() {
-        std::map<std::size_t, std::vector<Slot>> slots;
-        for (const std::size_t number : pool_.primitives) {
-            const Primitive& primitive = primitives_[number];
-            for (const auto& [name, accessor] : primitive.attributes) {
-                if (!isReplaced(name, kBase)) slots[accessor].push_back({number, kBase, name});
-            }
-            for (std::size_t target = 0; target < primitive.targets.size(); ++target) {
-                for (const auto& [name, accessor] : primitive.targets[target]) {
-                    const auto place = static_cast<std::ptrdiff_t>(target);
-                    if (isReplaced(name, place) && movesFrames(primitive.targets[target])) continue;
-                    slots[accessor].push_back({number, place, name});
-                }
-            }
-        }
-        for (const auto& [index, users] : slots) {
-            ElementData data =
-                gatherElements(document_, readAccessor(document_, index), frames_.source_vertices);
-            const bool alone = editor_.accessorUses(index) == users.size();
-            const std::size_t stored = editor_.store(std::move(data), alone ? std::optional(index) : std::nullopt);
+        for (auto& [index, carried] : elements_.carried) {
+            const bool alone = editor_.accessorUses(index) == carried.users.size();
+            const std::size_t stored =
+                editor_.store(std::move(carried.data), alone ? std::optional(index) : std::nullopt);
             if (!alone) keepName(index, stored);
-            for (const Slot& slot : users) {
+            for (const AttributeSlot& slot : carried.users) {
                 attributesOf(slot.primitive, slot.target)[slot.name] = stored;
                 editor_.moveUse(index, stored);
             }
@@ -162,25 +67,11 @@ class Applier {
         if (name != nullptr) editor_.accessor(to)["name"] = Json(*name);
     }
 
-    void replaceIndices(const PoolGeometry& geometry, const std::vector<std::uint32_t>& indices) {
-        const Primitive& first = primitives_[geometry.primitives[0]];
-        ComponentType narrowest = ComponentType::u16;
-        bool has_bounds = false;
-        if (first.indices) {
-            narrowest = readAccessor(document_, *first.indices).component;
-            const Json& old = rootArray(document_, "accessors")[*first.indices];
-            has_bounds = old.contains("min") || old.contains("max");
-        }
-        ElementData data = indexData(indices, narrowest, frames_.source_vertices.size());
-        if (has_bounds) {
-            const auto [low, high] = std::minmax_element(indices.begin(), indices.end());
-            data.min = Json::array({*low});
-            data.max = Json::array({*high});
-        }
-        data.like = first.indices ? *first.indices : attributesOf(geometry.primitives[0], kBase)["POSITION"].get<std::size_t>();
-        const bool alone =
-            first.indices && editor_.accessorUses(*first.indices) == geometry.primitives.size();
-        const std::size_t stored = editor_.store(std::move(data), alone ? first.indices : std::nullopt);
+    void replaceIndices(const PoolGeometry& geometry, ElementData&& data) {
+        const std::optional<std::size_t> old = primitives_[geometry.primitives[0]].indices;
+        data.like = old ? *old : attributesOf(geometry.primitives[0], kBase)["POSITION"].get<std::size_t>();
+        const bool alone = old && editor_.accessorUses(*old) == geometry.primitives.size();
+        const std::size_t stored = editor_.store(std::move(data), alone ? old : std::nullopt);
         for (const std::size_t number : geometry.primitives) {
             Json& object = editor_.primitive(primitives_[number].mesh, primitives_[number].index);
             object["indices"] = stored;
@@ -198,16 +89,18 @@ class Applier {
     bool setTargets() {
         const Primitive& first = primitives_[pool_.primitives[0]];
         bool changed = false;
-        for (std::size_t i = 0; i < frames_.morphs.size(); ++i) {
+        for (std::size_t i = 0; i < elements_.morphs.size(); ++i) {
             if (!movesFrames(first.targets[i])) continue;
             if (pool_.keeps_tangents && findAttribute(first.targets[i], "TANGENT")) continue;
             ++computed_targets_;
             const auto target = static_cast<std::ptrdiff_t>(i);
-            const std::size_t count = frames_.source_vertices.size();
-            if (frames_.normals_generated) {
-                changed |= setAttribute(target, "NORMAL", offsetVectors(frames_.morphs[i].normals, count));
+            const auto elementsOf = [&](const VertexOffsets& offsets) {
+                return offsetElements(offsets, elements_.vertex_count);
+            };
+            if (elements_.normals_generated) {
+                changed |= setAttribute(target, "NORMAL", elementsOf(elements_.morphs[i].normals));
             }
-            changed |= setAttribute(target, "TANGENT", offsetVectors(frames_.morphs[i].tangents, count));
+            changed |= setAttribute(target, "TANGENT", elementsOf(elements_.morphs[i].tangents));
         }
         return changed;
     }
@@ -240,24 +133,21 @@ class Applier {
     }
 
     /// Whether old accessors of frames may stay: not those of tangents without normals, nor what was split.
-    [[nodiscard]] bool mayStay() const {
-        return pool_.has_tangents && !frames_.wasSplit(primitives_[pool_.primitives[0]].vertex_count);
-    }
+    [[nodiscard]] bool mayStay() const { return pool_.has_tangents && !elements_.was_split; }
 
     Editor& editor_;
     const Document& document_;
     std::span<const Primitive> primitives_;
     const Pool& pool_;
-    const PoolFrames& frames_;
-    const VectorFormat format_;
+    PoolElements& elements_;
     std::uint32_t computed_targets_ = 0;
 };
 
-std::string keptNote(const PoolFrames& frames) {
-    if (frames.morphs.empty()) {
+std::string keptNote(const PoolElements& elements) {
+    if (elements.morphs.empty()) {
         return "; its morph targets lack tangent deltas and get none, because its tangents are not those that would be "
                "computed (" +
-               std::to_string(frames.differing_count) + " corners differ)";
+               std::to_string(elements.differing_count) + " corners differ)";
     }
     return "; tangent deltas were added to its morph targets that had none";
 }
@@ -265,23 +155,22 @@ std::string keptNote(const PoolFrames& frames) {
 }  // namespace
 
 void applyFrames(Editor& editor, const Document& document, std::span<const Primitive> primitives,
-                 const Pool& pool, const PoolFrames& frames, VectorFormat format,
-                 std::span<PrimitiveReport> reports) {
-    Applier applier(editor, document, primitives, pool, frames, format);
+                 const Pool& pool, PoolElements&& elements, std::span<PrimitiveReport> reports) {
+    Applier applier(editor, document, primitives, pool, elements);
     const bool changed = applier.run();
     for (const std::size_t number : pool.primitives) {
         PrimitiveReport& report = reports[number];
         report.morph_deltas_computed = applier.computedTargets();
         if (pool.keeps_tangents) {
-            report.reason += keptNote(frames);
+            report.reason += keptNote(elements);
             continue;
         }
         report.action = !pool.has_tangents ? PrimitiveAction::generated
                         : changed          ? PrimitiveAction::replaced
                                            : PrimitiveAction::unchanged;
-        report.vertices_after = frames.source_vertices.size();
-        report.normals_generated = frames.normals_generated;
-        report.bitangents_generated = !frames.bitangents.empty();
+        report.vertices_after = elements.vertex_count;
+        report.normals_generated = elements.normals_generated;
+        report.bitangents_generated = elements.bitangents_generated;
     }
 }
 

@@ -37,47 +37,6 @@ void copyReport(const PrimitiveReport& computed, bool keeps_tangents, PrimitiveR
     report.sanitize = computed.sanitize;
 }
 
-PoolFrames computePool(const Document& document, std::span<const Primitive> primitives, const Pool& pool,
-                       const GenerateOptions& options, std::span<PrimitiveReport> reports) {
-    const Primitive& first = primitives[pool.primitives[0]];
-    VertexPool vertices = readVertices(document, first, pool);
-    vertices.targets = targetsOf(document, first);
-    if (pool.keeps_tangents) vertices.kept_tangents = readTangents(document, first);
-    const std::vector<PrimitiveGeometry> geometries = readGeometries(document, primitives, pool);
-    std::vector<PrimitiveReport> computed;
-    for (const PoolGeometry& geometry : pool.geometries) computed.push_back(reports[geometry.primitives[0]]);
-    PoolFrames frames = valueOrThrow(computeFrames(vertices, geometries, options, computed));
-    if (frames.tangents.size() != frames.source_vertices.size()) {
-        failFile(ErrorCode::internal, "no tangents were computed", first.place());
-    }
-    for (std::size_t i = 0; i < pool.geometries.size(); ++i) {
-        for (const std::size_t number : pool.geometries[i].primitives) {
-            copyReport(computed[i], pool.keeps_tangents, reports[number]);
-        }
-    }
-    return frames;
-}
-
-/// As many arenas as pools are computed at one time.
-class Arenas {
-  public:
-    std::unique_ptr<Arena> take() {
-        const std::lock_guard lock(mutex_);
-        if (idle_.empty()) return std::make_unique<Arena>();
-        std::unique_ptr<Arena> arena = std::move(idle_.back());
-        idle_.pop_back();
-        return arena;
-    }
-    void giveBack(std::unique_ptr<Arena> arena) {
-        const std::lock_guard lock(mutex_);
-        idle_.push_back(std::move(arena));
-    }
-
-  private:
-    std::mutex mutex_;
-    std::vector<std::unique_ptr<Arena>> idle_;
-};
-
 void setExecution(GenerateOptions& options, const Execution& execution) {
     options.tangents.execution = options.normals.execution = options.sanitize_options.execution = execution;
 }
@@ -101,25 +60,70 @@ std::vector<PrimitiveGeometry> readGeometries(const Document& document, std::spa
     return geometries;
 }
 
-std::vector<PoolFrames> computePools(const Document& document, std::span<const Primitive> primitives,
-                                     std::span<const Pool> pools, const GenerateOptions& options,
-                                     std::span<PrimitiveReport> reports) {
-    std::vector<PoolFrames> frames(pools.size());
+/// As many arenas as pools are computed at one time.
+class PoolComputer::Arenas {
+  public:
+    std::unique_ptr<Arena> take() {
+        const std::lock_guard lock(mutex_);
+        if (idle_.empty()) return std::make_unique<Arena>();
+        std::unique_ptr<Arena> arena = std::move(idle_.back());
+        idle_.pop_back();
+        return arena;
+    }
+    void giveBack(std::unique_ptr<Arena> arena) {
+        const std::lock_guard lock(mutex_);
+        idle_.push_back(std::move(arena));
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Arena>> idle_;
+};
+
+PoolComputer::PoolComputer(const Document& document, std::span<const Primitive> primitives,
+                           const GenerateOptions& options)
+    : document_(document), primitives_(primitives), options_(options), arenas_(std::make_unique<Arenas>()) {}
+
+PoolComputer::~PoolComputer() = default;
+
+PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& execution,
+                                      std::span<PrimitiveReport> reports) {
+    GenerateOptions options = options_;
+    setExecution(options, execution);
+    const Primitive& first = primitives_[pool.primitives[0]];
+    VertexPool vertices = readVertices(document_, first, pool);
+    vertices.targets = targetsOf(document_, first);
+    if (pool.keeps_tangents) vertices.kept_tangents = readTangents(document_, first);
+    const std::vector<PrimitiveGeometry> geometries = readGeometries(document_, primitives_, pool);
+    std::vector<PrimitiveReport> computed;
+    for (const PoolGeometry& geometry : pool.geometries) computed.push_back(reports[geometry.primitives[0]]);
+    PoolFrames frames = valueOrThrow(computeFrames(vertices, geometries, options, computed));
+    if (frames.tangents.size() != frames.source_vertices.size()) {
+        failFile(ErrorCode::internal, "no tangents were computed", first.place());
+    }
+    for (std::size_t i = 0; i < pool.geometries.size(); ++i) {
+        for (const std::size_t number : pool.geometries[i].primitives) {
+            copyReport(computed[i], pool.keeps_tangents, reports[number]);
+        }
+    }
+    return packFrames(document_, primitives_, pool, std::move(frames), options.format);
+}
+
+std::vector<PoolElements> PoolComputer::compute(std::span<const Pool> pools, std::span<PrimitiveReport> reports) {
+    std::vector<PoolElements> elements(pools.size());
     std::vector<std::exception_ptr> failures(pools.size());
-    const Execution& execution = options.tangents.execution;
-    Arenas arenas;
+    const Execution& execution = options_.tangents.execution;
     const auto compute = [&](std::size_t i, const Execution& given) noexcept {
         try {
-            GenerateOptions own = options;
-            Execution with_memory = given;
-            std::unique_ptr<Arena> arena;
-            if (given.allocator == nullptr) {
-                arena = arenas.take();
-                with_memory.allocator = arena->allocator();
+            if (given.allocator != nullptr) {
+                elements[i] = computeOne(pools[i], given, reports);
+                return;
             }
-            setExecution(own, with_memory);
-            frames[i] = computePool(document, primitives, pools[i], own, reports);
-            if (arena) arenas.giveBack(std::move(arena));
+            std::unique_ptr<Arena> arena = arenas_->take();
+            Execution with_memory = given;
+            with_memory.allocator = arena->allocator();
+            elements[i] = computeOne(pools[i], with_memory, reports);
+            arenas_->giveBack(std::move(arena));
         } catch (...) {
             failures[i] = std::current_exception();
         }
@@ -145,7 +149,7 @@ std::vector<PoolFrames> computePools(const Document& document, std::span<const P
     for (const std::exception_ptr& failure : failures) {
         if (failure) std::rethrow_exception(failure);
     }
-    return frames;
+    return elements;
 }
 
 }  // namespace tspace::gltf

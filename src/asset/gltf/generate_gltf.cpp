@@ -71,14 +71,14 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     Editor editor(document, new_file);
     std::uint64_t total = 0, done = 0;
     for (const Pool& pool : plan.pools) total += pool.corner_count;
+    PoolComputer computer(document, primitives, options);
     for (std::span<const Pool> rest = plan.pools; !rest.empty();) {
         tell(options, "computing tangents", done, total);
         const std::span<const Pool> pools = rest.first(countTogether(rest, options.tangents.execution));
         rest = rest.subspan(pools.size());
-        std::vector<PoolFrames> frames = computePools(document, primitives, pools, options, plan.reports);
+        std::vector<PoolElements> elements = computer.compute(pools, plan.reports);
         for (std::size_t i = 0; i < pools.size(); ++i) {
-            applyFrames(editor, document, primitives, pools[i], frames[i], options.format, plan.reports);
-            frames[i] = {};
+            applyFrames(editor, document, primitives, pools[i], std::move(elements[i]), plan.reports);
             done += pools[i].corner_count;
         }
     }

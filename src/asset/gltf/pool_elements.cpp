@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Packing.
+#include "asset/gltf/pool_elements.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "asset/gltf/gather_elements.h"
+#include "generate/unit_lattice.h"
+
+namespace tspace::gltf {
+
+namespace {
+
+template <class Vec>
+ElementData floatVectors(const std::vector<Vec>& values) {
+    ElementData data;
+    data.type = "VEC" + std::to_string(sizeof(Vec) / sizeof(float));
+    data.count = values.size();
+    data.element_bytes = sizeof(Vec);
+    data.bytes.resize(values.size() * sizeof(Vec));
+    if (!values.empty()) std::memcpy(data.bytes.data(), values.data(), data.bytes.size());
+    return data;
+}
+
+template <class Vec>
+ElementData unitVectors(const std::vector<Vec>& values, VectorFormat format) {
+    if (format == VectorFormat::float32) return floatVectors(values);
+    constexpr std::size_t components = sizeof(Vec) / sizeof(float);
+    ElementData data;
+    data.component = format == VectorFormat::snorm8 ? ComponentType::i8 : ComponentType::i16;
+    data.type = "VEC" + std::to_string(components);
+    data.normalized = true;
+    data.count = values.size();
+    data.element_bytes = components * bytesOf(data.component);
+    const std::vector<std::uint8_t> packed = packUnits(std::span<const Vec>(values), format);
+    data.bytes.assign(packed.begin(), packed.end());
+    return data;
+}
+
+template <class Index>
+Bytes narrow(const std::vector<std::uint32_t>& indices) {
+    Bytes bytes(indices.size() * sizeof(Index));
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        const auto index = static_cast<Index>(indices[i]);
+        std::memcpy(bytes.data() + i * sizeof index, &index, sizeof index);
+    }
+    return bytes;
+}
+
+/// u8 and u16 keep their width while every vertex fits below the primitive restart value.
+ElementData indexElements(const std::vector<std::uint32_t>& indices, ComponentType narrowest, std::size_t vertex_count) {
+    ElementData data;
+    data.target = kIndexTarget;
+    data.component = narrowest;
+    if (data.component == ComponentType::u8 && vertex_count > 255) data.component = ComponentType::u16;
+    if (data.component == ComponentType::u16 && vertex_count > 65535) data.component = ComponentType::u32;
+    data.count = indices.size();
+    data.element_bytes = bytesOf(data.component);
+    data.bytes = data.element_bytes == 1   ? narrow<std::uint8_t>(indices)
+                 : data.element_bytes == 2 ? narrow<std::uint16_t>(indices)
+                                           : narrow<std::uint32_t>(indices);
+    return data;
+}
+
+bool isReplaced(const std::string& name, std::ptrdiff_t target, const PoolFrames& frames) {
+    if (name == "_BITANGENT") return target == kBase && !frames.bitangents.empty();
+    return name == "TANGENT" || (name == "NORMAL" && frames.normals_generated);
+}
+
+/// Every other attribute, and those of morph targets, by accessor.
+std::map<std::size_t, CarriedElements> carriedAttributes(std::span<const Primitive> primitives, const Pool& pool,
+                                                         const PoolFrames& frames) {
+    std::map<std::size_t, CarriedElements> carried;
+    for (const std::size_t number : pool.primitives) {
+        const Primitive& primitive = primitives[number];
+        for (const auto& [name, accessor] : primitive.attributes) {
+            if (!isReplaced(name, kBase, frames)) carried[accessor].users.push_back({number, kBase, name});
+        }
+        for (std::size_t target = 0; target < primitive.targets.size(); ++target) {
+            for (const auto& [name, accessor] : primitive.targets[target]) {
+                const auto place = static_cast<std::ptrdiff_t>(target);
+                if (isReplaced(name, place, frames) && movesFrames(primitive.targets[target])) continue;
+                carried[accessor].users.push_back({number, place, name});
+            }
+        }
+    }
+    return carried;
+}
+
+ElementData newIndices(const Document& document, const Primitive& first, const std::vector<std::uint32_t>& indices,
+                       std::size_t vertex_count) {
+    ComponentType narrowest = ComponentType::u16;
+    bool has_bounds = false;
+    if (first.indices) {
+        narrowest = readAccessor(document, *first.indices).component;
+        const Json& old = rootArray(document, "accessors")[*first.indices];
+        has_bounds = old.contains("min") || old.contains("max");
+    }
+    ElementData data = indexElements(indices, narrowest, vertex_count);
+    if (has_bounds) {
+        const auto [low, high] = std::minmax_element(indices.begin(), indices.end());
+        data.min = Json::array({*low});
+        data.max = Json::array({*high});
+    }
+    return data;
+}
+
+}  // namespace
+
+PoolElements packFrames(const Document& document, std::span<const Primitive> primitives, const Pool& pool,
+                        PoolFrames&& frames, VectorFormat format) {
+    PoolElements elements;
+    elements.vertex_count = frames.source_vertices.size();
+    elements.was_split = frames.wasSplit(primitives[pool.primitives[0]].vertex_count);
+    elements.normals_generated = frames.normals_generated;
+    elements.bitangents_generated = !frames.bitangents.empty();
+    elements.morphs = std::move(frames.morphs);
+    elements.differing_count = frames.differing_count;
+    if (pool.keeps_tangents) return elements;
+    if (elements.was_split) {
+        elements.carried = carriedAttributes(primitives, pool, frames);
+        for (auto& [accessor, carried] : elements.carried)
+            carried.data = gatherElements(document, readAccessor(document, accessor), frames.source_vertices);
+        for (std::size_t i = 0; i < pool.geometries.size(); ++i) {
+            const Primitive& first = primitives[pool.geometries[i].primitives[0]];
+            elements.indices.push_back(newIndices(document, first, frames.indices[i], elements.vertex_count));
+        }
+    }
+    if (frames.normals_generated) elements.normals = unitVectors(frames.normals, format);
+    elements.tangents = unitVectors(frames.tangents, format);
+    if (elements.bitangents_generated) elements.bitangents = unitVectors(frames.bitangents, format);
+    return elements;
+}
+
+ElementData offsetElements(const VertexOffsets& offsets, std::size_t vertex_count) {
+    std::vector<Vec3> dense(vertex_count);
+    for (std::size_t i = 0; i < offsets.vertices.size(); ++i) dense[offsets.vertices[i]] = offsets.offsets[i];
+    return floatVectors(dense);
+}
+
+}  // namespace tspace::gltf

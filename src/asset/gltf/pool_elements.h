@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The frames of a pool as elements of accessors: all that can be made without changing the document, and so by several
+// threads.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "asset/gltf/editor.h"
+#include "asset/gltf/generate_plan.h"
+#include "generate/primitive.h"
+
+namespace tspace::gltf {
+
+inline constexpr std::ptrdiff_t kBase = -1;  ///< in place of a morph target: the attributes themselves
+
+/// A reference of a primitive to an accessor.
+struct AttributeSlot {
+    std::size_t primitive = 0;
+    std::ptrdiff_t target = kBase;
+    std::string name = {};
+};
+
+struct CarriedElements {
+    std::vector<AttributeSlot> users = {};
+    ElementData data = {};
+};
+
+struct PoolElements {
+    std::size_t vertex_count = 0;
+    bool was_split = false;
+    bool normals_generated = false, bitangents_generated = false;
+    /// After a split: what else the vertices have, by accessor, so that what was shared stays shared; and the index list of
+    /// each geometry.
+    std::map<std::size_t, CarriedElements> carried = {};
+    std::vector<ElementData> indices = {};
+    ElementData normals = {}, tangents = {}, bitangents = {};
+    std::vector<MorphFrames> morphs = {};  ///< as in PoolFrames, like the next one
+    std::uint64_t differing_count = 0;
+};
+
+PoolElements packFrames(const Document& document, std::span<const Primitive> primitives, const Pool& pool,
+                        PoolFrames&& frames, VectorFormat format);
+
+/// Offsets as elements, one for each vertex.
+ElementData offsetElements(const VertexOffsets& offsets, std::size_t vertex_count);
+
+}  // namespace tspace::gltf
