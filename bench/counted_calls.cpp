@@ -33,6 +33,9 @@ constexpr Case kCases[] = {
     {"angle_20k", "angle", [] { return torusOf(20000); }},
     {"lengyel_20k", "lengyel", [] { return torusOf(20000); }},
     {"normals_20k", "normals", [] { return torusOf(20000); }},
+    {"normals_best_20k", "normals_best", [] { return torusOf(20000); }},
+    {"fast_20k", "fast", [] { return torusOf(20000); }},
+    {"best_20k", "best", [] { return torusOf(20000); }},
     {"split_20k", "split", [] { return foldsOf(20000); }},
 };
 

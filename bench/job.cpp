@@ -97,11 +97,11 @@ Job lengyelVertexJob(const Mesh& mesh) {
     return job;
 }
 
-Job normalsJob(const Mesh& mesh) {
+Job normalsJob(const Mesh& mesh, NormalWeighting weighting = NormalWeighting::angle) {
     auto outputs = std::make_shared<Outputs>();
     outputs->normals.resize(mesh.cornerCount());
-    return {outputs, [&mesh, outputs](const Execution& execution) {
-                orDie(generateNormals(mesh.view(), {.execution = execution}, outputs->normals));
+    return {outputs, [&mesh, outputs, weighting](const Execution& execution) {
+                orDie(generateNormals(mesh.view(), {.weighting = weighting, .execution = execution}, outputs->normals));
             }};
 }
 
@@ -158,6 +158,7 @@ Job makeJob(const std::string& name, const Mesh& mesh) {
     if (name == "evaluate") return evaluateJob(mesh);
     if (name == "lengyel_vertex") return lengyelVertexJob(mesh);
     if (name == "normals") return normalsJob(mesh);
+    if (name == "normals_best") return normalsJob(mesh, NormalWeighting::best);
     if (name == "split") return splitJob(mesh);
     for (const auto& method : kMethods) {
         if (name == method.name) return tangentsJob(mesh, {.method = method.method});
@@ -170,7 +171,7 @@ const std::vector<std::string>& jobNames() {
     static const std::vector<std::string> names = {
         "mikktspace", "mikktspace_all", "mikktspace_corrected", "evaluate", "uniform", "angle",
         "area",       "lengyel",        "lengyel_vertex",       "flat",     "basis",   "normals",
-        "split",      "fast",           "best"};
+        "split",      "fast",           "best",                 "normals_best"};
     return names;
 }
 
