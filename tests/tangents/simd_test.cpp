@@ -187,7 +187,7 @@ std::optional<Outputs> look(const Shape& shape, const TangentOptions& options, m
     const mikk::TriangleList triangles = mikk::cutFaces(mesh, options.ngons, nullptr);
     mikk::Nodes nodes = mikk::weld(mesh, triangles, nullptr, parallel);
     if (!nodes.tame) return std::nullopt;
-    mikk::listVertices(nodes, nullptr);
+    mikk::listVertices(nodes, nullptr, parallel);
     Outputs outputs(shape.cornerCount());
     TangentOutput to = outputs.view();
     if (tangents_only) to = {.tangents = to.tangents};

@@ -109,6 +109,17 @@ inline Marks noMarks(const Allocator* allocator, std::size_t count) {
     return marks;
 }
 
+/// Vertices with their nodes' marks.
+inline Marks marksOfVertices(Marks at_nodes, const Nodes& nodes, const Allocator* allocator, Parallel& parallel) {
+    constexpr std::size_t kGrain = 65536;
+    if (nodes.of_vertex.empty()) return at_nodes;
+    Marks marks(allocator, nodes.of_vertex.size());
+    parallel.forRanges(marks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) marks[v] = at_nodes[nodes.of_vertex[v]];
+    });
+    return marks;
+}
+
 /// Which parts of the nodes have marked vertices.
 class MarkedParts {
   public:

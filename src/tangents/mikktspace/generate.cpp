@@ -30,7 +30,7 @@ TangentReport generateWith(const MeshView& mesh, const TangentOptions& options, 
     const bool has_threshold =
         options.method == Method::mikktspace && thresholdCosine(options.angular_threshold_deg) != -1.0f;
     if (nodes.tame && general.pairing == Pairing::corrected && !has_threshold) {
-        listVertices(nodes, allocator);
+        listVertices(nodes, allocator, parallel);
         const auto report = evaluateInOnePass(mesh, options, triangles, nodes, out, parallel);
         if (report) return *report;
     }

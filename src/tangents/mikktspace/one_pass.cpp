@@ -140,10 +140,6 @@ class OnePass {
         return report;
     }
 
-    [[nodiscard]] bool isUnclear(std::uint32_t node) const {
-        return (unclear_[node / 64] >> (node % 64) & 1) != 0;
-    }
-
     /// Results of all nodes take the place of their sums. Those of unclear nodes mean nothing.
     void estimateNodes() {
         if (!wantsTangentsOnly(out_)) {
@@ -359,10 +355,12 @@ class OnePass {
     /// ones, then their neighbours.
     void collectRest() {
         const std::size_t most = std::max(mesh_.faceCount() / 2, kAlwaysSmall);
-        Marks marks = noMarks(allocator_, mesh_.vertexCount());
-        for (std::size_t v = 0; v < marks.size(); ++v)
-            marks[v] = isUnclear(nodes_.ofVertex(static_cast<std::uint32_t>(v))) ? 1 : 0;
-        forEachUnclear([&](std::uint32_t node) { numberNode(node); });
+        Marks at_nodes = noMarks(allocator_, nodes_.count);
+        forEachUnclear([&](std::uint32_t node) {
+            at_nodes[node] = 1;
+            numberNode(node);
+        });
+        const Marks marks = marksOfVertices(std::move(at_nodes), nodes_, allocator_, parallel_);
         if (triangles_.corners.empty()) {
             const Buffer<std::uint32_t> found =
                 collectTriangles(mesh_, triangles_, nodes_, marks, 1, allocator_, parallel_);

@@ -23,7 +23,7 @@ constexpr std::size_t kGrain = 4096;  // nodes
 
 void readNodes(const MeshView& mesh, Nodes& nodes, GroupedPlan& plan, PoseData& pose,
                const Allocator* allocator, Parallel& parallel) {
-    listVertices(nodes, allocator);
+    listVertices(nodes, allocator, parallel);
     plan.node_count = nodes.count;
     plan.node_vertex = Buffer<std::uint32_t>(allocator, nodes.count);
     plan.node_uv = Buffer<Vec2>(allocator, nodes.count);

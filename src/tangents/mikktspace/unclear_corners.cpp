@@ -59,9 +59,9 @@ class CornerReader {
     Buffer<std::uint32_t> aroundChosen() {
         for (std::size_t i = 0; i < from_.chosen.size(); ++i)
             from_.sums->nodes[from_.chosen[i]].fan.leaves[1] = static_cast<std::uint32_t>(i);
-        Marks marks = noMarks(from_.allocator, mesh_.vertexCount());
-        for (std::size_t v = 0; v < marks.size(); ++v)
-            marks[v] = placeOf(from_.nodes.ofVertex(static_cast<std::uint32_t>(v))) != kNone ? 1 : 0;
+        Marks at_nodes = noMarks(from_.allocator, from_.nodes.count);
+        for (const std::uint32_t node : from_.chosen) at_nodes[node] = 1;
+        const Marks marks = marksOfVertices(std::move(at_nodes), from_.nodes, from_.allocator, from_.parallel);
         return collectTriangles(mesh_, triangles_, from_.nodes, marks, 1, from_.allocator, from_.parallel);
     }
 

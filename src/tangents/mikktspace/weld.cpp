@@ -378,7 +378,7 @@ class VertexWelder {
 /// Where nodes mix -0 and +0, the reference's representative decides on the bits.
 void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
                   const Allocator* allocator, Parallel& parallel) {
-    listVertices(nodes, allocator);
+    listVertices(nodes, allocator, parallel);
     Growing<std::uint32_t> different(allocator);
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
         const std::uint32_t first = nodes.vertices[nodes.of_vertex[v]];
@@ -405,7 +405,7 @@ void weldCorners(const MeshView& mesh, const TriangleList& triangles, Nodes& nod
                  const Allocator* allocator, Parallel& parallel) {
     const std::size_t corner_count = mesh.cornerCount();
     nodes.tame = false;
-    listVertices(nodes, allocator);
+    listVertices(nodes, allocator, parallel);
     nodes.of_corner = Buffer<std::uint32_t>(allocator, corner_count, kNone);
     nodes.representatives = Buffer<std::uint32_t>(allocator, nodes.count + corner_count, kNone);
     const auto addNode = [&](std::uint32_t corner) {
@@ -457,14 +457,29 @@ Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator*
     return nodes;
 }
 
-void listVertices(Nodes& nodes, const Allocator* allocator) {
+void listVertices(Nodes& nodes, const Allocator* allocator, Parallel& parallel) {
+    constexpr std::size_t kPart = 65536;  // vertices
     if (nodes.of_vertex.empty() || !nodes.vertices.empty()) return;
     nodes.vertices = Buffer<std::uint32_t>(allocator, nodes.count);
-    std::size_t next = 0;
-    for (std::size_t v = 0; next < nodes.count; ++v) {
-        nodes.vertices[next] = static_cast<std::uint32_t>(v);
-        next += nodes.of_vertex[v] == next ? 1 : 0;
+    const std::size_t count = nodes.of_vertex.size(), parts = (count + kPart - 1) / kPart;
+    const auto endOf = [=](std::size_t part) { return std::min((part + 1) * kPart, count); };
+    // Nodes are numbered by their first vertices: as many begin before a part as the largest number before it says.
+    Buffer<std::uint32_t> begun(allocator, parts + 1, 0u);
+    if (parts > 1) {
+        parallel.forTasks(parts, [&](std::size_t part) {
+            std::int32_t largest = 0;  // nodes are fewer than 2^31, and SSE2 compares signed numbers only
+            for (std::size_t v = part * kPart; v < endOf(part); ++v)
+                largest = std::max(largest, static_cast<std::int32_t>(nodes.of_vertex[v]));
+            begun[part + 1] = static_cast<std::uint32_t>(largest) + 1;
+        });
+        for (std::size_t part = 1; part < parts; ++part) begun[part] = std::max(begun[part], begun[part - 1]);
     }
+    parallel.forTasks(parts, [&](std::size_t part) {
+        std::uint32_t next = begun[part];
+        for (std::size_t v = part * kPart; v < endOf(part); ++v) {
+            if (nodes.of_vertex[v] == next) nodes.vertices[next++] = static_cast<std::uint32_t>(v);
+        }
+    });
 }
 
 }  // namespace tspace::mikk

@@ -50,6 +50,6 @@ Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator*
            Parallel& parallel);
 
 /// Makes nodes.vertex() valid.
-void listVertices(Nodes& nodes, const Allocator* allocator);
+void listVertices(Nodes& nodes, const Allocator* allocator, Parallel& parallel);
 
 }  // namespace tspace::mikk
