@@ -34,9 +34,9 @@ constexpr double kParallelSine = 0.017452406437283512;
 /// leaves less than 1.5e-7, so what was written once is not written again.
 constexpr double kOrthogonalTolerance = 5e-7;
 
-/// Few enough that single broken faces, spread over a mesh, leave most blocks out of the slow work.
-constexpr std::size_t kFacesPerBlock = 64;
-constexpr std::size_t kBlocksPerTask = 64;
+/// Triangles that the scan looks at together. More would draw more sound faces into the slow work.
+constexpr std::size_t kFacesPerBlock = 4;
+constexpr std::size_t kBlocksPerTask = 1024;
 constexpr std::uint32_t kNone = 0xffffffffu;
 
 enum class Cause : std::uint8_t {
@@ -308,25 +308,24 @@ class Sanitizer {
         });
     }
 
-    /// The triangles of a full block, four at a time.
+    /// The four triangles of a full block.
     template <class VertexOf>
     [[nodiscard]] bool areFine(std::size_t first, VertexOf vertexOf) const {
+        static_assert(kFacesPerBlock == 4);
         constexpr unsigned kFirstTwoOfThree = 0b011'011'011'011;
-        for (std::size_t c = first; c < first + 3 * kFacesPerBlock; c += 12) {
-            unsigned signs = 0;
-            Mask4 sound = Mask4{} - 1;
-            for (unsigned i = 0; i < 12; i += 4) {
-                Float4 x = loadFloat4(&tangents_[c + i].x), y = loadFloat4(&tangents_[c + i + 1].x),
-                       z = loadFloat4(&tangents_[c + i + 2].x), w = loadFloat4(&tangents_[c + i + 3].x);
-                transpose4(x, y, z, w);
-                const auto normal = [&](unsigned k) -> const Vec3& { return mesh_.normals[vertexOf(c + i + k)]; };
-                sound &= SurelySound::of({x, y, z}, w, gatherVec3(normal(0), normal(1), normal(2), normal(3)));
-                signs |= laneBits(std::bit_cast<Mask4>(w)) << i;
-            }
-            // A bit of `signs` is like the next one but at the end of a triangle.
-            if (laneBits(sound) != 0b1111 || ((signs ^ signs >> 1) & kFirstTwoOfThree) != 0) return false;
+        unsigned signs = 0;
+        Mask4 sound = Mask4{} - 1;
+        for (unsigned i = 0; i < 12; i += 4) {
+            const std::size_t c = first + i;
+            Float4 x = loadFloat4(&tangents_[c].x), y = loadFloat4(&tangents_[c + 1].x),
+                   z = loadFloat4(&tangents_[c + 2].x), w = loadFloat4(&tangents_[c + 3].x);
+            transpose4(x, y, z, w);
+            const auto normal = [&](unsigned k) -> const Vec3& { return mesh_.normals[vertexOf(c + k)]; };
+            sound &= SurelySound::of({x, y, z}, w, gatherVec3(normal(0), normal(1), normal(2), normal(3)));
+            signs |= laneBits(std::bit_cast<Mask4>(w)) << i;
         }
-        return true;
+        // A bit of `signs` is like the next one but at the end of a triangle.
+        return laneBits(sound) == 0b1111 && ((signs ^ signs >> 1) & kFirstTwoOfThree) == 0;
     }
 
     /// body(first_corner, corner_count, counts) for each face that scan() did not clear; faces are independent.
