@@ -24,7 +24,7 @@ struct FileOptions {
     /// It runs as a process of its own, so that a crash or a runaway there is an error here (invalidFile).
     std::string importer = {};
     std::uint64_t import_max_file_bytes = std::uint64_t{2} << 30;
-    std::uint64_t import_max_memory_bytes = std::uint64_t{16} << 30;  ///< address space of the importer; a file gets 1 GiB and 256 times its size at most
+    std::uint64_t import_max_memory_bytes = std::uint64_t{16} << 30;  ///< address space of the importer; a file gets 192 MiB and 256 times its size at most
     std::uint32_t import_max_seconds = 120;                           ///< wall clock and processor time
 };
 

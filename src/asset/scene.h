@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "asset/memory_budget.h"
 #include "asset/tangent_use.h"
 #include "tspace/asset.h"
 #include "tspace/vec.h"
@@ -74,6 +75,7 @@ struct Scene {
     std::string generator = {};  ///< may be empty
     std::vector<ScenePrimitive> primitives = {};  ///< in file order
     std::vector<SceneImage> images = {};          ///< TangentUse::image points here
+    std::shared_ptr<MemoryBudget> memory = {};    ///< what looking at it may still take
 };
 
 /// Reads a model. `with_images`: also the bytes of images that a TangentUse names; an image that cannot be read is no

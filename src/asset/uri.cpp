@@ -166,6 +166,7 @@ fs::path resolveUri(const fs::path& folder, std::string_view uri, bool allow_ext
         failFile(ErrorCode::forbiddenPath, "the URI " + inQuotes(uri, 200) + " " + why, place);
     };
     if (uriKind(uri) != UriKind::path) refuse("has a scheme other than data, which is never loaded");
+    if (uri.starts_with(':')) failFile(ErrorCode::invalidFile, "the URI " + inQuotes(uri, 200) + " has no scheme before its colon", place);
     const std::string decoded = percentDecode(uri);
     if (decoded.empty() || decoded.find('\0') != std::string::npos) {
         failFile(ErrorCode::invalidFile, "a URI names no file", place);

@@ -38,9 +38,26 @@ std::vector<NormalMap> collectNormalMaps(const Scene& scene) {
     return maps;
 }
 
-void lookAt(const SceneImage& image, const CheckOptions& options, NormalMap& map) {
+/// How many of the images, one at least, may be in memory together.
+std::size_t countTogether(const Scene& scene, std::span<const NormalMap> maps) {
+    std::uint64_t bytes = 0;
+    std::size_t count = 0;
+    while (count < maps.size()) {
+        bytes += imageWorkBytes(scene.images[maps[count].image].bytes);
+        if (count > 0 && scene.memory && !scene.memory->has(bytes)) break;
+        ++count;
+    }
+    return count;
+}
+
+void lookAt(const Scene& scene, const CheckOptions& options, NormalMap& map) {
+    const SceneImage& image = scene.images[map.image];
     if (image.bytes.empty()) {
         map.why_not = "it cannot be read";
+        return;
+    }
+    if (scene.memory && !scene.memory->has(imageWorkBytes(image.bytes))) {
+        map.why_not = "it needs far more memory than the file has bytes";
         return;
     }
     const std::optional<RgbImage> decoded = decodeImage(image.bytes, options.most_pixels, map.why_not);
@@ -83,13 +100,18 @@ ImageFindings checkImages(const Scene& scene, const CheckOptions& options) {
     std::vector<NormalMap> maps = collectNormalMaps(scene);
     std::vector<std::exception_ptr> failures(maps.size());
     Parallel parallel(options.execution);
-    parallel.forTasks(maps.size(), [&](std::size_t i) {
-        try {
-            lookAt(scene.images[maps[i].image], options, maps[i]);
-        } catch (...) {
-            failures[i] = std::current_exception();
-        }
-    });
+    for (std::size_t begin = 0; begin < maps.size();) {
+        const std::size_t count = countTogether(scene, std::span(maps).subspan(begin));
+        parallel.forTasks(count, [&](std::size_t task) {
+            const std::size_t i = begin + task;
+            try {
+                lookAt(scene, options, maps[i]);
+            } catch (...) {
+                failures[i] = std::current_exception();
+            }
+        });
+        begin += count;
+    }
     ImageFindings result;
     result.green_points_down.assign(scene.images.size(), false);
     for (std::size_t i = 0; i < maps.size(); ++i) {

@@ -14,6 +14,8 @@ namespace tspace {
 
 namespace {
 
+constexpr std::string_view kPngHead = "\x89PNG\r\n\x1a\n", kJpegHead = "\xff\xd8\xff";
+
 bool startsWith(std::span<const std::uint8_t> bytes, std::string_view head) {
     return bytes.size() >= head.size() &&
            std::equal(head.begin(), head.end(), bytes.begin(),
@@ -33,6 +35,30 @@ bool isTooLarge(std::uint64_t pixels, std::size_t byte_count, std::uint64_t most
         return false;
     }
     return true;
+}
+
+/// What stb_image holds: planes of each component, the coefficients of progressive files, and pixels; at the end pixels twice.
+std::uint64_t jpegWorkBytes(std::span<const std::uint8_t> bytes) {
+    constexpr std::size_t kHeadBytes = 4, kFrameBytes = 8;
+    for (std::size_t at = 2; at + kHeadBytes + kFrameBytes < bytes.size();) {
+        if (bytes[at] != 0xff || bytes[at + 1] == 0xff) {
+            ++at;
+            continue;
+        }
+        const unsigned marker = bytes[at + 1];
+        const std::size_t length = std::size_t{bytes[at + 2]} << 8 | bytes[at + 3];
+        const bool is_frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+        if (!is_frame) {
+            at += 2 + length;
+            continue;
+        }
+        const std::uint8_t* frame = bytes.data() + at + kHeadBytes;
+        const std::uint64_t height = std::uint64_t{frame[1]} << 8 | frame[2], width = std::uint64_t{frame[3]} << 8 | frame[4];
+        const std::uint64_t components = frame[5], is_progressive = marker == 0xc2;
+        const std::uint64_t planes = width * height * std::min<std::uint64_t>(components, 4);
+        return std::max(planes * (1 + 2 * is_progressive) + 3 * width * height, 6 * width * height);
+    }
+    return 0;
 }
 
 struct FreeContext {
@@ -65,9 +91,27 @@ std::optional<RgbImage> decodePng(std::span<const std::uint8_t> bytes, std::uint
 
 }  // namespace
 
+std::uint64_t imageWorkBytes(std::span<const std::uint8_t> bytes) {
+#ifdef TSPACE_HAS_IMAGES
+    constexpr std::size_t kWidthAt = 16, kHeightAt = 20;  // of the header chunk, which is the first
+    const auto number = [&](std::size_t at) {
+        std::uint64_t value = 0;
+        for (std::size_t i = 0; i < 4; ++i) value = value << 8 | bytes[at + i];
+        return std::min(value, std::uint64_t{1} << 30);  // no product overflows
+    };
+    if (startsWith(bytes, kPngHead)) {
+        return bytes.size() < kHeightAt + 4 ? 0 : 3 * number(kWidthAt) * number(kHeightAt) + 64 * number(kWidthAt);
+    }
+    if (startsWith(bytes, kJpegHead)) return jpegWorkBytes(bytes);
+#else
+    (void)bytes;
+#endif
+    return 0;
+}
+
 std::optional<RgbImage> decodeImage(std::span<const std::uint8_t> bytes, std::uint64_t most_pixels, std::string& why) {
-    const bool is_png = startsWith(bytes, "\x89PNG\r\n\x1a\n");
-    if (!is_png && !startsWith(bytes, "\xff\xd8\xff")) {
+    const bool is_png = startsWith(bytes, kPngHead);
+    if (!is_png && !startsWith(bytes, kJpegHead)) {
         why = "it is neither PNG nor JPEG";
         return {};
     }

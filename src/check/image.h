@@ -16,6 +16,9 @@ struct RgbImage {
     std::vector<std::uint8_t> rgb = {};
 };
 
+/// About the most memory that decodeImage holds for these bytes; 0 where it decodes nothing.
+std::uint64_t imageWorkBytes(std::span<const std::uint8_t> bytes);
+
 /// Decodes PNG and JPEG, told apart by content. Nothing, with the reason in `why` (half a sentence), for other formats,
 /// broken files, more than `most_pixels` pixels, and images that are out of proportion to their bytes.
 std::optional<RgbImage> decodeImage(std::span<const std::uint8_t> bytes, std::uint64_t most_pixels, std::string& why);

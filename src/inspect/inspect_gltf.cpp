@@ -72,6 +72,8 @@ bool hasTriangleData(const Document& document, const Primitive& primitive, const
 /// Counts over the triangles; nothing where there is no data.
 void describeTriangles(const Document& document, const Primitive& primitive, bool is_mirrored, PrimitiveInfo& info) {
     if (!hasTriangleData(document, primitive, info)) return;
+    document.memory->require(std::uint64_t{72} * primitive.triangleCount() + std::uint64_t{64} * primitive.vertex_count,
+                             primitive.place());
     // Positions first: they fail before a number of vertices without data costs any memory.
     const std::vector<Vec3> positions = readVec3(document, primitive, "POSITION");
     const std::vector<std::uint32_t> corners = readTriangleCorners(document, primitive);

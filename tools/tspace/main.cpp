@@ -14,16 +14,6 @@ namespace {
 
 using namespace tspace::tool;
 
-ExitCode run(int argc, char** argv) {
-    const Arguments arguments = parseArguments(argc, argv);
-    if (const auto* generate = std::get_if<GenerateArguments>(&arguments)) return runGenerate(*generate);
-    if (const auto* diff = std::get_if<DiffArguments>(&arguments)) return runDiff(*diff);
-    if (const auto* identify = std::get_if<IdentifyArguments>(&arguments)) return runIdentify(*identify);
-    if (const auto* inspect = std::get_if<InspectArguments>(&arguments)) return runInspect(*inspect);
-    if (const auto* check = std::get_if<CheckArguments>(&arguments)) return runCheck(*check);
-    return std::get<ExitCode>(arguments);
-}
-
 /// Memory that one primitive gave back serves the next one. By default large blocks go back to the system at once, and
 /// each page of the next one has to be cleared again.
 void keepFreedMemory() {
@@ -34,10 +24,31 @@ void keepFreedMemory() {
 #endif
 }
 
+/// The other commands keep what they found between large blocks that they let go of. Left in one heap, those would not fit
+/// into each other's places, and files with many primitives would take a multiple of what they need.
+void giveMemoryBack() {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 256 << 10);
+#endif
+}
+
+ExitCode run(int argc, char** argv) {
+    const Arguments arguments = parseArguments(argc, argv);
+    if (const auto* generate = std::get_if<GenerateArguments>(&arguments)) {
+        keepFreedMemory();
+        return runGenerate(*generate);
+    }
+    giveMemoryBack();
+    if (const auto* diff = std::get_if<DiffArguments>(&arguments)) return runDiff(*diff);
+    if (const auto* identify = std::get_if<IdentifyArguments>(&arguments)) return runIdentify(*identify);
+    if (const auto* inspect = std::get_if<InspectArguments>(&arguments)) return runInspect(*inspect);
+    if (const auto* check = std::get_if<CheckArguments>(&arguments)) return runCheck(*check);
+    return std::get<ExitCode>(arguments);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    keepFreedMemory();
     try {
         return static_cast<int>(run(argc, argv));
     } catch (const std::exception& defect) {

@@ -19,12 +19,28 @@ namespace {
 /// Fewer corners are done sooner than threads are started.
 constexpr std::size_t kCornersForThreads = 3000;
 
+/// Deltas are made where vertices move, and wait in memory for those of the last target.
+void takeDeltas(const Document& document, const Primitive& first, const MorphOffsets& offsets) {
+    constexpr std::uint64_t kDeltaBytes = 32;
+    std::uint64_t count = 0;
+    for (std::size_t v = 0; v < std::max(offsets.positions.size(), offsets.normals.size()); ++v) {
+        const auto moves = [v](const std::vector<Vec3>& list) { return v < list.size() && !(list[v] == Vec3{}); };
+        count += moves(offsets.positions) || moves(offsets.normals);
+    }
+    document.memory->take(kDeltaBytes * count, first.place() + "/targets");
+}
+
 /// Targets of a pool are those of each of its primitives. `first` must outlive the result.
 MorphTargets targetsOf(const Document& document, const Primitive& first) {
-    return {first.targets.size(), [&document, &first](std::size_t target) {
+    // A target is read once more where normals are made.
+    auto is_taken = std::make_shared<std::vector<bool>>(first.targets.size(), false);
+    return {first.targets.size(), [&document, &first, is_taken](std::size_t target) {
                 return atFileBorder([&]() -> Result<MorphOffsets> {
-                    return MorphOffsets{.positions = readOffsets(document, first, target, "POSITION"),
-                                        .normals = readOffsets(document, first, target, "NORMAL")};
+                    MorphOffsets offsets{.positions = readOffsets(document, first, target, "POSITION"),
+                                         .normals = readOffsets(document, first, target, "NORMAL")};
+                    if (!(*is_taken)[target]) takeDeltas(document, first, offsets);
+                    (*is_taken)[target] = true;
+                    return offsets;
                 });
             }};
 }

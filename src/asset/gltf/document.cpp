@@ -74,6 +74,9 @@ void checkLooksLikeJson(std::span<const std::uint8_t> text) {
     std::string_view view(reinterpret_cast<const char*>(text.data()), text.size());
     if (view.substr(0, 3) == "\xef\xbb\xbf") view.remove_prefix(3);  // byte order mark
     const std::size_t first = view.find_first_not_of(" \t\r\n");
+    if (text.empty()) failFile(ErrorCode::invalidFile, "the file is empty", "byte 0");
+    if (first != std::string_view::npos && view[first] == '[')
+        failFile(ErrorCode::invalidFile, "the JSON is not an object", "byte 0");
     if (first == std::string_view::npos || view[first] != '{') {
         failFile(ErrorCode::invalidFile, "the file is neither GLB nor the JSON of glTF", "byte 0");
     }
@@ -127,12 +130,19 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
     if (uriKind(text) == UriKind::data) {
         buffer.source = BufferSource::dataUri;
         bytes = decodeDataUri(text, join(place, "uri")).bytes;
+        document.memory->take(bytes.size(), place);
     } else {
         buffer.source = BufferSource::file;
         buffer.path = resolveUri(document.folder, text, document.options.allow_external, join(place, "uri"));
         bytes = readFile(buffer.path, join(place, "uri"));
-        document.input_bytes += bytes.size();
-        document.input_files.push_back(buffer.path.string());
+        const std::string name = buffer.path.string();
+        // A file that is named twice is read twice, but has its bytes once.
+        if (std::find(document.input_files.begin(), document.input_files.end(), name) == document.input_files.end()) {
+            document.input_bytes += bytes.size();
+            document.memory->allow(bytes.size());
+            document.input_files.push_back(name);
+        }
+        document.memory->take(bytes.size(), place);
     }
     if (length > bytes.size()) {
         failFile(ErrorCode::invalidFile,
@@ -155,6 +165,18 @@ void checkImageUris(const Document& document) {
         // With allow_external a web address is nobody's file: it stays as it is.
         if (uriKind(uri) == UriKind::otherScheme && document.options.allow_external) continue;
         resolveUri(document.folder, uri, document.options.allow_external, join(place, "uri"));
+    }
+}
+
+/// What each entry costs whatever it says: in tables of uses, places and reports. A few bytes of JSON make one.
+void takeEntries(const Document& document) {
+    struct List {
+        const char* name;
+        std::size_t entry_bytes;
+    };
+    for (const List& list : {List{"buffers", 1500}, List{"images", 500}, List{"accessors", 200}, List{"bufferViews", 200},
+                             List{"materials", 100}, List{"meshes", 100}, List{"nodes", 100}}) {
+        document.memory->take(rootArray(document, list.name).size() * list.entry_bytes, std::string("/") + list.name);
     }
 }
 
@@ -190,6 +212,7 @@ Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, cons
     if (document.container == Container::glb) {
         glb = readGlb(document.file_bytes);
         text = glb.json;
+        if (text.empty()) failFile(ErrorCode::invalidFile, "the JSON chunk of the GLB is empty", "byte 12");
         document.extra_chunks = std::move(glb.extra);
         if (glb.ignored_bytes > 0) {
             document.warnings.push_back("the file has " + std::to_string(glb.ignored_bytes) +
@@ -197,13 +220,19 @@ Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, cons
                                         "nothing, and are left out when the file is written anew");
         }
     } else {
+        constexpr std::size_t kGlbHeaderBytes = 12;
+        if (lowerExtension(path) == ".glb" && !text.empty() && text.size() < kGlbHeaderBytes)
+            failFile(ErrorCode::invalidFile, "the GLB header is cut short", "byte " + std::to_string(text.size()));
         checkLooksLikeJson(text);
     }
-    ParsedJson parsed = parseJson(text);
+    document.memory->allow(document.file_bytes.size());
+    document.memory->take(document.file_bytes.size(), {});
+    ParsedJson parsed = parseJson(text, document.memory.get());
     document.json = std::move(parsed.root);
     document.style = parsed.style;
     checkRoot(document.json);
     checkVersion(document.json);
+    takeEntries(document);
     const Json& buffers = rootArray(document, "buffers");
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         document.buffers.push_back(

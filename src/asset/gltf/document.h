@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -67,6 +68,7 @@ struct Document {
     bool imported = false;  ///< made from a file of another format: `file_bytes` is not that file
     FileOptions options = {};
     std::vector<std::string> warnings = {};  ///< about how the file is stored
+    std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< what it may still take
 };
 
 /// Reads a .glb or .gltf (told apart by content) and its buffers. Checks asset.version, buffers, buffer views

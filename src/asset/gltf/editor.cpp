@@ -238,6 +238,8 @@ Json Editor::storeSparse(ElementData&& data) {
 }
 
 std::size_t Editor::store(ElementData&& data, std::optional<std::size_t> replaces) {
+    // Each stays until the file is written; vertices that many primitives share are stored for each that needs its own.
+    document_.memory->take(data.bytes.size() + data.unfiltered.size(), "/accessors");
     changed_ = true;
     const Form form = data.in_draco ? Form{.is_draco = true} : formLike(data.like);
     if (replaces) letGoOf(readAccessor(document_, *replaces));

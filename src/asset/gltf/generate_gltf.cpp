@@ -24,12 +24,17 @@ void tell(const GenerateOptions& options, const char* what, std::uint64_t done, 
     if (options.progress) options.progress(what, done, total);
 }
 
-/// How many of the pools, one at least, are computed together.
-std::size_t countTogether(std::span<const Pool> pools, const Execution& execution) {
+/// How many of the pools, one at least, are computed together. Fails with tooLarge where the first alone is too much.
+std::size_t countTogether(std::span<const Pool> pools, const Document& document, std::span<const Primitive> primitives,
+                          const Execution& execution) {
+    document.memory->require(pools[0].workBytes(), primitives[pools[0].primitives[0]].place());
     const unsigned width = Parallel(execution).width();
     const std::size_t most = width == 1 ? 0 : kCornersPerThread * width;
     std::size_t count = 0, corners = 0;
-    while (count < pools.size() && (count == 0 || corners + pools[count].corner_count <= most)) {
+    std::uint64_t bytes = 0;
+    while (count < pools.size() && (count == 0 || (corners + pools[count].corner_count <= most &&
+                                                   document.memory->has(bytes + pools[count].workBytes())))) {
+        bytes += pools[count].workBytes();
         corners += pools[count++].corner_count;
     }
     return count;
@@ -74,7 +79,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     PoolComputer computer(document, primitives, options);
     for (std::span<const Pool> rest = plan.pools; !rest.empty();) {
         tell(options, "computing tangents", done, total);
-        const std::span<const Pool> pools = rest.first(countTogether(rest, options.tangents.execution));
+        const std::span<const Pool> pools = rest.first(countTogether(rest, document, primitives, options.tangents.execution));
         rest = rest.subspan(pools.size());
         std::vector<PoolElements> elements = computer.compute(pools, plan.reports);
         for (std::size_t i = 0; i < pools.size(); ++i) {

@@ -148,6 +148,7 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
             created.uses_uvs = report.uv_set >= 0;
             created.uv_matrix = matrix;
             created.uv_set = created.uses_uvs ? static_cast<std::size_t>(report.uv_set) : 0;
+            created.vertex_count = primitive.vertex_count;
             created.has_normals = primitive.find("NORMAL").has_value();
             created.has_tangents = hasUsableTangents(primitive);
             created.keeps_tangents = report.action == PrimitiveAction::kept;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,12 @@ struct Pool {
     bool has_tangents = false;  ///< there are tangents with normals; others do not count
     bool keeps_tangents = false;  ///< they stay, and morph targets without tangent deltas get some
     std::size_t corner_count = 0;
+    std::size_t vertex_count = 0;
+
+    /// What computing takes of memory, about. Most is the lists of the corners' neighbours and tangents.
+    [[nodiscard]] std::uint64_t workBytes() const {
+        return std::uint64_t{has_normals ? 96U : 128U} * corner_count + std::uint64_t{64} * vertex_count;
+    }
 };
 
 struct GeneratePlan {

@@ -50,21 +50,26 @@ GlbChunks readGlb(std::span<const std::uint8_t> file) {
                     std::to_string(file.size()),
                 8);
     }
+    if (stated <= kHeaderBytes) {
+        failGlb("the GLB header says " + std::to_string(stated) + " bytes, in which no JSON chunk has room", 8);
+    }
     GlbChunks chunks;
+    const std::span<const std::uint8_t> whole = file;
     chunks.ignored_bytes = file.size() - stated;
     file = file.first(stated);
     std::size_t at = kHeaderBytes;
     for (std::size_t number = 0; at < file.size(); ++number) {
-        if (file.size() - at < kChunkHeadBytes) failGlb("the head of a GLB chunk is cut short", at);
-        const std::size_t length = word(file, at);
-        const std::uint32_t type = word(file, at + 4);
-        if (length > file.size() - at - kChunkHeadBytes)
-            failGlb("a GLB chunk is longer than the rest of the file", at);
+        if (whole.size() - at < kChunkHeadBytes) failGlb("the head of a GLB chunk is cut short", at);
+        const std::size_t length = word(whole, at);
+        const std::uint32_t type = word(whole, at + 4);
+        if (file.size() - at < kChunkHeadBytes || length > file.size() - at - kChunkHeadBytes)
+            failGlb("a GLB chunk is longer than the rest of the GLB", at);
         const auto bytes = file.subspan(at + kChunkHeadBytes, length);
         if ((number == 0) != (type == kJsonType)) {
             failGlb(number == 0 ? "the first GLB chunk is not JSON" : "the GLB has a second JSON chunk", at);
         }
         if (type == kBinType) {
+            if (chunks.bin) failGlb("the GLB has a second BIN chunk", at);
             if (number != 1) failGlb("the BIN chunk is not the second chunk", at);
             chunks.bin = bytes;
         } else if (number == 0) {

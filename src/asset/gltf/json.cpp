@@ -23,19 +23,24 @@ namespace {
 /// closes.
 class Builder {
   public:
-    explicit Builder(Json& root) : root_(root) {}
+    Builder(Json& root, MemoryBudget* budget) : root_(root), budget_(budget) {}
 
     bool null() { return put(nullptr); }
     bool boolean(bool value) { return put(value); }
     bool number_integer(Json::number_integer_t value) { return put(value); }
     bool number_unsigned(Json::number_unsigned_t value) { return put(value); }
     bool number_float(Json::number_float_t value, const Json::string_t&) { return put(value); }
-    bool string(Json::string_t& value) { return put(std::move(value)); }
+    bool string(Json::string_t& value) {
+        take(kBlockBytes + value.size());
+        return put(std::move(value));
+    }
     bool binary(Json::binary_t&) { return false; }
     bool start_object(std::size_t) { return open(Json::object()); }
     bool start_array(std::size_t) { return open(Json::array()); }
     bool key(Json::string_t& name) {
-        members(*stack_.back()).emplace_back(std::move(name), nullptr);
+        Members& object = members(*stack_.back());
+        takeGrowth(object);
+        object.emplace_back(std::move(name), nullptr);
         return true;
     }
     bool end_object() {
@@ -66,6 +71,7 @@ class Builder {
         if (stack_.size() >= kMaxJsonDepth) {
             failJson("the JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels", {});
         }
+        take(kBlockBytes);
         Json& place = slot();
         place = std::move(container);
         stack_.push_back(&place);
@@ -76,8 +82,25 @@ class Builder {
         Json& parent = *stack_.back();
         if (parent.is_object()) return members(parent).back().second;
         auto& elements = parent.get_ref<Json::array_t&>();
+        takeGrowth(elements);
         elements.emplace_back(nullptr);
         return elements.back();
+    }
+
+    /// A small block of the heap: a string, or the head of an array or object.
+    static constexpr std::size_t kBlockBytes = 64;
+
+    void take(std::size_t bytes) {
+        if (budget_ != nullptr) budget_->take(bytes, {});
+    }
+    /// Before an element is added. The old memory of long lists is not always of use to others, and the parser's library
+    /// copies them once more when it lets go of them: hence three times. That of short ones serves the next.
+    template <class List>
+    void takeGrowth(const List& list) {
+        if (list.size() < list.capacity()) return;
+        constexpr std::size_t kShortBytes = 1024, kAround = 32;
+        const std::size_t more = std::max<std::size_t>(list.size(), 1) * sizeof(typename List::value_type);
+        take(more < kShortBytes ? more + kAround : 3 * more);
     }
     void checkRepeated(const Members& object) {
         names_.clear();
@@ -88,6 +111,7 @@ class Builder {
     }
 
     Json& root_;
+    MemoryBudget* budget_;
     std::vector<Json*> stack_;
     std::unordered_set<std::string_view> names_;
 };
@@ -120,10 +144,10 @@ std::optional<std::size_t> wholeNumber(const Json& value) {
 
 }  // namespace
 
-ParsedJson parseJson(std::span<const std::uint8_t> text) {
+ParsedJson parseJson(std::span<const std::uint8_t> text, MemoryBudget* budget) {
     ParsedJson result;
     const auto* begin = reinterpret_cast<const char*>(text.data());
-    Builder builder(result.root);
+    Builder builder(result.root, budget);
     Json::sax_parse(begin, begin + text.size(), &builder);
     if (!result.root.is_object()) failJson("the JSON is not an object", {});
     result.style = styleOf({begin, text.size()});

@@ -9,6 +9,8 @@
 #include <span>
 #include <string>
 
+#include "asset/memory_budget.h"
+
 namespace tspace::gltf {
 
 using Json = nlohmann::ordered_json;
@@ -29,8 +31,9 @@ struct ParsedJson {
 /// stack.
 inline constexpr std::size_t kMaxJsonDepth = 256;
 
-/// Fails with invalidFile: syntax, numbers that no double can hold, repeated members, nesting.
-ParsedJson parseJson(std::span<const std::uint8_t> text);
+/// Fails with invalidFile: syntax, numbers that no double can hold, repeated members, nesting. What the values take is
+/// asked for in `budget`, which may be null.
+ParsedJson parseJson(std::span<const std::uint8_t> text, MemoryBudget* budget = nullptr);
 
 std::string writeJson(const Json& root, const JsonStyle& style);
 

@@ -79,6 +79,14 @@ Primitive readPrimitive(const Document& document, const Json& object, std::uint3
     return primitive;
 }
 
+/// What a primitive costs beside its arrays: its lists, its report and its findings.
+void takePrimitive(const Document& document, const Json& object, std::size_t mesh, std::size_t index) {
+    constexpr std::size_t kPrimitiveBytes = 1500, kTargetBytes = 100;
+    const Json* targets = findMember(object, "targets");
+    const std::size_t count = targets != nullptr && targets->is_array() ? targets->size() : 0;
+    document.memory->take(kPrimitiveBytes + count * kTargetBytes, join(join("/meshes", mesh) + "/primitives", index));
+}
+
 Accessor attributeAccessor(const Document& document, const Primitive& primitive, const std::string& name) {
     const auto index = primitive.find(name);
     if (!index)
@@ -130,6 +138,7 @@ std::vector<Primitive> readPrimitives(const Document& document) {
         const std::string name = readString(meshes[mesh], "name", place);
         const Json& list = readArray(meshes[mesh], "primitives", place);
         for (std::size_t index = 0; index < list.size(); ++index) {
+            takePrimitive(document, list[index], mesh, index);
             primitives.push_back(readPrimitive(document, list[index], static_cast<std::uint32_t>(mesh),
                                                static_cast<std::uint32_t>(index)));
             primitives.back().mesh_name = name;

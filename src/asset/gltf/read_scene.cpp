@@ -20,25 +20,6 @@ namespace {
 /// Sets beyond are not looked at: no renderer has so many, and a file may claim billions.
 constexpr std::size_t kMaxUvSets = 64;
 
-/// Accessors that overlap, or that have few bytes or none, can make arrays far larger than the file. Honest ones grow
-/// by at most four (bytes that become floats), but for sparse morph targets.
-class MemoryBudget {
-  public:
-    explicit MemoryBudget(const Document& document) {
-        for (const Buffer& buffer : document.buffers) left_ += 16 * static_cast<std::uint64_t>(buffer.bytes.size());
-        for (const auto& [accessor, elements] : document.elements) left_ += 16 * static_cast<std::uint64_t>(elements.size());
-    }
-    void take(std::uint64_t bytes, const std::string& place) {
-        if (bytes > left_) {
-            failFile(ErrorCode::tooLarge, "the arrays of the file need far more memory than the file has bytes", place);
-        }
-        left_ -= bytes;
-    }
-
-  private:
-    std::uint64_t left_ = std::uint64_t{256} << 20;
-};
-
 /// Attributes as float vectors, each accessor decoded once.
 template <class Vec>
 class VectorCache {
@@ -68,7 +49,7 @@ class VectorCache {
 class PrimitiveLoader {
   public:
     explicit PrimitiveLoader(const Document& document)
-        : document_(document), budget_(document), mirrored_(findMirroredMeshes(document)) {}
+        : document_(document), budget_(*document.memory), mirrored_(findMirroredMeshes(document)) {}
 
     ScenePrimitive load(const Primitive& primitive) {
         ScenePrimitive result;
@@ -117,14 +98,22 @@ class PrimitiveLoader {
         const CornerKey key{primitive.indices.value_or(no_indices), primitive.vertex_count, primitive.mode};
         const auto found = corners_.find(key);
         if (found != corners_.end()) return found->second;
-        budget_.take(primitive.triangleCount() * std::uint64_t{12}, primitive.place());
+        takeCorners(primitive);
         return corners_.emplace(key, readTriangleCorners(document_, primitive)).first->second;
+    }
+
+    /// The corners, and what looking at them takes for a while: most where tangents are computed to compare.
+    void takeCorners(const Primitive& primitive) {
+        const std::uint64_t corners = std::uint64_t{3} * primitive.triangleCount();
+        const std::uint64_t work = primitive.find("TANGENT") ? 96 : 24;
+        budget_.take(corners * sizeof(std::uint32_t), primitive.place());
+        budget_.require(corners * work + std::uint64_t{48} * primitive.vertex_count, primitive.place());
     }
 
     using CornerKey = std::tuple<std::size_t, std::size_t, Mode>;
 
     const Document& document_;
-    MemoryBudget budget_;
+    MemoryBudget& budget_;
     std::vector<bool> mirrored_;
     VectorCache<Vec2> vec2_{decodeVec2};
     VectorCache<Vec3> vec3_{decodeVec3};
@@ -150,6 +139,7 @@ Bytes readImageBytes(const Document& document, const Json& image, const std::str
 
 std::vector<SceneImage> readImages(const Document& document, const std::set<std::size_t>& wanted) {
     std::vector<SceneImage> images;
+    std::set<std::string> files;
     const Json& list = rootArray(document, "images");
     for (std::size_t i = 0; i < list.size(); ++i) {
         const std::string place = join("/images", i);
@@ -160,9 +150,14 @@ std::vector<SceneImage> readImages(const Document& document, const std::set<std:
         if (!wanted.contains(i)) continue;
         try {
             const Bytes bytes = readImageBytes(document, list[i], place);
+            // A file that many entries name has its bytes once.
+            const bool is_file = !uri.empty() && uriKind(uri) == UriKind::path;
+            if (is_file && files.insert(uri).second) document.memory->allow(bytes.size());
+            document.memory->take(bytes.size(), place);
             image.bytes.assign(bytes.begin(), bytes.end());
-        } catch (const FileError&) {
+        } catch (const FileError& failure) {
             // The geometry is none the worse for it.
+            if (failure.error.code == ErrorCode::tooLarge) throw;
         }
     }
     return images;
@@ -174,6 +169,7 @@ Scene readGltfScene(const std::string& input, const FileOptions& options, bool w
     const Document document = loadDocument(input, options);
     checkRequiredExtensions(document);
     Scene scene;
+    scene.memory = document.memory;
     scene.format = formatOf(document);
     if (const Json* asset = readObject(document.json, "asset", "")) {
         scene.generator = readString(*asset, "generator", "/asset");

@@ -18,6 +18,7 @@ std::string whyWrong(const Document& document, std::span<const Primitive> primit
                      const GenerateOptions& options) {
     const Primitive& first = primitives[pool.primitives[0]];
     if (readAccessor(document, *first.find("TANGENT")).component_count != 4) return "they do not have 4 components";
+    document.memory->require(pool.workBytes(), first.place());
     const VertexPool vertices = readVertices(document, first, pool);
     const std::vector<Vec4> tangents = readTangents(document, first);
     return valueOrThrow(whyTangentsCannotStay(vertices, tangents, readGeometries(document, primitives, pool), options));

@@ -122,7 +122,7 @@ gltf::Document importDocument(const fs::path& path, const FileOptions& options) 
                                                  std::to_string(options.import_max_file_bytes >> 20) + " MiB");
     }
     // A small file has no use for much memory; one that claims much is stopped early.
-    constexpr std::uint64_t kAnyFile = std::uint64_t{1} << 30, kPerByte = 256;
+    constexpr std::uint64_t kAnyFile = std::uint64_t{192} << 20, kPerByte = 256;
     const std::uint64_t memory = std::min(options.import_max_memory_bytes, kAnyFile + kPerByte * size);
     const ScratchFolder scratch;
     const fs::path result = scratch.path("scene.glb"), messages = scratch.path("messages");

@@ -10,6 +10,7 @@
 
 #include "asset/file_error.h"
 #include "asset/file_io.h"
+#include "asset/obj/mtl_lines.h"
 #include "asset/obj/obj_lines.h"
 #include "asset/obj/obj_reader.h"
 #include "asset/uri.h"
@@ -78,19 +79,34 @@ Material toMaterial(const tinyobj::material_t& source, const fs::path& folder, b
     return material;
 }
 
-/// false when there is no such file. Fails with forbiddenPath.
+std::uint64_t countOf(const std::string& word, const std::string& text) {
+    std::uint64_t count = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + word.size())) ++count;
+    return count;
+}
+
+/// false when there is no such file. A file that was read before is there, and not read again. Fails with forbiddenPath.
 bool readLibrary(const fs::path& folder, const std::string& name, const FileOptions& options, Model& model,
                  std::vector<Material>& materials) {
     const fs::path path =
         resolveUri(folder, percentEncode(plainPath(name)), options.allow_external, "mtllib");
     std::error_code ignored;
     if (!fs::is_regular_file(path, ignored)) return false;
+    const auto& known = model.input_files;
+    if (std::find(known.begin(), known.end(), path.string()) != known.end()) return true;
     const Bytes bytes = readFile(path, "mtllib");
     model.input_bytes += bytes.size();
     model.input_files.push_back(path.string());
+    model.memory->allow(bytes.size());
     std::string text(bytes.begin(), bytes.end());
     makeLineEndsPlain(text);
+    if (completeTextureOptions(text) != 0) {
+        model.warnings.push_back("the material library '" + path.filename().string() +
+                                 "' moves or scales textures (-o, -s, -t), which is not carried over");
+    }
 
+    // Before the parser makes a large thing of each.
+    model.memory->take(countOf("newmtl", text) * (2 * sizeof(tinyobj::material_t) + sizeof(Material)), "mtllib");
     std::istringstream stream(text);
     std::map<std::string, int> unused_index;
     std::vector<tinyobj::material_t> sources;

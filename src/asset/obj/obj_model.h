@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "asset/memory_budget.h"
 #include "tspace/vec.h"
 
 namespace tspace::obj {
@@ -62,6 +64,7 @@ struct Model {
     std::uint64_t input_bytes = 0;         ///< the OBJ and its MTL files
     std::vector<std::string> input_files = {};  ///< the same
     std::vector<std::string> warnings = {};
+    std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< what it may still take
 };
 
 }  // namespace tspace::obj

@@ -99,11 +99,15 @@ std::uint32_t resolveIndex(const Build& build, int index, std::size_t count_so_f
     return static_cast<std::uint32_t>(count_so_far - back);
 }
 
+/// Every shape and material with faces becomes a primitive: its lists, its report, its JSON.
+constexpr std::uint64_t kPrimitiveBytes = 4000;
+
 std::uint32_t currentShape(Build& build) {
     if (build.shape == kNone) {
         const auto next = static_cast<std::uint32_t>(build.model->shape_names.size());
         const auto [entry, is_new] = build.shapes.emplace(std::pair(build.object, build.group), next);
         if (is_new) {
+            build.model->memory->take(kPrimitiveBytes, currentPlace(build));
             const bool both = !build.object.empty() && !build.group.empty();
             build.model->shape_names.push_back(build.object + (both ? "/" : "") + build.group);
         }
@@ -116,7 +120,10 @@ std::uint32_t currentMaterial(Build& build) {
     if (build.material == kNone) {
         const auto next = static_cast<std::uint32_t>(build.model->materials.size());
         const auto [entry, is_new] = build.materials.emplace(build.material_name, next);
-        if (is_new) build.model->materials.push_back({.name = build.material_name});
+        if (is_new) {
+            build.model->memory->take(kPrimitiveBytes, currentPlace(build));
+            build.model->materials.push_back({.name = build.material_name});
+        }
         build.material = entry->second;
     }
     return build.material;
@@ -268,6 +275,16 @@ void fillMaterials(Model& model, std::vector<Material> library) {
 
 }  // namespace
 
+/// What faces cost once they are looked at. Cutting polygons takes more than triangles do.
+void requireFaces(const Model& model) {
+    constexpr std::uint64_t kTriangleCornerBytes = 128, kPolygonCornerBytes = 200;
+    std::uint64_t bytes = 0;
+    for (const Face& face : model.faces) {
+        bytes += face.corner_count * (face.corner_count == 3 ? kTriangleCornerBytes : kPolygonCornerBytes);
+    }
+    model.memory->require(bytes, {});
+}
+
 Model readModel(const std::filesystem::path& path, const FileOptions& options) {
     // Beyond this, counts of vertices might not fit 32 bits.
     constexpr std::uintmax_t kMostBytes = std::uintmax_t{8} << 30;
@@ -280,6 +297,8 @@ Model readModel(const std::filesystem::path& path, const FileOptions& options) {
     model.folder = folderOf(path);
     model.input_bytes = bytes.size();
     model.input_files.push_back(path.string());
+    model.memory->allow(bytes.size());
+    model.memory->take(bytes.size(), {});
     std::string text(bytes.begin(), bytes.end());
     Bytes().swap(bytes);
     const LineNotes notes = prepareLines(text);
@@ -293,6 +312,7 @@ Model readModel(const std::filesystem::path& path, const FileOptions& options) {
     }
     checkIndices(model);
     if (model.faces.empty()) failFile(ErrorCode::invalidFile, "the OBJ file has no faces");
+    requireFaces(model);
     addWarnings(build, model);
     fillMaterials(model, readMaterials(model.folder, notes.material_libraries, options, model));
     return model;

@@ -17,7 +17,8 @@ namespace {
 /// Number of each normal map among the images of the scene, one per file.
 class NormalMaps {
   public:
-    NormalMaps(const FileOptions& options, bool with_bytes) : options_(options), with_bytes_(with_bytes) {}
+    NormalMaps(const FileOptions& options, bool with_bytes, MemoryBudget& memory)
+        : options_(options), with_bytes_(with_bytes), memory_(memory) {}
 
     std::size_t indexOf(const Texture& texture) {
         const auto [entry, is_new] = numbers_.emplace((texture.folder / texture.file).string(), images.size());
@@ -36,6 +37,8 @@ class NormalMaps {
         try {
             const Bytes bytes = readFile(
                 resolveUri(texture.folder, percentEncode(texture.file), options_.allow_external, "material"));
+            memory_.allow(bytes.size());
+            memory_.take(bytes.size(), "material");
             image.bytes.assign(bytes.begin(), bytes.end());
         } catch (const FileError&) {
             // The geometry is none the worse for it.
@@ -44,6 +47,7 @@ class NormalMaps {
 
     const FileOptions& options_;
     bool with_bytes_;
+    MemoryBudget& memory_;
     std::map<std::string, std::size_t> numbers_ = {};
 };
 
@@ -80,10 +84,11 @@ ScenePrimitive loadPrimitive(const Model& model, const ObjPrimitive& primitive, 
 }  // namespace
 
 Scene readObjScene(const std::string& input, const FileOptions& options, bool with_images) {
-    const Model model = readModel(input, options);
+    Model model = readModel(input, options);
     Scene scene;
     scene.format = "obj";
-    NormalMaps maps(options, with_images);
+    scene.memory = std::move(model.memory);
+    NormalMaps maps(options, with_images, *scene.memory);
     std::vector<std::uint32_t> next_in_mesh(model.shape_names.size(), 0);
     for (const ObjPrimitive& primitive : collectPrimitives(model)) {
         scene.primitives.push_back(loadPrimitive(model, primitive, maps));

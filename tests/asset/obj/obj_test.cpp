@@ -236,6 +236,36 @@ TEST(Obj, TangentsAreMadeWhereTheMaterialHasANormalMap) {
     }
 }
 
+/// -o, -s and -t take one, two or three numbers; the name of the file is no number.
+TEST(Obj, OptionsOfTexturesDoNotSwallowTheName) {
+    for (const char* options : {"-s 2", "-s 2 2", "-s 2 2 1", "-o 0.5 -s 2 2", "-t .5", "-o -1e-1 +2. -bm 0.5", "-mm 0.1 -clamp on",
+                                "-s 1 1", "-blendu off -imfchan l", "-texres 512", "-bm 0.5 -s 1 1 1"}) {
+        for (const char* keyword : {"norm", "bump", "map_bump", "map_Bump"}) {
+            for (const char* name : {"n.png", "my n.png", "7"}) {
+                const TempFolder folder;
+                folder.write("in/m.mtl", std::string("newmtl a\n") + keyword + ' ' + options + ' ' + name + "\n");
+                folder.write(std::string("in/") + name, kPng);
+                const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
+                EXPECT_EQ(made.report.primitives[0].action, PrimitiveAction::generated) << keyword << options << name;
+                EXPECT_TRUE(made.document.json.contains("images")) << keyword << options << name;
+            }
+        }
+    }
+}
+
+TEST(Obj, TexturesThatAreMovedGiveAWarning) {
+    for (const bool moves : {true, false}) {
+        const TempFolder folder;
+        folder.write("in/m.mtl", std::string("newmtl a\nnorm -s ") + (moves ? "2 2" : "1 1") + " n.png\n");
+        folder.write("in/n.png", kPng);
+        const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
+        const auto& warnings = made.report.warnings;
+        EXPECT_EQ(std::any_of(warnings.begin(), warnings.end(),
+                              [](const std::string& text) { return text.find("not carried over") != std::string::npos; }),
+                  moves);
+    }
+}
+
 TEST(Obj, ImagesBesideTheOutputAreNamedAndOthersAreEmbedded) {
     const TempFolder folder;
     folder.write("in/m.mtl", "newmtl a\nmap_Kd maps\\base color.png\nnorm n.jpg\n");

@@ -17,9 +17,9 @@ namespace tspace::gltf {
 namespace {
 
 /// What decoding may take. Draco has no smallest size per vertex (a flat grid takes next to nothing), so this is a choice:
-/// a file of any size may decode to 64 MiB, and a large one to 1024 times its size.
-constexpr std::size_t kFreeBytes = std::size_t{64} << 20;
-constexpr std::size_t kRatio = 1024;
+/// a file of any size may decode to 4 MiB, and a large one to 256 times its size.
+constexpr std::size_t kFreeBytes = std::size_t{4} << 20;
+constexpr std::size_t kRatio = 256;
 /// What the library needs beside the values themselves.
 constexpr std::size_t kWorkFactor = 4;
 
@@ -210,6 +210,11 @@ class Decoder {
     }
 
     void takeElements(Packed& packed, DracoMesh mesh) {
+        // The limit is a multiple of what is unpacked, whose own limit is above.
+        std::size_t bytes = mesh.corners.size() * sizeof(std::uint32_t);
+        for (const DracoAttribute& attribute : mesh.attributes) bytes += attribute.values.size();
+        document_.memory->allow(bytes);
+        document_.memory->take(bytes, packed.place());
         for (std::size_t i = 0; i < packed.attributes.size(); ++i) {
             const std::size_t accessor = packed.attributes[i].accessor;
             document_.elements[accessor] = std::move(mesh.attributes[i].values);

@@ -14,7 +14,7 @@ namespace tspace::gltf {
 namespace {
 
 /// What a fallback buffer without data may have beyond its compressed views, whatever the file's size: gaps cost memory.
-constexpr std::size_t kFreeGap = std::size_t{64} << 20;
+constexpr std::size_t kFreeGap = std::size_t{4} << 20;
 constexpr std::size_t kGapRatio = 16;
 
 constexpr std::array<std::pair<const char*, MeshoptMode>, 3> kModes = {{{"ATTRIBUTES", MeshoptMode::attributes},
@@ -107,6 +107,9 @@ void makeFallback(Document& document, std::size_t index, std::span<const std::si
                      std::to_string(covered),
                  join(place, "byteLength"));
     }
+    // The limit is a multiple of what is unpacked, whose own limit is above.
+    document.memory->allow(covered);
+    document.memory->take(length, place);
     Buffer& buffer = document.buffers[index];
     buffer.bytes = BufferBytes(Bytes(length, 0));
     buffer.source = BufferSource::decoded;

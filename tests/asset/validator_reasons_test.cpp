@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// Where tspace refuses a file of the Khronos validator's own tests, it gives one of the reasons that the validator's report
+// has, at the same place.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "support/shared_data.h"
+#include "support/temp_folder.h"
+#include "tspace/asset.h"
+
+namespace tspace {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A code of the validator, and words of which one stands in our message.
+using Words = std::vector<std::string>;
+const std::map<std::string, Words> kReasons = {
+    {"ACCESSOR_SMALL_BYTESTRIDE", {"overlap at a stride"}},
+    {"ACCESSOR_SPARSE_COUNT_OUT_OF_RANGE", {"more sparse elements than elements"}},
+    {"ACCESSOR_TOO_LONG", {"reach beyond its buffer view"}},
+    {"ASSET_MIN_VERSION_GREATER_THAN_VERSION", {"needs glTF version"}},
+    {"BUFFER_BYTE_LENGTH_MISMATCH", {"but its data has", "but the BIN chunk has"}},
+    {"BUFFER_MISSING_GLB_DATA", {"the file has none"}},
+    {"BUFFER_VIEW_TOO_LONG", {"reaches beyond its buffer"}},
+    {"GLB_CHUNK_TOO_BIG", {"longer than the rest"}},
+    {"GLB_DUPLICATE_CHUNK", {"a second"}},
+    {"GLB_EMPTY_CHUNK", {"chunk of the GLB is empty"}},
+    {"GLB_INVALID_MAGIC", {"neither GLB"}},
+    {"GLB_INVALID_VERSION", {"the GLB container has version"}},
+    {"GLB_LENGTH_MISMATCH", {"but the file has"}},
+    {"GLB_LENGTH_TOO_SMALL", {"no JSON chunk has room"}},
+    {"GLB_UNEXPECTED_BIN_CHUNK", {"not the second chunk"}},
+    {"GLB_UNEXPECTED_END_OF_CHUNK_DATA", {"but the file has"}},
+    {"GLB_UNEXPECTED_END_OF_CHUNK_HEADER", {"head of a GLB chunk is cut short"}},
+    {"GLB_UNEXPECTED_END_OF_HEADER", {"GLB header is cut short", "the file is empty"}},
+    {"GLB_UNEXPECTED_FIRST_CHUNK", {"the first GLB chunk is not JSON"}},
+    {"INVALID_JSON", {"syntax error", "the file is empty"}},
+    {"INVALID_URI", {"data URI", "no scheme before its colon"}},
+    {"IO_ERROR", {"does not exist"}},
+    {"MESH_PRIMITIVE_MORPH_TARGET_INVALID_ATTRIBUTE_COUNT", {"but the primitive has"}},
+    {"MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT", {"but the primitive has"}},
+    {"PATTERN_MISMATCH", {"needs glTF version"}},
+    {"TYPE_MISMATCH", {"is not an object", "is not an array", "is not a string", "is not a number"}},
+    {"UNDEFINED_PROPERTY", {"is missing"}},
+    {"UNKNOWN_ASSET_MAJOR_VERSION", {"needs glTF version"}},
+    {"UNRESOLVED_REFERENCE", {"there is no"}},
+    {"VALUE_NOT_IN_RANGE", {"a number that is too large"}},
+};
+
+/// Files without an error for the validator, and why they are refused nevertheless.
+const std::map<std::string, std::string> kRefusedBeyond = {
+    {"base/asset/min_version_valid.gltf", "needs glTF version '2.1'"},  // newer than what tspace reads
+    {"base/root/named_objects.gltf", "in a buffer without data"},       // geometry that is not in the file
+    {"base/root/unused_objects.gltf", "in a buffer without data"},
+    {"base/buffer/non_relative_uri.gltf", "never loaded"},              // a web address
+};
+
+bool hasWords(const std::string& message, const Words& words) {
+    return std::any_of(words.begin(), words.end(), [&](const std::string& part) { return message.find(part) != std::string::npos; });
+}
+
+/// One is the place of the other, or lies in it. Byte offsets count differently (before or behind the head) and are not
+/// compared; a parser that stops knows no pointer.
+bool isSamePlace(const std::string& ours, const std::string& theirs) {
+    if (ours.empty() || theirs.empty() || ours[0] != '/' || theirs[0] != '/') return true;
+    const auto isWithin = [](const std::string& inner, const std::string& outer) {
+        return outer == "/" || inner == outer || inner.starts_with(outer + '/');
+    };
+    // Lengths and strides stand in the view that an accessor names.
+    const bool is_stride = ours.ends_with("/byteStride") && theirs.starts_with("/accessors/");
+    return is_stride || isWithin(ours, theirs) || isWithin(theirs, ours);
+}
+
+/// What is wrong with our reason; empty: nothing.
+std::string faultOf(const Error& error, const nlohmann::json& report) {
+    std::string seen;
+    for (const nlohmann::json& message : report["issues"]["messages"]) {
+        if (message["severity"] != 0) continue;
+        const std::string code = message["code"], place = message.value("pointer", "");
+        seen += code + ' ' + place + "; ";
+        const auto row = kReasons.find(code);
+        if (row != kReasons.end() && hasWords(error.message, row->second) && isSamePlace(error.place, place)) return {};
+    }
+    return "the validator says: " + seen;
+}
+
+TEST(ValidatorReasons, AreThoseOfRefusedFiles) {
+    TSPACE_NEEDS_SHARED("bad/gltf-validator");
+    const fs::path folder = test::shared("bad/gltf-validator");
+    const test::TempFolder scratch;
+    std::size_t refused = 0, beyond = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        const std::string extension = entry.path().extension().string();
+        if (extension != ".gltf" && extension != ".glb") continue;
+        GenerateOptions options{.all = true};
+        options.existing = ExistingTangents::replace;
+        const auto report = generateFile(entry.path().string(), scratch.path("out" + extension).string(), options);
+        if (report) continue;
+        const Error& error = report.error();
+        const std::string name = entry.path().lexically_relative(folder).string();
+        const std::string what = name + ": " + error.message + " (at " + error.place + ")";
+        EXPECT_NE(error.code, ErrorCode::internal) << what;
+        if (const auto known = kRefusedBeyond.find(name); known != kRefusedBeyond.end()) {
+            EXPECT_TRUE(hasWords(error.message, {known->second})) << what;
+            ++beyond;
+            continue;
+        }
+        ++refused;
+        std::ifstream stream(fs::path(entry.path().string() + ".report.json"));
+        if (!stream) stream = std::ifstream(fs::path(entry.path()).replace_extension(".report.json"));
+        ASSERT_TRUE(stream) << name << " has no report";
+        EXPECT_EQ(faultOf(error, nlohmann::json::parse(stream)), "") << what;
+    }
+    EXPECT_EQ(beyond, kRefusedBeyond.size());
+    EXPECT_GT(refused, 50u);
+}
+
+}  // namespace
+}  // namespace tspace

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The ceiling: a command holds at most 16 times the bytes of its files, and 64 MB.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "measured_run.h"
+#include "support/temp_folder.h"
+
+namespace tspace::test {
+
+constexpr std::uint64_t kCeilingBase = std::uint64_t{64} << 20;
+constexpr std::uint64_t kCeilingRatio = 16;
+
+/// Size of the model with the files beside it that it names, as the caller knows them.
+inline std::uint64_t bytesOf(const std::vector<std::filesystem::path>& files) {
+    std::uint64_t sum = 0;
+    for (const std::filesystem::path& file : files) sum += std::filesystem::file_size(file);
+    return sum;
+}
+
+/// Runs every command on `model`. Each ends soon, with success or with one line, and stays below the ceiling for
+/// `file_bytes`. Says how many commands refused it.
+inline int expectBounded(const std::filesystem::path& model, std::uint64_t file_bytes, const std::vector<std::string>& more_options = {}) {
+    constexpr double kMostSeconds = 20;
+    const TempFolder scratch;
+    const std::string out = scratch.path(model.extension() == ".gltf" ? "out/out.gltf" : "out/out.glb").string();
+    std::filesystem::create_directory(scratch.path("out"));
+    const std::uint64_t ceiling = kCeilingRatio * file_bytes + kCeilingBase;
+    int refused = 0;
+    for (const std::string command : {"generate", "check", "identify", "inspect"}) {
+        std::vector<std::string> arguments = {command};
+        if (command == "generate") {
+            arguments.insert(arguments.end(), {"--all", "--overwrite", "-o", out});
+            arguments.insert(arguments.end(), more_options.begin(), more_options.end());
+        }
+        arguments.push_back(model.string());
+        const MeasuredRun run = runMeasured(arguments, scratch.path("messages"));
+        const std::string message = scratch.read("messages");
+        const std::string what = command + " " + model.filename().string() + ": " + message.substr(0, 300);
+        EXPECT_LE(run.peak_bytes, ceiling) << what << " (" << (run.peak_bytes >> 20) << " MiB of " << (ceiling >> 20) << ")";
+        EXPECT_LT(run.processor_seconds, kMostSeconds) << what;
+        const bool is_known_end = run.exit_code == 0 || run.exit_code == 3 || (run.exit_code == 1 && command == "check");
+        EXPECT_TRUE(is_known_end) << what << " (exit code " << run.exit_code << ")";
+        if (run.exit_code == 3) {
+            ++refused;
+            EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << what;
+        }
+        if (command != "generate") continue;
+        EXPECT_EQ(scratch.files("out").empty(), run.exit_code != 0) << what;
+    }
+    return refused;
+}
+
+}  // namespace tspace::test

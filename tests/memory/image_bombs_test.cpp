@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Images that claim, or hold, far more pixels than their bytes: `check` decodes normal maps.
+#include <gtest/gtest.h>
+
+#include "asset/gltf_builder.h"
+#include "check/image.h"
+#include "check/images.h"
+#include "expect_bounded.h"
+#include "tspace/check.h"
+
+namespace tspace {
+namespace {
+
+using test::GltfBuilder;
+using test::Json;
+using test::TempFolder;
+
+/// A triangle with `count` materials and normal maps, each an image of its own over the same bytes.
+void expectImageBounded(const std::string& image, int count, bool says_so) {
+    const TempFolder folder;
+    GltfBuilder builder;
+    const std::size_t view = builder.addView(Bytes(image.begin(), image.end()));
+    const Json attributes = {{"POSITION", builder.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0}, 3)},
+                             {"NORMAL", builder.addFloats({0, 0, 1, 0, 0, 1, 0, 0, 1}, 3)},
+                             {"TEXCOORD_0", builder.addFloats({0, 0, 1, 0, 0, 1}, 2)}};
+    for (int i = 0; i < count; ++i) {
+        builder.json()["images"].push_back({{"bufferView", view}, {"mimeType", "image/png"}});
+        builder.json()["textures"].push_back({{"source", i}});
+        builder.json()["materials"].push_back({{"normalTexture", {{"index", i}}}});
+        builder.addPrimitive(attributes)["material"] = i;
+    }
+    const std::string path = folder.write("model.glb", std::span<const std::uint8_t>(builder.glb()));
+    test::expectBounded(path, std::filesystem::file_size(path));
+    if (!says_so) return;
+    const Result<CheckReport> report = checkFile(path);
+    ASSERT_TRUE(report);
+    EXPECT_TRUE(std::any_of(report->findings.begin(), report->findings.end(), [](const Finding& finding) {
+        return finding.code == FindingCode::normalMapUnreadable;
+    }));
+}
+
+RgbImage flatImage(std::uint32_t size) { return {size, size, std::vector<std::uint8_t>(std::size_t{3} * size * size, 128)}; }
+
+/// The same file with another size in its head.
+std::string claiming(std::string file, std::size_t width_at, std::size_t bytes_each, std::uint32_t width, std::uint32_t height) {
+    for (std::size_t i = 0; i < bytes_each; ++i) {
+        file[width_at + i] = static_cast<char>(width >> (8 * (bytes_each - 1 - i)));
+        file[width_at + bytes_each + i] = static_cast<char>(height >> (8 * (bytes_each - 1 - i)));
+    }
+    return file;
+}
+
+TEST(MemoryCeiling, HoldsForPngThatClaimsFourBillionPixels) {
+    // The checksum of the head no longer fits; decoders look at sizes first, or refuse.
+    expectImageBounded(claiming(test::pngFile(flatImage(16)), 16, 4, 65535, 65535), 1, true);
+    expectImageBounded(claiming(test::pngFile(flatImage(16)), 16, 4, 0xffffffffu, 0xffffffffu), 1, true);
+}
+
+TEST(MemoryCeiling, HoldsForJpegThatClaimsFourBillionPixels) {
+    std::string file = test::jpegFile(flatImage(16), 90);
+    const std::size_t frame = file.find("\xff\xc0");
+    ASSERT_NE(frame, std::string::npos);
+    expectImageBounded(claiming(file, frame + 5, 2, 65535, 65535), 1, true);
+    expectImageBounded(claiming(file, frame + 5, 2, 4000, 4000), 1, true);
+}
+
+TEST(MemoryCeiling, HoldsForManyFlatImagesOfManyPixels) {
+    expectImageBounded(test::pngFile(flatImage(2048)), 100, false);
+    expectImageBounded(test::jpegFile(flatImage(2048), 50), 100, false);
+}
+
+TEST(MemoryCeiling, LeavesGoodNormalMapsToBeLookedAt) {
+    const RgbImage map = test::normalMapOf(1024, test::bumps);
+    for (const std::string& image : {test::pngFile(map), test::jpegFile(map, 90)}) {
+        const TempFolder folder;
+        expectImageBounded(image, 2, false);
+        std::string why;
+        EXPECT_LT(imageWorkBytes(test::bytesOf(image)), std::uint64_t{16} << 20);
+        EXPECT_GE(imageWorkBytes(test::bytesOf(image)), std::uint64_t{3} << 20);
+    }
+}
+
+}  // namespace
+}  // namespace tspace
