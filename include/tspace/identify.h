@@ -29,6 +29,8 @@ struct Explanation {
     Method method = Method::mikktspace;
     std::int32_t uv_set = -1;       ///< n of TEXCOORD_n that was followed; -1 over several primitives: the texture's set
     bool is_textures_set = true;    ///< it is the set that the material's texture is read with
+    /// The UVs were taken as the texture's transform (KHR_texture_transform) turns or mirrors them; false: as they are stored.
+    bool is_transformed = false;
     std::uint64_t corner_count = 0; ///< corners compared: those with a stored tangent that has a direction
     std::uint64_t near_count = 0;   ///< of those, within the tolerance of the method's tangent at this corner
     /// Within the tolerance of the method's tangent at some corner of the same vertex: what remains when results per corner
@@ -53,6 +55,8 @@ struct PrimitiveIdentity {
     std::string material_name = {};  ///< may be empty
     std::string skipped = {};        ///< why it was not looked at, for a person; empty: it was
     std::vector<Explanation> explanations = {};  ///< the best first; every method with every UV set
+    /// The texture's transform changes frames, so that its UV set has two readings, and one explains more corners.
+    bool has_two_readings = false;
 };
 
 struct IdentifyOptions {
@@ -64,7 +68,7 @@ struct IdentifyOptions {
 struct Identification {
     std::string format = {};     ///< "glb", "gltf", "obj"
     std::string generator = {};  ///< may be empty
-    std::vector<Explanation> explanations = {};  ///< over all primitives, the best first: every method, along the texture's set
+    std::vector<Explanation> explanations = {};  ///< over all primitives, the best first: every method, along the texture's set in the reading that explains more
     std::vector<PrimitiveIdentity> primitives = {};  ///< in file order
     std::string verdict = {};    ///< two or three plain sentences
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/angle.h"
+#include "generate/uv_matrix.h"
 
 namespace tspace {
 
@@ -19,6 +20,39 @@ std::size_t texturesSet(const ScenePrimitive& primitive) {
     std::size_t set = 0;
     while (set + 1 < primitive.uv_sets.size() && primitive.uv_sets[set].empty()) ++set;
     return set;
+}
+
+/// UVs that tangents may follow.
+struct Reading {
+    std::size_t uv_set = 0;
+    bool is_transformed = false;
+    std::vector<Vec2> own = {};      ///< the transformed ones
+    std::span<const Vec2> uvs = {};
+};
+
+/// Every set as it is stored. The texture's set comes before that as its transform makes it, where that changes frames.
+std::vector<Reading> readingsOf(const ScenePrimitive& primitive) {
+    std::vector<Reading> readings;
+    for (std::size_t set = 0; set < primitive.uv_sets.size(); ++set) {
+        if (primitive.uv_sets[set].empty()) continue;
+        if (!primitive.uses.empty() && set == texturesSet(primitive)) {
+            const UvTransform& transform = primitive.uses.front().transform;
+            const UvMatrix matrix = uvMatrix(transform.rotation, transform.scale[0], transform.scale[1]);
+            if (!matrix.isIdentity()) {
+                Reading& reading = readings.emplace_back();
+                reading.uv_set = set;
+                reading.is_transformed = true;
+                reading.own = transformUvs(primitive.uv_sets[set].span(), matrix);
+            }
+        }
+        Reading& plain = readings.emplace_back();
+        plain.uv_set = set;
+        plain.uvs = primitive.uv_sets[set].span();
+    }
+    for (Reading& reading : readings) {
+        if (reading.is_transformed) reading.uvs = reading.own;
+    }
+    return readings;
 }
 
 /// Whether each vertex has a corner whose tangent is near the stored one.
@@ -67,11 +101,10 @@ std::vector<Method> knownMethods() {
 Result<std::vector<Explanation>> explainTangents(const ScenePrimitive& primitive, const IdentifyOptions& options) {
     std::vector<Explanation> explanations;
     std::vector<Vec4> computed(primitive.corners.size());
-    for (std::size_t set = 0; set < primitive.uv_sets.size(); ++set) {
-        if (primitive.uv_sets[set].empty()) continue;
+    for (const Reading& reading : readingsOf(primitive)) {
         const MeshView mesh{.positions = primitive.positions.span(),
                             .normals = primitive.normals.span(),
-                            .uvs = primitive.uv_sets[set].span(),
+                            .uvs = reading.uvs,
                             .indices = primitive.corners.span()};
         for (const Method method : knownMethods()) {
             const TangentOptions how{.method = method, .execution = options.execution};
@@ -79,8 +112,9 @@ Result<std::vector<Explanation>> explainTangents(const ScenePrimitive& primitive
             if (!done) return done.error();
             Explanation& explanation = explanations.emplace_back();
             explanation.method = method;
-            explanation.uv_set = static_cast<std::int32_t>(set);
-            explanation.is_textures_set = set == texturesSet(primitive);
+            explanation.uv_set = static_cast<std::int32_t>(reading.uv_set);
+            explanation.is_textures_set = reading.uv_set == texturesSet(primitive);
+            explanation.is_transformed = reading.is_transformed;
             compare(primitive, computed, options.tolerance_deg, explanation);
         }
     }

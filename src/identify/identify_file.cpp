@@ -44,12 +44,35 @@ void addTo(Explanation& sum, const Explanation& part) {
     sum.inverted_sign_count += part.inverted_sign_count;
 }
 
+/// The best explanation along the texture's set, in one of its two readings; null: there is none.
+const Explanation* bestReading(const PrimitiveIdentity& primitive, bool is_transformed) {
+    const auto found = std::find_if(
+        primitive.explanations.begin(), primitive.explanations.end(),
+        [&](const Explanation& entry) { return entry.is_textures_set && entry.is_transformed == is_transformed; });
+    return found == primitive.explanations.end() ? nullptr : &*found;
+}
+
+/// Whether the texture's transform explains more corners than the UVs as they are. Signs count: a transform may mirror, and
+/// leave every direction in place.
+bool followsTransform(const PrimitiveIdentity& primitive) {
+    const Explanation *turned = bestReading(primitive, true), *plain = bestReading(primitive, false);
+    if (turned == nullptr || plain == nullptr) return turned != nullptr;
+    if (turned->near_count != plain->near_count) return turned->near_count > plain->near_count;
+    return turned->gltf_sign_count >= plain->gltf_sign_count;
+}
+
+bool hasTwoReadings(const PrimitiveIdentity& primitive) {
+    const Explanation *turned = bestReading(primitive, true), *plain = bestReading(primitive, false);
+    return turned != nullptr && plain != nullptr &&
+           (turned->near_count != plain->near_count || turned->gltf_sign_count != plain->gltf_sign_count);
+}
+
 std::vector<Explanation> overAllPrimitives(const std::vector<PrimitiveIdentity>& primitives) {
     std::vector<Explanation> sums;
     for (const Method method : knownMethods()) sums.emplace_back().method = method;
     for (const PrimitiveIdentity& primitive : primitives) {
         for (const Explanation& part : primitive.explanations) {
-            if (!part.is_textures_set) continue;
+            if (!part.is_textures_set || part.is_transformed != followsTransform(primitive)) continue;
             const auto sum = std::find_if(sums.begin(), sums.end(),
                                           [&](const Explanation& entry) { return entry.method == part.method; });
             addTo(*sum, part);
@@ -94,6 +117,21 @@ std::string uvSetSentence(const std::vector<PrimitiveIdentity>& primitives) {
            " the tangents follow another UV set than the texture does.";
 }
 
+/// Which reading of texture transforms the tangents follow.
+std::string transformSentence(const std::vector<PrimitiveIdentity>& primitives) {
+    std::size_t after = 0, before = 0;
+    for (const PrimitiveIdentity& primitive : primitives) {
+        if (!primitive.has_two_readings || primitive.explanations.front().nearShare() < kLikelyShare) continue;
+        ++(followsTransform(primitive) ? after : before);
+    }
+    const auto sentence = [](std::size_t count, const char* words) {
+        if (count == 0) return std::string();
+        return " In " + std::to_string(count) + (count == 1 ? " primitive" : " primitives") + " the tangents follow the UVs " + words +
+               " KHR_texture_transform.";
+    };
+    return sentence(after, "after") + sentence(before, "as they are stored, before");
+}
+
 std::string verdictOf(const Identification& result) {
     if (result.explanations.empty()) {
         const bool none = std::all_of(result.primitives.begin(), result.primitives.end(), [](const PrimitiveIdentity& p) {
@@ -123,7 +161,7 @@ std::string verdictOf(const Identification& result) {
         ties += (ties.empty() ? "" : ", ") + std::string(methodName(other.method));
     }
     if (!ties.empty() && best.nearShare() >= kLikelyShare) text += " (so do " + ties + ")";
-    return text + "." + signSentence(best) + uvSetSentence(result.primitives);
+    return text + "." + signSentence(best) + uvSetSentence(result.primitives) + transformSentence(result.primitives);
 }
 
 PrimitiveIdentity identify(const ScenePrimitive& primitive, const IdentifyOptions& options) {
@@ -136,6 +174,13 @@ PrimitiveIdentity identify(const ScenePrimitive& primitive, const IdentifyOption
     if (!identity.skipped.empty()) return identity;
     identity.explanations = valueOrThrow(explainTangents(primitive, options));
     sortExplanations(identity.explanations);
+    identity.has_two_readings = hasTwoReadings(identity);
+    // Of two readings with as many near corners the one whose signs fit stands first.
+    const auto follows = std::find_if(identity.explanations.begin(), identity.explanations.end(), [&](const Explanation& entry) {
+        return entry.is_textures_set && entry.is_transformed == followsTransform(identity);
+    });
+    if (follows != identity.explanations.end() && follows->near_count == identity.explanations.front().near_count)
+        std::rotate(identity.explanations.begin(), follows, follows + 1);
     return identity;
 }
 

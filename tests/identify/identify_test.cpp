@@ -52,6 +52,64 @@ TEST(Identify, SeesThatOneCornerServesAWholeVertex) {
     EXPECT_EQ(best.near_any_count, best.corner_count);
 }
 
+/// A sheet whose normal map has this transform, with mikktspace tangents for other UVs.
+Identification identityWithTransform(const ModelData& data, const Json& transform) {
+    const TempFolder folder;
+    GltfBuilder builder;
+    builder.json()["images"] = Json::array({Json{{"uri", "none.png"}}});
+    builder.json()["textures"] = Json::array({Json{{"source", 0}}});
+    builder.json()["materials"] = Json::array(
+        {Json{{"normalTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}}}});
+    Json& primitive = builder.addPrimitive({{"POSITION", builder.addFloats(floatsOf(data.positions), 3)},
+                                            {"NORMAL", builder.addFloats(floatsOf(data.normals), 3)},
+                                            {"TEXCOORD_0", builder.addFloats(floatsOf(data.uvs), 2)},
+                                            {"TANGENT", builder.addFloats(floatsOf(data.tangents), 4)}});
+    primitive["indices"] = builder.addAccessor(data.indices, 5125, "SCALAR", data.indices.size());
+    primitive["material"] = 0;
+    const Result<Identification> result =
+        identifyFile(folder.write("model.glb", std::span<const std::uint8_t>(builder.glb())));
+    EXPECT_TRUE(result.ok());
+    return result ? *result : Identification{};
+}
+
+TEST(Identify, FollowsTheTextureTransformAndSaysSo) {
+    const Json turn = {{"rotation", 1.5707963267948966}}, mirror = {{"scale", {1, -1}}}, squeeze = {{"rotation", 0.5}, {"scale", {1, 3}}};
+    const double c = std::cos(0.5), s = std::sin(0.5);
+    struct Case {
+        Json transform;
+        double uu, uv, vu, vv;
+    };
+    for (const Case& one : {Case{turn, 0, 1, -1, 0}, Case{mirror, 1, 0, 0, -1}, Case{squeeze, c, 3 * s, -s, 3 * c}}) {
+        const ModelData plain = unwelded(bentSheet(6));
+        ModelData turned = plain;
+        for (Vec2& uv : turned.uvs) {
+            uv = {static_cast<float>(one.uu * uv.x + one.uv * uv.y), static_cast<float>(one.vu * uv.x + one.vv * uv.y)};
+        }
+        for (const bool after : {true, false}) {
+            ModelData data = withTangents(after ? turned : plain, Method::mikktspace);
+            data.uvs = plain.uvs;
+            const Identification result = identityWithTransform(data, one.transform);
+            ASSERT_FALSE(result.explanations.empty());
+            const Explanation& best = result.explanations[0];
+            EXPECT_EQ(best.method, Method::mikktspace);
+            EXPECT_EQ(best.near_count, best.corner_count) << one.transform << after;
+            EXPECT_EQ(best.signs(), SignReading::gltf) << one.transform << after;
+            ASSERT_FALSE(result.primitives[0].explanations.empty());
+            EXPECT_EQ(result.primitives[0].explanations[0].is_transformed, after);
+            EXPECT_TRUE(result.primitives[0].has_two_readings);
+            EXPECT_NE(result.verdict.find(after ? "after KHR_texture_transform" : "before KHR_texture_transform"), std::string::npos)
+                << result.verdict;
+        }
+    }
+}
+
+TEST(Identify, SaysNothingOfTransformsThatChangeNoFrame) {
+    const ModelData data = withTangents(bentSheet(4), Method::mikktspace);
+    const Identification result = identityWithTransform(data, {{"offset", {0.5, 0.25}}, {"scale", {3, 2}}});
+    EXPECT_EQ(result.verdict.find("KHR_texture_transform"), std::string::npos) << result.verdict;
+    EXPECT_FALSE(result.primitives[0].has_two_readings);
+}
+
 TEST(Identify, FindsTheUvSetThatWasFollowed) {
     ModelData data = withTangents(bentSheet(5), Method::mikktspace);
     data.other_uvs = data.uvs;

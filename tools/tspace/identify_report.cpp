@@ -43,6 +43,13 @@ std::string methodTable(const Identification& result) {
     return table.text("  ");
 }
 
+std::string remarkOn(const PrimitiveIdentity& primitive) {
+    const Explanation& best = primitive.explanations.front();
+    if (!best.is_textures_set) return "not the texture's UV set";
+    if (!primitive.has_two_readings) return "";
+    return best.is_transformed ? "after the texture transform" : "before the texture transform";
+}
+
 std::string primitiveTable(const Identification& result) {
     Table table;
     table.addRow({"mesh", "prim", "name", "material", "best method", "UV set", "near", "at vertex", "signs", ""});
@@ -58,7 +65,7 @@ std::string primitiveTable(const Identification& result) {
             row.insert(row.end(), {methodName(best.method), std::to_string(best.uv_set),
                                    percent(best.near_count, best.corner_count),
                                    percent(best.near_any_count, best.corner_count), signWords(best.signs()),
-                                   best.is_textures_set ? "" : "not the texture's UV set"});
+                                   remarkOn(primitive)});
         }
         table.addRow(std::move(row));
     }
@@ -69,6 +76,7 @@ Json explanationJson(const Explanation& entry) {
     return {{"method", methodName(entry.method)},
             {"uvSet", entry.uv_set},
             {"isTexturesSet", entry.is_textures_set},
+            {"isTransformed", entry.is_transformed},
             {"corners", entry.corner_count},
             {"near", entry.near_count},
             {"nearAtVertex", entry.near_any_count},
