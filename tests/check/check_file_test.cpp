@@ -72,6 +72,23 @@ std::multiset<std::string> codes(const CheckReport& report) {
 
 using Codes = std::multiset<std::string>;
 
+/// Frames belong to the mesh's own space.
+TEST(CheckFile, DoesNotLookAtNodesThatMoveScaleOrMirror) {
+    const TestModel still;
+    TestModel moved;
+    const std::size_t times = moved.builder.addAccessor(std::vector<float>{0, 1}, 5126, "SCALAR", 2);
+    const std::size_t scales = moved.builder.addFloats({1, 1, 1, -2, 0, 3}, 3);
+    moved.builder.json()["nodes"] = Json::parse(R"([{"mesh":0,"scale":[-1,2,0.5]}])");
+    moved.builder.json()["animations"] = Json::array({Json{
+        {"samplers", Json::array({Json{{"input", times}, {"output", scales}}})},
+        {"channels", Json::array({Json{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}})}}});
+    const CheckReport a = still.check(), b = moved.check();
+    ASSERT_EQ(a.findings.size(), b.findings.size());
+    for (std::size_t i = 0; i < a.findings.size(); ++i) EXPECT_EQ(a.findings[i].message, b.findings[i].message);
+    const TestModel inverted(false, true);
+    EXPECT_GT(inverted.check().error_count, a.error_count);
+}
+
 TEST(CheckFile, FindsNothingInAGoodFile) {
     const CheckReport report = TestModel().check();
     EXPECT_EQ(codes(report), Codes{});

@@ -20,6 +20,9 @@ Vec3 randomUnit() {
 
 double length(const Vec3& v) { return std::sqrt(double{v.x} * v.x + double{v.y} * v.y + double{v.z} * v.z); }
 
+/// What docs/gltf.md states. A search over 20 million directions found 0.3639 and 0.00124.
+double mostDegrees(VectorFormat format) { return format == VectorFormat::snorm8 ? 0.37 : 0.0013; }
+
 RC_GTEST_PROP(UnitLattice, KeepsLengthWithinWhatTheValidatorAllows, ()) {
     const Vec3 unit = randomUnit();
     for (const VectorFormat format : kFormats) {
@@ -29,7 +32,7 @@ RC_GTEST_PROP(UnitLattice, KeepsLengthWithinWhatTheValidatorAllows, ()) {
         const double cosine = (double{unit.x} * rounded.x + double{unit.y} * rounded.y + double{unit.z} * rounded.z) /
                               (length(unit) * length(rounded));
         const double degrees = std::acos(std::min(1.0, cosine)) * 57.29577951308232;
-        RC_ASSERT(degrees < (format == VectorFormat::snorm8 ? 0.6 : 0.003));
+        RC_ASSERT(degrees < mostDegrees(format));
     }
 }
 
@@ -47,7 +50,7 @@ TEST(UnitLattice, KeepsLengthAllOverTheSphere) {
         }
     }
     EXPECT_LT(worst, 0.0067);
-    EXPECT_LT(worst_degrees, 0.6);
+    EXPECT_LT(worst_degrees, mostDegrees(VectorFormat::snorm8));
     RecordProperty("worst_length", std::to_string(worst));
     RecordProperty("worst_degrees", std::to_string(worst_degrees));
 }
