@@ -457,7 +457,7 @@ TEST(GenerateGltf, VerticesWithoutDataCostNoMemory) {
             "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})"));
     const auto inspection = inspectFile(input);
     ASSERT_FALSE(inspection);
-    EXPECT_EQ(inspection.error().code, ErrorCode::unsupportedFile);
+    EXPECT_EQ(inspection.error().code, ErrorCode::tooLarge);
     const auto report =
         generateFile(input, folder.path("out.glb").string(), {.all = true, .existing = ExistingTangents::replace});
     EXPECT_TRUE(report) << "it has no UVs, so nothing is read";
