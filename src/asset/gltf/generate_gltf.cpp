@@ -24,16 +24,17 @@ void tell(const GenerateOptions& options, const char* what, std::uint64_t done, 
     if (options.progress) options.progress(what, done, total);
 }
 
-/// How many of the pools, one at least, are computed together. Fails with tooLarge where the first alone is too much.
+/// How many of the pools, one at least, are computed together. What becomes of them waits in memory too, for those before it
+/// to be stored: hence some more than the work itself, and twice as much for several. Fails with tooLarge where the first alone is too much.
 std::size_t countTogether(std::span<const Pool> pools, const Document& document, std::span<const Primitive> primitives,
                           const Execution& execution) {
-    document.memory->require(pools[0].workBytes(), primitives[pools[0].primitives[0]].place());
+    document.memory->require(pools[0].workBytes() / 4 * 5, primitives[pools[0].primitives[0]].place());
     const unsigned width = Parallel(execution).width();
     const std::size_t most = width == 1 ? 0 : kCornersPerThread * width;
     std::size_t count = 0, corners = 0;
     std::uint64_t bytes = 0;
     while (count < pools.size() && (count == 0 || (corners + pools[count].corner_count <= most &&
-                                                   document.memory->has(bytes + pools[count].workBytes())))) {
+                                                   document.memory->has(2 * (bytes + pools[count].workBytes()))))) {
         bytes += pools[count].workBytes();
         corners += pools[count++].corner_count;
     }
