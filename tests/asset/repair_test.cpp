@@ -169,5 +169,17 @@ TEST(Repair, ReplacesTangentsOfAnotherShape) {
     EXPECT_EQ(report->primitives.at(0).notes.at(0), "its tangents were wrong: they do not have 4 components");
 }
 
+TEST(Repair, KeepsGoodTangentsAlsoWhereGeometryIsPackedAnew) {
+    const Model model(gridModel(Grid(4)));
+    const TempFolder folder;
+    GenerateOptions options = kRepair;
+    options.compression = Compression::meshopt;
+    const std::string output = folder.path("packed.glb").string();
+    const Result<GenerateReport> report = generateFile(model.good(), output, options);
+    if (!report && report.error().code == ErrorCode::unsupportedFile) GTEST_SKIP() << "built without meshopt";
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_EQ(report->primitives.at(0).action, PrimitiveAction::kept);
+}
+
 }  // namespace
 }  // namespace tspace

@@ -60,8 +60,12 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     for (std::string& warning : checkRequiredExtensions(document))
         report.warnings.push_back(std::move(warning));
     std::vector<Primitive> primitives = readPrimitives(document);
-    GeneratePlan plan = planGenerate(document, primitives, options);
-    if (options.existing == ExistingTangents::repair) keepGoodPools(document, primitives, options, plan);
+    const auto makePlan = [&] {
+        GeneratePlan made = planGenerate(document, primitives, options);
+        if (options.existing == ExistingTangents::repair) keepGoodPools(document, primitives, options, made);
+        return made;
+    };
+    GeneratePlan plan = makePlan();
     report.input_bytes = document.input_bytes;
     const bool converted = target.container != document.container || document.imported;
     const bool keeps_compression = options.compression == Compression::keep;
@@ -70,7 +74,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     const bool repacked = recompress(document, options.compression, new_file);
     if (repacked) {
         primitives = readPrimitives(document);
-        plan = planGenerate(document, primitives, options);
+        plan = makePlan();
     }
     tell(options, "reading", 1, 1);
 
