@@ -160,6 +160,69 @@ TEST(Import, SkinsMorphsAndAnimationsGoAlong) {
     }
 }
 
+TEST(Import, WhatIsNotFiniteIsMendedAndReported) {
+    const TempFolder folder;
+    const std::string path = folder.write("nan.ply",
+                                          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                                          "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                                          "end_header\n0 0 0\n3 0 nan\n1 inf 0\n3 0 1 2\n");
+    const gltf::Document document = readable([&] { return importDocument(path, kWithImporter); });
+    EXPECT_EQ(document.json.dump().find("null"), std::string::npos) << "JSON has no word for NaN";
+    EXPECT_EQ(document.warnings,
+              (std::vector<std::string>{"positions that are not finite and were moved to the origin: 2"}));
+    const Scene scene = sceneOf(path);
+    ASSERT_EQ(scene.primitives[0].positions.size(), 1U) << "all three are at the origin now";
+    EXPECT_EQ(scene.primitives[0].positions[0], (Vec3{0, 0, 0}));
+}
+
+/// A triangle without UVs as COLLADA.
+std::string daeTriangle(const char* normals, const char* diffuse) {
+    const auto source = [](const char* name, const char* values) {
+        return "<source id='" + std::string(name) + "'><float_array id='" + name + "-a' count='9'>" + values +
+               "</float_array><technique_common><accessor source='#" + name +
+               "-a' count='3' stride='3'><param name='X' type='float'/><param name='Y' type='float'/>"
+               "<param name='Z' type='float'/></accessor></technique_common></source>";
+    };
+    return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'>"
+           "<library_images><image id='i'><init_from>a.png</init_from></image></library_images>"
+           "<library_effects><effect id='e'><profile_COMMON><technique sid='c'><phong><diffuse>" +
+           std::string(diffuse) +
+           "</diffuse></phong></technique></profile_COMMON></effect></library_effects>"
+           "<library_materials><material id='m'><instance_effect url='#e'/></material></library_materials>"
+           "<library_geometries><geometry id='g'><mesh>" +
+           source("p", "0 0 0 1 0 0 0 1 0") + source("n", normals) +
+           "<vertices id='v'><input semantic='POSITION' source='#p'/></vertices><triangles count='1' material='s'>"
+           "<input semantic='VERTEX' source='#v' offset='0'/><input semantic='NORMAL' source='#n' offset='0'/><p>0 1 2</p>"
+           "</triangles></mesh></geometry></library_geometries><library_visual_scenes><visual_scene id='w'><node id='o'>"
+           "<instance_geometry url='#g'><bind_material><technique_common><instance_material symbol='s' target='#m'/>"
+           "</technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>"
+           "<scene><instance_visual_scene url='#w'/></scene></COLLADA>";
+}
+
+TEST(Import, NormalsBecomeUnitAndColoursNumbers) {
+    const TempFolder folder;
+    const std::string path =
+        folder.write("a.dae", daeTriangle("0 0 2 1 0 0 0 0 0", "<color>nan 2 -1 1</color>"));
+    const Scene scene = sceneOf(path);
+    EXPECT_EQ(std::vector<Vec3>(scene.primitives[0].normals.begin(), scene.primitives[0].normals.end()),
+              (std::vector<Vec3>{{0, 0, 1}, {1, 0, 0}, {0, 0, 1}}));
+    const gltf::Document document = readable([&] { return importDocument(path, kWithImporter); });
+    EXPECT_EQ(document.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"], Json({1.0, 1.0, 0.0, 1.0}));
+    EXPECT_EQ(document.warnings,
+              (std::vector<std::string>{"normals that are zero or not finite and were taken from a face: 1"}));
+}
+
+TEST(Import, MeshesWithoutUvsGetNoTextures) {
+    const TempFolder folder;
+    const std::string path =
+        folder.write("a.dae", daeTriangle("0 0 1 0 0 1 0 0 1", "<texture texture='i' texcoord='x'/>"));
+    const gltf::Document document = readable([&] { return importDocument(path, kWithImporter); });
+    const Json& materials = document.json["materials"];
+    EXPECT_TRUE(materials[0]["pbrMetallicRoughness"].contains("baseColorTexture"));
+    const auto used = document.json["meshes"][0]["primitives"][0]["material"].get<std::size_t>();
+    EXPECT_FALSE(materials[used]["pbrMetallicRoughness"].contains("baseColorTexture")) << materials.dump();
+}
+
 TEST(Import, WithoutTheImporterTheErrorSaysWhatIsMissing) {
     const TempFolder folder;
     const Result<GenerateReport> report = generate(folder.write("a.fbx", "x"), folder.path("a.glb").string(), {});

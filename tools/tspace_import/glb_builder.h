@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "mend.h"
+
 namespace tspace::import {
 
 using Json = nlohmann::ordered_json;
@@ -17,6 +19,7 @@ class GlbBuilder {
     GlbBuilder();
 
     Json& json() { return json_; }
+    Mended& mended() { return mended_; }
 
     /// Bytes as a buffer view; `target` 0: none.
     std::size_t addView(std::span<const std::uint8_t> bytes, unsigned target);
@@ -37,6 +40,7 @@ class GlbBuilder {
 
     Json json_;
     std::vector<std::uint8_t> bin_ = {};
+    Mended mended_ = {};
 };
 
 }  // namespace tspace::import

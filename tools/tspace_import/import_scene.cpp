@@ -6,21 +6,18 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <map>
 #include <optional>
 
 #include "glb_builder.h"
 #include "materials.h"
+#include "mend.h"
 #include "meshes.h"
 
 namespace tspace::import {
 
 namespace {
-
-/// Column by column, as glTF wants it; Assimp stores rows.
-std::vector<float> columnsOf(const aiMatrix4x4& m) {
-    return {m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2, m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4};
-}
 
 class SceneWriter {
   public:
@@ -37,6 +34,8 @@ class SceneWriter {
         return builder_.finish();
     }
 
+    [[nodiscard]] std::vector<std::string> warnings() { return builder_.mended().warnings(); }
+
   private:
     /// Breadth first, so that depth costs no stack.
     void listNodes() {
@@ -49,23 +48,25 @@ class SceneWriter {
         }
     }
 
-    Json nodeJson(std::size_t i) const {
+    Json nodeJson(std::size_t i) {
         const aiNode& node = *nodes_[i];
         Json json = Json::object();
         if (node.mName.length > 0) json["name"] = node.mName.C_Str();
         if (node.mNumChildren > 0) {
             for (unsigned k = 0; k < node.mNumChildren; ++k) json["children"].push_back(first_child_[i] + k);
         }
-        if (isAnimated(node)) {
+        const std::vector<float> matrix = columnsOf(node.mTransformation, builder_.mended());
+        if (isAnimated(node) && isFinite(node.mTransformation[0], 16)) {
             // A matrix cannot be animated.
             aiVector3D scale, translation;
             aiQuaternion rotation;
             node.mTransformation.Decompose(scale, rotation, translation);
             json["translation"] = {translation.x, translation.y, translation.z};
+            rotation = unitRotation(rotation);
             json["rotation"] = {rotation.x, rotation.y, rotation.z, rotation.w};
             json["scale"] = {scale.x, scale.y, scale.z};
-        } else if (!node.mTransformation.IsIdentity()) {
-            json["matrix"] = columnsOf(node.mTransformation);
+        } else if (matrix != columnsOf(aiMatrix4x4(), builder_.mended())) {
+            json["matrix"] = matrix;
         }
         return json;
     }
@@ -111,7 +112,7 @@ class SceneWriter {
                 joints.push_back(skin.place_of.at(mesh.mBones[b]->mName.C_Str()));
             std::optional<Json> primitive = addPrimitive(builder_, mesh, joints);
             if (!primitive) continue;
-            if (mesh.mMaterialIndex < scene_.mNumMaterials) (*primitive)["material"] = mesh.mMaterialIndex;
+            if (mesh.mMaterialIndex < scene_.mNumMaterials) (*primitive)["material"] = materialFor(mesh.mMaterialIndex, *primitive);
             if (list.size() == 1 && mesh.mName.length > 0) name = mesh.mName.C_Str();
             if (primitives.empty()) {
                 for (unsigned t = 0; t < mesh.mNumAnimMeshes; ++t) {
@@ -133,6 +134,24 @@ class SceneWriter {
         return numbers;
     }
 
+    /// The material, or one without the textures that are on UV sets which the primitive lacks.
+    std::size_t materialFor(std::size_t number, const Json& primitive) {
+        Json material = builder_.json()["materials"][number];
+        bool changed = false;
+        const auto leaveOut = [&](Json& object, const char* name) {
+            if (!object.contains(name)) return;
+            const std::string set = std::to_string(object[name].value("texCoord", 0));
+            changed = changed || !primitive["attributes"].contains("TEXCOORD_" + set);
+            if (!primitive["attributes"].contains("TEXCOORD_" + set)) object.erase(name);
+        };
+        leaveOut(material["pbrMetallicRoughness"], "baseColorTexture");
+        leaveOut(material, "normalTexture");
+        if (!changed) return number;
+        const auto [entry, is_new] = reduced_materials_.try_emplace(material.dump(-1, ' ', false, Json::error_handler_t::replace), 0);
+        if (is_new) entry->second = builder_.append("materials", std::move(material));
+        return entry->second;
+    }
+
     struct Skin {
         std::vector<std::size_t> joints = {};  ///< nodes
         std::vector<float> inverse_bind = {};
@@ -140,7 +159,7 @@ class SceneWriter {
     };
 
     /// The bones of all meshes of a node. None where a bone has no node.
-    Skin skinOf(const std::vector<unsigned>& list) const {
+    Skin skinOf(const std::vector<unsigned>& list) {
         Skin skin;
         for (const unsigned number : list) {
             const aiMesh& mesh = *scene_.mMeshes[number];
@@ -151,7 +170,7 @@ class SceneWriter {
                 if (!skin.place_of.try_emplace(bone.mName.C_Str(), static_cast<std::uint16_t>(skin.joints.size())).second)
                     continue;
                 skin.joints.push_back(node->second);
-                const std::vector<float> matrix = columnsOf(bone.mOffsetMatrix);
+                const std::vector<float> matrix = columnsOf(bone.mOffsetMatrix, builder_.mended());
                 skin.inverse_bind.insert(skin.inverse_bind.end(), matrix.begin(), matrix.end());
             }
         }
@@ -182,16 +201,21 @@ class SceneWriter {
     }
 
     static void appendValue(std::vector<float>& values, const aiVector3D& v) { values.insert(values.end(), {v.x, v.y, v.z}); }
-    static void appendValue(std::vector<float>& values, const aiQuaternion& q) {
+    static void appendValue(std::vector<float>& values, const aiQuaternion& rotation) {
+        const aiQuaternion q = unitRotation(rotation);
         values.insert(values.end(), {q.x, q.y, q.z, q.w});
     }
 
-    /// Keys whose time does not grow are left out: glTF forbids them.
+    static bool isFiniteValue(const aiVector3D& v) { return isFinite(&v.x, 3); }
+    static bool isFiniteValue(const aiQuaternion& q) { return isFinite(&q.w, 4); }
+
+    /// Keys whose time does not grow are left out, since glTF forbids them, and those that are not finite.
     template <class Key>
     void addTrack(Json& animation, std::size_t node, const char* path, const Key* keys, unsigned count, double ticks) {
         std::vector<float> times, values;
         for (unsigned k = 0; k < count; ++k) {
             const auto time = static_cast<float>(std::max(0.0, keys[k].mTime) / ticks);
+            if (!std::isfinite(time) || !isFiniteValue(keys[k].mValue)) continue;
             if (!times.empty() && !(time > times.back())) continue;
             times.push_back(time);
             appendValue(values, keys[k].mValue);
@@ -211,6 +235,7 @@ class SceneWriter {
     std::vector<std::size_t> first_child_ = {};
     std::map<std::string, std::size_t> index_of_ = {};
     std::map<std::vector<unsigned>, MeshNumbers> mesh_of_ = {};
+    std::map<std::string, std::size_t> reduced_materials_ = {};  ///< by their JSON
 };
 
 }  // namespace
@@ -227,7 +252,10 @@ Imported importScene(const std::string& path) {
     bool has_faces = false;
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) has_faces = has_faces || scene->mMeshes[i]->HasFaces();
     if (!has_faces) return {.error = "it has no faces"};
-    return {.glb = SceneWriter(*scene).write()};
+    SceneWriter writer(*scene);
+    Imported imported{.glb = writer.write()};
+    imported.warnings = writer.warnings();
+    return imported;
 }
 
 }  // namespace tspace::import

@@ -11,6 +11,7 @@ namespace tspace::import {
 struct Imported {
     std::vector<std::uint8_t> glb = {};
     std::string error = {};  ///< one sentence; empty: it was read
+    std::vector<std::string> warnings = {};
 };
 
 /// Meshes are neither joined nor split: one primitive per mesh of the file, polygons cut by tspace's own rule, vertices

@@ -35,6 +35,8 @@ int run(const char* input, const char* output) {
         std::fprintf(stderr, "cannot write the temporary file\n");
         return kCannotWrite;
     }
+    // importDocument takes these lines from others that a library may print.
+    for (const std::string& warning : imported.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     return 0;
 }
 

@@ -10,6 +10,8 @@
 #include <optional>
 #include <string>
 
+#include "mend.h"
+
 namespace tspace::import {
 
 namespace {
@@ -58,13 +60,13 @@ class MaterialWriter {
         Json& pbr = material["pbrMetallicRoughness"] = Json::object();
         aiColor4D color(1, 1, 1, 1);
         if (source.Get(AI_MATKEY_BASE_COLOR, color) == AI_SUCCESS || source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS) {
-            pbr["baseColorFactor"] = {clamped(color.r), clamped(color.g), clamped(color.b), clamped(color.a)};
+            pbr["baseColorFactor"] = {unitInterval(color.r, 1), unitInterval(color.g, 1), unitInterval(color.b, 1), unitInterval(color.a, 1)};
         }
         float metallic = 0, roughness = 1;
         source.Get(AI_MATKEY_METALLIC_FACTOR, metallic);
         source.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness);
-        pbr["metallicFactor"] = clamped(metallic);
-        pbr["roughnessFactor"] = clamped(roughness);
+        pbr["metallicFactor"] = unitInterval(metallic, 0);
+        pbr["roughnessFactor"] = unitInterval(roughness, 1);
         for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
             if (pbr.contains("baseColorTexture")) break;
             if (std::optional<Json> texture = reference(source, type)) pbr["baseColorTexture"] = std::move(*texture);
@@ -80,8 +82,6 @@ class MaterialWriter {
     }
 
   private:
-    static double clamped(float value) { return std::clamp(static_cast<double>(value), 0.0, 1.0); }
-
     std::optional<Json> reference(const aiMaterial& source, aiTextureType type) {
         aiString path;
         if (source.GetTexture(type, 0, &path) != AI_SUCCESS || path.length == 0) return {};
@@ -97,6 +97,7 @@ class MaterialWriter {
 
     /// v' = 1 - v on both sides of v * scale + offset. Rotation turns about another point there; it is left out.
     void addTransform(const aiUVTransform& t, Json& json) {
+        if (!isFinite(&t.mScaling.x, 2) || !isFinite(&t.mTranslation.x, 2)) return;
         if (t.mScaling.x == 1 && t.mScaling.y == 1 && t.mTranslation.x == 0 && t.mTranslation.y == 0) return;
         json["extensions"]["KHR_texture_transform"] = {
             {"offset", {t.mTranslation.x, 1 - t.mScaling.y - t.mTranslation.y}},

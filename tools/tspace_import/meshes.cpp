@@ -3,11 +3,13 @@
 #include "meshes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
 
+#include "mend.h"
 #include "tspace/triangulate.h"
 
 namespace tspace::import {
@@ -40,6 +42,7 @@ std::vector<float> differences(const aiVector3D* moved, const aiVector3D* base, 
     for (std::size_t i = 0; i < count; ++i) {
         for (unsigned k = 0; k < 3; ++k) floats.push_back(moved[i][k] - base[i][k]);
     }
+    zeroNotFinite(floats, 3);
     return floats;
 }
 
@@ -55,8 +58,16 @@ void addWeights(const aiMesh& mesh, const std::vector<std::uint16_t>& joints, st
         const aiBone& bone = *mesh.mBones[b];
         for (unsigned w = 0; w < bone.mNumWeights; ++w) {
             const aiVertexWeight& entry = bone.mWeights[w];
-            if (entry.mVertexId < mesh.mNumVertices && entry.mWeight > 0)
-                influences[entry.mVertexId].push_back({entry.mWeight, joints[b]});
+            if (entry.mVertexId >= mesh.mNumVertices || !std::isfinite(entry.mWeight) || !(entry.mWeight > 0)) continue;
+            // A joint may stand only once in a vertex.
+            std::vector<Influence>& list = influences[entry.mVertexId];
+            const auto known = std::find_if(list.begin(), list.end(),
+                                            [&](const Influence& influence) { return influence.joint == joints[b]; });
+            if (known == list.end()) {
+                list.push_back({entry.mWeight, joints[b]});
+            } else {
+                known->weight += entry.mWeight;
+            }
         }
     }
     std::size_t most = 1;
@@ -82,15 +93,22 @@ void addWeights(const aiMesh& mesh, const std::vector<std::uint16_t>& joints, st
     }
 }
 
-std::vector<Attribute> attributesOf(const aiMesh& mesh, const std::vector<std::uint16_t>& joints) {
+std::vector<Attribute> attributesOf(const aiMesh& mesh, const std::vector<std::uint16_t>& joints,
+                                    const std::vector<std::uint32_t>& triangles, Mended& mended) {
     const std::size_t count = mesh.mNumVertices;
     std::vector<Attribute> attributes;
     attributes.push_back({"POSITION", 3, vectors(mesh.mVertices, count, 3)});
-    if (mesh.HasNormals()) attributes.push_back({"NORMAL", 3, vectors(mesh.mNormals, count, 3)});
+    mended.positions += zeroNotFinite(attributes.back().values, 3);
+    if (mesh.HasNormals()) {
+        Attribute normals{"NORMAL", 3, vectors(mesh.mNormals, count, 3)};
+        mended.normals += mendNormals(normals.values, attributes.back().values, triangles);
+        attributes.push_back(std::move(normals));
+    }
     std::size_t uv_set = 0;
     for (unsigned set = 0; set < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++set) {
         if (mesh.mTextureCoords[set] == nullptr) continue;
         attributes.push_back({"TEXCOORD_" + std::to_string(uv_set++), 2, vectors(mesh.mTextureCoords[set], count, 2, true)});
+        mended.uvs += zeroNotFinite(attributes.back().values, 2);
     }
     std::size_t color_set = 0;
     for (unsigned set = 0; set < AI_MAX_NUMBER_OF_COLOR_SETS; ++set) {
@@ -98,7 +116,7 @@ std::vector<Attribute> attributesOf(const aiMesh& mesh, const std::vector<std::u
         Attribute color{"COLOR_" + std::to_string(color_set++), 4};
         for (std::size_t i = 0; i < count; ++i) {
             const aiColor4D& c = mesh.mColors[set][i];
-            for (const float value : {c.r, c.g, c.b, c.a}) color.values.push_back(std::clamp(value, 0.0f, 1.0f));
+            for (const float value : {c.r, c.g, c.b, c.a}) color.values.push_back(static_cast<float>(unitInterval(value, 1)));
         }
         attributes.push_back(std::move(color));
     }
@@ -192,7 +210,7 @@ std::size_t addAttribute(GlbBuilder& builder, const Attribute& attribute, const 
 std::optional<Json> addPrimitive(GlbBuilder& builder, const aiMesh& mesh, const std::vector<std::uint16_t>& joints) {
     std::vector<std::uint32_t> triangles = trianglesOf(mesh);
     if (triangles.empty()) return {};
-    const std::vector<Attribute> attributes = attributesOf(mesh, joints);
+    const std::vector<Attribute> attributes = attributesOf(mesh, joints, triangles, builder.mended());
     const Joined joined = joinEqual(attributes, mesh.mNumVertices);
     for (std::uint32_t& vertex : triangles) vertex = joined.place[vertex];
 

@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <chrono>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -102,6 +103,18 @@ std::string firstLine(const fs::path& path) {
     return quoted.substr(1, quoted.size() - 2);
 }
 
+/// What the importer says of a file that it could read: its lines that begin with "warning: ".
+void addWarnings(const fs::path& path, std::vector<std::string>& warnings) {
+    constexpr std::string_view kMark = "warning: ";
+    const Bytes bytes = readFile(path);
+    for (auto begin = bytes.begin(); begin != bytes.end();) {
+        const auto end = std::find(begin, bytes.end(), '\n');
+        const std::string line(begin, end);
+        if (line.starts_with(kMark)) warnings.push_back(line.substr(kMark.size()));
+        begin = end == bytes.end() ? end : end + 1;
+    }
+}
+
 }  // namespace
 
 bool isImportedFormat(const fs::path& path) {
@@ -142,6 +155,7 @@ gltf::Document importDocument(const fs::path& path, const FileOptions& options) 
     gltf::Document document = gltf::parseDocument(readFile(result), path, options);
     document.input_bytes = static_cast<std::uint64_t>(size);
     document.imported = true;
+    addWarnings(messages, document.warnings);
     return document;
 }
 

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// The same rules as for OBJ (src/asset/obj): what cannot be, is replaced and counted.
+#include "mend.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tspace::import {
+
+namespace {
+
+/// Normals that are unit by the validator's tolerance keep their bits.
+constexpr double kUnitTolerance = 5e-4;
+
+using Vec = std::array<double, 3>;
+
+Vec at(const std::vector<float>& values, std::size_t i) { return {values[3 * i], values[3 * i + 1], values[3 * i + 2]}; }
+
+double lengthOf(const Vec& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+bool hasDirection(double length) { return std::isfinite(length) && length > 1e-30; }
+
+void put(std::vector<float>& values, std::size_t i, const Vec& v, double length) {
+    for (std::size_t k = 0; k < 3; ++k) values[3 * i + k] = static_cast<float>(v[k] / length);
+}
+
+Vec crossOf(const Vec& a, const Vec& b, const Vec& c) {
+    const Vec e = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, f = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    return {e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
+}
+
+}  // namespace
+
+std::vector<std::string> Mended::warnings() const {
+    std::vector<std::string> list;
+    const auto add = [&list](std::size_t count, const char* text) {
+        if (count != 0) list.push_back(text + (": " + std::to_string(count)));
+    };
+    add(positions, "positions that are not finite and were moved to the origin");
+    add(uvs, "texture coordinates that are not finite and were set to 0");
+    add(normals, "normals that are zero or not finite and were taken from a face");
+    add(transforms, "matrices of nodes or joints that are not finite and were left out");
+    return list;
+}
+
+double unitInterval(float value, double otherwise) {
+    return std::isfinite(value) ? std::clamp(static_cast<double>(value), 0.0, 1.0) : otherwise;
+}
+
+bool isFinite(const float* values, std::size_t count) {
+    return std::all_of(values, values + count, [](float value) { return std::isfinite(value); });
+}
+
+std::size_t zeroNotFinite(std::vector<float>& values, std::size_t components) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < values.size(); i += components) {
+        if (isFinite(&values[i], components)) continue;
+        std::fill_n(&values[i], components, 0.0f);
+        ++count;
+    }
+    return count;
+}
+
+std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& positions,
+                        const std::vector<std::uint32_t>& triangles) {
+    const std::size_t vertex_count = normals.size() / 3;
+    std::vector<bool> is_bad(vertex_count, false);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < vertex_count; ++i) {
+        const double length = lengthOf(at(normals, i));
+        if (!hasDirection(length)) {
+            is_bad[i] = true;
+            ++count;
+            put(normals, i, {0, 0, 1}, 1);
+        } else if (std::abs(length - 1) > kUnitTolerance) {
+            put(normals, i, at(normals, i), length);
+        }
+    }
+    for (std::size_t t = 0; count != 0 && t + 2 < triangles.size(); t += 3) {
+        const std::uint32_t *corners = &triangles[t];
+        if (!is_bad[corners[0]] && !is_bad[corners[1]] && !is_bad[corners[2]]) continue;
+        const Vec cross = crossOf(at(positions, corners[0]), at(positions, corners[1]), at(positions, corners[2]));
+        const double length = lengthOf(cross);
+        if (!hasDirection(length)) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (is_bad[corners[k]]) put(normals, corners[k], cross, length);
+            is_bad[corners[k]] = false;
+        }
+    }
+    return count;
+}
+
+std::vector<float> columnsOf(const aiMatrix4x4& matrix, Mended& mended) {
+    aiMatrix4x4 m = matrix;
+    if (!isFinite(m[0], 16)) {
+        m = aiMatrix4x4();
+        ++mended.transforms;
+    }
+    return {m.a1, m.b1, m.c1, 0, m.a2, m.b2, m.c2, 0, m.a3, m.b3, m.c3, 0, m.a4, m.b4, m.c4, 1};
+}
+
+aiQuaternion unitRotation(const aiQuaternion& rotation) {
+    const double x = rotation.x, y = rotation.y, z = rotation.z, w = rotation.w;
+    const double length = std::sqrt(x * x + y * y + z * z + w * w);
+    if (!hasDirection(length)) return {};
+    return {static_cast<float>(w / length), static_cast<float>(x / length), static_cast<float>(y / length),
+            static_cast<float>(z / length)};
+}
+
+}  // namespace tspace::import

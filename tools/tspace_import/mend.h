@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Numbers that other formats allow and glTF does not.
+#pragma once
+
+#include <assimp/scene.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tspace::import {
+
+/// How many were mended.
+struct Mended {
+    std::size_t positions = 0, uvs = 0, normals = 0, transforms = 0;
+
+    /// A sentence for each kind that occurred.
+    [[nodiscard]] std::vector<std::string> warnings() const;
+};
+
+/// A number from 0 to 1; `otherwise` for one that is not finite.
+double unitInterval(float value, double otherwise);
+
+bool isFinite(const float* values, std::size_t count);
+
+/// Puts 0 in place of every element of `components` floats that is not finite as a whole. Returns how many.
+std::size_t zeroNotFinite(std::vector<float>& values, std::size_t components);
+
+/// Makes normals unit. One that has no direction gets that of the first of the vertex's triangles that has an area, and
+/// (0, 0, 1) where none has. Returns how many had none. `triangles`: three vertices each.
+std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& positions,
+                        const std::vector<std::uint32_t>& triangles);
+
+/// Column by column, as glTF wants it; Assimp stores rows. The last row is exactly 0 0 0 1. The identity, counted, where a
+/// number is not finite.
+std::vector<float> columnsOf(const aiMatrix4x4& matrix, Mended& mended);
+
+/// Unit; the identity where it has no direction.
+aiQuaternion unitRotation(const aiQuaternion& rotation);
+
+}  // namespace tspace::import
