@@ -158,6 +158,14 @@ TEST(Document, RefusesWrongTypesAtTheirPlace) {
     }
 }
 
+TEST(Document, SaysThatGltf1IsTooOld) {
+    // Its root has objects where 2.0 has arrays.
+    const Error error = errorOf([] {
+        gltf::parseDocument(toBytes(R"({"accessors":{},"meshes":{},"asset":{"version":"1.0"}})"), "model.gltf", {});
+    });
+    EXPECT_EQ(error.message, "the file needs glTF version '1.0', not 2.0");
+}
+
 TEST(Document, ReadsManyAccessorsInLinearTime) {
     std::string text = R"({"asset":{"version":"2.0"},"accessors":[)";
     for (int i = 0; i < 300000; ++i) text += R"({"componentType":5126,"type":"VEC3","count":1},)";

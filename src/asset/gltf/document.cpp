@@ -230,8 +230,8 @@ Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, cons
     ParsedJson parsed = parseJson(text, document.memory.get());
     document.json = std::move(parsed.root);
     document.style = parsed.style;
+    checkVersion(document.json);  // first: glTF 1.0 has objects where 2.0 has arrays
     checkRoot(document.json);
-    checkVersion(document.json);
     takeEntries(document);
     const Json& buffers = rootArray(document, "buffers");
     for (std::size_t i = 0; i < buffers.size(); ++i) {
