@@ -266,6 +266,26 @@ TEST(MeshoptKeep, EncodesSplitVerticesWithTheFilterThatTheyHad) {
         EXPECT_TRUE(!view.contains("target") || meshoptExtension(view) != nullptr);
 }
 
+TEST(MeshoptPack, LeavesNoBufferEmpty) {
+    const test::TempFolder folder;
+    // All of buffer 0 is packed into buffer 1.
+    Json json = Json::parse(R"({"asset":{"version":"2.0"},
+        "accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3,"min":[0,0,0],"max":[1,1,0]},
+                     {"bufferView":1,"componentType":5123,"type":"SCALAR","count":3}],
+        "bufferViews":[{"buffer":0,"byteLength":36,"target":34962},{"buffer":1,"byteLength":6,"target":34963}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}]})");
+    const std::vector<float> positions = {0, 0, 0, 1, 0, 0, 1, 1, 0};
+    const std::vector<std::uint16_t> indices = {0, 1, 2, 0};
+    json["buffers"] = Json::array(
+        {Json{{"byteLength", 36}, {"uri", encodeDataUri("application/octet-stream", bytesOfValues(positions))}},
+         Json{{"byteLength", 8}, {"uri", encodeDataUri("application/octet-stream", bytesOfValues(indices))}}});
+    const std::string output = folder.path("out.gltf").string();
+    ASSERT_TRUE(generateFile(folder.write("in.gltf", json.dump()), output, {.compression = Compression::meshopt}));
+    const Document document = loadDocument(output, {});
+    for (const Json& buffer : document.json["buffers"]) EXPECT_GT(buffer["byteLength"], 0u) << buffer.dump();
+    EXPECT_EQ(decodeVec3(document, readAccessor(document, 0), "")[2], (Vec3{1, 1, 0}));
+}
+
 TEST(MeshoptKeep, LeavesCompressedBytesOfUntouchedViewsAsTheyWere) {
     PackedModel model = packedGrid();
     // UVs that are not mirrored: nothing is split, and only tangents are new.

@@ -7,6 +7,7 @@
 
 #include "asset/gltf/compression/draco_primitives.h"
 #include "asset/gltf/gather_elements.h"
+#include "asset/gltf/idle_buffers.h"
 #include "asset/uri.h"
 
 namespace tspace::gltf {
@@ -331,6 +332,7 @@ void Editor::finish() {
     for (std::size_t i = 0; i < document_.buffers.size(); ++i) {
         if (document_.buffers[i].edited) buffers[i]["byteLength"] = document_.buffers[i].bytes.size();
     }
+    removeEmptiedBuffers(document_);
 }
 
 }  // namespace tspace::gltf

@@ -10,4 +10,7 @@ namespace tspace::gltf {
 /// extensions follow.
 void removeIdleBuffers(Document& document);
 
+/// Removes buffers of the output that lost all their bytes: a buffer of length 0 is not valid.
+void removeEmptiedBuffers(Document& document);
+
 }  // namespace tspace::gltf
