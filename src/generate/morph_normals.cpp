@@ -8,6 +8,7 @@
 #include "generate/local_mesh.h"
 #include "generate/morph_frames.h"
 #include "generate/morph_split.h"
+#include "generate/unit_lattice.h"
 #include "normals/pose_normals.h"
 
 namespace tspace {
@@ -25,7 +26,9 @@ class PoolNormals {
 
     Result<Done> compute(PoolWithNormals& result) {
         if (Result<Done> done = computeBase(); !done) return done;
-        const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec3>(normals_));
+        written_ = normals_;
+        roundUnits(written_, options_.format);
+        const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec3>(written_));
         Result<SplitResult> split = splitVertices(IndexView(spanOf(indices_)), pool_.positions.size(), indices_.size(),
                                                   {&attribute, 1}, options_.normals.execution);
         if (!split) return std::move(split).error();
@@ -88,7 +91,7 @@ class PoolNormals {
         SplitResult& split = morph_split.split();
         result.pool.positions = gather(std::span<const Vec3>(pool_.positions), split.source_vertices);
         result.pool.uvs = gather(std::span<const Vec2>(pool_.uvs), split.source_vertices);
-        result.pool.normals = gatherNormals(normals_, split.source_corners);
+        result.pool.normals = gatherNormals(written_, split.source_corners);
         result.source_vertices = std::move(split.source_vertices);
         std::size_t first = 0;
         for (const PrimitiveGeometry& primitive : primitives_) {
@@ -121,6 +124,7 @@ class PoolNormals {
     std::vector<LocalMesh> meshes_ = {};
     std::vector<std::uint32_t> indices_ = {};  ///< corners of all primitives
     std::vector<Vec3> normals_ = {};           ///< of the base, one per corner
+    std::vector<Vec3> written_ = {};           ///< the same as the file will have them; where nothing moves, offsets are 0
     MorphPose pose_ = {};
 };
 
