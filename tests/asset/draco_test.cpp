@@ -182,6 +182,48 @@ TEST(DracoKeep, CarriesMorphTargetsOutsideOfTheData) {
     EXPECT_TRUE(readAccessor(outcome.after, primitive.targets.at(0).at(0).second).view.has_value());
 }
 
+/// Two primitives that share their vertices, the last of which none draws. Target 0 moves that one the farthest.
+GltfBuilder sharedVertices() {
+    GltfBuilder builder;
+    builder.addFloats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 9, 9, 9}, 3);
+    builder.json()["accessors"][0]["min"] = {0, 0, 0};
+    builder.json()["accessors"][0]["max"] = {9, 9, 9};
+    builder.addFloats({0, 0, 1, 0, 1, 1, 0, 1, 0, 0}, 2);
+    const std::size_t target = builder.addFloats({0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 7}, 3);
+    builder.json()["accessors"][target]["min"] = {0, 0, 0};
+    builder.json()["accessors"][target]["max"] = {0, 0, 7};
+    for (const std::vector<std::uint16_t>& indices : {std::vector<std::uint16_t>{0, 1, 2}, {0, 2, 3}}) {
+        Json& primitive = builder.addPrimitive({{"POSITION", 0}, {"TEXCOORD_0", 1}});
+        primitive["targets"] = Json::array({Json{{"POSITION", target}}});
+        primitive["indices"] = builder.addAccessor(indices, kU16, "SCALAR", 3);
+    }
+    return builder;
+}
+
+TEST(DracoPack, BoundsOfTargetsFollowTheVerticesThatStay) {
+    const Outcome outcome = generateAll(sharedVertices().glb(), {.compression = Compression::draco});
+    std::vector<double> highest;
+    for (const Primitive& primitive : readPrimitives(outcome.after)) {
+        const std::size_t target = *findAttribute(primitive.targets.at(0), "POSITION");
+        highest.push_back(outcome.after.json["accessors"][target]["max"][2].get<double>());
+    }
+    EXPECT_EQ(highest, (std::vector<double>{1, 0})) << "nobody draws the vertex that moves by 7";
+}
+
+TEST(DracoPack, TakesMeshesThatComeApartAndHaveVerticesThatNobodyDraws) {
+    GltfBuilder builder = sharedVertices();
+    // Flat normals and a mirrored UV map give every corner a vertex of its own.
+    builder.json()["meshes"][0]["primitives"].erase(0);
+    Json& primitive = builder.json()["meshes"][0]["primitives"][0];
+    primitive.erase("targets");
+    builder.json()["accessors"][0]["count"] = 4;  // the last of which is in no triangle
+    builder.json()["accessors"][1]["count"] = 4;
+    primitive["indices"] = builder.addAccessor(std::vector<std::uint16_t>{0, 1, 2, 2, 1, 0}, kU16, "SCALAR", 6);
+    const Outcome outcome = generateAll(builder.glb(), {.compression = Compression::draco});
+    ASSERT_EQ(outcome.report.primitives.size(), 1u);
+    EXPECT_EQ(outcome.report.primitives[0].vertices_after, 6u);
+}
+
 TEST(DracoKeep, GivesEachPrimitiveItsOwnAccessorsWhereOneStandsForSeveralData) {
     DracoMesh other = grid();
     std::vector<float> moved(75);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <numeric>
 
 #include "asset/gltf/compression/draco_primitives.h"
 #include "asset/gltf/extension_lists.h"
@@ -92,13 +91,10 @@ class Packer {
                            [&](const auto& use) { return editor_.accessorUses(use.first) == use.second; });
     }
 
-    /// All vertices, or those that the corners use; the corners then go by the new numbers.
-    std::vector<std::uint32_t> chooseVertices(bool owns_vertices, std::size_t vertex_count,
-                                              std::vector<std::uint32_t>& corners) {
-        std::vector<std::uint32_t> chosen(vertex_count);
-        std::iota(chosen.begin(), chosen.end(), 0u);
-        if (owns_vertices) return chosen;
-        chosen = corners;
+    /// Those that the corners use; the corners then go by the new numbers. Decoders refuse more points than corners, and later
+    /// splits could make so many where some are without a corner.
+    static std::vector<std::uint32_t> chooseVertices(std::vector<std::uint32_t>& corners) {
+        std::vector<std::uint32_t> chosen = corners;
         std::sort(chosen.begin(), chosen.end());
         chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
         for (std::uint32_t& corner : corners) {
@@ -112,7 +108,7 @@ class Packer {
         const bool owns = ownsVertices(group);
         DracoMesh mesh;
         mesh.corners = readTriangleCorners(document_, first);
-        const std::vector<std::uint32_t> chosen = chooseVertices(owns, first.vertex_count, mesh.corners);
+        const std::vector<std::uint32_t> chosen = chooseVertices(mesh.corners);
         mesh.point_count = chosen.size();
         std::vector<ElementData> elements;
         for (const auto& [name, index] : first.attributes) {
@@ -183,11 +179,19 @@ class Packer {
     }
 
     void carryTargets(const std::vector<const Primitive*>& group, const std::vector<std::uint32_t>& chosen) {
-        std::map<std::size_t, std::size_t> stored;
+        std::map<std::size_t, std::size_t> stored, uses;
+        for (const AttributeList& target : group[0]->targets) {
+            for (const auto& [name, old] : target) uses[old] += group.size();
+        }
         for (std::size_t t = 0; t < group[0]->targets.size(); ++t) {
             for (const auto& [name, old] : group[0]->targets[t]) {
-                if (stored.count(old) == 0)
-                    stored[old] = editor_.store(gatherElements(document_, readAccessor(document_, old), chosen), {});
+                if (stored.count(old) == 0) {
+                    // Vertices that nobody draws are gone, and so may be the extremes that were stated.
+                    ElementData data = gatherElements(document_, readAccessor(document_, old), chosen);
+                    renewBounds(data);
+                    const bool alone = editor_.accessorUses(old) == uses[old];
+                    stored[old] = editor_.store(std::move(data), alone ? std::optional(old) : std::nullopt);
+                }
                 for (const Primitive* primitive : group) {
                     json(*primitive)["targets"][t][name] = stored[old];
                     editor_.moveUse(old, stored[old]);
