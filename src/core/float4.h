@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -22,7 +23,6 @@ using Double2 = double __attribute__((vector_size(16)));  ///< here a carrier of
 
 // As they lie in arrays: at any multiple of 4 bytes, and over any type.
 using Float4InMemory = float __attribute__((vector_size(16), aligned(4), may_alias));
-using PairInMemory = double __attribute__((aligned(4), may_alias));
 
 inline Float4 splat(float f) { return Float4{f, f, f, f}; }
 inline Float4 abs4(Float4 v) { return std::bit_cast<Float4>(std::bit_cast<Mask4>(v) & 0x7fffffff); }
@@ -73,15 +73,18 @@ inline Float4 loadFloat4(const float* p) { return *reinterpret_cast<const Float4
 inline void storeFloat4(float* p, Float4 v) { *reinterpret_cast<Float4InMemory*>(p) = v; }
 
 /// Two floats in the lower half, zero in the upper one; and back.
-inline Float4 loadPair(const float* p) {
-    return std::bit_cast<Float4>(Double2{*reinterpret_cast<const PairInMemory*>(p), 0.0});
+inline double pairBits(const float* p) {
+    double bits;
+    std::memcpy(&bits, p, sizeof bits);
+    return bits;
 }
+inline Float4 loadPair(const float* p) { return std::bit_cast<Float4>(Double2{pairBits(p), 0.0}); }
 inline void storePair(float* p, Float4 v) {
-    *reinterpret_cast<PairInMemory*>(p) = std::bit_cast<Double2>(v)[0];
+    const double bits = std::bit_cast<Double2>(v)[0];
+    std::memcpy(p, &bits, sizeof bits);
 }
 inline Float4 joinPairs(const float* low, const float* high) {
-    return std::bit_cast<Float4>(
-        Double2{*reinterpret_cast<const PairInMemory*>(low), *reinterpret_cast<const PairInMemory*>(high)});
+    return std::bit_cast<Float4>(Double2{pairBits(low), pairBits(high)});
 }
 inline Float4 upperPair(Float4 v) { return __builtin_shufflevector(v, v, 2, 3, 2, 3); }
 

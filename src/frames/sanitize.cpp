@@ -158,8 +158,8 @@ struct SurelySound {
     static bool of(const Vec4& tangent, const Vec3& n) {
         const Vec3 t = xyz(tangent);
         const float nn = dot(n, n), nt = dot(n, t);
-        return (std::fabs(dot(t, t) - 1) <= kSquareTolerance) & (nn >= kLeast) & (nn <= kMost) &
-               (nt * nt <= kSquareCosine * nn) & (std::fabs(tangent.w) == 1.0f);
+        const bool is_unit = std::fabs(dot(t, t) - 1) <= kSquareTolerance, has_sign = std::fabs(tangent.w) == 1.0f;
+        return is_unit & has_sign & (nn >= kLeast) & (nn <= kMost) & (nt * nt <= kSquareCosine * nn);
     }
     /// The same of four, with their signs apart.
     static Mask4 of(const Vec3x4& t, Float4 w, const Vec3x4& n) {
