@@ -141,17 +141,21 @@ TEST(Simd, AWishForMoreThanThereIsGetsTheBestThereIs) {
     EXPECT_EQ(simd::resolve(SimdTarget::scalar), SimdTarget::scalar);
 }
 
+void planAndEvaluate(const Shape& shape, const TangentOptions& options, Outputs& outputs) {
+    const auto plan = planTangents(shape.view(), options);
+    ASSERT_TRUE(plan.ok());
+    const auto report = evaluateTangents(*plan, {shape.positions, shape.normals}, outputs.view());
+    ASSERT_TRUE(report.ok());
+    outputs.report = *report;
+}
+
 TEST(OnePass, GivesTheBitsOfPlanAndEvaluationForAnyNumberOfThreads) {
     for (const Shape& shape : shapes()) {
         for (const Method method : kMethods) {
             TangentOptions options;
             options.method = method;
-            const auto plan = planTangents(shape.view(), options);
-            ASSERT_TRUE(plan.ok());
             Outputs want(shape.cornerCount());
-            const auto report = evaluateTangents(*plan, {shape.positions, shape.normals}, want.view());
-            ASSERT_TRUE(report.ok());
-            want.report = *report;
+            ASSERT_NO_FATAL_FAILURE(planAndEvaluate(shape, options, want));
             for (const unsigned threads : {1u, 2u, 3u, 8u}) {
                 options.execution.thread_count = threads;
                 ASSERT_TRUE(sameBits(want, generate(shape, options)))
@@ -208,12 +212,8 @@ TEST(OnePass, AndALookAtEachNodeGiveTheSameBits) {
             options.method = method;
             options.pairing = Pairing::corrected;
             options.execution.thread_count = 1;
-            const auto plan = planTangents(shape.view(), options);
-            ASSERT_TRUE(plan.ok());
             Outputs want(shape.cornerCount());
-            const auto report = evaluateTangents(*plan, {shape.positions, shape.normals}, want.view());
-            ASSERT_TRUE(report.ok());
-            want.report = *report;
+            ASSERT_NO_FATAL_FAILURE(planAndEvaluate(shape, options, want));
             options.execution.thread_count = 1 + compared % 3;
             for (const auto first : {mikk::FirstLook::onePass, mikk::FirstLook::eachNode}) {
                 const auto got = look(shape, options, first, false);

@@ -105,25 +105,20 @@ TEST(JsonOutput, OfDiffIsAsDocumented) {
     expectFieldsDocumented(documents, "tspace.diff/1");
 }
 
-TEST(JsonOutput, OfIdentifyIsAsDocumented) {
+/// `command` over a folder with a good and a bad file; `made`: options of generate for the good one.
+void expectFolderDocumented(const std::string& command, const std::string& made, const std::string& schema) {
     const TempFolder folder;
     writeFoldedObj(folder, "a.obj");
-    runTool(folder, "generate a.obj -o in/a.glb");
+    runTool(folder, "generate a.obj -o in/a.glb " + made);
     folder.write("in/bad.obj", "f 1 2 3\n");
-    const ToolRun run = runTool(folder, "identify in --json");
+    const ToolRun run = runTool(folder, command + " in --json");
     EXPECT_EQ(run.exit_code, 3) << run.err;
-    expectFieldsDocumented({Json::parse(run.out)}, "tspace.identify/1");
+    expectFieldsDocumented({Json::parse(run.out)}, schema);
 }
 
-TEST(JsonOutput, OfCheckIsAsDocumented) {
-    const TempFolder folder;
-    writeFoldedObj(folder, "a.obj");
-    runTool(folder, "generate a.obj -o in/a.glb --convention opengl");
-    folder.write("in/bad.obj", "f 1 2 3\n");
-    const ToolRun run = runTool(folder, "check in --json");
-    EXPECT_EQ(run.exit_code, 3) << run.err;
-    expectFieldsDocumented({Json::parse(run.out)}, "tspace.check/1");
-}
+TEST(JsonOutput, OfIdentifyIsAsDocumented) { expectFolderDocumented("identify", "", "tspace.identify/1"); }
+
+TEST(JsonOutput, OfCheckIsAsDocumented) { expectFolderDocumented("check", "--convention opengl", "tspace.check/1"); }
 
 TEST(JsonOutput, IsTheSameWithQuiet) {
     const TempFolder folder;

@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: MIT
-// tspace check: many files, several at one time; one bad file does not stop the others.
-#include <atomic>
-
-#include "batch.h"
+// tspace check
 #include "commands.h"
-#include "console.h"
-#include "report.h"
+#include "read_files.h"
 
 namespace tspace::tool {
 namespace {
-
-Result<CheckReport> check(const Job& job, const CheckOptions& options) {
-    if (job.error.code != ErrorCode::ok) return job.error;
-    return checkFile(job.input, options);
-}
 
 bool hasFindings(const CheckReport& report, Severity least) {
     switch (least) {
@@ -37,31 +28,19 @@ ExitCode runCheck(const CheckArguments& arguments) {
     const unsigned workers = workerCount(arguments.batch, jobs.size());
     CheckOptions options = arguments.options;
     options.execution.thread_count = threadsPerFile(options.execution.thread_count, workers);
-    std::vector<CheckOutcome> outcomes(jobs.size());
-    ExitCode exit_code = ExitCode::done;
-    std::atomic<bool> output_is_closed = false;
-    const auto work = [&](std::size_t number) {
-        outcomes[number] = {.job = jobs[number], .result = check(jobs[number], options)};
-    };
-    const auto finished = [&](std::size_t number) {
-        const CheckOutcome& outcome = outcomes[number];
-        if (!outcome.result) {
-            exit_code = worse(exit_code, printError(outcome.job.input, outcome.result.error()));
-            return;
-        }
-        if (hasFindings(*outcome.result, arguments.fail_on)) exit_code = worse(exit_code, ExitCode::findings);
-        if (wants_text && !output_is_closed) {
-            const std::string gap = number > 0 ? "\n" : "";
-            output_is_closed = !printResult(gap + checkText(outcome, in_color));
-        }
-    };
-    runBatch(jobs.size(), workers, work, finished, [&] { return output_is_closed.load(); });
-    if (output_is_closed) return ExitCode::cannotReadOrWrite;
+    const auto files = readFiles<CheckReport>(
+        jobs, workers, wants_text, [&](const std::string& input) { return checkFile(input, options); },
+        [&](const CheckOutcome& outcome) { return checkText(outcome, in_color); });
+    if (files.output_is_closed) return ExitCode::cannotReadOrWrite;
+    ExitCode exit_code = files.exit_code;
+    for (const CheckOutcome& outcome : files.outcomes) {
+        if (outcome.result && hasFindings(*outcome.result, arguments.fail_on)) exit_code = worse(exit_code, ExitCode::findings);
+    }
     std::string last;
     if (arguments.json) {
-        last = checkJson(outcomes, exit_code, arguments.fail_on);
-    } else if (wants_text && outcomes.size() > 1) {
-        last = checkSummary(outcomes);
+        last = checkJson(files.outcomes, exit_code, arguments.fail_on);
+    } else if (wants_text && files.outcomes.size() > 1) {
+        last = checkSummary(files.outcomes);
     }
     return printResult(last) ? exit_code : ExitCode::cannotReadOrWrite;
 }

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// What the commands that only read files do with many of them: several at one time, told in the order of the files; one bad
+// file does not stop the others.
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "batch.h"
+#include "console.h"
+#include "report.h"
+
+namespace tspace::tool {
+
+template <class Value>
+struct ReadFiles {
+    std::vector<Outcome<Value>> outcomes = {};
+    ExitCode exit_code = ExitCode::done;  ///< the worst of the files that could not be read
+    bool output_is_closed = false;        ///< nobody reads stdout any more; files may have been left out
+};
+
+/// Calls read(path) for each job, which gives a Result<Value>. Errors are printed, and textOf(outcome) of what was read if
+/// `wants_text`.
+template <class Value, class Read, class TextOf>
+ReadFiles<Value> readFiles(const std::vector<Job>& jobs, unsigned workers, bool wants_text, Read read, TextOf textOf) {
+    ReadFiles<Value> files;
+    files.outcomes.resize(jobs.size());
+    std::atomic<bool> output_is_closed = false;
+    const auto work = [&](std::size_t number) {
+        const Job& job = jobs[number];
+        files.outcomes[number] = {
+            .job = job, .result = job.error.code == ErrorCode::ok ? read(job.input) : Result<Value>(job.error)};
+    };
+    const auto finished = [&](std::size_t number) {
+        const Outcome<Value>& outcome = files.outcomes[number];
+        if (!outcome.result) {
+            files.exit_code = worse(files.exit_code, printError(outcome.job.input, outcome.result.error()));
+        } else if (wants_text && !output_is_closed) {
+            const std::string gap = number > 0 ? "\n" : "";
+            output_is_closed = !printResult(gap + textOf(outcome));
+        }
+    };
+    runBatch(jobs.size(), workers, work, finished, [&] { return output_is_closed.load(); });
+    files.output_is_closed = output_is_closed;
+    return files;
+}
+
+}  // namespace tspace::tool
