@@ -156,13 +156,13 @@ void runRound(const Setting& setting, const RangeLists& lists, Buffer<float>& su
     });
 }
 
-BestSource sourceOf(const StridedSpan<const Vec3>& positions, const NormalOptions& options, const float* normals,
-                    const float* sharp) {
+BestSource sourceOf(const TriangleGroups& triangles, const StridedSpan<const Vec3>& positions,
+                    const NormalOptions& options, const float* normals, const float* sharp) {
     BestSource source;
     source.positions = reinterpret_cast<const std::byte*>(positions.data);
     source.stride = positions.stride_bytes;
     source.last_vertex = static_cast<std::uint32_t>(positions.count - 1);
-    source.scale = estimators::inputScale(positions, {}).positions;
+    source.scale = estimators::inputScale(triangles, positions, {}).positions;
     source.factor = static_cast<float>(normalFactor(options.convention));
     source.robust = reinterpret_cast<const std::byte*>(normals);
     source.sharp = reinterpret_cast<const std::byte*>(sharp);
@@ -182,7 +182,7 @@ void refineTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positi
         parallel.width() == 1 ? 1 : std::min(lists.count(), std::size_t{kTasksPerThread} * parallel.width());
     Buffer<float> sums(allocator, tasks * 4 * kFitRows * std::min(kRangePoints, wholeGroups(count)));
     const Setting setting{triangles,    bestKernelFor(options.execution.simd),
-                          sourceOf(positions, options, normals, sharp.data()),
+                          sourceOf(triangles, positions, options, normals, sharp.data()),
                           normals,      sharp.data(),
                           results.data(), count};
     runRound<1>(setting, lists, sums, tasks, parallel);

@@ -126,6 +126,16 @@ TEST(BestNormals, TurnRoundWithTheWindingAndGrowWithNothing) {
     }
 }
 
+TEST(BestNormals, DoNotDependOnVerticesThatNoTriangleNames) {
+    SimpleMesh mesh = grid({0, 0.1f, 0.15f, 0.9f, 1}, [](float x, float y) { return x * x - 0.5f * y * y; });
+    for (Vec3& p : mesh.positions) p = {std::ldexp(p.x, -60), std::ldexp(p.y, -60), std::ldexp(p.z, -60)};
+    const std::vector<Vec3> want = bestOf(mesh.view());
+    mesh.positions.insert(mesh.positions.end(), 3 * mesh.positions.size(), Vec3{std::ldexp(1.0f, 60), 0, 1});
+    const std::vector<Vec3> got = bestOf(mesh.view());
+    ASSERT_EQ(want.size(), got.size());
+    EXPECT_EQ(std::memcmp(want.data(), got.data(), want.size() * sizeof(Vec3)), 0);
+}
+
 TEST(BestNormals, FollowNoiseNoMoreThanAngleTimesAreaDoes) {
     std::vector<float> lines;
     for (int i = 0; i <= 40; ++i) lines.push_back(static_cast<float>(i) / 40);

@@ -15,26 +15,31 @@ constexpr int kLeastExponent = -149, kMostExponent = 127;
 float largestOf(const Vec3& p) { return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
 float largestOf(const Vec2& p) { return std::max(std::fabs(p.x), std::fabs(p.y)); }
 
-/// 2^-e, where e is the median of the exponents: one wild vertex does not move it. Even, so that a square
-/// root of such a factor is a power of two as well.
-template <class T>
-float scaleOf(const StridedSpan<const T>& values) {
-    std::uint32_t seen[kMostExponent - kLeastExponent + 1] = {};
-    std::uint32_t total = 0;
-    const std::size_t count = std::min(values.count, kMostSamples);
-    for (std::size_t i = 0; i < count; ++i) {
-        const float size = largestOf(values[values.count * i / count]);
-        if (!(size > 0) || !(size <= FLT_MAX)) continue;
-        ++seen[std::ilogb(size) - kLeastExponent];
-        ++total;
+/// Sizes of some numbers, by their exponents.
+class Exponents {
+  public:
+    void count(float size) {
+        if (!(size > 0) || !(size <= FLT_MAX)) return;
+        ++seen_[std::ilogb(size) - kLeastExponent];
+        ++total_;
     }
-    int exponent = kLeastExponent;
-    for (std::uint32_t below = 0; total != 0; ++exponent) {
-        below += seen[exponent - kLeastExponent];
-        if (2 * below >= total) break;
+
+    /// 2^-e, where e is the median of the exponents: one wild vertex does not move it. Even, so that a square
+    /// root of such a factor is a power of two as well.
+    [[nodiscard]] float scale() const {
+        if (total_ == 0) return 1.0f;
+        int exponent = kLeastExponent;
+        for (std::uint32_t below = 0;; ++exponent) {
+            below += seen_[exponent - kLeastExponent];
+            if (2 * below >= total_) break;
+        }
+        return std::ldexp(1.0f, std::clamp(-exponent, -126, 126) / 2 * 2);
     }
-    return total == 0 ? 1.0f : std::ldexp(1.0f, std::clamp(-exponent, -126, 126) / 2 * 2);
-}
+
+  private:
+    std::uint32_t seen_[kMostExponent - kLeastExponent + 1] = {};
+    std::uint32_t total_ = 0;
+};
 
 }  // namespace
 
@@ -43,8 +48,19 @@ float InputScale::lengthFactor() const {
         std::clamp(static_cast<double>(uvs) / positions, double{FLT_MIN}, double{FLT_MAX}));
 }
 
-InputScale inputScale(const StridedSpan<const Vec3>& positions, const StridedSpan<const Vec2>& uvs) {
-    return {scaleOf(positions), scaleOf(uvs)};
+InputScale inputScale(const TriangleGroups& triangles, const StridedSpan<const Vec3>& positions,
+                      const StridedSpan<const Vec2>& uvs) {
+    Exponents of_positions, of_uvs;
+    const std::size_t samples = std::min(triangles.count, kMostSamples);
+    for (std::size_t i = 0; i < samples; ++i) {
+        std::uint32_t vertices[3], groups[3];
+        triangles.read(triangles.count * i / samples, 1, vertices, groups);
+        for (const std::uint32_t v : vertices) {
+            of_positions.count(largestOf(positions[v]));
+            if (!uvs.empty()) of_uvs.count(largestOf(uvs[v]));
+        }
+    }
+    return {of_positions.scale(), of_uvs.scale()};
 }
 
 }  // namespace tspace::estimators

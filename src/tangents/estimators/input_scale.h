@@ -4,6 +4,7 @@
 // one is chosen, nor whether all positions, or all UVs, are four times as large.
 #pragma once
 
+#include "tangents/estimators/range_lists.h"
 #include "tspace/tangents.h"
 
 namespace tspace::estimators {
@@ -15,7 +16,9 @@ struct InputScale {
     [[nodiscard]] float lengthFactor() const;
 };
 
-/// From a sample of at most 1024 vertices. Zeros and what is not finite do not count.
-InputScale inputScale(const StridedSpan<const Vec3>& positions, const StridedSpan<const Vec2>& uvs);
+/// From a sample of at most 1024 triangles, so that it does not matter which corners share a vertex, nor what vertices
+/// no triangle names. Zeros and what is not finite do not count. `uvs` may be empty.
+InputScale inputScale(const TriangleGroups& triangles, const StridedSpan<const Vec3>& positions,
+                      const StridedSpan<const Vec2>& uvs);
 
 }  // namespace tspace::estimators

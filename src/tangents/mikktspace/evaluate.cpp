@@ -76,16 +76,17 @@ class Evaluation {
   private:
     void estimate() {
         const StridedSpan<const Vec2> uvs{plan_.uvs.data(), plan_.uvs.size()};
+        const PlanTriangles triangles(plan_);
         const estimators::InputScale scale =
-            scale_ != nullptr ? *scale_ : estimators::inputScale(pose_.positions, uvs);
+            scale_ != nullptr ? *scale_ : estimators::inputScale(triangles, pose_.positions, uvs);
         sums_.groups = Buffer<GroupSum>(allocator_, plan_.group_count);
         if (!source_.tangents_only) sums_.rest = Buffer<GroupRest>(allocator_, plan_.group_count);
         const estimators::GroupEstimates to{reinterpret_cast<std::byte*>(sums_.groups.data()), sizeof(GroupSum),
                                             reinterpret_cast<std::byte*>(sums_.rest.data()), sizeof(GroupRest),
                                             sums_.rest.empty() ? nullptr : reinterpret_cast<std::byte*>(&sums_.rest[0].length_t),
                                             sizeof(GroupRest)};
-        estimators::estimateGroups(plan_.method, PlanTriangles(plan_), plan_.group_count, pose_, uvs, scale, to,
-                                   execution_, parallel_);
+        estimators::estimateGroups(plan_.method, triangles, plan_.group_count, pose_, uvs, scale, to, execution_,
+                                   parallel_);
     }
 
     /// Turns sums into results, in place.

@@ -146,13 +146,13 @@ class OnePass {
             sums_.rest = Buffer<NodeRest>(allocator_, nodes_.count);
             sums_.lengths_t = Buffer<float>(allocator_, nodes_.count);
         }
-        scale_ = estimators::inputScale(mesh_.positions, mesh_.uvs);
+        const MeshTriangles triangles(mesh_, triangles_, nodes_, sums_);
+        scale_ = estimators::inputScale(triangles, mesh_.positions, mesh_.uvs);
         const estimators::GroupEstimates to{reinterpret_cast<std::byte*>(sums_.nodes.data()), sizeof(NodeSum),
                                             reinterpret_cast<std::byte*>(sums_.rest.data()), sizeof(NodeRest),
                                             reinterpret_cast<std::byte*>(sums_.lengths_t.data()), sizeof(float)};
-        estimators::estimateGroups(options_.method, MeshTriangles(mesh_, triangles_, nodes_, sums_),
-                                   nodes_.count, {mesh_.positions, mesh_.normals}, mesh_.uvs, scale_, to,
-                                   options_.execution, parallel_);
+        estimators::estimateGroups(options_.method, triangles, nodes_.count, {mesh_.positions, mesh_.normals}, mesh_.uvs,
+                                   scale_, to, options_.execution, parallel_);
     }
 
     /// The tangents are written last, so until then their memory can serve.
