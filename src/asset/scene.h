@@ -60,7 +60,6 @@ struct ScenePrimitive {
     /// Everything in the primitive's materials (variants too) that needs tangents; the first decides which UV set the
     /// tangents follow.
     std::vector<TangentUse> uses = {};
-    bool drawn_mirrored = false;  ///< a node draws it with a negative determinant
 };
 
 struct SceneImage {

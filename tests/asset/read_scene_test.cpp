@@ -83,34 +83,6 @@ TEST(ReadScene, LeavesPointsAndLinesWithoutCorners) {
     }
 }
 
-bool drawnMirrored(const Json& nodes) {
-    GltfBuilder builder = oneTriangle();
-    builder.json()["nodes"] = nodes;
-    return read(builder).primitives[0].drawn_mirrored;
-}
-
-TEST(ReadScene, KnowsWhatIsDrawnMirrored) {
-    EXPECT_FALSE(drawnMirrored(Json::parse(R"([{"mesh":0}])")));
-    EXPECT_TRUE(drawnMirrored(Json::parse(R"([{"mesh":0},{"mesh":0,"scale":[-1,1,1]}])")));
-    EXPECT_TRUE(drawnMirrored(Json::parse(R"([{"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,-1,0,0,0,0,1]}])")));
-    EXPECT_FALSE(drawnMirrored(Json::parse(R"([{"scale":[-1,1,1],"children":[1]},{"mesh":0,"scale":[1,-2,1]}])")));
-    EXPECT_TRUE(drawnMirrored(Json::parse(R"([{"mesh":0},{"scale":[-1,1,1],"children":[0]}])")));
-    EXPECT_FALSE(drawnMirrored(Json::parse(R"([{"mesh":0,"skin":0,"scale":[-1,1,1]}])")));
-}
-
-TEST(ReadScene, GetsOutOfNodesInACycle) {
-    EXPECT_FALSE(drawnMirrored(Json::parse(R"([{"mesh":0,"children":[1]},{"children":[0]}])")));
-    EXPECT_TRUE(drawnMirrored(Json::parse(R"([{"scale":[-1,1,1],"children":[1,1]},{"children":[1,2]},{"mesh":0}])")) );
-}
-
-TEST(ReadScene, KnowsMirroredInstances) {
-    GltfBuilder builder = oneTriangle();
-    builder.addFloats({1, 1, 1, 1, 1, -1}, 3);
-    builder.json()["nodes"] =
-        Json::parse(R"([{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"SCALE":4}}}}])");
-    EXPECT_TRUE(read(builder).primitives[0].drawn_mirrored);
-}
-
 TEST(ReadScene, RefusesArraysFarLargerThanTheFile) {
     GltfBuilder builder = oneTriangle();
     // Each is within the limit for accessors without data; together they are not.

@@ -8,7 +8,6 @@
 #include "asset/gltf/accessor.h"
 #include "asset/gltf/document.h"
 #include "asset/gltf/material_needs.h"
-#include "asset/gltf/mirrored_nodes.h"
 #include "asset/gltf/primitive_reader.h"
 #include "asset/scene.h"
 #include "asset/uri.h"
@@ -48,8 +47,7 @@ class VectorCache {
 
 class PrimitiveLoader {
   public:
-    explicit PrimitiveLoader(const Document& document)
-        : document_(document), budget_(*document.memory), mirrored_(findMirroredMeshes(document)) {}
+    explicit PrimitiveLoader(const Document& document) : document_(document), budget_(*document.memory) {}
 
     ScenePrimitive load(const Primitive& primitive) {
         ScenePrimitive result;
@@ -59,7 +57,6 @@ class PrimitiveLoader {
         result.mesh_name = primitive.mesh_name;
         result.material_name = materialName(document_, primitive);
         result.mode = modeName(primitive.mode);
-        result.drawn_mirrored = mirrored_[primitive.mesh];
         result.uses = tangentUses(document_, primitive);
         loadAttributes(primitive, result);
         for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
@@ -114,7 +111,6 @@ class PrimitiveLoader {
 
     const Document& document_;
     MemoryBudget& budget_;
-    std::vector<bool> mirrored_;
     VectorCache<Vec2> vec2_{decodeVec2};
     VectorCache<Vec3> vec3_{decodeVec3};
     VectorCache<Vec4> vec4_{decodeVec4};
