@@ -160,6 +160,12 @@ std::string percentEncode(std::string_view path) {
     return result;
 }
 
+std::string pathOfUri(std::string_view uri) {
+    std::string path = percentDecode(uri);
+    std::replace(path.begin(), path.end(), '\\', '/');
+    return path;
+}
+
 fs::path resolveUri(const fs::path& folder, std::string_view uri, bool allow_external,
                     const std::string& place) {
     const auto refuse = [&](const char* why) {
@@ -167,13 +173,12 @@ fs::path resolveUri(const fs::path& folder, std::string_view uri, bool allow_ext
     };
     if (uriKind(uri) != UriKind::path) refuse("has a scheme other than data, which is never loaded");
     if (uri.starts_with(':')) failFile(ErrorCode::invalidFile, "the URI " + inQuotes(uri, 200) + " has no scheme before its colon", place);
-    const std::string decoded = percentDecode(uri);
-    if (decoded.empty() || decoded.find('\0') != std::string::npos) {
+    const std::string path = pathOfUri(uri);
+    if (path.empty() || path.find('\0') != std::string::npos) {
         failFile(ErrorCode::invalidFile, "a URI names no file", place);
     }
-    const fs::path relative(decoded);
+    const fs::path relative(path);
     if (allow_external) return folder / relative;
-    if (decoded.find('\\') != std::string::npos) refuse("has a backslash");
     if (relative.is_absolute()) refuse("is an absolute path");
     if (std::find(relative.begin(), relative.end(), fs::path("..")) != relative.end())
         refuse("leads out of the model's folder");

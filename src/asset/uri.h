@@ -31,8 +31,12 @@ std::string percentDecode(std::string_view text);
 /// Escapes what may not stand in the path of a URI.
 std::string percentEncode(std::string_view path);
 
-/// The file that `uri` names. Fails with forbiddenPath when it is absolute, has a scheme, a backslash or a
-/// `..`, or when a symbolic link leads out of `folder`; `allow_external` lifts all of these but the scheme.
+/// The path that a relative URI stands for: escapes decoded, and Windows' separators, which some exporters write, as
+/// slashes.
+std::string pathOfUri(std::string_view uri);
+
+/// The file that `uri` names. Fails with forbiddenPath when it is absolute, has a scheme or a `..`, or when a symbolic
+/// link leads out of `folder`; `allow_external` lifts all of these but the scheme.
 std::filesystem::path resolveUri(const std::filesystem::path& folder, std::string_view uri,
                                  bool allow_external, const std::string& place);
 

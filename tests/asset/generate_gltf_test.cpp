@@ -261,12 +261,13 @@ TEST(GenerateGltf, LeavesDataUrisDataUris) {
 }
 
 /// The grid as .gltf with its buffer and an image in files.
-void writeWithFiles(const TempFolder& folder, const std::string& name, GltfBuilder builder) {
+void writeWithFiles(const TempFolder& folder, const std::string& name, GltfBuilder builder,
+                    const char* image_uri = "tex/image.png") {
     folder.write("in/geo metry.bin", builder.bytes());
     folder.write("in/tex/image.png", std::string("\x89PNG\r\n\x1a\nrest"));
     builder.json()["buffers"] =
         Json::array({Json{{"byteLength", builder.bytes().size()}, {"uri", "geo%20metry.bin"}}});
-    builder.json()["images"] = Json::array({Json{{"uri", "tex/image.png"}, {"name", "i"}}});
+    builder.json()["images"] = Json::array({Json{{"uri", image_uri}, {"name", "i"}}});
     folder.write("in/" + name, builder.json().dump(2));
 }
 
@@ -315,6 +316,17 @@ TEST(GenerateGltf, CopiesNamedFilesButOverwritesNoOther) {
     EXPECT_EQ(refused.error().code, ErrorCode::cannotWrite);
     EXPECT_EQ(folder.entryCount(), files);
     EXPECT_EQ(readFile(output), model);
+}
+
+TEST(GenerateGltf, FindsFilesThatAreNamedWithWindowsSeparators) {
+    const TempFolder folder;
+    writeWithFiles(folder, "b.gltf", gridModel(Grid(4)), "tex\\image.png");
+    const std::string input = folder.path("in/b.gltf").string(), output = folder.path("out/b.gltf").string();
+    ASSERT_TRUE(generateFile(input, output));
+    EXPECT_TRUE(std::filesystem::exists(folder.path("out/tex/image.png")));
+    EXPECT_EQ(gltf::loadDocument(output, {}).json["images"][0]["uri"], "tex\\image.png");
+    ASSERT_TRUE(generateFile(input, folder.path("out/b.glb").string()));
+    EXPECT_EQ(gltf::loadDocument(folder.path("out/b.glb").string(), {}).json["images"][0]["mimeType"], "image/png");
 }
 
 TEST(GenerateGltf, MakesASelfContainedGlb) {

@@ -34,11 +34,12 @@ TEST(ResolveUri, StaysInsideTheFolder) {
     const auto resolve = [&](const char* uri, bool allow = false) {
         return errorOf([&] { resolveUri(folder.path("model"), uri, allow, "/buffers/0/uri"); }).code;
     };
-    for (const char* uri : {"sub/a%20b.bin", "sub/a b.bin", "./sub/x", "missing.bin", "a..b", "100%.bin"}) {
+    for (const char* uri :
+         {"sub/a%20b.bin", "sub/a b.bin", "./sub/x", "missing.bin", "a..b", "100%.bin", "sub\\x", "sub%5Cx"}) {
         EXPECT_EQ(resolve(uri), ErrorCode::ok) << uri;
     }
     for (const char* uri : {"../x", "sub/../../x", "%2e%2e/x", "..%2Fx", "/etc/passwd", "//host/x", "..\\x",
-                            "sub\\x", "http://host/x", "file:///etc/passwd", "C:/x", "sub/../x"}) {
+                            "sub\\..\\../x", "..%5Cx", "\\etc", "\\\\host\\x", "http://host/x", "file:///etc/passwd", "C:/x", "sub/../x"}) {
         EXPECT_EQ(resolve(uri), ErrorCode::forbiddenPath) << uri;
     }
     EXPECT_EQ(resolve("../x", true), ErrorCode::ok);
@@ -46,6 +47,12 @@ TEST(ResolveUri, StaysInsideTheFolder) {
     EXPECT_EQ(resolve("http://host/x", true), ErrorCode::forbiddenPath);
     EXPECT_EQ(resolve("a%00b"), ErrorCode::invalidFile);
     EXPECT_EQ(resolve(""), ErrorCode::invalidFile);
+}
+
+TEST(ResolveUri, TakesWindowsSeparatorsForSlashes) {
+    const TempFolder folder;
+    EXPECT_EQ(resolveUri(folder.path(""), "sub\\a%20b.bin", false, ""), folder.path("") / "sub/a b.bin");
+    EXPECT_EQ(resolveUri(folder.path(""), "..\\b.bin", true, ""), folder.path("") / "../b.bin");
 }
 
 TEST(ResolveUri, FollowsNoLinkOut) {

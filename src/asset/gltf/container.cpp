@@ -169,7 +169,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
                    const std::string& place, AtomicOutput& output, std::vector<std::string>& warnings) {
     if (uri.empty() || uriKind(uri) != UriKind::path) return;
     const fs::path from = resolveUri(document.folder, uri, document.options.allow_external, place);
-    const fs::path relative = fs::path(percentDecode(uri)).lexically_normal();
+    const fs::path relative = fs::path(pathOfUri(uri)).lexically_normal();
     if (relative.is_absolute() || *relative.begin() == "..") {
         warnings.push_back("the file " + inQuotes(uri) +
                            " lies outside of the model's folder and was not copied");
@@ -216,7 +216,7 @@ void copyNamedFiles(const Document& document, const OutputTarget& target, Atomic
 bool namesFile(const Json& list, const std::string& name) {
     return std::any_of(list.begin(), list.end(), [&](const Json& entry) {
         const Json* uri = findMember(entry, "uri");
-        return uri != nullptr && uri->is_string() && percentDecode(uri->get<std::string>()) == name;
+        return uri != nullptr && uri->is_string() && pathOfUri(uri->get<std::string>()) == name;
     });
 }
 
@@ -285,7 +285,7 @@ void convertContainer(Document& document, const OutputTarget& target, bool will_
         } else if (buffer.source == BufferSource::dataUri) {
             buffer.own = true;
         } else if (buffer.source == BufferSource::file && (target.in_place || !target.same_folder) &&
-                   percentDecode(entry["uri"].get_ref<const std::string&>()) == own_name) {
+                   pathOfUri(entry["uri"].get_ref<const std::string&>()) == own_name) {
             // An earlier run made this file for a model of this name.
             buffer.own = true;
             buffer.path = own_name;
