@@ -43,11 +43,13 @@ TEST(Inspect, OneBadFileDoesNotStopTheOthers) {
 
 TEST(Inspect, NamesFromFilesCannotBreakLinesOrTheTerminal) {
     const TempFolder folder;
-    folder.write("a.obj", "o evil\x1b[31m\x07\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.write("a.obj", "o evil\x1b[31m\x07\xc2\x9b" "31m caf\xc3\xa9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const ToolRun run = runTool(folder, "inspect a.obj");
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_EQ(run.out.find('\x1b'), std::string::npos);
     EXPECT_EQ(run.out.find('\x07'), std::string::npos);
+    EXPECT_EQ(run.out.find("\xc2\x9b"), std::string::npos) << "the escape sequence in one character, U+009B";
+    EXPECT_NE(run.out.find("caf\xc3\xa9"), std::string::npos) << run.out;
 }
 
 }  // namespace

@@ -53,9 +53,15 @@ bool wantsColor() {
 }
 
 std::string printable(std::string_view text) {
+    // U+0080 to U+009F in UTF-8. U+009B alone starts what ESC [ starts.
+    const auto isLateControl = [](char lead, char next) {
+        return static_cast<unsigned char>(lead) == 0xC2 && static_cast<unsigned char>(next) >= 0x80 &&
+               static_cast<unsigned char>(next) < 0xA0;
+    };
     std::string clean(text);
-    for (char& c : clean) {
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+    for (std::size_t i = 0; i < clean.size(); ++i) {
+        if (static_cast<unsigned char>(clean[i]) < 0x20 || clean[i] == 0x7F) clean[i] = ' ';
+        if (i + 1 < clean.size() && isLateControl(clean[i], clean[i + 1])) clean.replace(i, 2, " ");
     }
     return clean;
 }
