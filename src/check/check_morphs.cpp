@@ -42,8 +42,8 @@ void applyTarget(const TangentView& base, const SceneMorphTarget& target, Morphe
 }
 
 /// How wrong each vertex's tangent is, in degrees: its direction in the surface, or its lean out of it.
-std::vector<float> frameErrors(const TangentView& mesh, const CheckOptions& options) {
-    std::vector<float> errors = directionDistances(mesh, describeSurface(mesh), options.direction_deg);
+std::vector<float> frameErrors(const TangentView& mesh, const Surface& surface, const CheckOptions& options) {
+    std::vector<float> errors = directionDistances(mesh, surface, options.direction_deg);
     for (std::size_t v = 0; v < errors.size(); ++v) {
         DVec3 normal = toDouble(mesh.normals[v]), tangent = toDouble(xyz(mesh.tangents[v]));
         if (!normalize(normal)) continue;
@@ -65,7 +65,7 @@ struct MorphFault {
 class MorphChecker {
   public:
     explicit MorphChecker(PrimitiveFacts& facts)
-        : facts_(facts), base_errors_(frameErrors(facts.mesh, facts.options)) {}
+        : facts_(facts), base_errors_(frameErrors(facts.mesh, facts.surface, facts.options)) {}
 
     void check(std::size_t number, const SceneMorphTarget& target) {
         const bool missing = target.tangents.empty();
@@ -74,13 +74,16 @@ class MorphChecker {
         ++fault.targets.total;
         MorphedMesh morphed;
         applyTarget(facts_.mesh, target, morphed);
-        const std::vector<float> errors = frameErrors(morphed.view, facts_.options);
+        const Surface surface = describeSurface(morphed.view);
+        const std::vector<float> errors = frameErrors(morphed.view, surface, facts_.options);
         const double limit = facts_.options.direction_deg;
         Tally tally;
         double far_area = 0;
         for (std::uint32_t v = 0; v < errors.size(); ++v) {
             // What is wrong without the target is found without it.
             if (!(errors[v] > limit) || base_errors_[v] > limit) continue;
+            // Nobody sees a frame around which there is no surface.
+            if (surface.vertex_areas[v] == 0 && facts_.surface.vertex_areas[v] == 0) continue;
             tally.add(v, facts_.surface.vertex_areas[v], errors[v]);
             if (errors[v] > facts_.options.error_deg) far_area += facts_.surface.vertex_areas[v];
         }

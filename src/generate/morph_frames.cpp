@@ -2,6 +2,9 @@
 // Each target is evaluated on the plan of the base, mended as the base was, and compared with the base corner by corner.
 // Where nothing near a corner moves the evaluation has the base's bits, so the offset is exactly zero. Where a target
 // makes faces collapse (an eye that closes), the corner has no tangent of its own and keeps that of the base.
+//
+// A group of the base goes on over equal vertices. Where a target gives those different normals, as flat shading does
+// where it bends a plane, one tangent for all would lean out of every face; so there the moved shape is grouped anew.
 #include "generate/morph_frames.h"
 
 #include <cfloat>
@@ -18,6 +21,7 @@ namespace tspace {
 namespace {
 
 constexpr double kCosineOfFiveDegrees = 0.99619469809174555;
+constexpr double kTenthOfADegree = 0.0017453283658983088;  // its sine
 
 bool isZero(const Vec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
@@ -33,6 +37,12 @@ Vec3 unitSum(const Vec3& normal, const Vec3& offset) {
 
 bool hasDirection(const Vec4& tangent) {
     return isFinite(xyz(tangent)) && length(toDouble(xyz(tangent))) >= double{FLT_MIN};
+}
+
+/// Whether the tangent has a direction, within a tenth of a degree of the plane.
+bool liesAcross(const Vec4& tangent, const Vec3& normal) {
+    const DVec3 t = toDouble(xyz(tangent)), n = toDouble(normal);
+    return hasDirection(tangent) && std::fabs(dot(t, n)) <= kTenthOfADegree * length(t) * length(n);
 }
 
 /// The tangent of the base, made orthogonal to another normal that has a direction.
@@ -94,7 +104,8 @@ Result<Done> MorphTangents::add(LocalMesh&& mesh, PrimitiveReport& report) {
     if (!made) return made.error();
     std::vector<bool> has_direction(tangents_.size());
     for (std::size_t c = 0; c < tangents_.size(); ++c) has_direction[c] = hasDirection(tangents_[c]);
-    pieces_.push_back({std::move(mesh), *std::move(plan), std::move(has_direction), &report});
+    WeldClasses classes(mesh);
+    pieces_.push_back({std::move(mesh), *std::move(plan), std::move(classes), std::move(has_direction), &report});
     return Done{};
 }
 
@@ -127,6 +138,9 @@ Result<Done> MorphTangents::evaluate(const Piece& piece, std::span<const Vec4> b
     const Result<TangentReport> made = evaluateTangents(piece.plan, {posed.positions, posed.normals},
                                                         {.tangents = tangents_}, options_.tangents.execution);
     if (!made) return made.error();
+    if (piece.classes.findApart(piece.mesh.indices, pose_.positions(), pose_.normals(), apart_)) {
+        if (Result<Done> done = regroup(piece, posed); !done) return done;
+    }
     if (options_.sanitize) {
         carryOver(piece, base);
         const Result<SanitizeReport> mended = sanitizeTangents(posed, tangents_, options_.sanitize_options);
@@ -135,6 +149,25 @@ Result<Done> MorphTangents::evaluate(const Piece& piece, std::span<const Vec4> b
     for (std::size_t c = 0; c < base.size(); ++c) {
         offsets[c] = offsetBetween(xyz(base[c]), xyz(tangents_[c]));
         if (base[c].w != tangents_[c].w) ++piece.report->morph_sign_flip_count;
+    }
+    return Done{};
+}
+
+/// Where equal vertices came apart. Where the corner's own triangles give it nothing (a default leans out of the plane), or
+/// the other sign, which no target can bring about, the tangent of the base's group is laid into the plane.
+Result<Done> MorphTangents::regroup(const Piece& piece, const MeshView& posed) {
+    regrouped_.resize(tangents_.size());
+    const Result<TangentReport> made = generateTangents(posed, options_.tangents, {.tangents = regrouped_});
+    if (!made) return made.error();
+    for (std::size_t c = 0; c < tangents_.size(); ++c) {
+        const std::uint32_t v = piece.mesh.indices[c];
+        if (!apart_[piece.classes.of(v)]) continue;
+        const Vec3& normal = pose_.normals()[v];
+        if (regrouped_[c].w == tangents_[c].w && liesAcross(regrouped_[c], normal)) {
+            tangents_[c] = regrouped_[c];
+        } else if (hasDirection(tangents_[c])) {
+            tangents_[c] = carried(tangents_[c], piece.mesh.normals[v], normal);
+        }
     }
     return Done{};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What morph targets add to the tangents of a pool: tangents of the moved shape with the groups of the base, minus those
-// of the base.
+// of the base. Where a target takes vertices apart that are equal on the base, groups are those of the moved shape.
 #pragma once
 
 #include <optional>
@@ -9,6 +9,7 @@
 
 #include "generate/local_mesh.h"
 #include "generate/morph_split.h"
+#include "generate/weld_classes.h"
 #include "tspace/tangents.h"
 
 namespace tspace {
@@ -46,17 +47,20 @@ class MorphTangents {
     struct Piece {
         LocalMesh mesh;
         TangentPlan plan;
+        WeldClasses classes;
         std::vector<bool> has_direction;  ///< per corner: the base has a tangent there that needs no substitute
         PrimitiveReport* report = nullptr;
     };
     Result<Done> evaluate(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets);
+    Result<Done> regroup(const Piece& piece, const MeshView& posed);
     void carryOver(const Piece& piece, std::span<const Vec4> base);
 
     const VertexPool& pool_;
     const GenerateOptions& options_;
     std::vector<Piece> pieces_ = {};
     MorphPose pose_ = {};
-    std::vector<Vec4> tangents_ = {};
+    std::vector<Vec4> tangents_ = {}, regrouped_ = {};
+    std::vector<bool> apart_ = {};
 };
 
 /// Corners whose tangent differs from that of their vertex by sign, or in direction by more than 5 degrees. `computed`

@@ -55,6 +55,8 @@ InputScale inputScale(const TriangleGroups& triangles, const StridedSpan<const V
     for (std::size_t i = 0; i < samples; ++i) {
         std::uint32_t vertices[3], groups[3];
         triangles.read(triangles.count * i / samples, 1, vertices, groups);
+        const Vec3 &a = positions[vertices[0]], &b = positions[vertices[1]], &c = positions[vertices[2]];
+        if (a == b || b == c || c == a) continue;  // plans leave them out
         for (const std::uint32_t v : vertices) {
             of_positions.count(largestOf(positions[v]));
             if (!uvs.empty()) of_uvs.count(largestOf(uvs[v]));

@@ -17,7 +17,7 @@ struct InputScale {
 };
 
 /// From a sample of at most 1024 triangles, so that it does not matter which corners share a vertex, nor what vertices
-/// no triangle names. Zeros and what is not finite do not count. `uvs` may be empty.
+/// no triangle names. Zeros, what is not finite, and degenerate triangles do not count. `uvs` may be empty.
 InputScale inputScale(const TriangleGroups& triangles, const StridedSpan<const Vec3>& positions,
                       const StridedSpan<const Vec2>& uvs);
 
