@@ -155,10 +155,11 @@ class TangentPlan {
 /// Same bits for any thread count and SIMD target.
 /// Scratch memory on a mesh of triangles: `lengyel` 16 bytes per vertex, or 8
 /// with OutputDomain::vertex (24 where the tangents' stride is not 16). `mikktspace`, `uniform`, `angle` and `area` about
-/// 40 bytes per vertex without equal vertices, 50 with some, 85 when more than tangents is asked for; up to about 130
+/// 36 bytes per vertex without equal vertices, 46 with some, 80 when more than tangents is asked for, and 32 per triangle
+/// for unindexed corners (where the tangents' stride is not 16 some more: see docs/memory.md); up to about 130
 /// bytes per triangle for meshes that need the long way (thresholds, values that are not finite), and about 150 beside the
 /// first for each triangle around a vertex that needs a second look (several groups, doubtful splits, degenerate triangles).
-/// `fast` and `best` take about as much, 4 bytes per triangle where triangles are in no order, and up to 2 MB per thread.
+/// `fast` and `best` take about as much, and up to 2 MB per thread.
 /// FrameShape::symmetric adds 12 bytes per output unless bitangents are asked for. Until the call returns, and when it
 /// fails, the outputs hold anything.
 Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out);

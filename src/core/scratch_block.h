@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// One block of memory for the many small buffers of a short call. What does not fit comes from the caller's
-// allocator.
+// One block of memory for the many small buffers of a short call, or for what needs no memory after it. What
+// does not fit comes from the caller's allocator.
 #pragma once
 
 #include <algorithm>
 #include <functional>
+#include <span>
 
 #include "core/memory.h"
 
@@ -14,11 +15,21 @@ namespace tspace {
 /// again when the last buffer that was given out goes first. For the calling thread only, as every allocator.
 class ScratchBlock {
   public:
-    ScratchBlock(const Allocator* parent, std::size_t bytes) : parent_(parent), block_(parent, bytes) {}
+    ScratchBlock(const Allocator* parent, std::size_t bytes)
+        : parent_(parent), own_(parent, bytes), block_(own_.data()), size_(bytes) {}
+    /// Gives out memory of somebody else.
+    ScratchBlock(const Allocator* parent, std::span<std::byte> memory) : parent_(parent) {
+        const std::size_t skip = -reinterpret_cast<std::uintptr_t>(memory.data()) % kMemoryAlignment;
+        if (memory.size() <= skip) return;
+        block_ = memory.data() + skip;
+        size_ = memory.size() - skip;
+    }
     ScratchBlock(const ScratchBlock&) = delete;
     ScratchBlock& operator=(const ScratchBlock&) = delete;
 
     [[nodiscard]] const Allocator* allocator() const { return &allocator_; }
+    /// Whether so many bytes would come from the block.
+    [[nodiscard]] bool has(std::size_t bytes) const { return bytes <= size_ - used_; }
 
   private:
     static std::size_t rounded(std::size_t bytes) {
@@ -27,27 +38,28 @@ class ScratchBlock {
 
     static void* allocate(void* user, std::size_t bytes, std::size_t) {
         auto& self = *static_cast<ScratchBlock*>(user);
-        if (bytes > self.block_.size() - self.used_) return allocateBytes(self.parent_, bytes);
-        void* memory = self.block_.data() + self.used_;
-        self.used_ = std::min(self.used_ + rounded(bytes), self.block_.size());
+        if (!self.has(bytes)) return allocateBytes(self.parent_, bytes);
+        void* memory = self.block_ + self.used_;
+        self.used_ = std::min(self.used_ + rounded(bytes), self.size_);
         return memory;
     }
 
     static void release(void* user, void* memory, std::size_t bytes, std::size_t) {
         auto& self = *static_cast<ScratchBlock*>(user);
         auto* const first = static_cast<std::byte*>(memory);
-        const std::byte *begin = self.block_.data(), *end = begin + self.block_.size();
+        const std::byte *begin = self.block_, *end = begin + self.size_;
         if (!std::less_equal<>{}(begin, first) || !std::less<>{}(first, end)) {
             releaseBytes(self.parent_, memory, bytes);
             return;
         }
         const auto offset = static_cast<std::size_t>(first - begin);
-        if (std::min(offset + rounded(bytes), self.block_.size()) == self.used_) self.used_ = offset;
+        if (std::min(offset + rounded(bytes), self.size_) == self.used_) self.used_ = offset;
     }
 
     const Allocator* parent_;
-    Buffer<std::byte> block_;
-    std::size_t used_ = 0;
+    Buffer<std::byte> own_;
+    std::byte* block_ = nullptr;
+    std::size_t size_ = 0, used_ = 0;
     Allocator allocator_{allocate, release, this};
 };
 

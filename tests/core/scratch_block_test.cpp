@@ -86,5 +86,37 @@ TEST(ScratchBlock, SaysWhenTheCallersAllocatorHasNothingMore) {
     EXPECT_NO_THROW(Buffer<std::uint8_t>(scratch.allocator(), 256));
 }
 
+TEST(ScratchBlock, GivesOutMemoryOfSomebodyElseAndNothingBeyondIt) {
+    alignas(kMemoryAlignment) std::byte memory[512] = {};
+    for (const std::size_t skip : {std::size_t{0}, std::size_t{4}, std::size_t{63}}) {
+        Source source;
+        {
+            ScratchBlock scratch(&source.allocator, std::span(memory).subspan(skip, 300));
+            const std::size_t usable = skip == 0 ? 300 : 300 - (64 - skip);
+            EXPECT_TRUE(scratch.has(usable));
+            EXPECT_FALSE(scratch.has(usable + 1));
+            const Buffer<std::byte> inside(scratch.allocator(), usable, std::byte{1});
+            EXPECT_EQ(inside.data(), memory + (skip == 0 ? 0 : 64));
+            EXPECT_EQ(source.calls, 0);
+            const Buffer<std::byte> beyond(scratch.allocator(), 1);
+            EXPECT_EQ(source.calls, 1);
+        }
+        EXPECT_EQ(source.held, 0);
+    }
+}
+
+TEST(ScratchBlock, TakesAllFromTheCallersAllocatorWithoutMemory) {
+    Source source;
+    std::byte few[8];
+    for (const std::span<std::byte> memory : {std::span<std::byte>(), std::span<std::byte>(few)}) {
+        ScratchBlock scratch(&source.allocator, memory);
+        EXPECT_FALSE(scratch.has(65));
+        const int calls = source.calls;
+        const Buffer<std::byte> buffer(scratch.allocator(), 65);
+        EXPECT_EQ(source.calls, calls + 1);
+    }
+    EXPECT_EQ(source.held, 0);
+}
+
 }  // namespace
 }  // namespace tspace

@@ -301,11 +301,12 @@ TEST(TangentBorder, OutputsThatAreNotWantedMayBeMissing) {
 
 /// Counts what is handed out, and fails from a given call on.
 struct CountingAllocator {
-    std::size_t calls = 0, fails_at = ~std::size_t{0}, live_bytes = 0;
+    std::size_t calls = 0, fails_at = ~std::size_t{0}, live_bytes = 0, peak_bytes = 0;
     Allocator allocator{.allocate = [](void* user, std::size_t bytes, std::size_t alignment) -> void* {
                             auto& self = *static_cast<CountingAllocator*>(user);
                             if (self.calls++ >= self.fails_at) return nullptr;
                             self.live_bytes += bytes;
+                            self.peak_bytes = std::max(self.peak_bytes, self.live_bytes);
                             return ::operator new(bytes, std::align_val_t(alignment));
                         },
                         .release =
@@ -347,6 +348,23 @@ TEST(TangentMemory, EachAllocationMayFail) {
     shape.uvs[3] = shape.uvs[2];
     for (const float threshold : {20.0f, 180.0f}) EXPECT_GT(letEachAllocationFail(shape, threshold), 10u);
     for (const Method method : {Method::fast, Method::best}) EXPECT_GT(letEachAllocationFail(shape, 180, method), 10u);
+}
+
+TEST(TangentMemory, UnindexedCornersTakeAtMost32BytesPerTriangle) {
+    Shape shape = grid(200);
+    for (std::uint32_t corner = 0; corner < 300; ++corner) shape.uvs[shape.indices[corner]] = {};  // for a second look
+    Shape corners;
+    for (const std::uint32_t v : shape.indices)
+        corners.vertex(shape.positions[v], shape.normals[v], shape.uvs[v]);
+    MeshView mesh = corners.view();
+    mesh.indices = {};
+    for (const unsigned threads : {1u, 2u}) {
+        CountingAllocator counting;
+        std::vector<Vec4> tangents(corners.positions.size());
+        ASSERT_TRUE(generateTangents(
+            mesh, {.execution = {.thread_count = threads, .allocator = &counting.allocator}}, {.tangents = tangents}));
+        EXPECT_LE(counting.peak_bytes, 32 * (tangents.size() / 3)) << threads << " threads";
+    }
 }
 
 TEST(TangentMemory, ASmallMeshTakesFewBlocks) {

@@ -11,6 +11,7 @@
 #include <map>
 #include <random>
 
+#include "core/scratch_block.h"
 #include "tangents/mikktspace/grouped_plan.h"
 #include "tangents/shapes.h"
 
@@ -21,10 +22,10 @@ using test::Shape;
 
 constexpr std::size_t kMany = 100000;  // vertices: enough that all threads have work
 
-Nodes weldWith(const MeshView& mesh, unsigned threads) {
+Nodes weldWith(const MeshView& mesh, unsigned threads, const Allocator* brief = nullptr) {
     Parallel parallel(Execution{.thread_count = threads});
     const TriangleList triangles = cutFaces(mesh, Ngons::skip, nullptr);
-    return weld(mesh, triangles, nullptr, parallel);
+    return weld(mesh, triangles, nullptr, parallel, brief);
 }
 
 /// Nodes as a search tree finds them: numbered by the first of equal vertices.
@@ -49,6 +50,21 @@ void expectWanted(const MeshView& mesh) {
         std::size_t different = 0;
         for (std::uint32_t v = 0; v < want.size(); ++v) different += nodes.ofVertex(v) != want[v] ? 1u : 0u;
         EXPECT_EQ(different, 0u) << threads << " threads";
+    }
+}
+
+/// Nothing that remains may lie in the brief memory, whether all of what is brief fits or a part of it.
+void expectTheSameWithBriefMemory(const MeshView& mesh) {
+    const Nodes want = weldWith(mesh, 2);
+    for (const std::size_t bytes_per_vertex : {1u, 5u, 64u}) {
+        std::vector<std::byte> memory(bytes_per_vertex * mesh.vertexCount() + 4096);
+        ScratchBlock brief(nullptr, std::span<std::byte>(memory));
+        const Nodes nodes = weldWith(mesh, 2, brief.allocator());
+        std::fill(memory.begin(), memory.end(), std::byte{0xff});
+        EXPECT_EQ(nodes.count, want.count);
+        EXPECT_TRUE(std::ranges::equal(nodes.of_vertex, want.of_vertex)) << bytes_per_vertex;
+        EXPECT_TRUE(std::ranges::equal(nodes.vertices, want.vertices)) << bytes_per_vertex;
+        EXPECT_TRUE(std::ranges::equal(nodes.of_corner, want.of_corner)) << bytes_per_vertex;
     }
 }
 
@@ -84,6 +100,26 @@ TEST(Weld, FindsEqualVerticesWhereMostAreEqual) {
     unindexed.indices = {};
     unindexed.positions.count = unindexed.normals.count = unindexed.uvs.count = kMany - kMany % 3;
     expectWanted(unindexed);
+}
+
+TEST(Weld, PutsNothingThatRemainsIntoBriefMemory) {
+    const Shape few = randomVertices(kMany, 100);
+    expectTheSameWithBriefMemory(few.view());
+    const Shape many = randomVertices(kMany - kMany % 3, 2);
+    MeshView unindexed = many.view();
+    unindexed.indices = {};
+    expectTheSameWithBriefMemory(unindexed);
+    Shape zeros = few;
+    zeros.positions[1] = {0, 0, 0};
+    zeros.positions[2] = {0, -0.0f, 0};
+    zeros.normals[2] = zeros.normals[1];
+    zeros.uvs[2] = zeros.uvs[1];
+    ASSERT_TRUE(weldWith(zeros.view(), 1).mixed);
+    expectTheSameWithBriefMemory(zeros.view());
+    Shape wild = few;
+    wild.normals[5].x = std::numeric_limits<float>::quiet_NaN();
+    ASSERT_FALSE(weldWith(wild.view(), 1).tame);
+    expectTheSameWithBriefMemory(wild.view());
 }
 
 TEST(Weld, MakesOneNodeOfOneVertexRepeated) {

@@ -195,8 +195,9 @@ std::optional<Outputs> look(const Shape& shape, const TangentOptions& options, m
     Outputs outputs(shape.cornerCount());
     TangentOutput to = outputs.view();
     if (tangents_only) to = {.tangents = to.tangents};
+    ScratchBlock brief(nullptr, std::as_writable_bytes(std::span(to.tangents.data, to.tangents.count)));
     const auto report =
-        mikk::evaluateInOnePass(mesh, options, triangles, nodes, to, parallel, first_look);
+        mikk::evaluateInOnePass(mesh, options, triangles, nodes, to, brief, parallel, first_look);
     if (!report) return std::nullopt;
     outputs.report = *report;
     return outputs;

@@ -123,15 +123,17 @@ inline Marks marksOfVertices(Marks at_nodes, const Nodes& nodes, const Allocator
 /// Which parts of the nodes have marked vertices.
 class MarkedParts {
   public:
-    MarkedParts(const Marks& marks, const Nodes& nodes, const Allocator* allocator)
-        : before_(allocator, nodes.count / kPart + 2, 0u) {
-        constexpr std::size_t kRun = 64;  // vertices; of most none is marked
+    /// nodeOf(i): the node of mark i.
+    template <class NodeOf>
+    MarkedParts(const Marks& marks, std::size_t node_count, const NodeOf& nodeOf, const Allocator* allocator)
+        : before_(allocator, node_count / kPart + 2, 0u) {
+        constexpr std::size_t kRun = 64;  // marks; of most none is set
         for (std::size_t begin = 0; begin < marks.size(); begin += kRun) {
             const std::size_t end = std::min(begin + kRun, marks.size());
             unsigned any = 0;
-            for (std::size_t v = begin; v < end; ++v) any |= marks[v];
-            for (std::size_t v = begin; any != 0 && v < end; ++v) {
-                if (marks[v] != 0) before_[nodes.ofVertex(static_cast<std::uint32_t>(v)) / kPart + 1] = 1;
+            for (std::size_t i = begin; i < end; ++i) any |= marks[i];
+            for (std::size_t i = begin; any != 0 && i < end; ++i) {
+                if (marks[i] != 0) before_[nodeOf(i) / kPart + 1] = 1;
             }
         }
         for (std::size_t part = 1; part < before_.size(); ++part) before_[part] += before_[part - 1];
@@ -146,28 +148,54 @@ class MarkedParts {
     Buffer<std::uint32_t> before_;  // how many parts before this one have marks
 };
 
-/// The triangles of which at least `least` corners, not 0, are at marked vertices; ascending. Where triangles
-/// of a block use nodes that lie together, it is known without a look at them that none is marked.
-inline Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles,
-                                              const Nodes& nodes, const Marks& marks, unsigned least,
-                                              const Allocator* allocator, Parallel& parallel) {
-    const NodeBlocks& blocks = nodes.blocks;
-    std::optional<MarkedParts> parts;
-    if (!blocks.ranges.empty()) parts.emplace(marks, nodes, allocator);
+/// The triangles t for which isMarked(3 * t + k) for some corner k, ascending. `parts`, where the nodes of blocks
+/// are known, those with marks: where triangles of a block use nodes that lie together, it is known without a
+/// look at them that none is marked.
+template <class IsMarked>
+Buffer<std::uint32_t> collectMarked(const TriangleList& triangles, const NodeBlocks& blocks,
+                                    const std::optional<MarkedParts>& parts, const IsMarked& isMarked,
+                                    const Allocator* allocator, Parallel& parallel) {
     const auto anyMarked = [&](std::size_t begin, std::size_t) {
         if (!parts) return true;
         const NodeBlocks::Range range = blocks.ranges[begin / NodeBlocks::kTriangles];
         return parts->any(range.first, range.last);
     };
+    const auto test = [=](std::size_t t) {
+        return (isMarked(3 * t) | isMarked(3 * t + 1) | isMarked(3 * t + 2)) != 0;
+    };
+    return collect(triangles.count, test, anyMarked, allocator, parallel);
+}
+
+/// The triangles with a corner at a marked vertex, ascending.
+inline Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles,
+                                              const Nodes& nodes, const Marks& marks,
+                                              const Allocator* allocator, Parallel& parallel) {
+    std::optional<MarkedParts> parts;
+    const auto nodeOf = [&](std::size_t v) { return nodes.ofVertex(static_cast<std::uint32_t>(v)); };
+    if (!nodes.blocks.ranges.empty()) parts.emplace(marks, nodes.count, nodeOf, allocator);
     return withListedVertices(mesh, triangles, [&](auto vertexOf) {
         const std::uint8_t* marked = marks.data();
-        const auto enough = [=](std::size_t t) {
-            const unsigned count =
-                unsigned{marked[vertexOf(3 * t)]} + marked[vertexOf(3 * t + 1)] + marked[vertexOf(3 * t + 2)];
-            return count >= least;
-        };
-        return collect(triangles.count, enough, anyMarked, allocator, parallel);
+        const auto isMarked = [=](std::size_t i) -> unsigned { return marked[vertexOf(i)]; };
+        return collectMarked(triangles, nodes.blocks, parts, isMarked, allocator, parallel);
     });
+}
+
+/// The triangles with a corner at a marked node, ascending. Nodes must be tame.
+inline Buffer<std::uint32_t> collectAround(const MeshView& mesh, const TriangleList& triangles,
+                                           const Nodes& nodes, Marks at_nodes, const Allocator* allocator,
+                                           Parallel& parallel) {
+    if (mesh.indices.type != IndexType::none || !triangles.corners.empty() || nodes.of_vertex.empty()) {
+        const Marks marks = marksOfVertices(std::move(at_nodes), nodes, allocator, parallel);
+        return collectTriangles(mesh, triangles, nodes, marks, allocator, parallel);
+    }
+    // Each vertex is looked at once, so there is nothing to gain from marks of vertices, which are six times as many.
+    std::optional<MarkedParts> parts;
+    const auto nodeOf = [](std::size_t node) { return node; };
+    if (!nodes.blocks.ranges.empty()) parts.emplace(at_nodes, nodes.count, nodeOf, allocator);
+    const std::uint8_t* marked = at_nodes.data();
+    const std::uint32_t* node_of = nodes.of_vertex.data();
+    const auto isMarked = [=](std::size_t i) -> unsigned { return marked[node_of[i]]; };
+    return collectMarked(triangles, nodes.blocks, parts, isMarked, allocator, parallel);
 }
 
 }  // namespace tspace::mikk

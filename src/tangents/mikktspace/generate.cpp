@@ -20,18 +20,27 @@ namespace {
 /// blocks back each time.
 constexpr std::size_t kSmallMesh = 4096, kBytesPerCorner = 128, kLeastBlock = 8192, kLargestBlock = 98304;
 
+/// Tangents are written last, so until then their memory can serve.
+std::span<std::byte> unwritten(const TangentOutput& out) {
+    if (out.tangents.stride_bytes != sizeof(Vec4)) return {};
+    return {reinterpret_cast<std::byte*>(out.tangents.data), out.tangents.count * sizeof(Vec4)};
+}
+
 TangentReport generateWith(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
                            Parallel& parallel) {
     const Allocator* allocator = options.execution.allocator;
     TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
-    Nodes nodes = weld(mesh, triangles, allocator, parallel);
+    ScratchBlock brief(allocator, unwritten(out));
+    Nodes nodes = weld(mesh, triangles, allocator, parallel, brief.allocator());
     TangentOptions general = options;
-    if (!needsReferenceOrder(mesh, options, triangles, nodes, parallel)) general.pairing = Pairing::corrected;
+    general.execution.allocator = brief.allocator();
+    if (!needsReferenceOrder(mesh, general, triangles, nodes, parallel)) general.pairing = Pairing::corrected;
+    general.execution.allocator = allocator;
     const bool has_threshold =
         options.method == Method::mikktspace && thresholdCosine(options.angular_threshold_deg) != -1.0f;
     if (nodes.tame && general.pairing == Pairing::corrected && !has_threshold) {
         listVertices(nodes, allocator, parallel);
-        const auto report = evaluateInOnePass(mesh, options, triangles, nodes, out, parallel);
+        const auto report = evaluateInOnePass(mesh, options, triangles, nodes, out, brief, parallel);
         if (report) return *report;
     }
     const std::size_t count = nodes.count;

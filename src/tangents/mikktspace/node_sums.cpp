@@ -38,14 +38,10 @@ struct PackedNode {
 };
 static_assert(sizeof(PackedNode) == 32);
 
-/// Copies node data side by side, so that a triangle's corner is one place in memory and not three. Returns
-/// false when the room does not do.
-bool packNodes(const MeshView& mesh, const Nodes& nodes, std::span<std::byte> room, CornerSource& source,
+/// Copies node data side by side, so that a triangle's corner is one place in memory and not three.
+void packNodes(const MeshView& mesh, const Nodes& nodes, PackedNode* packed, CornerSource& source,
                Parallel& parallel) {
     constexpr std::size_t kGrain = 16384;
-    const std::size_t skip = -reinterpret_cast<std::uintptr_t>(room.data()) % sizeof(PackedNode);
-    if (room.size() < skip + nodes.count * sizeof(PackedNode)) return false;
-    auto* packed = reinterpret_cast<PackedNode*>(room.data() + skip);
     parallel.forRanges(nodes.count, kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) {
             const std::uint32_t v = nodes.vertex(n);
@@ -57,7 +53,6 @@ bool packNodes(const MeshView& mesh, const Nodes& nodes, std::span<std::byte> ro
     source.uvs = source.positions + offsetof(PackedNode, uv);
     source.position_stride = source.normal_stride = source.uv_stride = sizeof(PackedNode);
     source.last_vertex = kNone;  // a record holds the four bytes after its vectors
-    return true;
 }
 
 class Summer {
@@ -413,7 +408,7 @@ bool sumCannotSplit(const float* sum, std::uint32_t marks, const Vec3& normal) {
 }
 
 NodeSums sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                  const CornerSource& source, CornerTermsFunction terms, std::span<std::byte> room,
+                  const CornerSource& source, CornerTermsFunction terms, ScratchBlock& brief,
                   const Allocator* allocator, Parallel& parallel) {
     NodeSums sums;
     sums.nodes = Buffer<NodeSum>(allocator, nodes.count);
@@ -430,16 +425,21 @@ NodeSums sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nod
     }
     Summer::Setting setting{mesh, triangles, nodes, source, terms};
     setting.scattered = sums.scattered = nodes.blocks.scattered;
-    if (setting.scattered) setting.packed = packNodes(mesh, nodes, room, setting.source, parallel);
+    sums.flat = Buffer<std::uint8_t>(brief.allocator(), triangles.count, std::uint8_t{0});
+    Buffer<PackedNode> packed;
+    if (setting.scattered && brief.has(nodes.count * sizeof(PackedNode))) {
+        packed = Buffer<PackedNode>(brief.allocator(), nodes.count);
+        packNodes(mesh, nodes, packed.data(), setting.source, parallel);
+        setting.packed = true;
+    }
     struct Counts {
         std::uint64_t degenerate, no_uv_area, mirrored;
     };
     const std::size_t tasks =
         std::clamp<std::size_t>(nodes.count / kNodesPerTask, 1, std::max<std::size_t>(1, parallel.width()));
     Buffer<Counts> counts(allocator, tasks);
-    sums.flat = Buffer<std::uint8_t>(allocator, triangles.count, std::uint8_t{0});
     const std::size_t fans_each = nodes.count / kManyShare / tasks + 64;
-    Buffer<ManyPaths> many_paths(allocator, tasks * fans_each);
+    Buffer<ManyPaths> many_paths(brief.allocator(), tasks * fans_each);
     parallel.forTasks(tasks, [&](std::size_t task) {
         Summer summer(setting, sums, {many_paths.data() + task * fans_each, fans_each},
                       nodes.count * task / tasks, nodes.count * (task + 1) / tasks);

@@ -2,9 +2,8 @@
 // The sums of all nodes, filled by one pass over the triangles in their order.
 #pragma once
 
-#include <span>
-
 #include "core/parallel.h"
+#include "core/scratch_block.h"
 #include "tangents/mikktspace/corner_terms.h"
 #include "tangents/mikktspace/faces.h"
 #include "tangents/mikktspace/fan.h"
@@ -32,7 +31,7 @@ struct NodeSums {
     Buffer<float> lengths_t;      ///< sums of weighted |dP/dv|; empty when tangents_only
     /// Triangles without usable UV area. They add nothing, and mark nothing, but link what lies on both
     /// sides.
-    Buffer<std::uint8_t> flat;  ///< one per triangle: 1 for those
+    Buffer<std::uint8_t> flat;  ///< one per triangle: 1 for those; brief
     bool scattered = false;     ///< consecutive triangles lie far apart in memory
     std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;
 
@@ -49,10 +48,10 @@ struct NodeSums {
 /// common, show that the angular test separates none of them.
 bool sumCannotSplit(const float* sum, std::uint32_t marks, const Vec3& normal);
 
-/// `nodes` must be tame, and nodes.vertex() valid. `room` is memory to use meanwhile (32 bytes per node), or
-/// empty: with it, triangles in random order are read faster.
+/// `nodes` must be tame, and nodes.vertex() valid. `brief`: for what is not needed any more when tangents are
+/// written; with 32 bytes per node in it, triangles in random order are read faster.
 NodeSums sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                  const CornerSource& source, CornerTermsFunction terms, std::span<std::byte> room,
+                  const CornerSource& source, CornerTermsFunction terms, ScratchBlock& brief,
                   const Allocator* allocator, Parallel& parallel);
 
 }  // namespace tspace::mikk

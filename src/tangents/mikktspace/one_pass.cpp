@@ -72,12 +72,13 @@ class MeshTriangles final : public estimators::TriangleGroups {
 class OnePass {
   public:
     OnePass(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
-            const Nodes& nodes, const TangentOutput& out, Parallel& parallel)
+            const Nodes& nodes, const TangentOutput& out, ScratchBlock& brief, Parallel& parallel)
         : mesh_(mesh),
           options_(options),
           triangles_(triangles),
           nodes_(nodes),
           out_(out),
+          brief_(brief),
           parallel_(parallel),
           allocator_(options.execution.allocator),
           estimates_(estimators::isEstimated(options.method)),
@@ -90,11 +91,15 @@ class OnePass {
         const bool walks = first_look == FirstLook::eachNode ||
                            (first_look == FirstLook::asItSeems && mostNodesSeemUnclear(mesh_, triangles_));
         if (walks && !estimates_) return walkAll(source, terms);
-        sums_ = sumNodes(mesh_, triangles_, nodes_, source, terms, outputRoom(), allocator_, parallel_);
+        sums_ = sumNodes(mesh_, triangles_, nodes_, source, terms, brief_, allocator_, parallel_);
         checkFlatTriangles();
         if (estimates_) estimateNodes();
         finishNodes();
         writeCorners();
+        // Only the nodes' own places are read from here on.
+        sums_.marks = {};
+        sums_.rest = {};
+        sums_.lengths_t = {};
         if (unclear_count_ != 0 && !estimates_) walkUnclear(source, terms);
         if (unclear_count_ != 0) {
             collectRest();
@@ -151,14 +156,10 @@ class OnePass {
         const estimators::GroupEstimates to{reinterpret_cast<std::byte*>(sums_.nodes.data()), sizeof(NodeSum),
                                             reinterpret_cast<std::byte*>(sums_.rest.data()), sizeof(NodeRest),
                                             reinterpret_cast<std::byte*>(sums_.lengths_t.data()), sizeof(float)};
+        Execution execution = options_.execution;
+        execution.allocator = brief_.allocator();
         estimators::estimateGroups(options_.method, triangles, nodes_.count, {mesh_.positions, mesh_.normals}, mesh_.uvs,
-                                   scale_, to, options_.execution, parallel_);
-    }
-
-    /// The tangents are written last, so until then their memory can serve.
-    [[nodiscard]] std::span<std::byte> outputRoom() const {
-        if (out_.tangents.stride_bytes != sizeof(Vec4)) return {};
-        return {reinterpret_cast<std::byte*>(out_.tangents.data), out_.tangents.count * sizeof(Vec4)};
+                                   scale_, to, execution, parallel_);
     }
 
     /// A triangle without UV area takes the orientation of the first group that reaches it, at any of its
@@ -360,15 +361,15 @@ class OnePass {
             at_nodes[node] = 1;
             numberNode(node);
         });
-        const Marks marks = marksOfVertices(std::move(at_nodes), nodes_, allocator_, parallel_);
         if (triangles_.corners.empty()) {
             const Buffer<std::uint32_t> found =
-                collectTriangles(mesh_, triangles_, nodes_, marks, 1, allocator_, parallel_);
+                collectAround(mesh_, triangles_, nodes_, std::move(at_nodes), allocator_, parallel_);
             too_much_rest_ = found.size() > most;
             if (too_much_rest_) return;
             for (const std::uint32_t t : found) addFace(3 * std::size_t{t}, 3);
             return;
         }
+        const Marks marks = marksOfVertices(std::move(at_nodes), nodes_, allocator_, parallel_);
         std::size_t faces = 0;
         forEachFace(mesh_, [&](std::size_t, std::size_t first, std::uint32_t size) {
             std::uint8_t wanted = 0;
@@ -455,6 +456,7 @@ class OnePass {
     const TriangleList& triangles_;
     const Nodes& nodes_;
     TangentOutput out_;
+    ScratchBlock& brief_;
     Parallel& parallel_;
     const Allocator* allocator_;
     bool estimates_;  // fast and best: the estimators sum, and this class only groups
@@ -480,9 +482,9 @@ class OnePass {
 
 std::optional<TangentReport> evaluateInOnePass(const MeshView& mesh, const TangentOptions& options,
                                                const TriangleList& triangles, const Nodes& nodes,
-                                               const TangentOutput& out, Parallel& parallel,
-                                               FirstLook first_look) {
-    return OnePass(mesh, options, triangles, nodes, out, parallel).run(first_look);
+                                               const TangentOutput& out, ScratchBlock& brief,
+                                               Parallel& parallel, FirstLook first_look) {
+    return OnePass(mesh, options, triangles, nodes, out, brief, parallel).run(first_look);
 }
 
 }  // namespace tspace::mikk

@@ -7,6 +7,7 @@
 
 #include <optional>
 
+#include "core/scratch_block.h"
 #include "tangents/mikktspace/faces.h"
 #include "tangents/mikktspace/grouped_plan.h"
 #include "tangents/mikktspace/weld.h"
@@ -20,10 +21,12 @@ enum class FirstLook { asItSeems, onePass, eachNode };
 /// Writes tangents of the mesh's own pose. Returns nothing, and leaves the outputs undefined, when the
 /// general steps are the better way for all of it: most nodes need them. `nodes` must be tame, the threshold
 /// 180 degrees, and the order of the reference's last edge bucket without effect (tail_check.h) or not asked
-/// for. Throws OutOfMemory.
+/// for. `brief`: for what is not needed any more when tangents are written: their own memory, unless somebody
+/// looks at it. Throws OutOfMemory.
 std::optional<TangentReport> evaluateInOnePass(const MeshView& mesh, const TangentOptions& options,
                                                const TriangleList& triangles, const Nodes& nodes,
-                                               const TangentOutput& out, Parallel& parallel,
+                                               const TangentOutput& out, ScratchBlock& brief,
+                                               Parallel& parallel,
                                                FirstLook first_look = FirstLook::asItSeems);
 
 }  // namespace tspace::mikk

@@ -61,8 +61,8 @@ class CornerReader {
             from_.sums->nodes[from_.chosen[i]].fan.leaves[1] = static_cast<std::uint32_t>(i);
         Marks at_nodes = noMarks(from_.allocator, from_.nodes.count);
         for (const std::uint32_t node : from_.chosen) at_nodes[node] = 1;
-        const Marks marks = marksOfVertices(std::move(at_nodes), from_.nodes, from_.allocator, from_.parallel);
-        return collectTriangles(mesh_, triangles_, from_.nodes, marks, 1, from_.allocator, from_.parallel);
+        return collectAround(mesh_, triangles_, from_.nodes, std::move(at_nodes), from_.allocator,
+                             from_.parallel);
     }
 
     template <class VertexOf>

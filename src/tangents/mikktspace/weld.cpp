@@ -259,40 +259,48 @@ class Lookup {
 /// Equal vertices, without regard to triangles.
 class VertexWelder {
   public:
-    VertexWelder(const MeshView& mesh, const Allocator* allocator, Parallel& parallel)
-        : mesh_(mesh), count_(mesh.vertexCount()), allocator_(allocator), parallel_(parallel) {}
+    VertexWelder(const MeshView& mesh, const Allocator* allocator, const Allocator* brief, Parallel& parallel)
+        : mesh_(mesh),
+          count_(mesh.vertexCount()),
+          allocator_(allocator),
+          brief_(brief),
+          parallel_(parallel) {}
 
     /// Fills count, of_vertex and mixed. Returns whether all vertices are tame.
     bool run(Nodes& nodes) {
         nodes.count = count_;
-        hashes_ = Buffer<std::uint32_t>(allocator_, count_);
-        Buffer<std::uint32_t> of_vertex(allocator_, count_);
+        hashes_ = Buffer<std::uint32_t>(brief_, count_);
+        Buffer<std::uint32_t> candidates;
         std::size_t candidate_count = count_, distinct = count_;
         if (count_ < kFew || mesh_.indices.type == IndexType::none) {
             hashAll(nullptr, 1);
             if (count_ >= kFew) distinct = guessDistinct();
         } else {
             const std::size_t ranges = RepeatedHashes::rangesFor(count_, parallel_);
-            RepeatedHashes counting(kPlacesPerVertex, allocator_, count_, ranges);
+            RepeatedHashes counting(kPlacesPerVertex, brief_, count_, ranges);
             hashAll(&counting, ranges);
             distinct = counting.sum(ranges, parallel_);
             if (distinct >= count_ - count_ / 4) {
+                candidates = Buffer<std::uint32_t>(brief_, count_);
                 candidate_count =
-                    counting.collect(hashes_.data(), count_, ranges, of_vertex.data(), parallel_);
+                    counting.collect(hashes_.data(), count_, ranges, candidates.data(), parallel_);
             }
         }
         if (candidate_count == count_) {
+            candidates = {};
+            Buffer<std::uint32_t> of_vertex(allocator_, count_);
             nodes.mixed = Lookup(mesh_, hashes_.data(), nullptr, count_, all_tame_, of_vertex.data())
-                              .run(distinct, allocator_, parallel_);
+                              .run(distinct, brief_, parallel_);
             numberAll(nodes, of_vertex);
+            if (nodes.count < count_) nodes.of_vertex = std::move(of_vertex);
         } else {
-            Buffer<std::uint32_t> roots(allocator_, candidate_count);
+            Buffer<std::uint32_t> roots(brief_, candidate_count);
             nodes.mixed =
-                Lookup(mesh_, hashes_.data(), of_vertex.data(), candidate_count, all_tame_, roots.data())
-                    .run(candidate_count, allocator_, parallel_);
-            numberFew(nodes, of_vertex, roots);
+                Lookup(mesh_, hashes_.data(), candidates.data(), candidate_count, all_tame_, roots.data())
+                    .run(candidate_count, brief_, parallel_);
+            hashes_ = {};
+            numberFew(nodes, candidates, roots);
         }
-        if (nodes.count < count_) nodes.of_vertex = std::move(of_vertex);
         return all_tame_;
     }
 
@@ -318,7 +326,7 @@ class VertexWelder {
     /// at all.
     [[nodiscard]] std::size_t guessDistinct() {
         constexpr std::uint32_t kShare = 32;
-        RepeatedHashes counting(kPlacesPerVertex, allocator_, count_ / kShare, 1);
+        RepeatedHashes counting(kPlacesPerVertex, brief_, count_ / kShare, 1);
         counting.clear(0);
         for (std::size_t v = 0; v < count_; ++v) {
             if (hashes_[v] % kShare == 0) counting.add(0, hashes_.data() + v, 1);
@@ -338,18 +346,20 @@ class VertexWelder {
         nodes.count = next;
     }
 
-    /// of_vertex holds the candidates, `roots` their first equal vertices.
-    void numberFew(Nodes& nodes, Buffer<std::uint32_t>& of_vertex, const Buffer<std::uint32_t>& roots) const {
+    /// `roots`: the first equal vertices of the candidates.
+    void numberFew(Nodes& nodes, const Buffer<std::uint32_t>& candidates,
+                   const Buffer<std::uint32_t>& roots) const {
         struct Repeated {
             std::uint32_t vertex, root;
         };
         std::size_t count = 0;
-        for (std::size_t i = 0; i < roots.size(); ++i) count += roots[i] != of_vertex[i] ? 1 : 0;
+        for (std::size_t i = 0; i < roots.size(); ++i) count += roots[i] != candidates[i] ? 1 : 0;
         if (count == 0) return;
-        Buffer<Repeated> repeated(allocator_, count);
+        Buffer<std::uint32_t> of_vertex(allocator_, count_);
+        Buffer<Repeated> repeated(brief_, count);
         count = 0;
         for (std::size_t i = 0; i < roots.size(); ++i) {
-            if (roots[i] != of_vertex[i]) repeated[count++] = {of_vertex[i], roots[i]};
+            if (roots[i] != candidates[i]) repeated[count++] = {candidates[i], roots[i]};
         }
         nodes.count = count_ - count;
         parallel_.forRanges(count_, kGrain, [&](std::size_t begin, std::size_t end) {
@@ -365,11 +375,12 @@ class VertexWelder {
             }
         });
         for (const Repeated& r : repeated) of_vertex[r.vertex] = of_vertex[r.root];
+        nodes.of_vertex = std::move(of_vertex);
     }
 
     const MeshView& mesh_;
     std::size_t count_;
-    const Allocator* allocator_;
+    const Allocator *allocator_, *brief_;
     Parallel& parallel_;
     Buffer<std::uint32_t> hashes_;
     bool all_tame_ = true;
@@ -445,9 +456,10 @@ void weldCorners(const MeshView& mesh, const TriangleList& triangles, Nodes& nod
 }  // namespace
 
 Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator,
-           Parallel& parallel) {
+           Parallel& parallel, const Allocator* brief) {
     Nodes nodes;
-    const bool all_tame = VertexWelder(mesh, allocator, parallel).run(nodes);
+    const bool all_tame =
+        VertexWelder(mesh, allocator, brief != nullptr ? brief : allocator, parallel).run(nodes);
     if (!all_tame && !usesTameVerticesOnly(mesh, triangles)) {
         weldCorners(mesh, triangles, nodes, allocator, parallel);
     } else if (nodes.mixed) {

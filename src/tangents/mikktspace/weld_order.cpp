@@ -312,7 +312,7 @@ Buffer<std::uint32_t> WeldOrder::entriesInCellsOf(std::span<const std::uint32_t>
                             });
     }
     const Buffer<std::uint32_t> found =
-        collectTriangles(mesh_, triangles_, nodes_, in_cells, 1, allocator_, parallel_);
+        collectTriangles(mesh_, triangles_, nodes_, in_cells, allocator_, parallel_);
     Growing<std::uint32_t> entries(allocator_);
     std::uint32_t* next = entries.extend(3 * found.size());
     withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
