@@ -38,7 +38,7 @@ std::size_t cornersOfTriangles(const PrimitiveGeometry& primitive) {
 
 class FrameComputer {
   public:
-    FrameComputer(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,
+    FrameComputer(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
                   const GenerateOptions& options, std::span<PrimitiveReport> reports)
         : pool_(pool),
           primitives_(primitives),
@@ -47,8 +47,8 @@ class FrameComputer {
           generates_normals_(pool.normals.empty()),
           generates_tangents_(options.tangents.method == Method::basis || !pool.uvs.empty()),
           generates_bitangents_(options.bitangents && generates_tangents_ && pool.kept_tangents.empty()),
-          local_meshes_(pool, primitives.size()),
-          morph_tangents_(pool, options) {}
+          local_meshes_(pool_, primitives.size()),
+          morph_tangents_(pool_, options) {}
 
     Result<PoolFrames> compute() {
         std::size_t corner_count = 0;
@@ -95,7 +95,7 @@ class FrameComputer {
             mesh.face_sizes = {};
         }
         if (generates_tangents_) {
-            const std::span<Vec4> tangents = this->tangents().subspan(indices_.size(), mesh.indices.size());
+            const std::span<Vec4> tangents = this->tangents().subspan(corners_.size(), mesh.indices.size());
             if (Result<Done> done = computeTangents(mesh, tangents, report); !done) return done;
         }
         const bool is_cut = !primitive.face_sizes.empty();
@@ -104,7 +104,7 @@ class FrameComputer {
         if (generates_tangents_ && pool_.targets.count != 0) {
             if (Result<Done> done = morph_tangents_.add(std::move(mesh), report); !done) return done;
         }
-        append(vertices, std::move(normals));
+        append(vertices, is_cut, std::move(normals));
         return Done{};
     }
 
@@ -123,7 +123,7 @@ class FrameComputer {
 
         const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec3>(normals));
         Result<SplitResult> split =
-            splitVertices(mesh.view().indices, mesh.positions.size(), mesh.indices.size(), {&attribute, 1},
+            splitVertices(mesh.view().indices, mesh.positions.count, mesh.indices.size(), {&attribute, 1},
                           options_.normals.execution);
         if (!split) return std::move(split).error();
         mesh.own_positions = gather(mesh.positions, split->source_vertices);
@@ -140,7 +140,7 @@ class FrameComputer {
         TangentOutput out{.tangents = tangents};
         std::span<Vec3> bitangents;
         if (generates_bitangents_) {
-            bitangents = this->bitangents().subspan(indices_.size(), tangents.size());
+            bitangents = this->bitangents().subspan(corners_.size(), tangents.size());
             out.bitangents = bitangents;
             report.bitangents_generated = true;
         }
@@ -157,8 +157,14 @@ class FrameComputer {
         return Done{};
     }
 
-    void append(const std::vector<std::uint32_t>& vertices, std::vector<Vec3>&& normals) {
-        indices_.insert(indices_.end(), vertices.begin(), vertices.end());
+    /// `vertices`: of the primitive's corners. Those of the only primitive are taken where they are.
+    void append(std::span<const std::uint32_t> vertices, bool is_cut, std::vector<Vec3>&& normals) {
+        if (primitives_.size() == 1 && !is_cut) {
+            corners_ = vertices;
+        } else {
+            own_corners_.insert(own_corners_.end(), vertices.begin(), vertices.end());
+            corners_ = own_corners_;
+        }
         if (normals_.empty()) {
             normals_ = std::move(normals);
         } else {
@@ -172,7 +178,7 @@ class FrameComputer {
         if (!normals_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec3>(normals_)));
         if (!tangents_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec4>(tangents())));
         if (!bitangents_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec3>(bitangents())));
-        Result<SplitResult> split = splitVertices(IndexView(spanOf(indices_)), pool_.positions.size(), indices_.size(),
+        Result<SplitResult> split = splitVertices(IndexView(corners_), pool_.positions.count, corners_.size(),
                                                   attributes, options_.tangents.execution);
         if (!split) return std::move(split).error();
 
@@ -185,15 +191,15 @@ class FrameComputer {
     /// Nothing is split, and the base's tangents are only compared.
     Result<PoolFrames> keepPool() {
         PoolFrames frames;
-        frames.differing_count = countDiffering(tangents(), pool_.kept_tangents, indices_);
+        frames.differing_count = countDiffering(tangents(), pool_.kept_tangents, corners_);
         SplitResult whole;
-        whole.source_vertices.resize(pool_.positions.size());
+        whole.source_vertices.resize(pool_.positions.count);
         std::iota(whole.source_vertices.begin(), whole.source_vertices.end(), 0u);
-        whole.source_corners.assign(pool_.positions.size(), kNoCorner);
-        for (std::size_t c = indices_.size(); c-- > 0;) {
-            whole.source_corners[indices_[c]] = static_cast<std::uint32_t>(c);
+        whole.source_corners.assign(pool_.positions.count, kNoCorner);
+        for (std::size_t c = corners_.size(); c-- > 0;) {
+            whole.source_corners[corners_[c]] = static_cast<std::uint32_t>(c);
         }
-        whole.indices = std::move(indices_);
+        whole.indices.assign(corners_.begin(), corners_.end());
         if (frames.differing_count == 0) {
             if (Result<Done> done = computeMorphs(whole, false, frames); !done) return std::move(done).error();
         }
@@ -218,7 +224,7 @@ class FrameComputer {
         if (generates_normals_) frames.normals = gatherNormals(normals_, split.source_corners);
         if (generates_tangents_) writeTangents(split, frames);
         for (PrimitiveReport& report : reports_) {
-            report.vertices_before = pool_.positions.size();
+            report.vertices_before = pool_.positions.count;
             report.vertices_after = split.vertexCount();
         }
         frames.source_vertices = std::move(split.source_vertices);
@@ -240,6 +246,9 @@ class FrameComputer {
 
     void writeTangents(const SplitResult& split, PoolFrames& frames) const {
         const float unused_sign = signFactor(options_.tangents.convention);
+        // Room first: pages that the vector would find missing one by one.
+        frames.tangents.reserve(split.vertexCount());
+        askForPages(frames.tangents.data(), split.vertexCount() * sizeof(Vec4));
         frames.tangents.resize(split.vertexCount());
         if (generates_bitangents_) frames.bitangents.resize(split.vertexCount());
         for (std::size_t v = 0; v < split.vertexCount(); ++v) {
@@ -258,7 +267,7 @@ class FrameComputer {
     [[nodiscard]] std::span<Vec4> tangents() { return {tangents_.data(), tangents_.size()}; }
     [[nodiscard]] std::span<Vec3> bitangents() { return {bitangents_.data(), bitangents_.size()}; }
 
-    const VertexPool& pool_;
+    const PoolView pool_;
     std::span<const PrimitiveGeometry> primitives_;
     const GenerateOptions& options_;
     std::span<PrimitiveReport> reports_;
@@ -268,8 +277,9 @@ class FrameComputer {
     LocalMeshes local_meshes_;
     MorphTangents morph_tangents_;
 
-    // All corners of all primitives, what was computed for them, and how many of them each primitive has.
-    std::vector<std::uint32_t> indices_;
+    // The vertices of all corners of all primitives, what was computed for them, and how many each primitive has.
+    std::span<const std::uint32_t> corners_;
+    std::vector<std::uint32_t> own_corners_;
     std::vector<Vec3> normals_;
     // What was computed for them has room for all from the start.
     Buffer<Vec4> tangents_;
@@ -277,18 +287,18 @@ class FrameComputer {
     std::vector<std::size_t> corner_counts_;
 };
 
-Error checkPool(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,
+Error checkPool(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
                 std::span<const PrimitiveReport> reports) {
-    const std::size_t count = pool.positions.size();
+    const std::size_t count = pool.positions.count;
     if (count > kMaxCorners) return {ErrorCode::tooLarge, "more than 2^31-1 vertices"};
     if (reports.size() != primitives.size()) {
         return {ErrorCode::countMismatch, std::to_string(primitives.size()) + " primitives but " +
                                               std::to_string(reports.size()) + " reports"};
     }
-    if (!pool.normals.empty() && pool.normals.size() != count) {
+    if (!pool.normals.empty() && pool.normals.count != count) {
         return {ErrorCode::countMismatch, "the pool's normals and positions differ in number"};
     }
-    if (!pool.uvs.empty() && pool.uvs.size() != count) {
+    if (!pool.uvs.empty() && pool.uvs.count != count) {
         return {ErrorCode::countMismatch, "the pool's UVs and positions differ in number"};
     }
     if (!pool.kept_tangents.empty() && (pool.kept_tangents.size() != count || pool.normals.empty())) {
@@ -298,7 +308,7 @@ Error checkPool(const VertexPool& pool, std::span<const PrimitiveGeometry> primi
 }
 
 /// Normals first, as a pool of its own, so that tangents of every target see the vertices that will be written.
-Result<PoolFrames> computeWithMorphedNormals(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,
+Result<PoolFrames> computeWithMorphedNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
                                              const GenerateOptions& options, std::span<PrimitiveReport> reports) {
     PoolWithNormals made;
     if (Result<Done> done = generatePoolNormals(pool, primitives, options, reports, made); !done) {
@@ -312,20 +322,21 @@ Result<PoolFrames> computeWithMorphedNormals(const VertexPool& pool, std::span<c
         frames->morphs[i].normals = spread(made.offsets[i], frames->source_vertices, made.source_vertices.size());
     }
     for (std::uint32_t& source : frames->source_vertices) source = made.source_vertices[source];
-    for (PrimitiveReport& report : reports) report.vertices_before = pool.positions.size();
+    for (PrimitiveReport& report : reports) report.vertices_before = pool.positions.count;
     return frames;
 }
 
 }  // namespace
 
-Result<PoolFrames> computeFrames(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,
+Result<PoolFrames> computeFrames(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
                                  const GenerateOptions& given, std::span<PrimitiveReport> reports) {
     return atBorder([&]() -> Result<PoolFrames> {
         if (Error e = checkPool(pool, primitives, reports); e.code != ErrorCode::ok) return e;
         const GenerateOptions options = inFileCoordinates(given);
         if (!pool.uv_matrix.isIdentity()) {
-            VertexPool turned = pool;
-            turned.uvs = transformUvs(pool.uvs, pool.uv_matrix);
+            const std::vector<Vec2> uvs = transformUvs(pool.uvs, pool.uv_matrix);
+            PoolView turned = pool;
+            turned.uvs = uvs;
             turned.uv_matrix = {};
             return computeFrames(turned, primitives, given, reports);
         }

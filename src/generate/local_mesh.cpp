@@ -11,7 +11,7 @@ constexpr std::uint32_t kNoSlot = 0xffffffffu;
 
 }  // namespace
 
-MeshView viewInPool(const VertexPool& pool, const PrimitiveGeometry& primitive) {
+MeshView viewInPool(const PoolView& pool, const PrimitiveGeometry& primitive) {
     MeshView mesh;
     mesh.positions = pool.positions;
     mesh.normals = pool.normals;
@@ -24,7 +24,7 @@ MeshView viewInPool(const VertexPool& pool, const PrimitiveGeometry& primitive) 
 LocalMesh LocalMeshes::make(const PrimitiveGeometry& primitive) {
     LocalMesh mesh;
     mesh.face_sizes = primitive.face_sizes;
-    if (primitive_count_ > 1 || pool_.positions.size() > primitive.indices.size()) {
+    if (primitive_count_ > 1 || pool_.positions.count > primitive.indices.size()) {
         takeUsedPart(primitive, mesh);
         return mesh;
     }
@@ -37,7 +37,7 @@ LocalMesh LocalMeshes::make(const PrimitiveGeometry& primitive) {
 
 /// The used part of the pool, vertices in order of first use.
 void LocalMeshes::takeUsedPart(const PrimitiveGeometry& primitive, LocalMesh& mesh) {
-    local_of_vertex_.resize(pool_.positions.size(), kNoSlot);
+    local_of_vertex_.resize(pool_.positions.count, kNoSlot);
     std::vector<std::uint32_t>& sources = mesh.sources;
     mesh.own_indices.reserve(primitive.indices.size());
     for (const std::uint32_t vertex : primitive.indices) {
@@ -49,9 +49,9 @@ void LocalMeshes::takeUsedPart(const PrimitiveGeometry& primitive, LocalMesh& me
         mesh.own_indices.push_back(local);
     }
     for (const std::uint32_t vertex : sources) local_of_vertex_[vertex] = kNoSlot;
-    mesh.own_positions = gather(std::span<const Vec3>(pool_.positions), sources);
-    mesh.own_normals = gather(std::span<const Vec3>(pool_.normals), sources);
-    mesh.own_uvs = gather(std::span<const Vec2>(pool_.uvs), sources);
+    mesh.own_positions = gather(pool_.positions, sources);
+    mesh.own_normals = gather(pool_.normals, sources);
+    mesh.own_uvs = gather(pool_.uvs, sources);
     mesh.useOwnIndices();
     mesh.useOwnVertices();
 }

@@ -14,8 +14,8 @@ namespace tspace {
 
 /// Its arrays are those of the pool, or own ones. Moving it leaves the views valid.
 struct LocalMesh {
-    std::span<const Vec3> positions, normals;
-    std::span<const Vec2> uvs;
+    StridedSpan<const Vec3> positions, normals;
+    StridedSpan<const Vec2> uvs;
     std::span<const std::uint32_t> indices;
     std::span<const std::uint32_t> face_sizes;
 
@@ -38,9 +38,9 @@ struct LocalMesh {
 
     [[nodiscard]] MeshView view() const {
         MeshView mesh;
-        mesh.positions = StridedSpan<const Vec3>(positions);
-        mesh.normals = StridedSpan<const Vec3>(normals);
-        mesh.uvs = StridedSpan<const Vec2>(uvs);
+        mesh.positions = positions;
+        mesh.normals = normals;
+        mesh.uvs = uvs;
         mesh.indices = IndexView(indices);
         mesh.face_sizes = face_sizes;
         return mesh;
@@ -48,19 +48,20 @@ struct LocalMesh {
 };
 
 /// The whole pool with the corners of one primitive.
-MeshView viewInPool(const VertexPool& pool, const PrimitiveGeometry& primitive);
+MeshView viewInPool(const PoolView& pool, const PrimitiveGeometry& primitive);
 
 /// Makes the meshes of a pool's primitives, which must be valid.
 class LocalMeshes {
   public:
-    LocalMeshes(const VertexPool& pool, std::size_t primitive_count) : pool_(pool), primitive_count_(primitive_count) {}
+    /// The pool must outlive this.
+    LocalMeshes(const PoolView& pool, std::size_t primitive_count) : pool_(pool), primitive_count_(primitive_count) {}
 
     LocalMesh make(const PrimitiveGeometry& primitive);
 
   private:
     void takeUsedPart(const PrimitiveGeometry& primitive, LocalMesh& mesh);
 
-    const VertexPool& pool_;
+    const PoolView& pool_;
     std::size_t primitive_count_;
     std::vector<std::uint32_t> local_of_vertex_;  ///< all kNoSlot between primitives
 };
@@ -69,12 +70,17 @@ inline std::span<const std::uint32_t> spanOf(const std::vector<std::uint32_t>& v
 
 /// values[source] for each source; nothing where there are no values.
 template <class T>
-std::vector<T> gather(std::span<const T> values, const std::vector<std::uint32_t>& sources) {
+std::vector<T> gather(StridedSpan<const T> values, const std::vector<std::uint32_t>& sources) {
     std::vector<T> result;
     if (values.empty()) return result;
     result.reserve(sources.size());
     for (const std::uint32_t source : sources) result.push_back(values[source]);
     return result;
+}
+
+template <class T>
+std::vector<T> gather(std::span<const T> values, const std::vector<std::uint32_t>& sources) {
+    return gather(StridedSpan<const T>(values), sources);
 }
 
 /// The normals of corners; any, where no corner uses the vertex.

@@ -40,8 +40,8 @@ Vec3 bitangentOf(const Vec4& tangent, const Vec3& normal) {
     return toFloat((tangent.w < 0 ? -1.0 : 1.0) * b);
 }
 
-void mendBitangents(std::span<const Vec3> normals, std::span<const std::uint32_t> indices, std::span<const Vec4> computed,
-                    std::span<const Vec4> mended, std::span<Vec3> bitangents) {
+void mendBitangents(StridedSpan<const Vec3> normals, std::span<const std::uint32_t> indices,
+                    std::span<const Vec4> computed, std::span<const Vec4> mended, std::span<Vec3> bitangents) {
     for (std::size_t c = 0; c < indices.size(); ++c) {
         const Vec3& normal = normals[indices[c]];
         if (isSound(toDouble(bitangents[c]), unitOrZero(toDouble(normal)), computed[c], mended[c])) continue;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "tspace/span.h"
 #include "tspace/vec.h"
 
 namespace tspace {
@@ -19,7 +20,7 @@ Vec3 bitangentOf(const Vec4& tangent, const Vec3& normal);
 /// normals     one per vertex; `indices` has one per corner, as all the others
 /// computed    the tangents before sanitize
 /// mended      the same after it
-void mendBitangents(std::span<const Vec3> normals, std::span<const std::uint32_t> indices, std::span<const Vec4> computed,
-                    std::span<const Vec4> mended, std::span<Vec3> bitangents);
+void mendBitangents(StridedSpan<const Vec3> normals, std::span<const std::uint32_t> indices,
+                    std::span<const Vec4> computed, std::span<const Vec4> mended, std::span<Vec3> bitangents);
 
 }  // namespace tspace

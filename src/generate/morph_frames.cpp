@@ -54,9 +54,10 @@ Vec4 carried(const Vec4& tangent, const Vec3& from, const Vec3& to) {
 
 /// values + offsets, vertex by vertex; a vertex with the offset zero keeps its bits. Returns whether one has another.
 template <class Add>
-bool move(std::span<const Vec3> values, const LocalMesh& mesh, const std::vector<Vec3>& offsets, Add&& add,
+bool move(const StridedSpan<const Vec3>& values, const LocalMesh& mesh, const std::vector<Vec3>& offsets, Add&& add,
           std::vector<Vec3>& out) {
-    out.assign(values.begin(), values.end());
+    out.resize(values.count);
+    for (std::size_t v = 0; v < out.size(); ++v) out[v] = values[v];
     if (offsets.empty() || values.empty()) return false;
     bool moves = false;
     for (std::size_t v = 0; v < out.size(); ++v) {
@@ -70,14 +71,14 @@ bool move(std::span<const Vec3> values, const LocalMesh& mesh, const std::vector
 
 }  // namespace
 
-Result<MorphOffsets> readTarget(const VertexPool& pool, std::size_t i) {
+Result<MorphOffsets> readTarget(const PoolView& pool, std::size_t i) {
     Result<MorphOffsets> offsets = pool.targets.read(i);
     if (!offsets) return offsets;
     for (const std::vector<Vec3>* list : {&offsets->positions, &offsets->normals}) {
-        if (list->empty() || list->size() == pool.positions.size()) continue;
+        if (list->empty() || list->size() == pool.positions.count) continue;
         return Error{ErrorCode::countMismatch, "morph target " + std::to_string(i) + " has " +
                                                    std::to_string(list->size()) + " offsets for " +
-                                                   std::to_string(pool.positions.size()) + " vertices"};
+                                                   std::to_string(pool.positions.count) + " vertices"};
     }
     return offsets;
 }

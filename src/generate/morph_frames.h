@@ -15,7 +15,7 @@
 namespace tspace {
 
 /// Target `i` of a pool. Fails with countMismatch where its counts are not those of the pool.
-Result<MorphOffsets> readTarget(const VertexPool& pool, std::size_t i);
+Result<MorphOffsets> readTarget(const PoolView& pool, std::size_t i);
 
 /// A mesh moved by a target. Its arrays are used again for the next one.
 class MorphPose {
@@ -35,7 +35,7 @@ Vec3 offsetBetween(const Vec3& from, const Vec3& to);
 
 class MorphTangents {
   public:
-    MorphTangents(const VertexPool& pool, const GenerateOptions& options) : pool_(pool), options_(options) {}
+    MorphTangents(const PoolView& pool, const GenerateOptions& options) : pool_(pool), options_(options) {}
 
     /// The next primitive as it was computed: triangles, with normals. `report` gets its counts later.
     Result<Done> add(LocalMesh&& mesh, PrimitiveReport& report);
@@ -55,7 +55,7 @@ class MorphTangents {
     Result<Done> regroup(const Piece& piece, const MeshView& posed);
     void carryOver(const Piece& piece, std::span<const Vec4> base);
 
-    const VertexPool& pool_;
+    const PoolView& pool_;
     const GenerateOptions& options_;
     std::vector<Piece> pieces_ = {};
     MorphPose pose_ = {};

@@ -20,7 +20,7 @@ constexpr float kTolerance = 1e-5f;
 
 class PoolNormals {
   public:
-    PoolNormals(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives, const GenerateOptions& options,
+    PoolNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives, const GenerateOptions& options,
                 std::span<PrimitiveReport> reports)
         : pool_(pool), primitives_(primitives), options_(options), reports_(reports) {}
 
@@ -29,7 +29,7 @@ class PoolNormals {
         written_ = normals_;
         roundUnits(written_, options_.format);
         const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec3>(written_));
-        Result<SplitResult> split = splitVertices(IndexView(spanOf(indices_)), pool_.positions.size(), indices_.size(),
+        Result<SplitResult> split = splitVertices(IndexView(spanOf(indices_)), pool_.positions.count, indices_.size(),
                                                   {&attribute, 1}, options_.normals.execution);
         if (!split) return std::move(split).error();
         MorphSplit morph_split(*std::move(split), true);
@@ -89,8 +89,8 @@ class PoolNormals {
     void write(MorphSplit& morph_split, PoolWithNormals& result) const {
         result.offsets = morph_split.finish();
         SplitResult& split = morph_split.split();
-        result.pool.positions = gather(std::span<const Vec3>(pool_.positions), split.source_vertices);
-        result.pool.uvs = gather(std::span<const Vec2>(pool_.uvs), split.source_vertices);
+        result.pool.positions = gather(pool_.positions, split.source_vertices);
+        result.pool.uvs = gather(pool_.uvs, split.source_vertices);
         result.pool.normals = gatherNormals(written_, split.source_corners);
         result.source_vertices = std::move(split.source_vertices);
         std::size_t first = 0;
@@ -105,7 +105,7 @@ class PoolNormals {
     }
 
     /// A target of the old pool, for the new vertices, with the normals that were computed.
-    static Result<MorphOffsets> readSplit(const VertexPool& old, const PoolWithNormals& result, std::size_t target) {
+    static Result<MorphOffsets> readSplit(const PoolView& old, const PoolWithNormals& result, std::size_t target) {
         Result<MorphOffsets> offsets = readTarget(old, target);
         if (!offsets) return offsets;
         offsets->positions = gather(std::span<const Vec3>(offsets->positions), result.source_vertices);
@@ -117,7 +117,7 @@ class PoolNormals {
         return offsets;
     }
 
-    const VertexPool& pool_;
+    const PoolView& pool_;
     std::span<const PrimitiveGeometry> primitives_;
     const GenerateOptions& options_;
     std::span<PrimitiveReport> reports_;
@@ -130,7 +130,7 @@ class PoolNormals {
 
 }  // namespace
 
-Result<Done> generatePoolNormals(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,
+Result<Done> generatePoolNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
                                  const GenerateOptions& options, std::span<PrimitiveReport> reports,
                                  PoolWithNormals& result) {
     return PoolNormals(pool, primitives, options, reports).compute(result);

@@ -20,7 +20,7 @@ struct PoolWithNormals {
 
 /// Normals by options.normals. Which edges are hard is the base's matter; what a target adds makes the normals of the
 /// moved shape. Fills the normals of the reports. The result must stay where it is: its targets point into it.
-Result<Done> generatePoolNormals(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,
+Result<Done> generatePoolNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
                                  const GenerateOptions& options, std::span<PrimitiveReport> reports,
                                  PoolWithNormals& result);
 

@@ -10,6 +10,7 @@
 #include "generate/morph_targets.h"
 #include "generate/uv_matrix.h"
 #include "tspace/asset.h"
+#include "tspace/span.h"
 #include "tspace/split.h"
 
 namespace tspace {
@@ -31,6 +32,24 @@ struct VertexPool {
     /// Not empty: these tangents stay and no vertex is split. Only what morph targets add to them is computed; there
     /// must be normals.
     std::vector<Vec4> kept_tangents = {};
+};
+
+/// A pool in memory of somebody else, who must outlive it: a VertexPool, or a file's own bytes.
+struct PoolView {
+    StridedSpan<const Vec3> positions = {}, normals = {};
+    StridedSpan<const Vec2> uvs = {};
+    UvMatrix uv_matrix = {};
+    MorphTargets targets = {};
+    std::span<const Vec4> kept_tangents = {};
+
+    PoolView() = default;
+    PoolView(const VertexPool& pool)
+        : positions(pool.positions),
+          normals(pool.normals),
+          uvs(pool.uvs),
+          uv_matrix(pool.uv_matrix),
+          targets(pool.targets),
+          kept_tangents(pool.kept_tangents) {}
 };
 
 /// Frames for all primitives of one pool after splitting it.
@@ -60,7 +79,7 @@ struct PoolFrames {
 /// one split for the base and all targets. Where faces collapse in a target the base's tangent stays. A vertex whose frame no target changes has the offset (0, 0, 0).
 /// Polygons are cut before tangents are computed. Run again on its own output it gives the same bits and splits nothing.
 /// Exception: `lengyel` where sanitize made corners of one vertex differ, because that method sums over vertex indices.
-Result<PoolFrames> computeFrames(const VertexPool& pool, std::span<const PrimitiveGeometry> primitives,
+Result<PoolFrames> computeFrames(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
                                  const GenerateOptions& options, std::span<PrimitiveReport> reports);
 
 }  // namespace tspace

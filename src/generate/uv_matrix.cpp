@@ -38,10 +38,11 @@ UvMatrix uvMatrix(double rotation, double scale_u, double scale_v) {
     return {cosine * scale_u, sine * scale_v + 0.0, -sine * scale_u + 0.0, cosine * scale_v};
 }
 
-std::vector<Vec2> transformUvs(std::span<const Vec2> uvs, const UvMatrix& matrix) {
+std::vector<Vec2> transformUvs(StridedSpan<const Vec2> uvs, const UvMatrix& matrix) {
     std::vector<Vec2> result;
-    result.reserve(uvs.size());
-    for (const Vec2& uv : uvs) {
+    result.reserve(uvs.count);
+    for (std::size_t i = 0; i < uvs.count; ++i) {
+        const Vec2& uv = uvs[i];
         result.push_back({static_cast<float>(matrix.uu * uv.x + matrix.uv * uv.y),
                           static_cast<float>(matrix.vu * uv.x + matrix.vv * uv.y)});
     }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "tspace/span.h"
 #include "tspace/vec.h"
 
 namespace tspace {
@@ -32,6 +33,6 @@ UvMatrix uvMatrix(double rotation, double scale_u, double scale_v);
 ///
 /// Triangles whose UVs lie on one line, not parallel to an axis, may get a tiny UV area by the rounding when the matrix
 /// is no quarter turn.
-std::vector<Vec2> transformUvs(std::span<const Vec2> uvs, const UvMatrix& matrix);
+std::vector<Vec2> transformUvs(StridedSpan<const Vec2> uvs, const UvMatrix& matrix);
 
 }  // namespace tspace

@@ -49,6 +49,66 @@ TEST(Primitive, LeavesPointsLinesAndTooFewCornersWithoutTriangles) {
     }
 }
 
+/// Interleaved positions and UVs, `shift` bytes behind the begin of the buffer.
+GltfBuilder interleaved(std::size_t shift) {
+    GltfBuilder builder;
+    const std::vector<float> values = {1, 2, 3, 0.5f, 0.25f, 4, 5, 6, 0.75f, 1};
+    Bytes bytes(shift, 0);
+    const Bytes floats = test::bytesOfValues(values);
+    bytes.insert(bytes.end(), floats.begin(), floats.end());
+    builder.addView(bytes);
+    builder.json()["bufferViews"][0] = {
+        {"buffer", 0}, {"byteOffset", shift}, {"byteLength", 40}, {"byteStride", 20}};
+    for (const int components : {3, 2}) {
+        builder.json()["accessors"].push_back({{"bufferView", 0},
+                                               {"byteOffset", components == 3 ? 0 : 12},
+                                               {"componentType", 5126},
+                                               {"count", 2},
+                                               {"type", "VEC" + std::to_string(components)}});
+    }
+    builder.addPrimitive({{"POSITION", 0}, {"TEXCOORD_0", 1}});
+    return builder;
+}
+
+TEST(Primitive, LendsFloatsFromWhereTheyLie) {
+    const Document document = parse(interleaved(4));
+    const Primitive primitive = readPrimitives(document)[0];
+    const auto positions = lendVec3(document, primitive, "POSITION");
+    const auto uvs = lendUvs(document, primitive, 0);
+    ASSERT_TRUE(positions && uvs);
+    EXPECT_EQ(positions->count, 2u);
+    EXPECT_EQ((*positions)[1], (Vec3{4, 5, 6}));
+    EXPECT_EQ((*uvs)[0], (Vec2{0.5f, 0.25f}));
+    EXPECT_EQ((*uvs)[1], (Vec2{0.75f, 1}));
+    EXPECT_EQ(uvs->stride_bytes, 20u);
+}
+
+TEST(Primitive, LendsNothingThatIsNotPlainAlignedFloats) {
+    const auto lent = [](const GltfBuilder& builder) {
+        const Document document = parse(builder);
+        const Primitive primitive = readPrimitives(document)[0];
+        const bool positions = lendVec3(document, primitive, "POSITION").has_value();
+        const bool uvs = lendUvs(document, primitive, 0).has_value();
+        return std::pair(positions, uvs);
+    };
+    for (const std::size_t shift : {1u, 2u, 3u}) EXPECT_EQ(lent(interleaved(shift)), std::pair(false, false));
+    GltfBuilder builder = interleaved(0);
+    EXPECT_EQ(lent(builder), std::pair(true, true));
+    builder.json()["accessors"][1]["componentType"] = 5123;
+    builder.json()["accessors"][1]["normalized"] = true;
+    EXPECT_EQ(lent(builder), std::pair(true, false));
+    builder.json()["accessors"][1]["componentType"] = 5125;  // as many bytes as floats, and a file may say so
+    EXPECT_EQ(lent(builder), std::pair(true, false));
+    builder.json()["accessors"][0].erase("bufferView");  // all zero
+    EXPECT_EQ(lent(builder), std::pair(false, false));
+    builder.json()["accessors"][0]["bufferView"] = 0;
+    builder.json()["accessors"][0]["sparse"] = {{"count", 1},
+                                                {"indices", {{"bufferView", 0}, {"componentType", 5121}}},
+                                                {"values", {{"bufferView", 0}, {"byteOffset", 4}}}};
+    builder.json()["bufferViews"][0].erase("byteStride");
+    EXPECT_EQ(lent(builder), std::pair(false, false));
+}
+
 TEST(Primitive, RefusesBadReferencesAtTheirPlace) {
     const auto place = [](const std::string& key, const Json& value) {
         GltfBuilder builder = withVertices(3);

@@ -68,6 +68,32 @@ VertexPool readVertices(const Document& document, const Primitive& first, const 
     return vertices;
 }
 
+namespace {
+
+/// The same, where it can be without copies. `copies` must outlive the result, and get what cannot.
+PoolView lendVertices(const Document& document, const Primitive& first, const Pool& pool, VertexPool& copies) {
+    const auto vec3 = [&](const char* attribute, std::vector<Vec3>& copy) {
+        if (const auto lent = lendVec3(document, first, attribute)) return *lent;
+        copy = readVec3(document, first, attribute);
+        return StridedSpan<const Vec3>(copy);
+    };
+    PoolView vertices;
+    vertices.positions = vec3("POSITION", copies.positions);
+    if (pool.has_normals) vertices.normals = vec3("NORMAL", copies.normals);
+    if (pool.uses_uvs) {
+        if (const auto lent = lendUvs(document, first, pool.uv_set)) {
+            vertices.uvs = *lent;
+        } else {
+            copies.uvs = readUvs(document, first, pool.uv_set);
+            vertices.uvs = copies.uvs;
+        }
+    }
+    vertices.uv_matrix = pool.uv_matrix;
+    return vertices;
+}
+
+}  // namespace
+
 std::vector<PrimitiveGeometry> readGeometries(const Document& document, std::span<const Primitive> primitives,
                                               const Pool& pool) {
     std::vector<PrimitiveGeometry> geometries;
@@ -107,9 +133,11 @@ PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& executi
     GenerateOptions options = options_;
     setExecution(options, execution);
     const Primitive& first = primitives_[pool.primitives[0]];
-    VertexPool vertices = readVertices(document_, first, pool);
+    VertexPool copies;
+    PoolView vertices = lendVertices(document_, first, pool, copies);
     vertices.targets = targetsOf(document_, first);
-    if (pool.keeps_tangents) vertices.kept_tangents = readTangents(document_, first);
+    if (pool.keeps_tangents) copies.kept_tangents = readTangents(document_, first);
+    vertices.kept_tangents = copies.kept_tangents;
     const std::vector<PrimitiveGeometry> geometries = readGeometries(document_, primitives_, pool);
     std::vector<PrimitiveReport> computed;
     for (const PoolGeometry& geometry : pool.geometries) computed.push_back(reports[geometry.primitives[0]]);

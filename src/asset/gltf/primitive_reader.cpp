@@ -95,6 +95,17 @@ Accessor attributeAccessor(const Document& document, const Primitive& primitive,
     return readAccessor(document, *index);
 }
 
+template <class Vec>
+std::optional<StridedSpan<const Vec>> viewVectors(const Document& document, const Accessor& accessor) {
+    const bool is_float = accessor.component == ComponentType::f32 && accessor.type[0] == 'V';
+    if (!is_float || accessor.element_bytes != sizeof(Vec)) return {};
+    const std::optional<ElementView> elements = viewElements(document, accessor);
+    // A file may put floats anywhere.
+    if (!elements || reinterpret_cast<std::uintptr_t>(elements->data) % alignof(Vec) != 0) return {};
+    if (elements->stride % alignof(Vec) != 0) return {};
+    return StridedSpan<const Vec>(reinterpret_cast<const Vec*>(elements->data), accessor.count, elements->stride);
+}
+
 std::string attributePlace(const Primitive& primitive, const std::string& name) {
     return join(join(primitive.place(), "attributes"), name);
 }
@@ -183,6 +194,16 @@ std::vector<Vec2> readUvs(const Document& document, const Primitive& primitive, 
 std::vector<Vec3> readVec3(const Document& document, const Primitive& primitive, const char* attribute) {
     return decodeVec3(document, attributeAccessor(document, primitive, attribute),
                       attributePlace(primitive, attribute));
+}
+
+std::optional<StridedSpan<const Vec2>> lendUvs(const Document& document, const Primitive& primitive,
+                                               std::size_t uv_set) {
+    return viewVectors<Vec2>(document, attributeAccessor(document, primitive, "TEXCOORD_" + std::to_string(uv_set)));
+}
+
+std::optional<StridedSpan<const Vec3>> lendVec3(const Document& document, const Primitive& primitive,
+                                                const char* attribute) {
+    return viewVectors<Vec3>(document, attributeAccessor(document, primitive, attribute));
 }
 
 std::vector<Vec4> readTangents(const Document& document, const Primitive& primitive) {
