@@ -157,16 +157,28 @@ inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
                          _mm512_shuffle_ps(xy_high, zw_high, 0x44),
                          _mm512_shuffle_ps(xy_high, zw_high, 0xee)};
     for (std::size_t j = 0; j < 4; ++j) {
-        _mm_store_ps(rows + kStep * j, _mm512_castps512_ps128(r[j]));
-        _mm_store_ps(rows + kStep * (j + 4), _mm512_extractf32x4_ps(r[j], 1));
-        _mm_store_ps(rows + kStep * (j + 8), _mm512_extractf32x4_ps(r[j], 2));
-        _mm_store_ps(rows + kStep * (j + 12), _mm512_extractf32x4_ps(r[j], 3));
+        _mm_storeu_ps(rows + kStep * j, _mm512_castps512_ps128(r[j]));
+        _mm_storeu_ps(rows + kStep * (j + 4), _mm512_extractf32x4_ps(r[j], 1));
+        _mm_storeu_ps(rows + kStep * (j + 8), _mm512_extractf32x4_ps(r[j], 2));
+        _mm_storeu_ps(rows + kStep * (j + 12), _mm512_extractf32x4_ps(r[j], 3));
     }
+}
+template <std::size_t kStep>
+inline void storePairs(float* rows, Floats x, Floats y) {
+    const __m512 low = _mm512_unpacklo_ps(x.v, y.v), high = _mm512_unpackhi_ps(x.v, y.v);
+    const auto four = [&](float* to, __m128 a, __m128 b) {
+        storeTwoPairs<kStep>(to, a);
+        storeTwoPairs<kStep>(to + 2 * kStep, b);
+    };
+    four(rows, _mm512_castps512_ps128(low), _mm512_castps512_ps128(high));
+    four(rows + 4 * kStep, _mm512_extractf32x4_ps(low, 1), _mm512_extractf32x4_ps(high, 1));
+    four(rows + 8 * kStep, _mm512_extractf32x4_ps(low, 2), _mm512_extractf32x4_ps(high, 2));
+    four(rows + 12 * kStep, _mm512_extractf32x4_ps(low, 3), _mm512_extractf32x4_ps(high, 3));
 }
 
 template <std::size_t kStep>
 inline void loadRows(const float* rows, Floats& x, Floats& y, Floats& z, Floats& w) {
-    const auto at = [&](std::size_t i) { return _mm_load_ps(rows + kStep * i); };
+    const auto at = [&](std::size_t i) { return _mm_loadu_ps(rows + kStep * i); };
     __m512 r[4];
     for (std::size_t j = 0; j < 4; ++j) r[j] = combine(at(j), at(j + 4), at(j + 8), at(j + 12));
     const __m512 ab_low = _mm512_unpacklo_ps(r[0], r[1]), cd_low = _mm512_unpacklo_ps(r[2], r[3]);
@@ -175,6 +187,14 @@ inline void loadRows(const float* rows, Floats& x, Floats& y, Floats& z, Floats&
     y = {_mm512_shuffle_ps(ab_low, cd_low, 0xee)};
     z = {_mm512_shuffle_ps(ab_high, cd_high, 0x44)};
     w = {_mm512_shuffle_ps(ab_high, cd_high, 0xee)};
+}
+
+inline void loadPairs(const float* pairs, Floats& x, Floats& y) {
+    const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+    const __m512i odd = _mm512_setr_epi32(1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
+    const __m512 a = _mm512_loadu_ps(pairs), b = _mm512_loadu_ps(pairs + 16);
+    x = {_mm512_permutex2var_ps(a, even, b)};
+    y = {_mm512_permutex2var_ps(a, odd, b)};
 }
 
 }  // namespace tspace::simd::avx512

@@ -134,11 +134,18 @@ inline void gather2(const std::byte* base, std::size_t stride, const std::uint32
 }
 inline void store(float* to, Floats a) { *to = a.v; }
 inline void store(std::uint32_t* to, Bits b) { *to = b.v; }
-/// Writes lane i's four values to rows[kStep * i ...]: to row 3 * i of an array of rows of four floats.
+/// Writes lane i's four values to rows[kStep * i ...], by default row 3 * i of an array of rows of four floats. At any
+/// address that floats may have.
 template <std::size_t kStep = 12>
 inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     const float v[4] = {x.v, y.v, z.v, w.v};
     std::memcpy(rows, v, sizeof v);  // the rows may have been other numbers before
+}
+/// The same for two values.
+template <std::size_t kStep>
+inline void storePairs(float* rows, Floats x, Floats y) {
+    rows[0] = x.v;
+    rows[1] = y.v;
 }
 
 /// The opposite of storeRows.
@@ -148,6 +155,12 @@ inline void loadRows(const float* rows, Floats& x, Floats& y, Floats& z, Floats&
     y = {rows[1]};
     z = {rows[2]};
     w = {rows[3]};
+}
+
+/// Reads kWidth pairs of floats that lie side by side.
+inline void loadPairs(const float* pairs, Floats& x, Floats& y) {
+    x = {pairs[0]};
+    y = {pairs[1]};
 }
 
 }  // namespace tspace::simd::scalar

@@ -134,22 +134,34 @@ template <std::size_t kStep = 12>
 inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     const __m128 xy_low = _mm_unpacklo_ps(x.v, y.v), xy_high = _mm_unpackhi_ps(x.v, y.v);
     const __m128 zw_low = _mm_unpacklo_ps(z.v, w.v), zw_high = _mm_unpackhi_ps(z.v, w.v);
-    _mm_store_ps(rows, _mm_movelh_ps(xy_low, zw_low));
-    _mm_store_ps(rows + kStep, _mm_movehl_ps(zw_low, xy_low));
-    _mm_store_ps(rows + 2 * kStep, _mm_movelh_ps(xy_high, zw_high));
-    _mm_store_ps(rows + 3 * kStep, _mm_movehl_ps(zw_high, xy_high));
+    _mm_storeu_ps(rows, _mm_movelh_ps(xy_low, zw_low));
+    _mm_storeu_ps(rows + kStep, _mm_movehl_ps(zw_low, xy_low));
+    _mm_storeu_ps(rows + 2 * kStep, _mm_movelh_ps(xy_high, zw_high));
+    _mm_storeu_ps(rows + 3 * kStep, _mm_movehl_ps(zw_high, xy_high));
+}
+template <std::size_t kStep>
+inline void storePairs(float* rows, Floats x, Floats y) {
+    const __m128 low = _mm_unpacklo_ps(x.v, y.v), high = _mm_unpackhi_ps(x.v, y.v);
+    storeTwoPairs<kStep>(rows, low);
+    storeTwoPairs<kStep>(rows + 2 * kStep, high);
 }
 
 template <std::size_t kStep>
 inline void loadRows(const float* rows, Floats& x, Floats& y, Floats& z, Floats& w) {
-    const __m128 a = _mm_load_ps(rows), b = _mm_load_ps(rows + kStep), c = _mm_load_ps(rows + 2 * kStep),
-                 d = _mm_load_ps(rows + 3 * kStep);
+    const __m128 a = _mm_loadu_ps(rows), b = _mm_loadu_ps(rows + kStep), c = _mm_loadu_ps(rows + 2 * kStep),
+                 d = _mm_loadu_ps(rows + 3 * kStep);
     const __m128 ab_low = _mm_unpacklo_ps(a, b), cd_low = _mm_unpacklo_ps(c, d);
     const __m128 ab_high = _mm_unpackhi_ps(a, b), cd_high = _mm_unpackhi_ps(c, d);
     x = {_mm_movelh_ps(ab_low, cd_low)};
     y = {_mm_movehl_ps(cd_low, ab_low)};
     z = {_mm_movelh_ps(ab_high, cd_high)};
     w = {_mm_movehl_ps(cd_high, ab_high)};
+}
+
+inline void loadPairs(const float* pairs, Floats& x, Floats& y) {
+    const __m128 a = _mm_loadu_ps(pairs), b = _mm_loadu_ps(pairs + 4);
+    x = {_mm_shuffle_ps(a, b, 0x88)};
+    y = {_mm_shuffle_ps(a, b, 0xdd)};
 }
 
 }  // namespace tspace::simd::sse2

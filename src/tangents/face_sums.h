@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "core/vec_math.h"
 #include "core/vertex_ranges.h"
+#include "tangents/derivative_terms.h"
 #include "tangents/indexed_plan.h"
 
 namespace tspace {
@@ -32,6 +33,9 @@ struct VertexSums {
     }
 };
 
+/// The lowest `count` bits, of 1 to 64.
+inline std::uint64_t lowBits(std::size_t count) { return ~std::uint64_t{0} >> (64 - count); }
+
 /// Triangles that were met, by what is wrong with them.
 struct TriangleCounts {
     std::uint64_t degenerate = 0;     ///< two corners at one position
@@ -45,7 +49,8 @@ struct TriangleCounts {
 class FaceSums {
   public:
     /// `visits`, one per vertex, counts the triangles that were added; it may be null.
-    FaceSums(const IndexedPlan& plan, StridedSpan<const Vec3> positions, VertexSums sums, float* visits);
+    FaceSums(const IndexedPlan& plan, StridedSpan<const Vec3> positions,
+             const derivatives::DerivativeKernel& kernel, VertexSums sums, float* visits);
 
     /// Without this call there is one range.
     void cutIntoRanges(unsigned wanted, const Allocator* allocator, Parallel& parallel);
@@ -55,8 +60,14 @@ class FaceSums {
     [[nodiscard]] TriangleCounts sum(unsigned range) const;
 
   private:
+    struct Block;
+
+    void addBlock(const Block& block, VertexRange range, bool is_whole, TriangleCounts& counts) const;
+    void addUnsafe(const std::uint32_t* v, VertexRange range, TriangleCounts& counts) const;
+
     const IndexedPlan& plan_;
     StridedSpan<const Vec3> positions_;
+    derivatives::DerivativeKernel kernel_;
     VertexSums sums_;
     float* visits_;
     VertexRanges ranges_;

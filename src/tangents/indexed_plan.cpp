@@ -180,16 +180,16 @@ IndexedPlan planIndexed(const MeshView& mesh, const TangentOptions& options, Par
 }
 
 TangentReport evaluateIndexed(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out,
-                              const Allocator* allocator, Parallel& parallel) {
+                              const Execution& execution, Parallel& parallel) {
     clearUnusedCorners(plan, out);
     TangentReport report = plan.report;
     if (plan.method == Method::lengyel) {
-        evaluateLengyel(plan, pose, out, allocator, parallel, report);
+        evaluateLengyel(plan, pose, out, execution, parallel, report);
         return report;
     }
     report.degenerate_triangle_count = countDegenerate(plan, pose, parallel);
     if (plan.method == Method::basis)
-        evaluateBasis(plan, pose, out, allocator, parallel, report);
+        evaluateBasis(plan, pose, out, execution.allocator, parallel, report);
     else
         evaluateFlat(plan, pose, out, parallel, report);
     return report;

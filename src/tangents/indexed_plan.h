@@ -53,6 +53,6 @@ IndexedPlan planIndexed(const MeshView& mesh, const TangentOptions& options, Par
 /// Evaluates one pose into checked outputs; returns the plan's report with the counts that depend on the pose
 /// added. Throws OutOfMemory.
 TangentReport evaluateIndexed(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out,
-                              const Allocator* allocator, Parallel& parallel);
+                              const Execution& execution, Parallel& parallel);
 
 }  // namespace tspace

@@ -3,10 +3,12 @@
 // Based on: Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 
 #include "core/float4.h"
 #include "core/sum_ranges.h"
+#include "tangents/derivative_terms.h"
 #include "tangents/face_sums.h"
 #include "tangents/indexed_methods.h"
 
@@ -18,141 +20,128 @@ constexpr std::size_t kGrain = 16384;
 // In triangles. An estimate, from some 50 us for a thread to start; not yet measured on idle cores.
 constexpr std::size_t kWorthThreads = 32768;
 
-// Single precision is enough when Gram-Schmidt leaves a sixteenth of the length, and when the volume that
-// decides the sign is not just rounding (about 2^-18 of the product of lengths).
-constexpr float kLeastRest2 = 1.0f / 256;
-constexpr float kLeastVolume = 1.0f / 16384;
-constexpr float kLeast = 1e-30f, kGreatest = 1e30f;
-
-/// After its frame is known, the head of a vertex's sums holds the tangent and, here, the tail 1 when it is a
-/// default.
-float& defaultMark(const VertexSums& sums, std::size_t vertex) { return *sums.tail(vertex); }
-
 struct VertexCounts {
     std::uint64_t used = 0, defaults = 0;
 };
 
-/// Turns sums into frames, one entry per vertex.
+/// Turns sums into frames, one entry per vertex. Tangents take the places of the heads of the sums; where
+/// `out` has other places for them, they are copied there.
 class VertexFrames {
   public:
-    VertexFrames(const VertexSums& sums, const float* visits, StridedSpan<const Vec3> normals, float sign_factor,
-                 const TangentOutput& out)
-        : sums_(sums), visits_(visits), normals_(normals), sign_factor_(sign_factor), out_(out) {
+    /// `is_default`, zeros, one per vertex, gets 1 where the tangent is a default; it may be null.
+    VertexFrames(const derivatives::DerivativeKernel& kernel, const VertexSums& sums, const float* visits,
+                 StridedSpan<const Vec3> normals, float sign_factor, const TangentOutput& out,
+                 std::uint8_t* is_default)
+        : kernel_(kernel),
+          sums_(sums),
+          visits_(visits),
+          normals_(normals),
+          sign_factor_(sign_factor),
+          out_(out),
+          is_default_(is_default) {
         has_extras_ = !out.bitangents.empty() || !out.magnitudes_s.empty() || !out.magnitudes_t.empty();
+        copies_tangents_ = !out.tangents.empty() && &out.tangents.data->x != sums.heads;
     }
 
-    /// With `mark` the tangents go to the heads of the sums, instead of to the output.
-    VertexCounts write(VertexRange range, bool mark) const {
+    VertexCounts write(VertexRange range) const {
         VertexCounts counts;
         std::uint32_t v = range.begin;
-        for (; range.end - v >= 4; v += 4) {
-            Four four = frames(v, 1, {&normals_[v], 4, normals_.stride_bytes});
-            if (four.safe == 15 && !has_extras_) [[likely]] {
-                store(v, four, mark);
-                counts.used += 4;
-            } else {
-                finish(v, 4, four, mark, counts);
-            }
+        const std::uint32_t in_place = has_extras_ ? 0 : inPlaceCount(range);
+        for (const std::uint32_t end = v + in_place; v != end;) {
+            const std::uint32_t count = std::min(kMost, end - v);
+            finishInPlace(v, count, counts);
+            v += count;
         }
-        for (; v < range.end; ++v) {
-            Four four = frames(v, 0, {&normals_[v], 4, 0});
-            finish(v, 1, four, mark, counts);
+        while (v != range.end) {
+            const std::uint32_t count = std::min(kMost, range.end - v);
+            finishCopy(v, count, counts);
+            v += count;
         }
+        if (copies_tangents_) copyTangents(range);
         return counts;
     }
 
   private:
-    struct Four {
-        Float4 tangents[4];
-        unsigned safe = 0;  ///< bits of the vertices whose tangents are right
-    };
+    static constexpr std::uint32_t kMost = 64;  ///< vertices at a time
 
-    /// What makeCornerFrame does, in single precision; for vertices v, v + step, ...
-    [[nodiscard]] Four frames(std::size_t v, std::size_t step, StridedSpan<const Vec3> normals) const {
-        const auto head = [&](std::size_t i) { return loadFloat4(sums_.head(v + i * step)); };
-        const auto tail = [&](std::size_t i) { return sums_.tail(v + i * step); };
-        Float4 sx = head(0), sy = head(1), sz = head(2), tx = head(3);
-        transpose4(sx, sy, sz, tx);
-        const Float4 low = joinPairs(tail(0), tail(1)), high = joinPairs(tail(2), tail(3));
-        const Vec3x4 s{sx, sy, sz};
-        const Vec3x4 t{tx, __builtin_shufflevector(low, high, 0, 2, 4, 6),
-                       __builtin_shufflevector(low, high, 1, 3, 5, 7)};
-        const Vec3x4 n = gatherVec3(normals[0], normals[1], normals[2], normals[3]);
-
-        const Float4 along = dot(n, s);
-        const Vec3x4 rest = s - along * n;
-        const Float4 rest2 = dot(rest, rest);
-        const Float4 length = sqrt4(rest2);
-        const Vec3x4 unit{rest.x / length, rest.y / length, rest.z / length};
-        const Float4 volume = dot(cross(n, rest), t);
-
-        const auto size = [](const Vec3x4& a) { return abs4(a.x) + abs4(a.y) + abs4(a.z); };
-        const Float4 n_size = size(n), lost = along * n_size;
-        const Mask4 safe = (rest2 > splat(kLeastRest2) * (lost * lost)) & (rest2 > splat(kLeast)) &
-                           (rest2 < splat(kGreatest)) &
-                           (abs4(volume) > splat(kLeastVolume) * n_size * length * size(t));
-        const Mask4 sign_bit = std::bit_cast<Mask4>(volume) & std::bit_cast<Mask4>(splat(-0.0f));
-        Four result;
-        result.safe = laneBits(safe);
-        result.tangents[0] = unit.x;
-        result.tangents[1] = unit.y;
-        result.tangents[2] = unit.z;
-        result.tangents[3] = std::bit_cast<Float4>(sign_bit ^ std::bit_cast<Mask4>(splat(sign_factor_)));
-        transpose4(result.tangents[0], result.tangents[1], result.tangents[2], result.tangents[3]);
-        return result;
+    /// Whole groups, without the last vertex of all: the kernel would read past its normal.
+    [[nodiscard]] std::uint32_t inPlaceCount(VertexRange range) const {
+        const auto most = std::min<std::size_t>(range.end, normals_.count - 1);
+        const auto count = static_cast<std::uint32_t>(most - std::min<std::size_t>(most, range.begin));
+        return count / derivatives::kTermGroup * derivatives::kTermGroup;
     }
 
-    void store(std::uint32_t v, const Four& four, bool mark) const {
-        if (mark) {
-            for (std::uint32_t i = 0; i < 4; ++i) {
-                storeFloat4(sums_.head(v + i), four.tangents[i]);
-                defaultMark(sums_, v + i) = 0.0f;
-            }
-            return;
+    void finishInPlace(std::uint32_t first, std::uint32_t count, VertexCounts& counts) const {
+        const auto* normals = reinterpret_cast<const std::byte*>(&normals_[first]);
+        const std::uint64_t safe = kernel_.finish({sums_.head(first), sums_.tail(first)}, normals,
+                                                  normals_.stride_bytes, sign_factor_, count);
+        counts.used += static_cast<unsigned>(std::popcount(safe));
+        for (std::uint64_t rest = ~safe & lowBits(count); rest != 0; rest &= rest - 1) {
+            const std::uint32_t v = first + static_cast<std::uint32_t>(std::countr_zero(rest));
+            store(v, frameInDouble(v, counts));
         }
-        const StridedSpan<Vec4> to{&out_.tangents[v], 4, out_.tangents.stride_bytes};
-        for (std::size_t i = 0; i < 4; ++i) storeFloat4(&to[i].x, four.tangents[i]);
     }
 
-    /// Writes `count` vertices: from `four`, and in double what frames() could not do.
-    [[gnu::noinline]] void finish(std::uint32_t first, unsigned count, const Four& four, bool mark,
-                                  VertexCounts& counts) const {
-        for (unsigned i = 0; i < count; ++i) {
+    /// The same for any vertices and all outputs.
+    [[gnu::noinline]] void finishCopy(std::uint32_t first, std::uint32_t count, VertexCounts& counts) const {
+        float heads[4 * kMost] = {}, tails[2 * kMost] = {};
+        Vec3 normals[kMost + 1] = {};
+        std::copy_n(sums_.head(first), 4 * count, heads);
+        std::copy_n(sums_.tail(first), 2 * count, tails);
+        for (std::uint32_t i = 0; i < count; ++i) normals[i] = normals_[first + i];
+        const std::uint32_t whole_groups = (count + derivatives::kTermGroup - 1) / derivatives::kTermGroup;
+        const std::uint64_t safe =
+            kernel_.finish({heads, tails}, reinterpret_cast<const std::byte*>(normals), sizeof(Vec3),
+                           sign_factor_, whole_groups * derivatives::kTermGroup);
+        for (std::uint32_t i = 0; i < count; ++i) {
             const std::uint32_t v = first + i;
-            const bool is_used = sums_.isTouched(v);
-            Float4 tangent = four.tangents[i];
-            bool is_default = false;
-            if (has_extras_ || (four.safe >> i & 1) == 0) {
-                const CornerFrame frame = is_used ? frameInDouble(v) : CornerFrame{};
-                const Vec4& t = frame.tangent;
-                if ((four.safe >> i & 1) == 0) tangent = Float4{t.x, t.y, t.z, t.w};
-                is_default = frame.is_default;
+            const bool is_safe = (safe >> i & 1) != 0;
+            if (is_safe && !has_extras_) {
+                ++counts.used;
+            } else {
+                const CornerFrame frame = frameInDouble(v, counts);
                 writeExtras(out_, v, frame);
+                store(v, frame);
             }
-            counts.used += is_used ? 1 : 0;
-            counts.defaults += is_default ? 1 : 0;
-            storeFloat4(mark ? sums_.head(v) : &out_.tangents[v].x, tangent);
-            if (mark) defaultMark(sums_, v) = is_default ? 1.0f : 0.0f;
+            if (is_safe) storeFloat4(sums_.head(v), loadFloat4(heads + 4 * i));
         }
     }
 
-    [[nodiscard]] CornerFrame frameInDouble(std::uint32_t v) const {
+    /// Counts the vertex, too.
+    [[nodiscard]] CornerFrame frameInDouble(std::uint32_t v, VertexCounts& counts) const {
+        if (!sums_.isTouched(v)) return {};
+        ++counts.used;
         const float *head = sums_.head(v), *tail = sums_.tail(v);
         const Derivatives d{{head[0], head[1], head[2]}, {head[3], tail[0], tail[1]}};
         CornerFrame frame = makeCornerFrame(d, normals_[v], sign_factor_);
-        if (visits_ != nullptr && !frame.is_default) {
+        if (frame.is_default) {
+            ++counts.defaults;
+            if (is_default_ != nullptr) is_default_[v] = 1;
+        } else if (visits_ != nullptr) {
             frame.magnitude_s = meanLength(d.s, visits_[v]);
             frame.magnitude_t = meanLength(d.t, visits_[v]);
         }
         return frame;
     }
 
+    void store(std::uint32_t v, const CornerFrame& frame) const {
+        const Vec4& t = frame.tangent;
+        storeFloat4(sums_.head(v), Float4{t.x, t.y, t.z, t.w});
+    }
+
+    void copyTangents(VertexRange range) const {
+        for (std::uint32_t v = range.begin; v != range.end; ++v)
+            storeFloat4(&out_.tangents[v].x, loadFloat4(sums_.head(v)));
+    }
+
+    derivatives::DerivativeKernel kernel_;
     VertexSums sums_;
     const float* visits_;
     StridedSpan<const Vec3> normals_;
     float sign_factor_;
     TangentOutput out_;
-    bool has_extras_;
+    std::uint8_t* is_default_;
+    bool has_extras_ = false, copies_tangents_ = false;
 };
 
 /// Outputs per vertex from which those per corner are copied. The tangents are in the places of the sums.
@@ -212,8 +201,8 @@ std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std
     return copyTangents(plan, from, is_default, out, begin, end, [=](std::size_t c) { return vertices[c]; });
 }
 
-/// The places of the sums. Fresh memory costs time, so what the outputs' memory can hold meanwhile is there: the
-/// tails, or, where outputs are per vertex, the heads, which then become the tangents in place.
+/// The places of the sums. Fresh memory costs time, so what the outputs' memory can hold meanwhile is there:
+/// the tails, or, where outputs are per vertex, the heads, which then become the tangents in place.
 struct SumPlaces {
     Buffer<float> head_buffer, tail_buffer;
     VertexSums sums;
@@ -230,38 +219,34 @@ struct SumPlaces {
     }
 };
 
-/// One per vertex.
-Buffer<std::uint8_t> listDefaults(const VertexSums& sums, std::size_t vertex_count, const Allocator* allocator) {
-    Buffer<std::uint8_t> is_default(allocator, vertex_count);
-    for (std::size_t v = 0; v < vertex_count; ++v) is_default[v] = defaultMark(sums, v) != 0 ? 1 : 0;
-    return is_default;
-}
-
 }  // namespace
 
 void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out,
-                     const Allocator* allocator, Parallel& parallel, TangentReport& report) {
+                     const Execution& execution, Parallel& parallel, TangentReport& report) {
     if (plan.vertex_count == 0) return;
+    const Allocator* const allocator = execution.allocator;
+    const derivatives::DerivativeKernel kernel = derivatives::derivativeKernelFor(execution.simd);
     const bool per_corner = plan.domain == OutputDomain::corner;
     const bool has_magnitudes = !out.magnitudes_s.empty() || !out.magnitudes_t.empty();
     const SumPlaces places(out.tangents, plan.vertex_count, per_corner, allocator);
     const VertexSums& sums = places.sums;
     Buffer<float> visits(allocator, has_magnitudes ? plan.vertex_count : 0);
     VertexExtras extras(per_corner ? out : TangentOutput{}, plan.vertex_count, allocator);
+    Buffer<std::uint8_t> is_default(allocator, per_corner ? plan.vertex_count : 0, 0);
 
-    FaceSums faces(plan, pose.positions, sums, visits.data());
+    FaceSums faces(plan, pose.positions, kernel, sums, visits.data());
     if (parallel.width() > 1 && plan.triangleCount() >= kWorthThreads) {
         faces.cutIntoRanges(parallel.width(), allocator, parallel);
     }
-    const VertexFrames frames(sums, visits.data(), pose.normals, plan.sign_factor,
-                              per_corner ? extras.output() : out);
+    const VertexFrames frames(kernel, sums, visits.data(), pose.normals, plan.sign_factor,
+                              per_corner ? extras.output() : out, is_default.data());
     const unsigned range_count = faces.ranges().count();
     std::array<TriangleCounts, VertexRanges::kMostRanges> triangle_counts;
     std::array<VertexCounts, VertexRanges::kMostRanges> vertex_counts;
     parallel.forTasks(range_count, [&](std::size_t task) {
         const auto range = static_cast<unsigned>(task);
         triangle_counts[task] = faces.sum(range);
-        vertex_counts[task] = frames.write(faces.ranges().range(range), per_corner);
+        vertex_counts[task] = frames.write(faces.ranges().range(range));
     });
     for (unsigned task = 0; task < range_count; ++task) {
         report.degenerate_triangle_count += triangle_counts[task].degenerate;
@@ -271,8 +256,7 @@ void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOut
         report.default_corner_count += vertex_counts[task].defaults;
     }
     if (!per_corner) return;
-    Buffer<std::uint8_t> is_default;
-    if (report.default_corner_count != 0) is_default = listDefaults(sums, plan.vertex_count, allocator);
+    if (report.default_corner_count == 0) is_default = {};
     report.default_corner_count =
         sumRanges(parallel, plan.cornerCount(), kGrain, [&](std::size_t begin, std::size_t end) {
             copyToCorners(plan, extras.bitangents.data(), out.bitangents, begin, end);

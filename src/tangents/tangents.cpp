@@ -27,7 +27,7 @@ struct TangentPlan::State {
     [[nodiscard]] TangentReport evaluate(const Pose& pose, const TangentOutput& out, const Execution& execution,
                                          Parallel& parallel) const {
         if (const auto* indexed = std::get_if<IndexedPlan>(&plan))
-            return evaluateIndexed(*indexed, pose, out, execution.allocator, parallel);
+            return evaluateIndexed(*indexed, pose, out, execution, parallel);
         return mikk::evaluateGroups(*std::get_if<mikk::EvaluationPlan>(&plan), pose, out, execution, parallel);
     }
 };
@@ -92,7 +92,7 @@ TangentReport generateFrames(const MeshView& mesh, const TangentOptions& options
                              Parallel& parallel) {
     if (isGrouped(options.method)) return mikk::generateGrouped(mesh, options, out, parallel);
     const IndexedPlan plan = planIndexed(mesh, options, parallel, PlanUse::once);
-    return evaluateIndexed(plan, {mesh.positions, mesh.normals}, out, options.execution.allocator, parallel);
+    return evaluateIndexed(plan, {mesh.positions, mesh.normals}, out, options.execution, parallel);
 }
 
 Error checkPose(const Pose& pose, std::size_t vertex_count) {

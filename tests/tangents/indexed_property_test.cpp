@@ -38,7 +38,7 @@ Outputs tangentsOf(const MeshView& mesh, Method method, Convention convention = 
     Parallel parallel(Execution{.thread_count = 1});
     const IndexedPlan plan = planIndexed(mesh, {.method = method, .convention = convention}, parallel);
     evaluateIndexed(plan, {mesh.positions, mesh.normals},
-                    {out.tangents, out.bitangents, out.magnitudes_s, out.magnitudes_t}, nullptr, parallel);
+                    {out.tangents, out.bitangents, out.magnitudes_s, out.magnitudes_t}, {}, parallel);
     return out;
 }
 

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+// The kernel behind derivative_terms.h. Included once per CPU, after lanes_*.h and with TSPACE_LANES set to
+// its namespace. Each lane is one triangle or one vertex.
+#pragma once
+
+#include "simd/vectors_kernel.h"
+#include "tangents/derivative_terms.h"
+
+namespace tspace::derivatives::TSPACE_LANES {
+
+using namespace simd::TSPACE_LANES;
+
+namespace {
+
+constexpr float kLeast = 1e-30f, kGreatest = 1e30f;  // far enough from the ends of float for all that follows
+// A determinant a - b is taken from single precision when |a - b| > (|a| + |b|) / 32. Its terms are off by
+// 3 roundings each, so it is then good to 100 roundings (6e-6) at worst and its sign is certain.
+constexpr float kLeastShare = 1.0f / 32;
+// Single precision is enough when Gram-Schmidt leaves a sixteenth of the length, and when the volume that
+// decides the sign is not just rounding (about 2^-18 of the product of lengths).
+constexpr float kLeastRest2 = 1.0f / 256;
+constexpr float kLeastVolume = 1.0f / 16384;
+
+inline Mask equal(Vectors a, Vectors b) { return (a.x == b.x) & (a.y == b.y) & (a.z == b.z); }
+
+struct Group {
+    Vectors p[3];
+    Floats u[3], v[3];
+};
+
+/// With strides that are known, addresses need no multiplication.
+template <bool kTight, bool kExact>
+inline Group load(const TriangleSource& source, const std::uint32_t* vertices) {
+    const std::size_t position_stride = kTight ? 12 : source.position_stride,
+                      uv_stride = kTight ? 8 : source.uv_stride;
+    Group g;
+    for (std::size_t k = 0; k < 3; ++k) {
+        gather3(source.positions, position_stride, vertices + k, kExact, g.p[k].x, g.p[k].y, g.p[k].z);
+        gather2(source.uvs, uv_stride, vertices + k, g.u[k], g.v[k]);
+    }
+    return g;
+}
+
+struct GroupBits {
+    unsigned safe, mirrored;
+};
+
+/// Of kWidth triangles.
+inline GroupBits writeRows(const Group& g, float* rows) {
+    const Floats zero = broadcast(0.0f);
+    const Floats s1 = g.u[1] - g.u[0], t1 = g.v[1] - g.v[0], s2 = g.u[2] - g.u[0], t2 = g.v[2] - g.v[0];
+    const Floats plus = s1 * t2, minus = s2 * t1, determinant = plus - minus;
+    const Floats r = broadcast(1.0f) / determinant, size = absolute(determinant);
+    Mask safe = (size > broadcast(kLeastShare) * (absolute(plus) + absolute(minus))) &
+                (size > broadcast(kLeast)) & (size < broadcast(kGreatest));
+
+    const Vectors e1 = g.p[1] - g.p[0], e2 = g.p[2] - g.p[0];
+    // Two corners at one position have one x, which is rarely so.
+    if (bitsOf((e1.x == zero) | (e2.x == zero) | (g.p[1].x == g.p[2].x)) != 0) [[unlikely]]
+        safe = safe & !(equal(g.p[0], g.p[1]) | equal(g.p[0], g.p[2]) | equal(g.p[1], g.p[2]));
+    // The quotients first: products of edges and UV differences can leave the range of float, these cannot.
+    const Vectors s = (t2 * r) * e1 - (t1 * r) * e2, t = (s1 * r) * e2 - (s2 * r) * e1;
+    // 0 * x is 0 unless x is infinite or a NaN.
+    safe = safe & (zero * ((s.x + s.y + s.z) + (t.x + t.y + t.z)) == zero);
+    storeRows<8>(rows, s.x + zero, s.y, s.z, t.x);
+    storePairs<8>(rows + 4, t.y, t.z);
+    return {bitsOf(safe), bitsOf(safe & (determinant < zero))};
+}
+
+template <bool kTight, bool kExact>
+inline void computeBlock(const TriangleSource& source, const std::uint32_t* vertices, std::size_t count,
+                         DerivativeTerms& terms) {
+    std::uint64_t safe = 0, mirrored = 0;
+    for (std::size_t i = 0; i < count; i += kWidth) {
+        const std::uint32_t* const v = vertices + 3 * i;
+        const GroupBits bits = writeRows(load<kTight, kExact>(source, v), terms.rows[i]);
+        safe |= std::uint64_t{bits.safe} << i;
+        mirrored |= std::uint64_t{bits.mirrored} << i;
+    }
+    const std::uint64_t known = ~std::uint64_t{0} >> (kTermTriangles - count);
+    terms.safe = safe & known;
+    terms.mirrored = mirrored & known;
+}
+
+/// Whether any vertex is the last one, which has nothing after it to be read along.
+inline bool namesLastVertex(const std::uint32_t* vertices, std::size_t count, std::uint32_t last) {
+    std::uint32_t others = ~std::uint32_t{0};  // turned into 0 by the last one
+    for (std::size_t i = 0; i < 3 * count; ++i) others &= vertices[i] == last ? 0 : ~std::uint32_t{0};
+    return others == 0;
+}
+
+void compute(const TriangleSource& source, const std::uint32_t* vertices, std::size_t count,
+             DerivativeTerms& terms) {
+    const bool tight = source.position_stride == 12 && source.uv_stride == 8;
+    if (namesLastVertex(vertices, (count + kWidth - 1) / kWidth * kWidth, source.last_vertex)) {
+        computeBlock<false, true>(source, vertices, count, terms);
+    } else if (tight) {
+        computeBlock<true, false>(source, vertices, count, terms);
+    } else {
+        computeBlock<false, false>(source, vertices, count, terms);
+    }
+}
+
+// As they lie in arrays: at any multiple of 4 bytes, and over any type.
+using Head = float __attribute__((vector_size(16), aligned(4), may_alias));
+using Tail = float __attribute__((vector_size(8), aligned(4), may_alias));
+
+template <class IsWanted>
+inline void addWanted(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin,
+                      std::size_t end, SumArrays sums, IsWanted isWanted) {
+    for (std::size_t i = begin; i < end; ++i) {
+        const Head head = *reinterpret_cast<const Head*>(terms.rows[i]);
+        const Tail tail = *reinterpret_cast<const Tail*>(terms.rows[i] + 4);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t v = vertices[3 * i + k];
+            if (!isWanted(vertices[3 * i + k])) continue;
+            *reinterpret_cast<Head*>(sums.heads + 4 * v) += head;
+            *reinterpret_cast<Tail*>(sums.tails + 2 * v) += tail;
+        }
+    }
+}
+
+void add(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin, std::size_t end,
+         SumArrays sums) {
+    addWanted(terms, vertices, begin, end, sums, [](std::uint32_t) { return true; });
+}
+
+void addSome(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin, std::size_t end,
+             SumArrays sums, std::uint32_t first, std::uint32_t past) {
+    addWanted(terms, vertices, begin, end, sums, [=](std::uint32_t v) { return v - first < past - first; });
+}
+
+inline Floats size(Vectors a) { return absolute(a.x) + absolute(a.y) + absolute(a.z); }
+
+/// kWidth consecutive elements, as gather3 wants them.
+struct Consecutive {
+    std::uint32_t index[3 * kWidth];
+    constexpr Consecutive() : index() {
+        for (std::size_t i = 0; i < kWidth; ++i) index[3 * i] = static_cast<std::uint32_t>(i);
+    }
+};
+
+/// What makeCornerFrame does, in single precision. Returns the bits of the vertices whose tangents are right;
+/// the heads of the others stay as they are.
+inline unsigned finishGroup(float* heads, const float* tails, Vectors n, float sign_factor) {
+    Vectors s, t;
+    loadRows<4>(heads, s.x, s.y, s.z, t.x);
+    loadPairs(tails, t.y, t.z);
+    const Floats along = dot(n, s);
+    const Vectors rest = s - along * n;
+    const Floats rest2 = dot(rest, rest), length = squareRoot(rest2);
+    const Floats volume = dot(cross(n, rest), t);
+    const Floats n_size = size(n), lost = along * n_size;
+    const Mask safe = (rest2 > broadcast(kLeastRest2) * (lost * lost)) & (rest2 > broadcast(kLeast)) &
+                      (rest2 < broadcast(kGreatest)) &
+                      (absolute(volume) > broadcast(kLeastVolume) * n_size * length * size(t));
+    const Floats sign = select(volume < broadcast(0.0f), broadcast(-sign_factor), broadcast(sign_factor));
+    const Vectors unit{rest.x / length, rest.y / length, rest.z / length};
+    if (all(safe)) [[likely]] {
+        storeRows<4>(heads, unit.x, unit.y, unit.z, sign);
+        return bitsOf(safe);
+    }
+    alignas(64) float rows[4 * kWidth];
+    storeRows<4>(rows, unit.x, unit.y, unit.z, sign);
+    for (std::size_t i = 0; i < kWidth; ++i) {
+        if ((bitsOf(safe) >> i & 1) != 0)
+            *reinterpret_cast<Head*>(heads + 4 * i) = *reinterpret_cast<Head*>(rows + 4 * i);
+    }
+    return bitsOf(safe);
+}
+
+template <bool kTight>
+inline std::uint64_t finishVertices(SumArrays sums, const std::byte* normals, std::size_t stride,
+                                    float sign_factor, std::size_t count) {
+    constexpr Consecutive kNext;
+    std::uint64_t safe = 0;
+    for (std::size_t v = 0; v < count; v += kWidth) {
+        Vectors n;
+        const std::size_t step = kTight ? 12 : stride;
+        gather3(normals + v * step, step, kNext.index, false, n.x, n.y, n.z);
+        safe |= std::uint64_t{finishGroup(sums.heads + 4 * v, sums.tails + 2 * v, n, sign_factor)} << v;
+    }
+    return safe;
+}
+
+std::uint64_t finish(SumArrays sums, const std::byte* normals, std::size_t stride, float sign_factor,
+                     std::size_t count) {
+    return stride == 12 ? finishVertices<true>(sums, normals, stride, sign_factor, count)
+                        : finishVertices<false>(sums, normals, stride, sign_factor, count);
+}
+
+}  // namespace
+
+DerivativeKernel derivativeKernel() { return {compute, add, addSome, finish}; }
+
+}  // namespace tspace::derivatives::TSPACE_LANES
