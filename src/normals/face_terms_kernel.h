@@ -98,25 +98,26 @@ void compute(const FaceSource& source, const std::uint32_t* vertices, std::size_
 
 template <class IsWanted>
 inline std::uint64_t addWanted(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
-                               IsWanted isWanted) {
+                               std::uint32_t begin, IsWanted isWanted) {
     std::uint64_t degenerate = 0;
     for (std::size_t t = 0; t < count; ++t, points += 3) {
         const DoubleRow normal = loadDoubleRow(terms.normal[t]);
         for (std::size_t k = 0; k < 3; ++k) {
-            if (isWanted(points[k])) addDoubleRow(sums + std::size_t{4} * points[k], terms.angle[k][t], normal);
+            if (isWanted(points[k])) addDoubleRow(sums + std::size_t{4} * (points[k] - begin), terms.angle[k][t], normal);
         }
         if (terms.normal[t][3] == 0.0 && isWanted(points[0])) ++degenerate;
     }
     return degenerate;
 }
 
-std::uint64_t add(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums) {
-    return addWanted(terms, points, count, sums, [](std::uint32_t) { return true; });
+std::uint64_t add(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
+                  std::uint32_t begin) {
+    return addWanted(terms, points, count, sums, begin, [](std::uint32_t) { return true; });
 }
 
 std::uint64_t addSome(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
                       std::uint32_t begin, std::uint32_t end) {
-    return addWanted(terms, points, count, sums, [=](std::uint32_t point) { return point - begin < end - begin; });
+    return addWanted(terms, points, count, sums, begin, [=](std::uint32_t point) { return point - begin < end - begin; });
 }
 
 std::uint64_t finish(double* sums, std::size_t count, double least) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sums of weighted face normals per point, in blocks of triangles whose arithmetic is SIMD. No list of the
-// corners around a point is needed: where its mean vanishes, a corner's substitute depends on its own face.
+// corners around a point is needed: where its mean vanishes, a corner's substitute depends on its own face. Where blocks
+// of triangles lie close together, ranges of points are summed, finished and written one after the other.
 // Based on: Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998.
 #include "normals/smooth_triangles.h"
 
@@ -15,9 +16,9 @@
 #include "core/float4.h"
 #include "core/sum_ranges.h"
 #include "core/vec_math.h"
-#include "core/vertex_ranges.h"
 #include "normals/best_triangles.h"
 #include "normals/face_terms.h"
+#include "normals/point_ranges.h"
 #include "normals/weld.h"
 
 namespace tspace {
@@ -26,11 +27,13 @@ namespace {
 
 using smooth::FaceTerms, smooth::FaceSource, smooth::kTermGroup;
 
-constexpr std::size_t kBlock = VertexRanges::kBlock;
+constexpr std::size_t kBlock = PointRanges::kBlock;
 static_assert(kBlock == smooth::kTermTriangles && kBlock % kTermGroup == 0);
 constexpr std::size_t kGrain = 16384;
 // In triangles. An estimate, from some 50 us for a thread to start; not yet measured on idle cores.
 constexpr std::size_t kWorthThreads = 16384;
+constexpr std::size_t kNearPoints = 16384;   ///< and up to twice as many: their sums fit into a second cache
+constexpr std::size_t kRangesPerThread = 4;  ///< at least
 
 // Below the first fraction of the weights a sum is what rounding left of normals that cancel. Below the
 // second it shows how single-precision angles were rounded: it is then taken again, with angles in double.
@@ -42,14 +45,14 @@ struct PointSum {
     double x, y, z, weights;
 
     /// Writes the unit mean, or the mark when the mean is not above `least`; returns which.
-    bool finish(double least, float* floats) const {
+    bool finish(double least) {
         const double length = std::sqrt(x * x + y * y + z * z);
         if (length > least * weights) [[likely]] {
             const Vec3 unit = toFloat((1.0 / length) * DVec3{x, y, z});
-            storeFloat4(floats, Float4{unit.x, unit.y, unit.z, 0.0f});
+            storeFloat4(floats(), Float4{unit.x, unit.y, unit.z, 0.0f});
             return true;
         }
-        storeFloat4(floats, Float4{0.0f, 0.0f, 0.0f, -0.0f});
+        storeFloat4(floats(), Float4{0.0f, 0.0f, 0.0f, -0.0f});
         return false;
     }
     // For the functions of float4.h.
@@ -59,11 +62,20 @@ struct PointSum {
     /// Has the mark although something was added.
     [[nodiscard]] bool isDoubtful() const { return isMarked(loadFloat4(floats())) && weights > 0; }
     static bool isMarked(Float4 normal) { return (laneBits(std::bit_cast<Mask4>(normal)) & 8) != 0; }
-
-    // A doubtful place can also hold a number.
-    void setNumber(std::size_t number) { weights = static_cast<double>(number + 1); }
-    [[nodiscard]] std::size_t number() const { return static_cast<std::size_t>(weights) - 1; }
 };
+
+/// The places of a range of points.
+struct RangeSums {
+    PointSum* rows;  ///< of the points from range.begin on
+    VertexRange range;
+    std::uint64_t* doubtful;  ///< room for a bit per point
+
+    [[nodiscard]] bool has(std::uint32_t point) const { return point - range.begin < range.end - range.begin; }
+    [[nodiscard]] PointSum& at(std::uint32_t point) const { return rows[point - range.begin]; }
+    [[nodiscard]] std::size_t size() const { return range.end - range.begin; }
+};
+
+constexpr std::size_t wordsFor(std::size_t bits) { return (bits + 63) / 64; }
 
 /// A block of triangles: their vertices and points where these are not read from the mesh, and what they add.
 struct Block {
@@ -101,69 +113,103 @@ class TriangleSmoother {
           allocator_(options.execution.allocator),
           parallel_(parallel),
           triangle_count_(mesh.faceCount()),
-          ranges_(mesh.vertexCount()) {
-        if (options.weld_positions) points_ = weldPositions(mesh, allocator_, parallel_);
-        sums_ = Buffer<PointSum>(allocator_, mesh.vertexCount());
-    }
+          points_(options.weld_positions ? weldPositions(mesh, allocator_, parallel_) : Buffer<std::uint32_t>()),
+          ranges_(mesh.indices, triangle_count_, mesh.vertexCount(), points_.data()) {}
 
     NormalReport run() {
-        if (parallel_.width() > 1 && triangle_count_ >= kWorthThreads) {
-            const auto points = [&](std::size_t first, std::size_t count, std::uint32_t* buffer) {
-                return pointsOf(blockVertices(mesh_.indices, first, count, buffer), count, buffer);
-            };
-            ranges_.cut(parallel_.width(), triangle_count_, points, allocator_, parallel_);
+        const bool threads = parallel_.width() > 1 && triangle_count_ >= kWorthThreads;
+        const std::size_t near = std::max(mesh_.vertexCount() / kNearPoints,
+                                          threads ? kRangesPerThread * parallel_.width() : std::size_t{1});
+        NormalReport report{triangle_count_, 0, 0};
+        if (!is_best_ && near > 1 && ranges_.wouldBeCompact(near)) {
+            ranges_.cut(near, allocator_, parallel_);
+            sumNear(report);
+        } else {
+            if (threads) ranges_.cut(parallel_.width(), allocator_, parallel_);
+            sumFar(report);
         }
-        std::array<std::uint64_t, VertexRanges::kMostRanges> degenerate{}, doubtful{};
+        return report;
+    }
+
+  private:
+    /// Range by range, with memory for the sums of one range per task, which stays in the cache.
+    void sumNear(NormalReport& report) {
+        const std::size_t ranges = ranges_.count(), size = ranges_.range(0).end;
+        const std::size_t tasks =
+            parallel_.width() == 1 ? 1 : std::min(ranges, kRangesPerThread * parallel_.width());
+        Buffer<PointSum> sums(allocator_, tasks * size);
+        Buffer<std::uint64_t> doubtful(allocator_, tasks * wordsFor(size));
+        std::array<NormalReport, kRangesPerThread * PointRanges::kMost> reports{};
+        parallel_.forTasks(tasks, [&](std::size_t task) {
+            for (std::size_t r = ranges * task / tasks; r < ranges * (task + 1) / tasks; ++r) {
+                const auto index = static_cast<unsigned>(r);
+                const RangeSums place{sums.data() + task * size, ranges_.range(index),
+                                      doubtful.data() + task * wordsFor(size)};
+                reports[task].degenerate_face_count += sum(index, place);
+                reports[task].fallback_corner_count += writeRange(index, place);
+            }
+        });
+        for (const NormalReport& part : reports) {
+            report.degenerate_face_count += part.degenerate_face_count;
+            report.fallback_corner_count += part.fallback_corner_count;
+        }
+    }
+
+    /// All sums, and then all corners.
+    void sumFar(NormalReport& report) {
+        sums_ = Buffer<PointSum>(allocator_, mesh_.vertexCount());
+        Buffer<std::uint64_t> doubtful(allocator_, wordsFor(mesh_.vertexCount()) + ranges_.count());
+        std::array<std::uint64_t, PointRanges::kMost> degenerate{};
         parallel_.forTasks(ranges_.count(), [&](std::size_t task) {
             const auto index = static_cast<unsigned>(task);
-            degenerate[task] = sum(index);
-            doubtful[task] = finish(ranges_.range(index));
+            const VertexRange range = ranges_.range(index);
+            degenerate[task] =
+                sum(index, {sums_.data() + range.begin, range, doubtful.data() + range.begin / 64 + task});
         });
-        NormalReport report{triangle_count_, 0, 0};
-        for (const std::uint64_t count : degenerate) report.degenerate_face_count += count;
-        if (const auto count = std::accumulate(doubtful.begin(), doubtful.end(), std::uint64_t{0});
-            count != 0) {
-            sumDoubtful(count);
-        }
+        report.degenerate_face_count = std::accumulate(degenerate.begin(), degenerate.end(), std::uint64_t{0});
         if (is_best_) smooth::refineTriangles(mesh_, positions_, points_, options_, sums_.data()->floats(), parallel_);
         copyToRepeated();
         report.fallback_corner_count =
             sumRanges(parallel_, triangle_count_, kGrain,
                       [&](std::size_t begin, std::size_t end) { return writeCorners(begin, end); });
-        return report;
     }
 
-  private:
     /// The points of the corners of `count` triangles: `vertices` itself or `buffer`, which may be the same.
     const std::uint32_t* pointsOf(const std::uint32_t* vertices, std::size_t count,
                                   std::uint32_t* buffer) const {
-        if (points_.empty()) return vertices;
         for (std::size_t i = 0; i < 3 * count; ++i) buffer[i] = points_[vertices[i]];
         return buffer;
     }
+    const std::uint32_t* blockPoints(std::size_t block, const std::uint32_t* vertices, std::size_t count,
+                                     std::uint32_t* buffer) const {
+        return ranges_.hasRepeated(block) ? pointsOf(vertices, count, buffer) : vertices;
+    }
+    [[nodiscard]] std::size_t blockSize(std::size_t block) const {
+        return std::min(kBlock, triangle_count_ - block * kBlock);
+    }
 
-    /// Sums at the points of a range; returns the degenerate triangles whose first point is in it.
-    std::uint64_t sum(unsigned index) {
-        const VertexRange range = ranges_.range(index);
-        std::fill(sums_.data() + range.begin, sums_.data() + range.end, PointSum{});
-        double* const sums = &sums_.data()->x;
+    /// Makes the unit normals of a range; returns the degenerate triangles whose first point is in it.
+    std::uint64_t sum(unsigned index, const RangeSums& place) const {
+        std::fill_n(place.rows, place.size(), PointSum{});
+        double* const sums = &place.rows->x;
         const FaceSource source = faceSource(by_angle_, by_area_);
         Block block;
         std::uint64_t degenerate = 0;
-        for (std::size_t first = 0, b = 0; first < triangle_count_; first += kBlock, ++b) {
-            if (!ranges_.names(b, index)) continue;
-            std::size_t count = std::min(kBlock, triangle_count_ - first);
-            const std::uint32_t* v = blockVertices(mesh_.indices, first, count, block.vertices);
-            const std::uint32_t* points = pointsOf(v, count, block.points);
-            if (ranges_.namesOnly(b, index)) {
+        ranges_.forBlocks(index, [&](std::size_t b) {
+            std::size_t count = blockSize(b);
+            const std::uint32_t* v = blockVertices(mesh_.indices, b * kBlock, count, block.vertices);
+            const std::uint32_t* points = blockPoints(b, v, count, block.points);
+            if (ranges_.isWithinOne(b)) {
                 kernel_.compute(source, fillGroup(v, count, block.vertices), count, block.terms);
-                degenerate += kernel_.add(block.terms, points, count, sums);
+                degenerate += kernel_.add(block.terms, points, count, sums, place.range.begin);
             } else {
-                count = select(v, points, count, range, block);
+                count = select(v, points, count, place, block);
                 kernel_.compute(source, fillGroup(block.vertices, count, block.vertices), count, block.terms);
-                degenerate += kernel_.add_some(block.terms, block.points, count, sums, range.begin, range.end);
+                degenerate += kernel_.add_some(block.terms, block.points, count, sums, place.range.begin,
+                                               place.range.end);
             }
-        }
+        });
+        if (finish(place) != 0) [[unlikely]] sumDoubtful(index, place);
         return degenerate;
     }
 
@@ -180,12 +226,12 @@ class TriangleSmoother {
 
     /// Takes the triangles that have a point in the range, and returns how many.
     static std::size_t select(const std::uint32_t* v, const std::uint32_t* points, std::size_t count,
-                              VertexRange range, Block& block) {
+                              const RangeSums& place, Block& block) {
         std::size_t taken = 0;
         for (std::size_t i = 0; i < 3 * count; i += 3) {
             bool any = false;
             for (std::size_t k = 0; k < 3; ++k) {
-                any |= points[i + k] - range.begin < range.end - range.begin;
+                any |= place.has(points[i + k]);
                 block.vertices[3 * taken + k] = v[i + k];
                 block.points[3 * taken + k] = points[i + k];
             }
@@ -196,44 +242,37 @@ class TriangleSmoother {
 
     /// Turns sums into unit normals and returns how many are doubtful. Sums of products of floats neither
     /// overflow nor vanish when squared.
-    std::uint64_t finish(VertexRange range) {
-        PointSum* const end = sums_.data() + range.end;
-        PointSum* place = sums_.data() + range.begin;
-        const std::size_t whole_groups = (range.end - range.begin) / kTermGroup * kTermGroup;
-        std::uint64_t doubtful = kernel_.finish(&place->x, whole_groups, kDoubtful);
-        for (place += whole_groups; place != end; ++place) {
-            const PointSum sum = *place;
-            doubtful += sum.finish(kDoubtful, place->floats()) || sum.weights == 0 ? 0 : 1;
-        }
+    [[nodiscard]] std::uint64_t finish(const RangeSums& place) const {
+        const std::size_t whole_groups = place.size() / kTermGroup * kTermGroup;
+        std::uint64_t doubtful = kernel_.finish(&place.rows->x, whole_groups, kDoubtful);
+        for (std::size_t i = whole_groups; i < place.size(); ++i)
+            doubtful += place.rows[i].finish(kDoubtful) || !place.rows[i].isDoubtful() ? 0 : 1;
         return doubtful;
     }
 
     /// Takes the sums again that are marked, with angles in double.
-    void sumDoubtful(std::uint64_t count) {
-        Buffer<PointSum> exact(allocator_, count, PointSum{});
-        std::size_t number = 0;
-        for (PointSum& place : sums_) {
-            if (place.isDoubtful()) place.setNumber(number++);
+    void sumDoubtful(unsigned index, const RangeSums& place) const {
+        std::fill_n(place.doubtful, wordsFor(place.size()), std::uint64_t{0});
+        for (std::size_t i = 0; i < place.size(); ++i) {
+            if (!place.rows[i].isDoubtful()) continue;
+            place.doubtful[i / 64] |= std::uint64_t{1} << i % 64;
+            place.rows[i] = {};
         }
-        parallel_.forTasks(ranges_.count(), [&](std::size_t task) {
-            const auto index = static_cast<unsigned>(task);
-            const VertexRange range = ranges_.range(index);
-            for (std::size_t t = 0; t < triangle_count_; ++t) {
-                if (ranges_.names(t / kBlock, index)) addExactly(t, range, exact);
-            }
-            for (std::uint32_t p = range.begin; p < range.end; ++p) {
-                if (sums_[p].isDoubtful()) exact[sums_[p].number()].finish(kVanished, sums_[p].floats());
-            }
+        ranges_.forBlocks(index, [&](std::size_t b) {
+            for (std::size_t t = b * kBlock; t < b * kBlock + blockSize(b); ++t) addExactly(t, place);
         });
+        for (std::size_t i = 0; i < place.size(); ++i) {
+            if ((place.doubtful[i / 64] >> i % 64 & 1) != 0) place.rows[i].finish(kVanished);
+        }
     }
 
-    void addExactly(std::size_t triangle, VertexRange range, Buffer<PointSum>& exact) const {
+    void addExactly(std::size_t triangle, const RangeSums& place) const {
         std::uint32_t buffer[3], point_buffer[3];
         const std::uint32_t* const v = blockVertices(mesh_.indices, triangle, 1, buffer);
-        const std::uint32_t* const points = pointsOf(v, 1, point_buffer);
+        const std::uint32_t* const points = blockPoints(triangle / kBlock, v, 1, point_buffer);
         for (std::size_t k = 0; k < 3; ++k) {
-            if (points[k] - range.begin >= range.end - range.begin || !sums_[points[k]].isDoubtful())
-                continue;
+            const std::size_t i = points[k] - place.range.begin;
+            if (!place.has(points[k]) || (place.doubtful[i / 64] >> i % 64 & 1) == 0) continue;
             const DVec3 here = toDouble(positions_[v[k]]);
             const DVec3 e1 = toDouble(positions_[v[(k + 1) % 3]]) - here;
             const DVec3 e2 = toDouble(positions_[v[(k + 2) % 3]]) - here;
@@ -241,10 +280,40 @@ class TriangleSmoother {
             const double size = length(turn);
             if (!(size > 0) || !std::isfinite(size)) return;
             const double weight = (by_angle_ ? polarAngle(dot(e1, e2), size) : 1) * (by_area_ ? size : 1);
-            PointSum& sum = exact[sums_[points[k]].number()];
+            PointSum& sum = place.rows[i];
             const DVec3 term = (weight * factor_ / size) * turn;
             sum = {sum.x + term.x, sum.y + term.y, sum.z + term.z, sum.weights + weight};
         }
+    }
+
+    /// Writes the corners at the points of a range; returns how many got a substitute.
+    std::uint64_t writeRange(unsigned index, const RangeSums& place) const {
+        std::uint64_t substitutes = 0;
+        std::uint32_t buffer[3 * kBlock], point_buffer[3 * kBlock];
+        ranges_.forBlocks(index, [&](std::size_t b) {
+            const std::size_t count = blockSize(b);
+            const std::uint32_t* v = blockVertices(mesh_.indices, b * kBlock, count, buffer);
+            const std::uint32_t* points = blockPoints(b, v, count, point_buffer);
+            substitutes += ranges_.isWithinOne(b) ? writeBlock(b * kBlock, points, count, place)
+                                                  : writeSome(b * kBlock, points, count, place);
+        });
+        return substitutes;
+    }
+
+    /// Of a block at the border of ranges: only the corners at the points of one.
+    std::uint64_t writeSome(std::size_t first, const std::uint32_t* points, std::size_t count,
+                            const RangeSums& place) const {
+        std::uint64_t substitutes = 0;
+        for (std::size_t i = 0; i < 3 * count; ++i) {
+            if (!place.has(points[i])) continue;
+            const Float4 normal = loadFloat4(place.at(points[i]).floats());
+            storeVec3(out_[3 * first + i], normal);
+            if (PointSum::isMarked(normal)) [[unlikely]] {
+                out_[3 * first + i] = ownNormal(first + i / 3);
+                ++substitutes;
+            }
+        }
+        return substitutes;
     }
 
     /// Where few vertices share a point with another one, these get its normal: then each corner's is at its vertex.
@@ -254,46 +323,63 @@ class TriangleSmoother {
                 if (points_[v] != v) sums_[v] = sums_[points_[v]];
             }
         });
-        points_ = {};
     }
 
     /// Returns how many corners of a range of triangles got a substitute.
     std::uint64_t writeCorners(std::size_t begin, std::size_t end) {
         std::uint64_t substitutes = 0;
         std::uint32_t buffer[3 * kBlock];
+        const RangeSums all{sums_.data(), {0, static_cast<std::uint32_t>(sums_.size())}, nullptr};
         for (std::size_t first = begin; first < end; first += kBlock) {
             const std::size_t count = std::min(kBlock, end - first);
-            const std::uint32_t* v = blockVertices(mesh_.indices, first, count, buffer);
-            auto* const to = reinterpret_cast<std::byte*>(&out_[3 * first]);
-            const Float4 marks = out_.stride_bytes == sizeof(Vec3) ? writeNormals(v, 3 * count, to, sizeof(Vec3))
-                                                                   : writeNormals(v, 3 * count, to, out_.stride_bytes);
-            if (PointSum::isMarked(marks)) [[unlikely]] substitutes += writeSubstitutes(first, v, count);
+            substitutes += writeBlock(first, blockVertices(mesh_.indices, first, count, buffer), count, all);
         }
         return substitutes;
     }
 
-    /// Returns a mark if any of the normals has one.
-    [[gnu::always_inline]] Float4 writeNormals(const std::uint32_t* v, std::size_t count, std::byte* to,
-                                               std::size_t stride) const {
-        const PointSum* const sums = sums_.data();
-        Float4 marks = splat(0.0f);
-        for (std::size_t i = 0; i + 1 < count; ++i, to += stride) {
-            const Float4 normal = loadFloat4(sums[v[i]].floats());
-            marks = or4(marks, normal);
-            if (stride == sizeof(Vec3))
-                storeFloat4(reinterpret_cast<float*>(to), normal);  // the fourth is overwritten by the next
-            else
-                storeVec3(*reinterpret_cast<Vec3*>(to), normal);
-        }
-        const Float4 last = loadFloat4(sums[v[count - 1]].floats());
-        storeVec3(*reinterpret_cast<Vec3*>(to), last);
-        return or4(marks, last);
+    /// Returns how many corners got a substitute.
+    std::uint64_t writeBlock(std::size_t first, const std::uint32_t* points, std::size_t count,
+                             const RangeSums& place) const {
+        auto* const to = reinterpret_cast<std::byte*>(&out_[3 * first]);
+        const Float4 marks = out_.stride_bytes == sizeof(Vec3)
+                                 ? writeNormals(points, 3 * count, to, sizeof(Vec3), place)
+                                 : writeNormals(points, 3 * count, to, out_.stride_bytes, place);
+        return PointSum::isMarked(marks) ? writeSubstitutes(first, points, count, place) : 0;
     }
 
-    std::uint64_t writeSubstitutes(std::size_t first, const std::uint32_t* v, std::size_t count) const {
+    /// Returns a mark if any of the normals has one.
+    [[gnu::always_inline]] static Float4 writeNormals(const std::uint32_t* points, std::size_t count, std::byte* to,
+                                                      std::size_t stride, const RangeSums& place) {
+        const auto normalAt = [&](std::size_t i) __attribute__((always_inline)) {
+            return loadFloat4(place.at(points[i]).floats());
+        };
+        Float4 marks = splat(0.0f);
+        std::size_t i = 0;
+        if (stride == sizeof(Vec3)) {
+            for (; i + 4 <= count; i += 4, to += 4 * sizeof(Vec3)) {
+                const Float4 a = normalAt(i), b = normalAt(i + 1), c = normalAt(i + 2), d = normalAt(i + 3);
+                marks = or4(or4(marks, or4(a, b)), or4(c, d));
+                auto* const floats = reinterpret_cast<float*>(to);
+                const Float4 az_bx = __builtin_shufflevector(a, b, 2, 2, 4, 4);
+                const Float4 cz_dx = __builtin_shufflevector(c, d, 2, 2, 4, 4);
+                storeFloat4(floats, __builtin_shufflevector(a, az_bx, 0, 1, 4, 6));
+                storeFloat4(floats + 4, __builtin_shufflevector(b, c, 1, 2, 4, 5));
+                storeFloat4(floats + 8, __builtin_shufflevector(cz_dx, d, 0, 2, 5, 6));
+            }
+        }
+        for (; i < count; ++i, to += stride) {
+            const Float4 normal = normalAt(i);
+            marks = or4(marks, normal);
+            storeVec3(*reinterpret_cast<Vec3*>(to), normal);
+        }
+        return marks;
+    }
+
+    [[gnu::noinline]] std::uint64_t writeSubstitutes(std::size_t first, const std::uint32_t* points, std::size_t count,
+                                                     const RangeSums& place) const {
         std::uint64_t substitutes = 0;
         for (std::size_t i = 0; i < 3 * count; ++i) {
-            if (!PointSum::isMarked(loadFloat4(sums_[v[i]].floats()))) continue;
+            if (!PointSum::isMarked(loadFloat4(place.at(points[i]).floats()))) continue;
             out_[3 * first + i] = ownNormal(first + i / 3);
             ++substitutes;
         }
@@ -321,9 +407,9 @@ class TriangleSmoother {
     const Allocator* allocator_;
     Parallel& parallel_;
     std::size_t triangle_count_;
-    VertexRanges ranges_;
     Buffer<std::uint32_t> points_;  ///< the point of each vertex; empty when each is its own
-    Buffer<PointSum> sums_;
+    PointRanges ranges_;
+    Buffer<PointSum> sums_;  ///< of all points; empty where these are done range by range
 };
 
 }  // namespace

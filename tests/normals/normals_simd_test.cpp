@@ -87,8 +87,9 @@ SimpleMesh randomMesh() {
 }
 
 std::vector<SimpleMesh> soundMeshes() {
-    return {sheet(40),       sheet(40, 1e-19f), sheet(40, 1e-37f),          sheet(40, 1e19f),
-            sheet(9, 1e38f), randomMesh(),      sheet(40, 1, {1, 1, 1e-6f}), sheet(40, 1, {1, 1e5f, 1})};
+    return {sheet(40),       sheet(40, 1e-19f), sheet(40, 1e-37f),           sheet(40, 1e19f),
+            sheet(9, 1e38f), randomMesh(),      sheet(40, 1, {1, 1, 1e-6f}), sheet(40, 1, {1, 1e5f, 1}),
+            sheet(200)};
 }
 
 std::vector<SimpleMesh> meshes() {
@@ -96,6 +97,9 @@ std::vector<SimpleMesh> meshes() {
     all.push_back(withBackSides(sheet(30)));
     all.push_back(withBackSides(sheet(30, 1e-30f)));
     all.push_back(withBrokenValues(sheet(40)));
+    // Large enough to be done in ranges of points, whose number depends on the threads.
+    all.push_back(withBackSides(sheet(190)));
+    all.push_back(withBrokenValues(sheet(200)));
     return all;
 }
 

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "normals/point_ranges.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace tspace {
+
+PointRanges::PointRanges(const IndexView& vertices, std::size_t triangle_count, std::size_t point_count,
+                         const std::uint32_t* points)
+    : vertices_(vertices),
+      triangle_count_(triangle_count),
+      block_count_((triangle_count + kBlock - 1) / kBlock),
+      point_count_(point_count),
+      points_(points) {}
+
+unsigned PointRanges::shiftFor(std::size_t wanted) const {
+    const std::size_t most = std::clamp<std::size_t>(wanted, 1, kMost);
+    unsigned shift = 0;
+    while (((point_count_ - 1) >> shift) >= most) ++shift;
+    return shift;
+}
+
+bool PointRanges::wouldBeCompact(std::size_t wanted) const {
+    constexpr std::size_t kSamples = 64;
+    const unsigned shift = shiftFor(wanted);
+    const std::size_t samples = std::min(block_count_, kSamples);
+    std::size_t named = 0;
+    for (std::size_t i = 0; i < samples; ++i) {
+        const std::uint64_t mark = markOf((2 * i + 1) * block_count_ / (2 * samples), shift);
+        named += static_cast<std::size_t>(std::popcount(mark & ~kRepeated));
+    }
+    return 2 * named <= 3 * samples;
+}
+
+void PointRanges::cut(std::size_t wanted, const Allocator* allocator, Parallel& parallel) {
+    shift_ = shiftFor(wanted);
+    count_ = static_cast<unsigned>((point_count_ - 1) >> shift_) + 1;
+    marks_ = Buffer<std::uint64_t>(allocator, block_count_);
+    constexpr std::size_t kGrain = 256;
+    parallel.forRanges(block_count_, kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t block = begin; block < end; ++block) marks_[block] = markOf(block, shift_);
+    });
+    list(allocator);
+}
+
+std::uint64_t PointRanges::markOf(std::size_t block, unsigned shift) const {
+    std::uint32_t buffer[3 * kBlock];
+    const std::size_t count = 3 * blockSize(block);
+    if (count == 0) return 0;
+    const std::uint32_t* v = blockVertices(vertices_, block * kBlock, count / 3, buffer);
+    std::uint32_t any = 0, all = ~std::uint32_t{0}, moved = 0;
+    if (points_ == nullptr) {
+        for (std::size_t i = 0; i < count; ++i) {
+            any |= v[i];
+            all &= v[i];
+        }
+    } else {
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint32_t point = points_[v[i]];
+            any |= point;
+            all &= point;
+            moved |= point ^ v[i];
+        }
+    }
+    const std::uint64_t repeated = moved != 0 ? kRepeated : 0;
+    const auto bitOf = [&](std::uint32_t vertex) {
+        return std::uint64_t{1} << ((points_ == nullptr ? vertex : points_[vertex]) >> shift);
+    };
+    std::uint64_t mark = repeated | bitOf(v[0]);
+    if ((any ^ all) >> shift == 0) return mark;  // mostly so, and found without a loop over bits
+    for (std::size_t i = 1; i < count; ++i) mark |= bitOf(v[i]);
+    return mark;
+}
+
+void PointRanges::list(const Allocator* allocator) {
+    const auto forEach = [&](const auto& body) {
+        for (std::size_t block = 0; block < block_count_; ++block) {
+            for (std::uint64_t rest = marks_[block] & ~kRepeated; rest != 0; rest &= rest - 1)
+                body(block, static_cast<std::size_t>(std::countr_zero(rest)));
+        }
+    };
+    std::fill_n(begins_, kMost + 1, std::size_t{0});
+    forEach([&](std::size_t, std::size_t range) { ++begins_[range]; });
+    std::size_t total = 0;
+    for (std::size_t& place : begins_) total += std::exchange(place, total);
+    blocks_ = Buffer<std::uint32_t>(allocator, total);
+    forEach([&](std::size_t block, std::size_t range) {
+        blocks_[begins_[range]++] = static_cast<std::uint32_t>(block);
+    });
+    for (std::size_t range = kMost; range > 0; --range) begins_[range] = begins_[range - 1];
+    begins_[0] = 0;
+}
+
+}  // namespace tspace
