@@ -65,35 +65,55 @@ inline void faceNormals(DoubleVectors o, DoubleVectors p1, DoubleVectors p2, dou
     cotangents[2] = keepWhere(sound, (bb - ab) * inverse);
 }
 
+/// What the steps of a block leave for the next one. The steps are loops of their own, because each is a long chain of
+/// operations that wait for one another: of short loops a processor works on several rounds at the same time.
+struct Steps {
+    alignas(64) float position[3][3][kTermTriangles];  ///< of each corner: x, y, z
+    alignas(64) float angle[3][kTermTriangles];        ///< of each corner; first its cotangent
+};
+
+inline void readPositions(const FaceSource& source, const std::uint32_t* vertices, std::size_t t, Steps& steps) {
+    const bool exact = namesLast(vertices, source.last_vertex);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vectors p = gatherVectors(source.positions, source.stride, vertices + k, exact);
+        store(steps.position[k][0] + t, p.x);
+        store(steps.position[k][1] + t, p.y);
+        store(steps.position[k][2] + t, p.z);
+    }
+}
+
 /// The angles are the same for a corner of a face and of its reverse, so that the two cancel.
 template <bool kByArea>
-inline void groupTerms(const FaceSource& source, const std::uint32_t* vertices, std::size_t first, FaceTerms& terms) {
-    const bool exact = namesLast(vertices, source.last_vertex);
-    Vectors p[3];
-    for (std::size_t k = 0; k < 3; ++k) p[k] = gatherVectors(source.positions, source.stride, vertices + k, exact);
-    constexpr std::size_t kPart = kWidth / kDoubleParts;
-    Doubles cotangents[3][kDoubleParts];
-    for (std::size_t i = 0; i < kDoubleParts; ++i) {
-        Doubles c[3];
-        faceNormals<kByArea>(part(p[0], i), part(p[1], i), part(p[2], i), source.factor,
-                             terms.normal[first + i * kPart], c);
-        for (std::size_t k = 0; k < 3; ++k) cotangents[k][i] = c[k];
+void computeTerms(const FaceSource& source, const std::uint32_t* vertices, std::size_t count, FaceTerms& terms) {
+    Steps steps;
+    for (std::size_t t = 0; t < count; t += kWidth) readPositions(source, vertices + 3 * t, t, steps);
+    for (std::size_t t = 0; t < count; t += kWidth / kDoubleParts) {
+        DoubleVectors p[3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto& [x, y, z] = steps.position[k];
+            p[k] = {loadAsDoubles(x + t), loadAsDoubles(y + t), loadAsDoubles(z + t)};
+        }
+        Doubles cotangents[3];
+        faceNormals<kByArea>(p[0], p[1], p[2], source.factor, terms.normal[t], cotangents);
+        for (std::size_t k = 0; k < 3; ++k) storeAsFloats(steps.angle[k] + t, cotangents[k]);
     }
-    Floats angles[3];
-    for (std::size_t k = 0; k < 3; ++k) angles[k] = source.by_angle ? join(cotangents[k]) : broadcast(1.0f);
-    if (source.by_angle) anglesOfCotangents(angles);
+    for (std::size_t t = 0; t < count; t += kWidth) {
+        Floats angles[3];
+        for (std::size_t k = 0; k < 3; ++k) angles[k] = source.by_angle ? load(steps.angle[k] + t) : broadcast(1.0f);
+        if (source.by_angle) anglesOfCotangents(angles);
+        for (std::size_t k = 0; k < 3; ++k) store(steps.angle[k] + t, angles[k]);
+    }
     for (std::size_t k = 0; k < 3; ++k) {
-        for (std::size_t i = 0; i < kDoubleParts; ++i)
-            storeDoubles(terms.angle[k] + first + i * kPart, part(angles[k], i));
+        for (std::size_t t = 0; t < count; t += kWidth / kDoubleParts)
+            storeDoubles(terms.angle[k] + t, loadAsDoubles(steps.angle[k] + t));
     }
 }
 
 void compute(const FaceSource& source, const std::uint32_t* vertices, std::size_t count, FaceTerms& terms) {
-    if (source.by_area) {
-        for (std::size_t t = 0; t < count; t += kWidth) groupTerms<true>(source, vertices + 3 * t, t, terms);
-    } else {
-        for (std::size_t t = 0; t < count; t += kWidth) groupTerms<false>(source, vertices + 3 * t, t, terms);
-    }
+    if (source.by_area)
+        computeTerms<true>(source, vertices, count, terms);
+    else
+        computeTerms<false>(source, vertices, count, terms);
 }
 
 template <class IsWanted>

@@ -57,6 +57,8 @@ struct Doubles {
     __m256d v;
 };
 inline constexpr std::size_t kDoubleParts = 2;
+inline Doubles loadAsDoubles(const float* p) { return {_mm256_cvtps_pd(_mm_load_ps(p))}; }
+inline void storeAsFloats(float* to, Doubles a) { _mm_store_ps(to, _mm256_cvtpd_ps(a.v)); }
 inline Doubles broadcastDouble(double x) { return {_mm256_set1_pd(x)}; }
 inline Doubles part(Floats a, std::size_t which) {
     return {_mm256_cvtps_pd(which == 0 ? _mm256_castps256_ps128(a.v) : _mm256_extractf128_ps(a.v, 1))};
@@ -146,6 +148,7 @@ inline void gather2(const std::byte* base, std::size_t stride, const std::uint32
     y = {_mm256_shuffle_ps(ab, cd, 0xdd)};
 }
 inline void store(float* to, Floats a) { _mm256_store_ps(to, a.v); }
+inline Floats load(const float* p) { return {_mm256_load_ps(p)}; }
 inline void store(std::uint32_t* to, Bits b) { _mm256_store_ps(reinterpret_cast<float*>(to), b.v); }
 template <std::size_t kStep = 12>
 inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {

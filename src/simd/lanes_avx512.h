@@ -55,6 +55,8 @@ struct Doubles {
     __m512d v;
 };
 inline constexpr std::size_t kDoubleParts = 2;
+inline Doubles loadAsDoubles(const float* p) { return {_mm512_cvtps_pd(_mm256_load_ps(p))}; }
+inline void storeAsFloats(float* to, Doubles a) { _mm256_store_ps(to, _mm512_cvtpd_ps(a.v)); }
 inline Doubles broadcastDouble(double x) { return {_mm512_set1_pd(x)}; }
 inline Doubles part(Floats a, std::size_t which) {
     return {_mm512_cvtps_pd(which == 0 ? _mm512_castps512_ps256(a.v) : _mm512_extractf32x8_ps(a.v, 1))};
@@ -148,6 +150,7 @@ inline void gather2(const std::byte* base, std::size_t stride, const std::uint32
     y = {_mm512_shuffle_ps(ab, cd, 0xdd)};
 }
 inline void store(float* to, Floats a) { _mm512_store_ps(to, a.v); }
+inline Floats load(const float* p) { return {_mm512_load_ps(p)}; }
 inline void store(std::uint32_t* to, Bits b) { _mm512_store_si512(to, b.v); }
 template <std::size_t kStep = 12>
 inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {

@@ -66,6 +66,9 @@ struct Doubles {
     double v;
 };
 inline constexpr std::size_t kDoubleParts = 1;
+/// Between floats in memory and doubles. All addresses here and below are multiples of the vector's size.
+inline Doubles loadAsDoubles(const float* p) { return {*p}; }
+inline void storeAsFloats(float* to, Doubles a) { *to = static_cast<float>(a.v); }
 inline Doubles broadcastDouble(double x) { return {x}; }
 inline Doubles part(Floats a, std::size_t) { return {a.v}; }
 inline Floats join(const Doubles* parts) { return {static_cast<float>(parts[0].v)}; }
@@ -133,6 +136,7 @@ inline void gather2(const std::byte* base, std::size_t stride, const std::uint32
     y = {v[1]};
 }
 inline void store(float* to, Floats a) { *to = a.v; }
+inline Floats load(const float* p) { return {*p}; }
 inline void store(std::uint32_t* to, Bits b) { *to = b.v; }
 /// Writes lane i's four values to rows[kStep * i ...], by default row 3 * i of an array of rows of four floats. At any
 /// address that floats may have.

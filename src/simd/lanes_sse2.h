@@ -55,6 +55,12 @@ struct Doubles {
     __m128d v;
 };
 inline constexpr std::size_t kDoubleParts = 2;
+inline Doubles loadAsDoubles(const float* p) {
+    return {_mm_cvtps_pd(_mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(p))))};
+}
+inline void storeAsFloats(float* to, Doubles a) {
+    _mm_store_sd(reinterpret_cast<double*>(to), _mm_castps_pd(_mm_cvtpd_ps(a.v)));
+}
 inline Doubles broadcastDouble(double x) { return {_mm_set1_pd(x)}; }
 inline Doubles part(Floats a, std::size_t which) {
     return {_mm_cvtps_pd(which == 0 ? a.v : _mm_movehl_ps(a.v, a.v))};
@@ -129,6 +135,7 @@ inline void gather2(const std::byte* base, std::size_t stride, const std::uint32
     y = {_mm_shuffle_ps(ab, cd, 0xdd)};
 }
 inline void store(float* to, Floats a) { _mm_store_ps(to, a.v); }
+inline Floats load(const float* p) { return {_mm_load_ps(p)}; }
 inline void store(std::uint32_t* to, Bits b) { _mm_store_ps(reinterpret_cast<float*>(to), b.v); }
 template <std::size_t kStep = 12>
 inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
