@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <vector>
 
 #include "tangents/mikktspace/fan.h"
+#include "tangents/mikktspace/fan_list.h"
 #include "tangents/mikktspace/pairing.h"
 
 namespace tspace::mikk {
@@ -70,6 +72,64 @@ RC_GTEST_PROP(Fan, IsOneWhenPairingMakesOnePart, ()) {
         known &= fan.add(corners.next[i], corners.previous[i], places.room);
     RC_TAG(known);
     if (known) RC_ASSERT(fan.isOne() == (countParts(corners) == 1));
+}
+
+bool listIsOneFan(const Corners& corners) {
+    FanList list;
+    list.clear();
+    std::copy(corners.next.begin(), corners.next.end(), list.next);
+    std::copy(corners.previous.begin(), corners.previous.end(), list.previous);
+    return isOneFan(list, static_cast<std::uint32_t>(corners.next.size()));
+}
+
+/// Each half-edge once, and one part.
+bool isPlainFan(const Corners& corners) {
+    const auto allDiffer = [](const std::vector<std::uint32_t>& of) {
+        return std::set<std::uint32_t>(of.begin(), of.end()).size() == of.size();
+    };
+    return allDiffer(corners.next) && allDiffer(corners.previous) && countParts(corners) == 1;
+}
+
+RC_GTEST_PROP(FanList, IsOneFanWhenPairingMakesOnePartOfDifferentHalfEdges, ()) {
+    const Corners corners = randomCorners();
+    RC_PRE(corners.next.size() <= FanList::kMost);
+    RC_TAG(isPlainFan(corners));
+    RC_ASSERT(listIsOneFan(corners) == isPlainFan(corners));
+}
+
+TEST(FanList, KnowsAllFansOfUpToFourCornersWithFourNeighbours) {
+    constexpr std::uint32_t kNeighbours = 4, kKinds = kNeighbours * (kNeighbours - 1);
+    std::size_t fans = 0;
+    for (std::size_t count = 1, ways = kKinds; count <= 4; ++count, ways *= kKinds) {
+        for (std::size_t way = 0; way < ways; ++way) {
+            Corners corners;
+            for (std::size_t i = 0, left = way; i < count; ++i, left /= kKinds) {
+                const auto next = static_cast<std::uint32_t>(left % kNeighbours),
+                           further = static_cast<std::uint32_t>(left % kKinds / kNeighbours);
+                corners.next.push_back(next);
+                corners.previous.push_back((next + 1 + further) % kNeighbours);
+            }
+            ASSERT_EQ(listIsOneFan(corners), isPlainFan(corners)) << count << " corners, way " << way;
+            fans += isPlainFan(corners) ? 1 : 0;
+        }
+    }
+    // Rings: 6 of two corners, 8 of three, 6 of four. Paths: 12, 24 and 24. Each in any order.
+    EXPECT_EQ(fans, 12u + 2u * (6 + 24) + 6u * (8 + 24) + 24u * 6);
+}
+
+TEST(FanList, KnowsRingsAndPathsOfEightInAnyOrder) {
+    for (const std::uint32_t neighbours : {8u, 9u}) {
+        std::uint32_t order[] = {0, 1, 2, 3, 4, 5, 6, 7};
+        do {
+            FanList list;
+            list.clear();
+            for (std::size_t i = 0; i < 8; ++i) {
+                list.next[i] = order[i];
+                list.previous[i] = (order[i] + 1) % neighbours;
+            }
+            ASSERT_TRUE(isOneFan(list, 8));
+        } while (std::next_permutation(std::begin(order), std::end(order)));
+    }
 }
 
 TEST(Fan, FollowsTrianglesInTheOrderOfAMesh) {

@@ -183,15 +183,21 @@ Shape soup(std::uint32_t seed) {
     return shape;
 }
 
-/// The outputs for one first look; nothing when all is left to the general steps.
+/// The outputs for one first look; nothing when all is left to the general steps. `bucket_shift`: take the
+/// triangles for scattered ones, with buckets of so many nodes.
 std::optional<Outputs> look(const Shape& shape, const TangentOptions& options, mikk::FirstLook first_look,
-                            bool tangents_only) {
+                            bool tangents_only, std::optional<unsigned> bucket_shift = {}) {
     const MeshView mesh = shape.view();
     Parallel parallel(options.execution);
     const mikk::TriangleList triangles = mikk::cutFaces(mesh, options.ngons, nullptr);
     mikk::Nodes nodes = mikk::weld(mesh, triangles, nullptr, parallel);
     if (!nodes.tame) return std::nullopt;
     mikk::listVertices(nodes, nullptr, parallel);
+    if (bucket_shift) {
+        nodes.blocks.scattered = true;
+        nodes.blocks.ranges = {};
+        nodes.blocks.bucket_shift = *bucket_shift;
+    }
     Outputs outputs(shape.cornerCount());
     TangentOutput to = outputs.view();
     if (tangents_only) to = {.tangents = to.tangents};
@@ -231,6 +237,42 @@ TEST(OnePass, AndALookAtEachNodeGiveTheSameBits) {
         }
     }
     EXPECT_GT(compared, list.size());
+}
+
+TEST(OnePass, InBucketsOfNodesGivesTheSameBits) {
+    std::vector<Shape> list = shapes();
+    list.push_back(foldedSheet(200, 7));
+    for (std::uint32_t seed = 0; seed < 40; ++seed) {
+        list.push_back(soup(seed + 3000));
+        list.push_back(unrolledFan(seed + 3));
+        shuffleTriangles(list.back(), seed);
+    }
+    std::size_t compared = 0;
+    for (const Shape& shape : list) {
+        for (const Method method : {Method::mikktspace, Method::angle, Method::fast}) {
+            TangentOptions options;
+            options.method = method;
+            options.pairing = Pairing::corrected;
+            Outputs want(shape.cornerCount());
+            ASSERT_NO_FATAL_FAILURE(planAndEvaluate(shape, options, want));
+            for (const unsigned shift : {6u, 9u, 13u}) {
+                options.execution.thread_count = 1 + compared % 3;
+                const auto got = look(shape, options, mikk::FirstLook::onePass, compared % 2 != 0, shift);
+                if (!got) continue;
+                ++compared;
+                for (std::size_t c = 0; c < shape.cornerCount(); ++c) {
+                    ASSERT_EQ((std::bit_cast<std::array<std::uint32_t, 4>>(got->tangents[c])),
+                              (std::bit_cast<std::array<std::uint32_t, 4>>(want.tangents[c])));
+                }
+                EXPECT_EQ(got->report.group_count, want.report.group_count);
+                EXPECT_EQ(got->report.mirrored_count, want.report.mirrored_count);
+                EXPECT_EQ(got->report.degenerate_uv_count, want.report.degenerate_uv_count);
+                EXPECT_EQ(got->report.degenerate_triangle_count, want.report.degenerate_triangle_count);
+                EXPECT_EQ(got->report.default_corner_count, want.report.default_corner_count);
+            }
+        }
+    }
+    EXPECT_GT(compared, 2 * list.size());
 }
 
 TEST(OnePass, GivesTheSameTangentsWithoutTheOtherOutputs) {

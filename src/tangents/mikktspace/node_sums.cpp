@@ -8,6 +8,8 @@
 #include <cstddef>
 
 #include "tangents/mikktspace/add_row.h"
+#include "tangents/mikktspace/bucket_sums.h"
+#include "tangents/mikktspace/node_buckets.h"
 
 namespace tspace::mikk {
 
@@ -423,9 +425,17 @@ NodeSums sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nod
         std::fill(sums.lengths_t.begin(), sums.lengths_t.end(), 0.0f);
         return sums;
     }
-    Summer::Setting setting{mesh, triangles, nodes, source, terms};
-    setting.scattered = sums.scattered = nodes.blocks.scattered;
     sums.flat = Buffer<std::uint8_t>(brief.allocator(), triangles.count, std::uint8_t{0});
+    sums.scattered = nodes.blocks.scattered;
+    if (sums.scattered && triangles.faces.empty()) {
+        NodeBuckets buckets(mesh, triangles, nodes, allocator);
+        if (buckets.fill(brief, parallel)) {
+            sumBuckets(buckets, nodes, source, terms, sums, allocator, parallel);
+            return sums;
+        }
+    }
+    Summer::Setting setting{mesh, triangles, nodes, source, terms};
+    setting.scattered = sums.scattered;
     Buffer<PackedNode> packed;
     if (setting.scattered && brief.has(nodes.count * sizeof(PackedNode))) {
         packed = Buffer<PackedNode>(brief.allocator(), nodes.count);
