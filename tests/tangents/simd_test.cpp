@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <random>
@@ -286,6 +287,29 @@ TEST(OnePass, GivesTheSameTangentsWithoutTheOtherOutputs) {
                       (std::bit_cast<std::array<std::uint32_t, 4>>(want.tangents[c])));
         }
         EXPECT_EQ(report->group_count, want.report.group_count);
+    }
+}
+
+TEST(OnePass, WritesLargeOutputsAsItWritesOthers) {
+    const Shape shape = gridOf(720000);  // 34 MB of tangents (core/streamed_rows.h)
+    struct Padded {
+        Vec4 tangent;
+        float other = 7;
+    };
+    const std::size_t corners = shape.cornerCount();
+    std::vector<Padded> padded(corners);
+    const StridedSpan<Vec4> with_gaps(&padded[0].tangent, corners, sizeof(Padded));
+    ASSERT_TRUE(generateTangents(shape.view(), {}, {.tangents = with_gaps}).ok());
+    for (const unsigned threads : {1u, 2u}) {
+        TangentOptions options;
+        options.execution.thread_count = threads;
+        std::vector<Vec4> tangents(corners);
+        ASSERT_TRUE(generateTangents(shape.view(), options, {.tangents = tangents}).ok());
+        std::size_t different = 0;
+        for (std::size_t c = 0; c < corners; ++c) {
+            different += std::memcmp(&tangents[c], &padded[c].tangent, sizeof(Vec4)) != 0 || padded[c].other != 7;
+        }
+        EXPECT_EQ(different, 0u);
     }
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/face_walk.h"
+#include "core/streamed_rows.h"
 #include "core/typed_indices.h"
 #include "tangents/estimators/group_estimates.h"
 #include "tangents/mikktspace/collect.h"
@@ -322,6 +323,8 @@ class OnePass {
     template <class NodeOf>
     void writeRange(std::size_t begin, std::size_t end, const NodeOf& nodeOf) const {
         constexpr std::size_t kBlock = 64;
+        const bool streamed = out_.tangents.stride_bytes == sizeof(Vec4) &&
+                              areStreamed(out_.tangents.data, out_.tangents.count * sizeof(Vec4));
         std::uint32_t nodes[2][kBlock];
         const auto lookUp = [&](std::size_t first, std::uint32_t* to) {
             const std::size_t count = std::min(kBlock, end - first);
@@ -334,15 +337,25 @@ class OnePass {
         for (std::size_t first = begin; first < end; first += kBlock, current ^= 1) {
             if (first + kBlock < end) lookUp(first + kBlock, nodes[current ^ 1]);
             const std::size_t count = std::min(kBlock, end - first);
-            for (std::size_t i = 0; i < count; ++i) {
-                const float* s = sums_.nodes[nodes[current][i]].s;
-                out_.tangents[first + i] = {s[0], s[1], s[2], s[3]};
-            }
+            writeTangents(first, nodes[current], count, streamed);
             if (sums_.rest.empty()) continue;
             for (std::size_t i = 0; i < count; ++i) {
                 const std::uint32_t node = nodes[current][i];
                 writeRest(first + i, sums_.rest[node], sums_.lengths_t[node]);
             }
+        }
+        if (streamed) endOfRows();
+    }
+
+    void writeTangents(std::size_t first, const std::uint32_t* nodes, std::size_t count, bool streamed) const {
+        if (streamed) {
+            auto* to = reinterpret_cast<float*>(out_.tangents.data + first);
+            for (std::size_t i = 0; i < count; ++i) streamRow(to + 4 * i, sums_.nodes[nodes[i]].s);
+            return;
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            const float* s = sums_.nodes[nodes[i]].s;
+            out_.tangents[first + i] = {s[0], s[1], s[2], s[3]};
         }
     }
 

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Writing rows of four floats past the caches. A large output leaves them anyway before somebody reads it; written in
+// the usual way, each line is read first.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#if defined(TSPACE_SIMD_X86)
+#include <xmmintrin.h>
+#endif
+
+namespace tspace {
+
+/// Whether rows at `to`, so many bytes in all, should be streamed. They must lie one behind the other.
+inline bool areStreamed([[maybe_unused]] const void* to, [[maybe_unused]] std::size_t bytes) {
+#if defined(TSPACE_SIMD_X86)
+    constexpr std::size_t kLarge = std::size_t{32} << 20;  // what many processors have as their last cache
+    return bytes >= kLarge && reinterpret_cast<std::uintptr_t>(to) % 16 == 0;
+#else
+    return false;
+#endif
+}
+
+/// to[0..3] = row[0..3]; both aligned to 16 bytes. Nobody may read it before endOfRows, on the thread that wrote it.
+inline void streamRow(float* to, const float* row) {
+#if defined(TSPACE_SIMD_X86)
+    _mm_stream_ps(to, _mm_load_ps(row));
+#else
+    for (int i = 0; i < 4; ++i) to[i] = row[i];
+#endif
+}
+
+inline void endOfRows() {
+#if defined(TSPACE_SIMD_X86)
+    _mm_sfence();
+#endif
+}
+
+}  // namespace tspace
