@@ -18,8 +18,7 @@ constexpr std::size_t kGrain = 256;  // blocks
 bool isScattered(const MeshView& mesh, const TriangleList& triangles) {
     constexpr std::size_t kSamples = 1024;
     constexpr std::int64_t kFar = 2048;  // vertices
-    if (triangles.count < 2 || mesh.vertexCount() < 16 * kFar)
-        return false;  // all of it is in the cache soon
+    if (triangles.count < 2 || mesh.vertexCount() < 4 * kFar) return false;  // nothing is far
     std::size_t far = 0;
     for (std::size_t i = 0; i < kSamples; ++i) {
         const std::size_t t = (triangles.count - 1) * i / kSamples;

@@ -10,6 +10,7 @@ namespace tspace::mikk {
 namespace {
 
 constexpr std::size_t kMostBuckets = 1024;  // each is a place that is written to
+constexpr unsigned kShiftForThreads = 11;   // buckets are not made smaller than this for more threads
 constexpr std::size_t kPartTriangles = 16384;  // of a task at least
 
 }  // namespace
@@ -83,8 +84,15 @@ class NodeBuckets::Filler {
 };
 
 NodeBuckets::NodeBuckets(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                         const Allocator* allocator)
-    : mesh_(mesh), triangles_(triangles), nodes_(nodes), allocator_(allocator), shift_(nodes.blocks.bucket_shift) {
+                         const Allocator* allocator, Parallel& parallel)
+    : mesh_(mesh),
+      triangles_(triangles),
+      nodes_(nodes),
+      allocator_(allocator),
+      parallel_(parallel),
+      shift_(nodes.blocks.bucket_shift) {
+    const std::size_t few = parallel.width() == 1 ? 0 : 2 * std::size_t{parallel.width()};
+    while (shift_ > kShiftForThreads && (nodes.count >> shift_) < few) --shift_;
     while ((nodes.count >> shift_) >= kMostBuckets) ++shift_;
     count_ = (nodes.count >> shift_) + 1;
 }
@@ -104,16 +112,16 @@ bool NodeBuckets::isWorthIt() const {
     return further <= kMostFurther;
 }
 
-bool NodeBuckets::fill(ScratchBlock& brief, Parallel& parallel) {
+bool NodeBuckets::fill(ScratchBlock& brief) {
     if (!isWorthIt()) return false;
     const std::size_t chunks = std::min<std::size_t>(brief.left() / sizeof(BucketChunk), kNone);
     chunks_ = Buffer<BucketChunk>(brief.allocator(), chunks);
-    parts_ = std::clamp<std::size_t>(triangles_.count / kPartTriangles, 1, parallel.width());
+    parts_ = std::clamp<std::size_t>(triangles_.count / kPartTriangles, 1, parallel_.width());
     links_ = Buffer<std::uint32_t>(allocator_, chunks);
     lists_ = Buffer<List>(allocator_, parts_ * count_);
     std::atomic<bool> fits{true};
     withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
-        parallel.forTasks(parts_, [&](std::size_t part) {
+        parallel_.forTasks(parts_, [&](std::size_t part) {
             Filler filler(*this, lists_.data() + part * count_, links_.data(), chunks * part / parts_,
                           chunks * (part + 1) / parts_);
             const std::size_t begin = triangles_.count * part / parts_,

@@ -28,11 +28,11 @@ class NodeBuckets {
   public:
     /// All must outlive this object.
     NodeBuckets(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                const Allocator* allocator);
+                const Allocator* allocator, Parallel& parallel);
 
     /// Fills the buckets, in what is left of `brief`. Returns false when they do not fit, or when many triangles are in
     /// several buckets. Not for polygons.
-    bool fill(ScratchBlock& brief, Parallel& parallel);
+    bool fill(ScratchBlock& brief);
 
     [[nodiscard]] std::size_t count() const { return count_; }
     [[nodiscard]] std::size_t firstNode(std::size_t bucket) const { return bucket << shift_; }
@@ -75,6 +75,7 @@ class NodeBuckets {
     const TriangleList& triangles_;
     const Nodes& nodes_;
     const Allocator* allocator_;
+    Parallel& parallel_;
     unsigned shift_;
     std::size_t count_, parts_ = 0;
     Buffer<BucketChunk> chunks_;

@@ -428,8 +428,8 @@ NodeSums sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nod
     sums.flat = Buffer<std::uint8_t>(brief.allocator(), triangles.count, std::uint8_t{0});
     sums.scattered = nodes.blocks.scattered;
     if (sums.scattered && triangles.faces.empty()) {
-        NodeBuckets buckets(mesh, triangles, nodes, allocator);
-        if (buckets.fill(brief, parallel)) {
+        NodeBuckets buckets(mesh, triangles, nodes, allocator, parallel);
+        if (buckets.fill(brief)) {
             sumBuckets(buckets, nodes, source, terms, sums, allocator, parallel);
             return sums;
         }
