@@ -33,8 +33,11 @@ std::uint32_t sortable(float value) {
 }
 
 int compare(float a, float b) {
-    const std::uint32_t x = sortable(a);
-    const std::uint32_t y = sortable(b);
+    if (a < b) return -1;
+    if (a > b) return 1;
+    if (a == b) [[likely]]
+        return 0;
+    const std::uint32_t x = sortable(a), y = sortable(b);
     return x < y ? -1 : (x > y ? 1 : 0);
 }
 
@@ -43,67 +46,107 @@ double orderedLength(double length2) {
     return length2 < std::numeric_limits<double>::infinity() ? length2 : HUGE_VAL;
 }
 
-class Cutter {
+/// What lies to the left of the line a -> b, or no further from it than a distance to the right of it.
+class LeftSide {
   public:
-    Cutter(const Vec3* positions, const Vec2* uvs, std::uint32_t count, PolygonScratch& scratch)
-        : positions_(positions), uvs_(uvs), count_(count), scratch_(scratch) {}
+    LeftSide(PlanePoint a, PlanePoint b)
+        : a_(a), x_(b.x - a.x), y_(b.y - a.y), longest_(std::abs(x_) + std::abs(y_)) {}
 
-    void cut(std::uint32_t* triangles) {
-        start_ = canonicalStart();
-        projectToPlane();
-        link();
-        std::uint32_t left = count_;
-        for (; left > 3; --left) {
-            const std::uint32_t ear = takeBest();
-            const std::uint32_t before = scratch_.previous[ear];
-            const std::uint32_t after = scratch_.next[ear];
-            *triangles++ = original(before);
-            *triangles++ = original(ear);
-            *triangles++ = original(after);
-            remove(ear, before, after);
-        }
-        const std::uint32_t last = lowestLeft();
-        *triangles++ = original(scratch_.previous[last]);
-        *triangles++ = original(last);
-        *triangles++ = original(scratch_.next[last]);
+    /// Whether c is more than `slack` away from the line, to its left.
+    [[nodiscard]] bool isFar(PlanePoint c, double slack) const {
+        const double distance = across(c);
+        // The length between the two points is not above `longest_`: a square root tells only what is near.
+        if (!(distance > 0)) return false;
+        return distance > 2 * (slack * longest_) || distance - slack * length() > 0;
+    }
+    /// Whether c is to the left, or not more than `slack` away.
+    [[nodiscard]] bool isNear(PlanePoint c, double slack) const {
+        const double distance = across(c);
+        if (distance >= 0) return true;
+        return !(distance < -2 * (slack * longest_)) && distance + slack * length() >= 0;
     }
 
   private:
-    struct Point {
-        double x, y;
-    };
+    /// Times the length.
+    [[nodiscard]] double across(PlanePoint c) const { return x_ * (c.y - a_.y) - y_ * (c.x - a_.x); }
+    [[nodiscard]] double length() const { return std::sqrt(x_ * x_ + y_ * y_); }
 
-    [[nodiscard]] std::uint32_t original(std::uint32_t canonical) const {
-        return canonical < count_ - start_ ? canonical + start_ : canonical - (count_ - start_);
-    }
-    [[nodiscard]] const Vec3& position(std::uint32_t v) const { return positions_[original(v)]; }
-    [[nodiscard]] Point point(std::uint32_t v) const {
-        return {scratch_.plane[2 * std::size_t{v}], scratch_.plane[2 * std::size_t{v} + 1]};
-    }
+    PlanePoint a_;
+    double x_, y_, longest_;
+};
 
-    /// Orders two vertices, by their original numbers, by position and then UV.
-    [[nodiscard]] int compareVertices(std::uint32_t a, std::uint32_t b) const {
-        if (int c = compare(positions_[a].x, positions_[b].x); c != 0) return c;
-        if (int c = compare(positions_[a].y, positions_[b].y); c != 0) return c;
-        if (int c = compare(positions_[a].z, positions_[b].z); c != 0 || uvs_ == nullptr) return c;
-        if (int c = compare(uvs_[a].x, uvs_[b].x); c != 0) return c;
-        return compare(uvs_[a].y, uvs_[b].y);
-    }
-
-    /// The order of the heap, whose top is the vertex to cut off first.
-    auto laterThan() const {
-        return [this](const PolygonEar& a, const PolygonEar& b) { return compareEars(a, b) > 0; };
+/// Vertices are numbered in canonical order here.
+class Cutter {
+  public:
+    Cutter(std::uint32_t count, bool has_uvs, PolygonScratch& scratch)
+        : count_(count), is_tested_(count <= kMaxTestedCorners), scratch_(scratch) {
+        if (scratch.positions.size() < count) grow(count);
+        positions_ = scratch.positions.data();
+        uvs_ = has_uvs ? scratch.uvs.data() : nullptr;
+        points_ = scratch.points.data();
+        previous_ = scratch.previous.data();
+        next_ = scratch.next.data();
+        reflex_ = scratch.reflex.data();
+        is_reflex_ = scratch.is_reflex.data();
     }
 
-    /// Where the least rotation of the sequence of vertices starts (two candidates that leap over each other,
-    /// O(n)). Every sum below runs from there, so that its rounding does not depend on the caller's first
-    /// vertex.
-    [[nodiscard]] std::uint32_t canonicalStart() const {
+    void cut(const Vec3* positions, const Vec2* uvs, bool few, std::uint32_t* triangles) {
+        start_ = canonicalStart(positions, uvs);
+        std::rotate_copy(positions, positions + start_, positions + count_, positions_);
+        if (uvs != nullptr) std::rotate_copy(uvs, uvs + start_, uvs + count_, uvs_);
+        projectToPlane();
+        link();
+        if (few) {
+            cutBy<SearchAll>(triangles);
+        } else {
+            cutBy<Heap>(triangles);
+        }
+    }
+
+  private:
+    void grow(std::uint32_t count) {
+        scratch_.positions.resize(count);
+        scratch_.uvs.resize(count);
+        scratch_.points.resize(count);
+        scratch_.previous.resize(count);
+        scratch_.next.resize(count);
+        scratch_.reflex.resize(count);
+        scratch_.is_reflex.resize(count);
+    }
+
+    [[nodiscard]] std::uint32_t original(std::uint32_t v) const {
+        return v < count_ - start_ ? v + start_ : v - (count_ - start_);
+    }
+
+    /// Orders two vertices by position and then UV.
+    static int compareVertices(const Vec3* positions, const Vec2* uvs, std::uint32_t a, std::uint32_t b) {
+        if (int c = compare(positions[a].x, positions[b].x); c != 0) return c;
+        if (int c = compare(positions[a].y, positions[b].y); c != 0) return c;
+        if (int c = compare(positions[a].z, positions[b].z); c != 0 || uvs == nullptr) return c;
+        if (int c = compare(uvs[a].x, uvs[b].x); c != 0) return c;
+        return compare(uvs[a].y, uvs[b].y);
+    }
+
+    /// Where the least rotation of the sequence of vertices starts. Every sum below runs from there, so that
+    /// its rounding does not depend on the caller's first vertex.
+    [[nodiscard]] std::uint32_t canonicalStart(const Vec3* positions, const Vec2* uvs) const {
+        std::uint32_t least = 0;
+        bool is_alone = true;
+        for (std::uint32_t v = 1; v < count_; ++v) {
+            const int c = compareVertices(positions, uvs, v, least);
+            if (c < 0) least = v;
+            if (c <= 0) is_alone = c < 0;
+        }
+        return is_alone ? least : startOfLeastRotation(positions, uvs);
+    }
+
+    /// Two candidates that leap over each other, O(n).
+    [[nodiscard]] std::uint32_t startOfLeastRotation(const Vec3* positions, const Vec2* uvs) const {
         std::uint64_t i = 0;
         std::uint64_t j = 1;
         std::uint64_t same = 0;
         while (i < count_ && j < count_ && same < count_) {
-            const int c = compareVertices(static_cast<std::uint32_t>((i + same) % count_),
+            const int c = compareVertices(positions, uvs, static_cast<std::uint32_t>((i + same) % count_),
                                           static_cast<std::uint32_t>((j + same) % count_));
             if (c == 0) {
                 ++same;
@@ -118,11 +161,11 @@ class Cutter {
 
     /// Newell's normal, unit; zero or not finite when the polygon has no plane.
     [[nodiscard]] DVec3 unitNormal() const {
-        const DVec3 origin = toDouble(position(0));
+        const DVec3 origin = toDouble(positions_[0]);
         DVec3 sum;
-        DVec3 last = toDouble(position(count_ - 1)) - origin;
+        DVec3 last = toDouble(positions_[count_ - 1]) - origin;
         for (std::uint32_t v = 0; v < count_; ++v) {
-            const DVec3 here = toDouble(position(v)) - origin;
+            const DVec3 here = toDouble(positions_[v]) - origin;
             sum = sum + cross(last, here);
             last = here;
         }
@@ -133,81 +176,62 @@ class Cutter {
     /// Coordinates in the plane of the normal, in which the polygon runs counter-clockwise. Without a normal
     /// every coordinate is a zero or a NaN, and nothing is an ear.
     void projectToPlane() {
-        scratch_.plane.resize(2 * std::size_t{count_});
         const DVec3 n = unitNormal();
         const auto [x_axis, y_axis] = dot(n, n) > 0 ? planeAxes(n) : PlaneAxes{};
-        const DVec3 origin = toDouble(position(0));
+        const DVec3 origin = toDouble(positions_[0]);
         double extent = 0;
         for (std::uint32_t v = 0; v < count_; ++v) {
-            const DVec3 p = toDouble(position(v)) - origin;
-            const double x = dot(x_axis, p);
-            const double y = dot(y_axis, p);
-            scratch_.plane[2 * std::size_t{v}] = x;
-            scratch_.plane[2 * std::size_t{v} + 1] = y;
-            extent = std::max({extent, std::abs(x), std::abs(y)});
+            const DVec3 p = toDouble(positions_[v]) - origin;
+            points_[v] = {dot(x_axis, p), dot(y_axis, p)};
+            extent = std::max({extent, std::abs(points_[v].x), std::abs(points_[v].y)});
         }
         on_line_ = kOnLine * extent;
     }
 
     void link() {
-        scratch_.previous.resize(count_);
-        scratch_.next.resize(count_);
-        scratch_.version.assign(count_, 0);
-        scratch_.is_reflex.assign(count_, 0);
-        scratch_.reflex.clear();
-        scratch_.heap.clear();
         for (std::uint32_t v = 0; v < count_; ++v) {
-            scratch_.previous[v] = v == 0 ? count_ - 1 : v - 1;
-            scratch_.next[v] = v + 1 == count_ ? 0 : v + 1;
+            previous_[v] = v == 0 ? count_ - 1 : v - 1;
+            next_[v] = v + 1 == count_ ? 0 : v + 1;
+            is_reflex_[v] = 0;
         }
         for (std::uint32_t v = 0; v < count_; ++v) noteReflex(v);
-        for (std::uint32_t v = 0; v < count_; ++v) scratch_.heap.push_back(candidate(v));
-        std::make_heap(scratch_.heap.begin(), scratch_.heap.end(), laterThan());
-    }
-
-    /// How far c lies to the left of the line a -> b, less `slack`; times |b - a|.
-    [[nodiscard]] static double leftOf(Point a, Point b, Point c, double slack) {
-        const double abx = b.x - a.x;
-        const double aby = b.y - a.y;
-        return abx * (c.y - a.y) - aby * (c.x - a.x) - slack * std::sqrt(abx * abx + aby * aby);
     }
 
     [[nodiscard]] bool isConvex(std::uint32_t v) const {
-        return leftOf(point(scratch_.next[v]), point(scratch_.previous[v]), point(v), on_line_) > 0;
+        return LeftSide(points_[next_[v]], points_[previous_[v]]).isFar(points_[v], on_line_);
     }
 
     void noteReflex(std::uint32_t v) {
-        if (count_ > kMaxTestedCorners) return;
         const bool reflex = !isConvex(v);
-        if (reflex && scratch_.is_reflex[v] == 0) scratch_.reflex.push_back(v);
-        if (!reflex && scratch_.is_reflex[v] != 0) dropReflex(v);
-        scratch_.is_reflex[v] = reflex ? 1 : 0;
+        if (is_tested_ && reflex && is_reflex_[v] == 0) reflex_[reflex_count_++] = v;
+        if (!reflex && is_reflex_[v] != 0) dropReflex(v);
+        is_reflex_[v] = reflex ? 1 : 0;
     }
 
     void dropReflex(std::uint32_t v) {
-        auto& list = scratch_.reflex;
-        *std::find(list.begin(), list.end(), v) = list.back();
-        list.pop_back();
+        if (!is_tested_) return;
+        --reflex_count_;
+        *std::find(reflex_, reflex_ + reflex_count_, v) = reflex_[reflex_count_];
     }
 
     /// True when a vertex lies in or on the triangle that cutting v off would make. In a simple polygon it is
     /// enough to look at those that are not convex. Vertices at the triangle's own points do not count
     /// (bridges to holes).
     [[nodiscard]] bool isOccupied(std::uint32_t v) const {
-        const Point a = point(scratch_.previous[v]);
-        const Point b = point(v);
-        const Point c = point(scratch_.next[v]);
-        const auto isAt = [](Point p, Point q) { return p.x == q.x && p.y == q.y; };
-        return std::any_of(scratch_.reflex.begin(), scratch_.reflex.end(), [&](std::uint32_t r) {
-            const Point p = point(r);
-            return leftOf(a, b, p, -on_line_) >= 0 && leftOf(b, c, p, -on_line_) >= 0 &&
-                   leftOf(c, a, p, -on_line_) >= 0 && !isAt(p, a) && !isAt(p, b) && !isAt(p, c);
+        if (reflex_count_ == 0) return false;
+        const PlanePoint a = points_[previous_[v]], b = points_[v], c = points_[next_[v]];
+        const LeftSide of_ab(a, b), of_bc(b, c), of_ca(c, a);
+        const auto isAt = [](PlanePoint p, PlanePoint q) { return p.x == q.x && p.y == q.y; };
+        return std::any_of(reflex_, reflex_ + reflex_count_, [&](std::uint32_t r) {
+            const PlanePoint p = points_[r];
+            return of_ab.isNear(p, on_line_) && of_bc.isNear(p, on_line_) && of_ca.isNear(p, on_line_) &&
+                   !isAt(p, a) && !isAt(p, b) && !isAt(p, c);
         });
     }
 
-    [[nodiscard]] PolygonEar candidate(std::uint32_t v) const {
-        const std::uint32_t a = original(scratch_.previous[v]);
-        const std::uint32_t b = original(scratch_.next[v]);
+    /// Sets all but the version. `is_reflex_` must be there for v.
+    void setEar(PolygonEar& ear, std::uint32_t v) const {
+        const std::uint32_t a = previous_[v], b = next_[v];
         const DVec3 diagonal = toDouble(positions_[b]) - toDouble(positions_[a]);
         double length2_uv = 0;
         if (uvs_ != nullptr) {
@@ -215,63 +239,135 @@ class Cutter {
             const double dv = double{uvs_[b].y} - double{uvs_[a].y};
             length2_uv = du * du + dv * dv;
         }
-        const bool in_order = compareVertices(a, b) <= 0;
-        return {.blocked = !isConvex(v) || isOccupied(v),
-                .length2_space = orderedLength(dot(diagonal, diagonal)),
-                .length2_uv = orderedLength(length2_uv),
-                .ends = {in_order ? a : b, in_order ? b : a},
-                .vertex = v,
-                .version = scratch_.version[v]};
+        const bool blocked = is_reflex_[v] != 0 || isOccupied(v);
+        const auto length2_space = std::bit_cast<std::uint64_t>(orderedLength(dot(diagonal, diagonal)));
+        ear.order = length2_space | std::uint64_t{blocked} << 63;
+        ear.length2_uv = orderedLength(length2_uv);
+        ear.ends[0] = a;
+        ear.ends[1] = b;
+        ear.vertex = v;
     }
 
-    /// Negative when a is cut off before b.
-    [[nodiscard]] int compareEars(const PolygonEar& a, const PolygonEar& b) const {
-        if (a.blocked != b.blocked) return a.blocked ? 1 : -1;
-        if (a.length2_space != b.length2_space) return a.length2_space < b.length2_space ? -1 : 1;
-        if (a.length2_uv != b.length2_uv) return a.length2_uv < b.length2_uv ? -1 : 1;
-        for (int k = 0; k < 2; ++k) {
-            if (int c = compareVertices(a.ends[k], b.ends[k]); c != 0) return c;
+    /// Whether a is cut off before b.
+    [[nodiscard]] bool isBefore(const PolygonEar& a, const PolygonEar& b) const {
+        return a.order != b.order ? a.order < b.order : isBeforeOfSameOrder(a, b);
+    }
+
+    [[nodiscard]] bool isBeforeOfSameOrder(const PolygonEar& a, const PolygonEar& b) const {
+        if (a.length2_uv != b.length2_uv) return a.length2_uv < b.length2_uv;
+        struct Ends {
+            std::uint32_t lesser, greater;
+        };
+        const auto compareAt = [&](std::uint32_t v, std::uint32_t w) {
+            return compareVertices(positions_, uvs_, v, w);
+        };
+        const auto endsOf = [&](const PolygonEar& ear) {
+            const auto [v, w] = ear.ends;
+            return compareAt(v, w) <= 0 ? Ends{v, w} : Ends{w, v};
+        };
+        const Ends of_a = endsOf(a), of_b = endsOf(b);
+        if (int c = compareAt(of_a.lesser, of_b.lesser); c != 0) return c < 0;
+        if (int c = compareAt(of_a.greater, of_b.greater); c != 0) return c < 0;
+        return a.vertex < b.vertex;
+    }
+
+    /// The ears of all vertices that are left.
+    class SearchAll {
+      public:
+        explicit SearchAll(Cutter& cutter) : cutter_(cutter) {
+            auto& ears = cutter.scratch_.ears;
+            if (ears.size() < cutter.count_) ears.resize(cutter.count_);
+            ears_ = ears.data();
+            for (std::uint32_t v = 0; v < cutter.count_; ++v) renew(v);
         }
-        return a.vertex < b.vertex ? -1 : (a.vertex > b.vertex ? 1 : 0);
-    }
-
-    std::uint32_t takeBest() {
-        auto& heap = scratch_.heap;
-        for (;;) {
-            std::pop_heap(heap.begin(), heap.end(), laterThan());
-            const PolygonEar best = heap.back();
-            heap.pop_back();
-            if (best.version == scratch_.version[best.vertex]) return best.vertex;
+        void renew(std::uint32_t v) { cutter_.setEar(ears_[v], v); }
+        /// `v` is any that is left.
+        std::uint32_t takeBest(std::uint32_t v) const {
+            std::uint32_t best = v;
+            for (std::uint32_t w = cutter_.next_[v]; w != v; w = cutter_.next_[w]) {
+                if (cutter_.isBefore(ears_[w], ears_[best])) best = w;
+            }
+            return best;
         }
-    }
 
-    void remove(std::uint32_t ear, std::uint32_t before, std::uint32_t after) {
-        if (scratch_.is_reflex[ear] != 0) dropReflex(ear);
-        ++scratch_.version[ear];
-        scratch_.next[before] = after;
-        scratch_.previous[after] = before;
-        last_cut_neighbor_ = std::min(before, after);
-        for (const std::uint32_t v : {before, after}) noteReflex(v);
-        for (const std::uint32_t v : {before, after}) {
-            ++scratch_.version[v];
-            scratch_.heap.push_back(candidate(v));
-            std::push_heap(scratch_.heap.begin(), scratch_.heap.end(), laterThan());
+      private:
+        Cutter& cutter_;
+        PolygonEar* ears_;
+    };
+
+    /// The same in O(log n).
+    class Heap {
+        [[nodiscard]] auto laterThan() const {
+            return [this](const PolygonEar& a, const PolygonEar& b) { return cutter_.isBefore(b, a); };
         }
+
+      public:
+        explicit Heap(Cutter& cutter)
+            : cutter_(cutter), heap_(cutter.scratch_.ears), version_(cutter.scratch_.version) {
+            version_.assign(cutter.count_, 0);
+            heap_.assign(cutter.count_, {});
+            for (std::uint32_t v = 0; v < cutter.count_; ++v) cutter.setEar(heap_[v], v);
+            std::make_heap(heap_.begin(), heap_.end(), laterThan());
+        }
+        void renew(std::uint32_t v) {
+            heap_.emplace_back().version = ++version_[v];
+            cutter_.setEar(heap_.back(), v);
+            std::push_heap(heap_.begin(), heap_.end(), laterThan());
+        }
+        std::uint32_t takeBest(std::uint32_t) {
+            for (;;) {
+                std::pop_heap(heap_.begin(), heap_.end(), laterThan());
+                const PolygonEar best = heap_.back();
+                heap_.pop_back();
+                if (best.version != version_[best.vertex]) continue;
+                ++version_[best.vertex];
+                return best.vertex;
+            }
+        }
+
+      private:
+        Cutter& cutter_;
+        std::vector<PolygonEar>& heap_;
+        std::vector<std::uint32_t>& version_;
+    };
+
+    template <class Ears>
+    void cutBy(std::uint32_t* triangles) {
+        Ears ears(*this);
+        std::uint32_t any_left = 0;
+        for (std::uint32_t left = count_; left > 3; --left) {
+            const std::uint32_t ear = ears.takeBest(any_left), before = previous_[ear], after = next_[ear];
+            *triangles++ = original(before);
+            *triangles++ = original(ear);
+            *triangles++ = original(after);
+            if (is_reflex_[ear] != 0) dropReflex(ear);
+            next_[before] = after;
+            previous_[after] = before;
+            any_left = std::min(before, after);
+            noteReflex(before);
+            noteReflex(after);
+            ears.renew(before);
+            ears.renew(after);
+        }
+        // Of the three vertices left, the first in canonical order.
+        const std::uint32_t last = std::min({any_left, previous_[any_left], next_[any_left]});
+        *triangles++ = original(previous_[last]);
+        *triangles++ = original(last);
+        *triangles++ = original(next_[last]);
     }
 
-    /// Of the three vertices left, the first in canonical order.
-    [[nodiscard]] std::uint32_t lowestLeft() const {
-        const std::uint32_t v = last_cut_neighbor_;
-        return std::min({v, scratch_.previous[v], scratch_.next[v]});
-    }
-
-    const Vec3* positions_;
-    const Vec2* uvs_;
     std::uint32_t count_;
+    bool is_tested_;  // ears are tested for emptiness
     PolygonScratch& scratch_;
-    std::uint32_t start_ = 0;
-    std::uint32_t last_cut_neighbor_ = 0;
+    std::uint32_t start_ = 0;  // the caller's number of the first vertex
     double on_line_ = 0;
+    std::uint32_t reflex_count_ = 0;
+    // The lists of scratch_.
+    Vec3* positions_;
+    Vec2* uvs_;  // null: there are none
+    PlanePoint* points_;
+    std::uint32_t *previous_, *next_, *reflex_;
+    std::uint8_t* is_reflex_;
 };
 
 }  // namespace
@@ -291,7 +387,7 @@ bool quadCutsAlong13(const Vec3 positions[4], const Vec2* uvs) {
 }
 
 void cutPolygon(const Vec3* positions, const Vec2* uvs, std::uint32_t count, std::uint32_t* triangles,
-                PolygonScratch& scratch) {
+                PolygonScratch& scratch, std::uint32_t few) {
     if (count < 3) return;
     if (count == 3) {
         for (std::uint32_t k = 0; k < 3; ++k) triangles[k] = k;
@@ -303,7 +399,7 @@ void cutPolygon(const Vec3* positions, const Vec2* uvs, std::uint32_t count, std
         std::copy_n(quadCutsAlong13(positions, uvs) ? kAlong13 : kAlong02, 6, triangles);
         return;
     }
-    Cutter(positions, uvs, count, scratch).cut(triangles);
+    Cutter(count, uvs != nullptr, scratch).cut(positions, uvs, count <= few, triangles);
 }
 
 }  // namespace tspace

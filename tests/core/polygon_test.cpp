@@ -16,11 +16,12 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-Triangles cut(const std::vector<Vec3>& positions, const std::vector<Vec2>& uvs = {}) {
+Triangles cut(const std::vector<Vec3>& positions, const std::vector<Vec2>& uvs = {},
+              std::uint32_t few = kFewPolygonCorners) {
     PolygonScratch scratch;
     Triangles triangles(positions.size() - 2);
     cutPolygon(positions.data(), uvs.empty() ? nullptr : uvs.data(),
-               static_cast<std::uint32_t>(positions.size()), triangles.front().data(), scratch);
+               static_cast<std::uint32_t>(positions.size()), triangles.front().data(), scratch, few);
     return triangles;
 }
 
@@ -148,6 +149,20 @@ RC_GTEST_PROP(Polygon, GivesTheSameTrianglesFromAnyStartingVertex, ()) {
     const auto start = *rc::gen::inRange<std::size_t>(0, count);
     std::rotate(rotated.begin(), rotated.begin() + static_cast<std::ptrdiff_t>(start), rotated.end());
     RC_ASSERT(geometry(polygon, cut(polygon)) == geometry(rotated, cut(rotated)));
+}
+
+RC_GTEST_PROP(Polygon, GivesTheSameTrianglesByAHeapAsByASearch, ()) {
+    const auto count = *rc::gen::inRange<std::size_t>(5, 70);
+    std::vector<Vec3> positions;
+    std::vector<Vec2> uvs;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto coordinate = [] { return static_cast<float>(*rc::gen::inRange(-3, 4)) * 0.37f; };
+        positions.push_back({coordinate(), coordinate(), coordinate()});
+        uvs.push_back({coordinate(), coordinate()});
+    }
+    RC_ASSERT(cut(positions, uvs, 100) == cut(positions, uvs, 0));
+    const std::vector<Vec3> simple = *anyStar();
+    RC_ASSERT(cut(simple, {}, 100) == cut(simple, {}, 0));
 }
 
 TEST(Polygon, MakesNoFlatTriangleOfVerticesOnALine) {
