@@ -63,7 +63,8 @@ class NodeWalk {
           allocator_(options.execution.allocator),
           may_split_(options.method == Method::mikktspace),
           has_polygons_(!triangles.faces.empty()),
-          full_(has_polygons_ || !wantsTangentsOnly(out)),
+          tangents_only_(wantsTangentsOnly(out)),
+          full_(has_polygons_ || !tangents_only_),
           corners_(allocator_) {}
 
     WalkedNodes run(std::span<const std::uint32_t> doubtful, CornerSource source, CornerTermsFunction terms,
@@ -150,7 +151,8 @@ class NodeWalk {
             const bool degenerate = (flags & kDegenerate) != 0, flat = (flags & kAny) != 0;
             result.degenerate_count += degenerate ? 1 : 0;
             result.no_uv_area_count += flat ? 1 : 0;
-            result.mirrored_count += !degenerate && !flat && (corners_.marks[3 * t] & kFacesDown) != 0 ? 1 : 0;
+            result.mirrored_count +=
+                !degenerate && !flat && (corners_.marks[3 * t] & kFacesDown) != 0 ? 1 : 0;
         }
     }
 
@@ -268,14 +270,17 @@ class NodeWalk {
             state_[place] = kLeft;
             return;
         }
-        if (!full_ && finishOneFan(place, members, counts)) return;
+        if (tangents_only_ && finishOneFan(place, members, counts)) return;
         formGroups(members);
         finish(place, members, counts);
     }
 
     /// The usual case, when only tangents are asked for: one fan of one orientation, and nothing else to see
-    /// to. Returns false when it is something else.
+    /// to. Then all corners have one result, however often the reference writes it. Returns false when it is
+    /// something else.
     bool finishOneFan(std::size_t place, const Members& members, Counts& counts) {
+        if (!corners_.entangled.empty() && corners_.entangled[place] == UnclearCorners::kOtherNode)
+            return false;
         Fan fan;
         FanRoom no_room(nullptr, 0);  // more than two paths are rare
         Sum sum;
@@ -545,9 +550,10 @@ class NodeWalk {
     Sink sink_;
     Parallel& parallel_;
     const Allocator* allocator_;
-    bool may_split_;     // the angular test applies
-    bool has_polygons_;  // several triangles may have one corner of the mesh
-    bool full_;          // results with bitangents and lengths
+    bool may_split_;      // the angular test applies
+    bool has_polygons_;   // several triangles may have one corner of the mesh
+    bool tangents_only_;  // no more than tangents is asked for
+    bool full_;           // results with bitangents and lengths
 
     UnclearCorners corners_;
     Buffer<std::uint8_t> state_;
