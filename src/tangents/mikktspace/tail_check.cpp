@@ -19,7 +19,8 @@
 //
 // For a small mesh there is a shorter way. The first and the last corner of a node are bounds
 // of its representative, so they give a lower bound of V, and S can be the nodes whose last corner is not
-// below that: a handful. Where their edges cannot matter, whatever the representatives, nobody asks for those.
+// below that: a handful. Where their edges cannot matter, whatever the representatives, nobody asks for
+// those.
 #include "tangents/mikktspace/tail_check.h"
 
 #include <algorithm>
@@ -57,14 +58,21 @@ class TailCheck {
           late_nodes_(noMarks(allocator, nodes.count)),
           late_vertices_(allocator),
           representatives_(allocator, nodes.count),
-          edges_(allocator) {}
+          edges_(allocator),
+          thirds_(allocator),
+          records_(allocator),
+          suspects_(allocator) {}
 
     bool run() {
         if (3 * triangles_.count <= kFewEntries) {
             findBounds();
-            if (findEdgesByBounds()) {
-                if (!anyMayMatter()) return false;
-                findKey();
+            const std::uint32_t least = leastKey();
+            if (findEdgesByBounds(least)) {
+                if (!findSuspects(least)) return false;
+                const WeldOrder order(mesh_, triangles_, nodes_, allocator_, parallel_,
+                                      {bounds_.data(), bounds_.size()});
+                if (!narrowSuspects(order, least)) return false;
+                findKey(order);
                 return bucketMatters();
             }
             std::fill(late_nodes_.begin(), late_nodes_.end(), std::uint8_t{0});
@@ -109,8 +117,7 @@ class TailCheck {
     }
 
     /// Returns false when there are too many to be worth it.
-    bool findEdgesByBounds() {
-        const std::uint32_t least = leastKey();
+    bool findEdgesByBounds(std::uint32_t least) {
         for (std::size_t n = 0; n < nodes_.count; ++n)
             late_nodes_[n] = bounds_[n].first != kNone && bounds_[n].last >= least ? 1 : 0;
         withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
@@ -119,49 +126,112 @@ class TailCheck {
                                     b = nodes_.ofVertex(vertexOf(3 * t + 1)),
                                     c = nodes_.ofVertex(vertexOf(3 * t + 2));
                 if (late_nodes_[a] + late_nodes_[b] + late_nodes_[c] < 2 || !isGood(t)) continue;
-                for (const LateEdge& edge : {LateEdge{a, b}, LateEdge{b, c}, LateEdge{c, a}}) {
-                    if (late_nodes_[edge.from] + late_nodes_[edge.to] == 2) edges_.push(edge);
-                }
+                const auto add = [&](std::uint32_t from, std::uint32_t to, std::uint32_t third) {
+                    if (late_nodes_[from] + late_nodes_[to] != 2) return;
+                    edges_.push({from, to});
+                    thirds_.push(third);
+                };
+                add(a, b, c);
+                add(b, c, a);
+                add(c, a, b);
             }
         });
         return edges_.size() <= kManyEdges;
     }
 
-    /// Whether some node may have a bucket that matters: more than two edges to nodes that may be higher, and
-    /// one of them in both directions.
-    [[nodiscard]] bool anyMayMatter() const {
-        struct Record {
-            std::uint64_t nodes;  // the lower one, the higher one
-            bool ascending;
-            bool operator<(const Record& other) const {
-                return nodes != other.nodes ? nodes < other.nodes : ascending < other.ascending;
-            }
-        };
-        Growing<Record> records(allocator_);
-        const auto add = [&](std::uint32_t low, std::uint32_t high, bool ascending) {
+    /// What an edge is in the bucket of its lower node.
+    struct BoundedRecord {
+        std::uint64_t key;    // the lower node, the higher one, 1 for an edge from that to this
+        std::uint32_t third;  // the third node of the triangle
+
+        [[nodiscard]] std::uint32_t low() const { return static_cast<std::uint32_t>(key >> 32); }
+        [[nodiscard]] std::uint32_t high() const { return static_cast<std::uint32_t>(key) >> 1; }
+    };
+    using Records = std::span<const BoundedRecord>;
+
+    /// Whether some node may have the last bucket, and that bucket may matter: finds all of them.
+    bool findSuspects(std::uint32_t least) {
+        records_.reserve(2 * edges_.size());
+        const auto add = [&](std::uint32_t low, std::uint32_t high, std::uint32_t third,
+                             std::uint32_t ascends) {
             if (bounds_[low].first < bounds_[high].last)
-                records.push({std::uint64_t{low} << 32 | high, ascending});
+                records_.push({std::uint64_t{low} << 32 | high << 1 | ascends, third});
         };
-        for (const LateEdge& e : edges_) {
-            add(e.from, e.to, true);
-            add(e.to, e.from, false);
+        for (std::size_t i = 0; i < edges_.size(); ++i) {
+            const LateEdge& e = edges_[i];
+            add(e.from, e.to, thirds_[i], 1);
+            add(e.to, e.from, thirds_[i], 0);
         }
-        std::sort(records.begin(), records.end());
-        for (std::size_t begin = 0; begin < records.size();) {
-            std::size_t end = begin + 1;
-            bool both = false;
-            for (; end < records.size() && records[end].nodes >> 32 == records[begin].nodes >> 32; ++end) {
-                both |= records[end].nodes == records[end - 1].nodes &&
-                        records[end].ascending != records[end - 1].ascending;
+        std::sort(records_.begin(), records_.end(),
+                  [](const BoundedRecord& a, const BoundedRecord& b) { return a.key < b.key; });
+        for (std::size_t begin = 0, end = 0; begin < records_.size(); begin = end) {
+            for (end = begin + 1; end < records_.size() && records_[end].low() == records_[begin].low();)
+                ++end;
+            const Records bucket(records_.begin() + begin, end - begin);
+            if (mayMatter(bucket, least)) suspects_.push(bucket);
+        }
+        return !suspects_.empty();
+    }
+
+    /// Gives suspects their representatives as bounds: often that is enough, and takes less than to find
+    /// those of all neighbours. Returns whether any suspicion is left.
+    bool narrowSuspects(const WeldOrder& order, std::uint32_t least) {
+        for (const Records& bucket : suspects_)
+            late_vertices_.push(mesh_.indices[bounds_[bucket.front().low()].first]);
+        order.findSome({late_vertices_.begin(), late_vertices_.size()}, representatives_.data());
+        late_vertices_.drop(late_vertices_.size());
+        for (const Records& bucket : suspects_) {
+            const std::uint32_t node = bucket.front().low();
+            bounds_[node] = {representatives_[node], representatives_[node]};
+        }
+        return std::any_of(suspects_.begin(), suspects_.end(),
+                           [&](const Records& bucket) { return mayMatter(bucket, least); });
+    }
+
+    /// The edges of one node x to nodes that may be higher. If x has the last bucket, V is its
+    /// representative, and a triangle at x that has a higher node has a lower one as well: otherwise the edge
+    /// between those two would have a larger key. So neighbours are higher, or not, by far not as they like.
+    /// For the bucket to matter, an edge to one of them must be there in both directions, and another one, to
+    /// the same or another neighbour.
+    [[nodiscard]] bool mayMatter(Records records, std::uint32_t least) const {
+        constexpr std::size_t kMany = 64;
+        if (records.size() <= 2) return false;
+        if (records.size() > kMany) return true;
+        const CornerRange x = bounds_[records.front().low()];
+        struct Neighbor {
+            Records records;
+            std::uint32_t lowest, highest;  // V, when this neighbour is higher
+            bool is_both;
+        } neighbors[kMany];
+        std::size_t count = 0;
+        for (std::size_t begin = 0, end = 0; begin < records.size(); begin = end) {
+            const std::uint32_t high = records[begin].high();
+            std::uint32_t lowest = std::max(x.first, least),
+                          highest = std::min(x.last, bounds_[high].last - 1);
+            for (end = begin; end < records.size() && records[end].high() == high; ++end)
+                lowest = std::max(lowest, bounds_[records[end].third].first + 1);
+            if (lowest > highest) continue;
+            const bool is_both = ((records[begin].key ^ records[end - 1].key) & 1) != 0;
+            if (is_both && end - begin > 2) return true;
+            neighbors[count++] = {records.subspan(begin, end - begin), lowest, highest, is_both};
+        }
+        for (std::size_t i = 1; i < count; ++i) {
+            const Neighbor& y = neighbors[i];
+            for (std::size_t j = 0; j < i; ++j) {
+                const Neighbor& w = neighbors[j];
+                if (!y.is_both && !w.is_both) continue;
+                if (std::max(y.lowest, w.lowest) > std::min(y.highest, w.highest)) continue;
+                const std::uint32_t node = w.records.front().high();
+                if (std::none_of(y.records.begin(), y.records.end(),
+                                 [=](const BoundedRecord& r) { return r.third == node; }))
+                    return true;
             }
-            if (both && end - begin > 2) return true;
-            begin = end;
         }
         return false;
     }
 
     /// The representatives of all nodes that edges have, and V.
-    void findKey() {
+    void findKey(const WeldOrder& order) {
         std::fill(late_nodes_.begin(), late_nodes_.end(), std::uint8_t{0});
         const auto want = [&](std::uint32_t node) {
             if (std::exchange(late_nodes_[node], std::uint8_t{1}) != 0) return;
@@ -173,10 +243,8 @@ class TailCheck {
             want(e.from);
             want(e.to);
         }
-        if (!late_vertices_.empty()) {
-            WeldOrder(mesh_, triangles_, nodes_, allocator_, parallel_, {bounds_.data(), bounds_.size()})
-                .findSome({late_vertices_.begin(), late_vertices_.size()}, representatives_.data());
-        }
+        if (!late_vertices_.empty())
+            order.findSome({late_vertices_.begin(), late_vertices_.size()}, representatives_.data());
         key_ = 0;
         for (const LateEdge& e : edges_) key_ = std::max(key_, keyOf(e));
     }
@@ -275,7 +343,11 @@ class TailCheck {
     Growing<std::uint32_t> late_vertices_;  // a vertex of each node in S
     Buffer<std::uint32_t> representatives_;
     Growing<LateEdge> edges_;
-    std::uint32_t key_ = 0;  // L, and V in the end
+    // On the shorter way:
+    Growing<std::uint32_t> thirds_;  // the third node of each edge's triangle
+    Growing<BoundedRecord> records_;
+    Growing<Records> suspects_;  // buckets that may be the last one and matter
+    std::uint32_t key_ = 0;      // L, and V in the end
 };
 
 }  // namespace
