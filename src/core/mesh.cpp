@@ -97,16 +97,16 @@ Error check(const MeshView& mesh) {
 
 Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, std::size_t element_bytes,
                 std::size_t expected_count, const char* name) {
-    const std::string what = name;
+    const auto what = [=] { return std::string(name); };
     if (expected_count != kNoElement && count != expected_count) {
-        return {ErrorCode::countMismatch, what + " has " + std::to_string(count) + " entries, " +
+        return {ErrorCode::countMismatch, what() + " has " + std::to_string(count) + " entries, " +
                                               std::to_string(expected_count) + " are needed"};
     }
     if (count == 0) return fine();
     if (data == nullptr)
-        return {ErrorCode::nullData, what + " is null but has a count of " + std::to_string(count)};
+        return {ErrorCode::nullData, what() + " is null but has a count of " + std::to_string(count)};
     if (count > 1 && stride_bytes < element_bytes) {
-        return {ErrorCode::strideTooSmall, what + " has a stride of " + std::to_string(stride_bytes) +
+        return {ErrorCode::strideTooSmall, what() + " has a stride of " + std::to_string(stride_bytes) +
                                                " bytes, but its elements take " +
                                                std::to_string(element_bytes)};
     }
@@ -114,10 +114,10 @@ Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, s
         element_bytes % 4 == 0 ? 4 : element_bytes;  // floats, u32; or u16, u8 indices
     if (reinterpret_cast<std::uintptr_t>(data) % alignment != 0 ||
         (count > 1 && stride_bytes % alignment != 0)) {
-        return {ErrorCode::misaligned, what + " is not aligned to " + std::to_string(alignment) + " bytes"};
+        return {ErrorCode::misaligned, what() + " is not aligned to " + std::to_string(alignment) + " bytes"};
     }
     if (count > 1 && (count - 1) > (std::numeric_limits<std::size_t>::max() - element_bytes) / stride_bytes) {
-        return {ErrorCode::tooLarge, what + " with its stride does not fit the address space"};
+        return {ErrorCode::tooLarge, what() + " with its stride does not fit the address space"};
     }
     return fine();
 }

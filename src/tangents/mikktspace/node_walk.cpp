@@ -25,6 +25,7 @@ namespace {
 
 constexpr std::size_t kNodeGrain = 512;
 constexpr std::size_t kLookAhead = 4;  // nodes; far enough for their corners to arrive from memory
+constexpr std::size_t kSmall = 1024;   // triangles; all about so few is in the cache
 constexpr std::uint8_t kNoGroup = 0xff;
 
 /// What became of a node.
@@ -65,6 +66,7 @@ class NodeWalk {
           has_polygons_(!triangles.faces.empty()),
           tangents_only_(wantsTangentsOnly(out)),
           full_(has_polygons_ || !tangents_only_),
+          is_small_(triangles.count < kSmall),
           corners_(allocator_) {}
 
     WalkedNodes run(std::span<const std::uint32_t> doubtful, CornerSource source, CornerTermsFunction terms,
@@ -78,7 +80,7 @@ class NodeWalk {
         parallel_.forRanges(chosen_.size(), kNodeGrain, [&](std::size_t begin, std::size_t end) {
             Counts counts;
             for (std::size_t place = begin; place < end; ++place) {
-                if (place + kLookAhead < end) fetch(place + kLookAhead);
+                if (!is_small_ && place + kLookAhead < end) fetch(place + kLookAhead);
                 walkNode(place, counts);
             }
             groups += counts.groups;
@@ -88,10 +90,12 @@ class NodeWalk {
         countTriangles(result);
         result.group_count = groups + contested_counts_.groups;
         result.default_corner_count = defaults + contested_counts_.defaults + copyToDegenerate();
+        std::size_t left_count = 0;
         for (std::uint8_t& state : state_) {
             state = state == kLeft ? 1 : 0;
-            result.left_count += state;
+            left_count += state;
         }
+        result.left_count = left_count;
         result.left = std::move(state_);
         return result;
     }
@@ -554,6 +558,7 @@ class NodeWalk {
     bool has_polygons_;   // several triangles may have one corner of the mesh
     bool tangents_only_;  // no more than tangents is asked for
     bool full_;           // results with bitangents and lengths
+    bool is_small_;       // memory need not be asked for early
 
     UnclearCorners corners_;
     Buffer<std::uint8_t> state_;

@@ -199,8 +199,8 @@ class TailCheck {
         if (records.size() > kMany) return true;
         const CornerRange x = bounds_[records.front().low()];
         struct Neighbor {
-            Records records;
-            std::uint32_t lowest, highest;  // V, when this neighbour is higher
+            const BoundedRecord *begin, *end;
+            std::uint32_t node, lowest, highest;  // these of V, when this neighbour is higher
             bool is_both;
         } neighbors[kMany];
         std::size_t count = 0;
@@ -213,7 +213,8 @@ class TailCheck {
             if (lowest > highest) continue;
             const bool is_both = ((records[begin].key ^ records[end - 1].key) & 1) != 0;
             if (is_both && end - begin > 2) return true;
-            neighbors[count++] = {records.subspan(begin, end - begin), lowest, highest, is_both};
+            neighbors[count++] = {
+                records.data() + begin, records.data() + end, high, lowest, highest, is_both};
         }
         for (std::size_t i = 1; i < count; ++i) {
             const Neighbor& y = neighbors[i];
@@ -221,9 +222,7 @@ class TailCheck {
                 const Neighbor& w = neighbors[j];
                 if (!y.is_both && !w.is_both) continue;
                 if (std::max(y.lowest, w.lowest) > std::min(y.highest, w.highest)) continue;
-                const std::uint32_t node = w.records.front().high();
-                if (std::none_of(y.records.begin(), y.records.end(),
-                                 [=](const BoundedRecord& r) { return r.third == node; }))
+                if (std::none_of(y.begin, y.end, [&](const BoundedRecord& r) { return r.third == w.node; }))
                     return true;
             }
         }

@@ -87,6 +87,7 @@ double cosine(double r) {
 }  // namespace
 
 float thresholdCosine(float degrees) {
+    if (degrees == 180.0f) return -1.0f;  // what nearly every call asks for, and what the rest gives
     const float angle = std::fabs((degrees * 3.14159274f) / 180.0f);
     if (!std::isfinite(angle)) return std::nanf("");
     const Turn turn = angle < 0.5f ? Turn{} : reduce(angle);

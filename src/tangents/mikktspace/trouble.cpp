@@ -9,10 +9,10 @@ namespace tspace::mikk {
 
 namespace {
 
-/// A sixth of the triangles is enough, since each has three nodes. Measured: meshes with 16 % and more (Ghost.glb,
-/// obliterated, crangeract, rancid_geometry) take 7 to 30 % less time without the pass, those with 10 % and less
-/// (tangeract, Market_495k.glb, doomcone) take more. Where triangles are few, setting up a second look costs as much
-/// as the pass: one of them is enough.
+/// A sixth of the triangles is enough, since each has three nodes. Measured: meshes with 16 % and more
+/// (Ghost.glb, obliterated, crangeract, rancid_geometry) take 7 to 30 % less time without the pass, those
+/// with 10 % and less (tangeract, Market_495k.glb, doomcone) take more. Where triangles are few, setting up a
+/// second look costs as much as the pass: one of them is enough.
 constexpr std::size_t kShare = 6;
 constexpr std::size_t kTiny = 64, kSmall = 1024, kSmallSample = 16, kSample = 256;  // triangles
 
@@ -24,8 +24,10 @@ class Sampler {
         const std::size_t count = triangles_.count;
         const std::size_t size = std::min(count, count < kSmall ? kSmallSample : kSample);
         std::size_t troubled = 0;
-        for (std::size_t i = 0; i < size; ++i) troubled += isTroubled(count * i / size) ? 1 : 0;
-        return troubled != 0 && (count < kTiny || troubled * kShare >= size);
+        const std::size_t enough = count < kTiny ? 1 : (size + kShare - 1) / kShare;
+        for (std::size_t i = 0; i < size && troubled < enough; ++i)
+            troubled += isTroubled(count * i / size) ? 1 : 0;
+        return troubled == enough && size != 0;
     }
 
   private:
@@ -37,7 +39,8 @@ class Sampler {
         const std::uint32_t v[3] = {vertex(0), vertex(1), vertex(2)};
         const Vec2 a = mesh_.uvs[v[1]] - mesh_.uvs[v[0]], b = mesh_.uvs[v[2]] - mesh_.uvs[v[0]];
         if (a.x * b.y == a.y * b.x) return Kind::flat;
-        const Vec3 d = mesh_.positions[v[1]] - mesh_.positions[v[0]], e = mesh_.positions[v[2]] - mesh_.positions[v[0]];
+        const Vec3 d = mesh_.positions[v[1]] - mesh_.positions[v[0]],
+                   e = mesh_.positions[v[2]] - mesh_.positions[v[0]];
         const Vec3 s = b.y * d - a.y * e, t = a.x * e - b.x * d;
         const float along = dot(s, t);
         return along * along > 0.5f * dot(s, s) * dot(t, t) ? Kind::sheared : Kind::plain;

@@ -68,7 +68,8 @@ class CornerReader {
     template <class VertexOf>
     void readTriangles(std::size_t begin_block, std::size_t end_block, const VertexOf& vertexOf) {
         CornerTerms terms;
-        std::fill_n(terms.t[0], 4 * kTermCorners, 0.0f);  // not written when tangents_only
+        if (from_.source.tangents_only)
+            std::fill_n(terms.t[0], 4 * kTermCorners, 0.0f);  // else they are written
         std::uint32_t vertices[kTermCorners] = {};
         for (std::size_t block = begin_block; block < end_block; ++block) {
             const std::size_t begin = block * kTermTriangles,

@@ -153,7 +153,7 @@ class Lookup {
             count_ < 2 * kGrain
                 ? 1
                 : std::min<std::size_t>(parallel.width(), std::size_t{2} * RepeatedHashes::kMostRanges);
-        std::size_t slots = std::bit_ceil(2 * distinct / tasks + 4 * kBatch);  // of each task
+        std::size_t slots = std::bit_ceil(2 * distinct / tasks + 2 * kBatch);  // of each task
         for (bool full = true; full;
              slots *= 4) {  // when the guess is bad; at 4/3 of the candidates it ends for sure
             Buffer<Slot> table(allocator, tasks * slots);
@@ -475,7 +475,8 @@ void listVertices(Nodes& nodes, const Allocator* allocator, Parallel& parallel) 
     nodes.vertices = Buffer<std::uint32_t>(allocator, nodes.count);
     const std::size_t count = nodes.of_vertex.size(), parts = (count + kPart - 1) / kPart;
     const auto endOf = [=](std::size_t part) { return std::min((part + 1) * kPart, count); };
-    // Nodes are numbered by their first vertices: as many begin before a part as the largest number before it says.
+    // Nodes are numbered by their first vertices: as many begin before a part as the largest number before it
+    // says.
     Buffer<std::uint32_t> begun(allocator, parts + 1, 0u);
     if (parts > 1) {
         parallel.forTasks(parts, [&](std::size_t part) {
