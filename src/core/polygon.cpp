@@ -218,15 +218,17 @@ class Cutter {
     /// enough to look at those that are not convex. Vertices at the triangle's own points do not count
     /// (bridges to holes).
     [[nodiscard]] bool isOccupied(std::uint32_t v) const {
-        if (reflex_count_ == 0) return false;
-        const PlanePoint a = points_[previous_[v]], b = points_[v], c = points_[next_[v]];
-        const LeftSide of_ab(a, b), of_bc(b, c), of_ca(c, a);
-        const auto isAt = [](PlanePoint p, PlanePoint q) { return p.x == q.x && p.y == q.y; };
-        return std::any_of(reflex_, reflex_ + reflex_count_, [&](std::uint32_t r) {
-            const PlanePoint p = points_[r];
-            return of_ab.isNear(p, on_line_) && of_bc.isNear(p, on_line_) && of_ca.isNear(p, on_line_) &&
-                   !isAt(p, a) && !isAt(p, b) && !isAt(p, c);
+        const std::uint32_t before = previous_[v], after = next_[v];
+        return std::any_of(reflex_, reflex_ + reflex_count_, [=, this](std::uint32_t r) {
+            return r != before && r != after &&
+                   isInEar(points_[r], points_[before], points_[v], points_[after]);
         });
+    }
+
+    [[nodiscard]] bool isInEar(PlanePoint p, PlanePoint a, PlanePoint b, PlanePoint c) const {
+        const auto isAt = [](PlanePoint q, PlanePoint r) { return q.x == r.x && q.y == r.y; };
+        return LeftSide(a, b).isNear(p, on_line_) && LeftSide(b, c).isNear(p, on_line_) &&
+               LeftSide(c, a).isNear(p, on_line_) && !isAt(p, a) && !isAt(p, b) && !isAt(p, c);
     }
 
     /// Sets all but the version. `is_reflex_` must be there for v.
@@ -344,6 +346,7 @@ class Cutter {
             next_[before] = after;
             previous_[after] = before;
             any_left = std::min(before, after);
+            if (left == 4) break;
             noteReflex(before);
             noteReflex(after);
             ears.renew(before);
