@@ -16,39 +16,17 @@
 #include "core/vec_math.h"
 #include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/grouped_plan.h"
+#include "tangents/mikktspace/weld_cell.h"
 
 namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kCells = 2048;
+constexpr std::size_t kCells = kWeldCells;
 constexpr std::size_t kFewVertices = 512;  // so few are looked at without NearCells
-constexpr std::uint32_t kWanted = 1, kNotWanted = 0;
-
-float component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
-struct Box {
-    Vec3 low, high;
-
-    explicit Box(const Vec3& start) : low(start), high(start) {}
-    /// A NaN never moves a bound, and a bound that starts as NaN stays.
-    void add(const Vec3& p) {
-        grow(low.x, high.x, p.x);
-        grow(low.y, high.y, p.y);
-        grow(low.z, high.z, p.z);
-    }
-    [[nodiscard]] int longestAxis() const {
-        const Vec3 d = high - low;
-        if (d.y > d.x && d.y > d.z) return 1;
-        return d.z > d.x ? 2 : 0;
-    }
-
-  private:
-    static void grow(float& lowest, float& highest, float x) {
-        if (lowest > x) lowest = x;
-        if (highest < x) highest = x;
-    }
-};
+/// Marks of vertices in wanted cells: the cell's number, from 1, and whether their nodes are wanted. All
+/// cells that get none of their own share the last number.
+constexpr std::uint8_t kCellNumber = 0x7f, kAtNode = 0x80;
 
 /// The float-to-int conversion of x86: what does not fit becomes the smallest int, which lands in cell 0.
 std::size_t cellOf(float low, float high, float x) {
@@ -56,104 +34,6 @@ std::size_t cellOf(float low, float high, float x) {
     if (!(q > 0.0f) || q >= 2147483648.0f) return 0;
     return q < static_cast<float>(kCells) ? static_cast<std::size_t>(q) : kCells - 1;
 }
-
-struct Element {
-    Vec3 position;
-    std::uint32_t corner, node, wanted;
-};
-
-struct Range {
-    std::size_t begin, end;
-};
-
-/// `wanted`: one per node; empty: all nodes.
-Element elementOf(std::uint32_t entry, const MeshView& mesh, const TriangleList& triangles,
-                  const Nodes& nodes, const Marks& wanted) {
-    const std::uint32_t corner = triangles.corner(entry), node = nodes.of(mesh, corner);
-    const bool want = wanted.empty() || wanted[node] != 0;
-    return {mesh.positions[mesh.indices[corner]], corner, node, want ? kWanted : kNotWanted};
-}
-
-class Cell {
-  public:
-    Cell(Element* elements, std::uint32_t* representatives, std::uint8_t* not_welded)
-        : elements_(elements), representatives_(representatives), not_welded_(not_welded) {}
-
-    void run(Range all) {
-        Range waiting[64];  // each at most half of the one before
-        std::size_t depth = 0;
-        Range range = all;
-        while (true) {
-            Range smaller{}, larger{};
-            if (divide(range, smaller, larger)) {
-                if (smaller.end - smaller.begin > larger.end - larger.begin) std::swap(smaller, larger);
-                waiting[depth++] = larger;
-                range = smaller;
-            } else {
-                if (depth == 0) return;
-                range = waiting[--depth];
-            }
-        }
-    }
-
-  private:
-    /// Partitions the range, or finishes it and returns false.
-    bool divide(Range range, Range& left, Range& right) {
-        bool wanted = false;
-        Box box(elements_[range.begin].position);
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-            box.add(elements_[i].position);
-            wanted |= elements_[i].wanted == kWanted;
-        }
-        if (!wanted) return false;
-        if (range.end - range.begin == 1) {
-            leaf(range);
-            return false;
-        }
-        const int axis = box.longestAxis();
-        const float low = component(box.low, axis), high = component(box.high, axis);
-        const float middle = 0.5f * (high + low);
-        if (!std::isfinite(middle)) {
-            giveUp(range);
-            return false;
-        }
-        if (middle >= high || middle <= low) {
-            leaf(range);
-            return false;
-        }
-        const std::size_t cut = partition(range, axis, middle);
-        left = {range.begin, cut};
-        right = {cut, range.end};
-        return true;
-    }
-
-    std::size_t partition(Range range, int axis, float middle) {
-        std::size_t i = range.begin, j = range.end - 1;
-        const auto goesLeft = [&](std::size_t n) { return component(elements_[n].position, axis) < middle; };
-        while (i < j) {
-            while (i < j && goesLeft(i)) ++i;
-            while (i < j && !goesLeft(j)) --j;
-            if (i < j) std::swap(elements_[i++], elements_[j--]);
-        }
-        return i == j && goesLeft(i) ? i + 1 : i;
-    }
-
-    /// All members of a node are in one leaf, because equal positions always go to the same side. The first
-    /// is kept; going backwards makes the first the last to be written.
-    void leaf(Range range) {
-        for (std::size_t i = range.end; i-- > range.begin;)
-            representatives_[elements_[i].node] = elements_[i].corner;
-    }
-
-    void giveUp(Range range) {
-        if (not_welded_ == nullptr) return;
-        for (std::size_t i = range.begin; i < range.end; ++i) not_welded_[elements_[i].corner] = 1;
-    }
-
-    Element* elements_;
-    std::uint32_t* representatives_;
-    std::uint8_t* not_welded_;
-};
 
 /// What the reference computes: the box of the corner list but for its first entry, starting from corner 0 of
 /// the mesh.
@@ -182,8 +62,10 @@ bool isListed(std::uint32_t vertex, const MeshView& mesh, const TriangleList& tr
     });
 }
 
-/// The same box. Reading vertices in order is much faster than reading those of the list; nearly always they
-/// make the same box, which is so when vertices on its six sides are in the list. Not for a NaN in the list.
+/// A box with the same longest axis, and the same ends on it. Reading vertices in order is much faster than
+/// reading those of the list; nearly always they make the same box. It does for us when vertices on both ends
+/// of its longest axis are in the list: the box of the list may be shorter on other axes only, and so has the
+/// same longest one. Not for a NaN in the list.
 template <class IsListed>
 Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const IsListed& isListed,
                 const Allocator* allocator, Parallel& parallel) {
@@ -206,15 +88,14 @@ Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const IsLis
         whole.add(box.low);
         whole.add(box.high);
     }
-    for (int axis = 0; axis < 3; ++axis) {
-        for (const bool upper : {false, true}) {
-            const auto side = [&](const Box& box) { return component(upper ? box.high : box.low, axis); };
-            if (component(start.low, axis) == side(whole)) continue;  // in the list for sure
-            std::size_t v = 0;
-            while (side(boxes[v / kBoxed]) != side(whole)) v += kBoxed;
-            while (component(mesh.positions[v], axis) != side(whole)) ++v;
-            if (!isListed(static_cast<std::uint32_t>(v))) return listedBox(mesh, triangles);
-        }
+    const int axis = whole.longestAxis();
+    for (const bool upper : {false, true}) {
+        const auto side = [&](const Box& box) { return component(upper ? box.high : box.low, axis); };
+        if (component(start.low, axis) == side(whole)) continue;  // in the list for sure
+        std::size_t v = 0;
+        while (side(boxes[v / kBoxed]) != side(whole)) v += kBoxed;
+        while (component(mesh.positions[v], axis) != side(whole)) ++v;
+        if (!isListed(static_cast<std::uint32_t>(v))) return listedBox(mesh, triangles);
     }
     return whole;
 }
@@ -224,7 +105,7 @@ Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const IsLis
 /// near.
 class NearCells {
   public:
-    NearCells(float low, float high, const std::array<std::uint8_t, kCells>& wanted)
+    NearCells(float low, float high, const WeldOrder::CellNumbers& wanted)
         : low_(low), scale_(static_cast<float>(kCells) / (high - low)) {
         for (std::size_t cell = 0; cell < kCells; ++cell) {
             if (wanted[cell] == 0) continue;
@@ -281,62 +162,105 @@ std::size_t WeldOrder::cellOf(std::uint32_t vertex) const {
     return mikk::cellOf(low_, high_, component(mesh_.positions[vertex], axis_));
 }
 
-/// Positions in the corner list. `wanted`: the nodes of the vertices.
-Buffer<std::uint32_t> WeldOrder::entriesInCellsOf(std::span<const std::uint32_t> vertices,
-                                                  const Marks& wanted, Growing<std::uint32_t>* shared) const {
-    constexpr std::uint8_t kInCell = 1, kAtNode = 2;
-    std::array<std::uint8_t, kCells> cell_wanted = {};
-    for (const std::uint32_t vertex : vertices) cell_wanted[cellOf(vertex)] = 1;
+/// `numbers`: of cells; 0: not wanted. `wanted`: the nodes that are.
+Buffer<std::uint8_t> WeldOrder::verticesInCells(const CellNumbers& numbers, const Marks& wanted) const {
     const std::size_t vertex_count = mesh_.vertexCount();
     Marks in_cells(allocator_, vertex_count);
     const auto markOf = [&](std::size_t v) -> std::uint8_t {
         const auto vertex = static_cast<std::uint32_t>(v);
-        if (cell_wanted[cellOf(vertex)] == 0) return 0;
-        return wanted[nodes_.ofVertex(vertex)] != 0 ? kInCell | kAtNode : kInCell;
+        const std::uint8_t number = numbers[cellOf(vertex)];
+        if (number == 0) return 0;
+        return wanted[nodes_.ofVertex(vertex)] != 0 ? number | kAtNode : number;
     };
     if (vertex_count <= kFewVertices) {
         for (std::size_t v = 0; v < vertex_count; ++v) in_cells[v] = markOf(v);
-    } else {
-        const NearCells near(low_, high_, cell_wanted);
-        constexpr std::size_t kBlock = NearCells::kBlock, kGrain = 64;  // vertices; blocks
-        const auto markBlock = [&](std::size_t block) {
-            const std::size_t begin = block * kBlock, end = std::min(begin + kBlock, vertex_count);
-            if (!near.mark(mesh_.positions, axis_, begin, end, in_cells.data())) return;
-            for (std::size_t v = begin; v < end; ++v) {
-                if (in_cells[v] != 0) in_cells[v] = markOf(v);
-            }
-        };
-        parallel_.forRanges((vertex_count + kBlock - 1) / kBlock, kGrain,
-                            [&](std::size_t first, std::size_t last) {
-                                for (std::size_t block = first; block < last; ++block) markBlock(block);
-                            });
+        return in_cells;
     }
-    const Buffer<std::uint32_t> found =
-        collectTriangles(mesh_, triangles_, nodes_, in_cells, allocator_, parallel_);
-    Growing<std::uint32_t> entries(allocator_);
-    std::uint32_t* next = entries.extend(3 * found.size());
-    withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
-        for (const std::uint32_t t : found) {
-            unsigned at_nodes = 0;
-            for (std::uint32_t i = 3 * t; i < 3 * t + 3; ++i) {
-                const std::uint8_t mark = in_cells[vertexOf(i)];
-                *next = i;  // stays when the next one is written behind it
-                next += mark & kInCell;
-                at_nodes += mark / kAtNode;
-            }
-            if (at_nodes > 1 && shared != nullptr) shared->push(t);
+    const NearCells near(low_, high_, numbers);
+    constexpr std::size_t kBlock = NearCells::kBlock, kGrain = 64;  // vertices; blocks
+    const auto markBlock = [&](std::size_t block) {
+        const std::size_t begin = block * kBlock, end = std::min(begin + kBlock, vertex_count);
+        if (!near.mark(mesh_.positions, axis_, begin, end, in_cells.data())) return;
+        for (std::size_t v = begin; v < end; ++v) {
+            if (in_cells[v] != 0) in_cells[v] = markOf(v);
         }
-    });
-    entries.drop(static_cast<std::size_t>(entries.end() - next));
-    return entries.exact();
+    };
+    parallel_.forRanges((vertex_count + kBlock - 1) / kBlock, kGrain,
+                        [&](std::size_t first, std::size_t last) {
+                            for (std::size_t block = first; block < last; ++block) markBlock(block);
+                        });
+    return in_cells;
 }
 
 void WeldOrder::findSome(std::span<const std::uint32_t> vertices, std::uint32_t* representatives,
                          Growing<std::uint32_t>* shared) const {
     if (triangles_.count == 0) return;
     Marks wanted = noMarks(allocator_, nodes_.count);
-    for (const std::uint32_t vertex : vertices) wanted[nodes_.ofVertex(vertex)] = 1;
-    find(entriesInCellsOf(vertices, wanted, shared), wanted, representatives, nullptr);
+    CellNumbers numbers = {};
+    std::uint8_t cell_count = 0;
+    for (const std::uint32_t vertex : vertices) {
+        wanted[nodes_.ofVertex(vertex)] = 1;
+        std::uint8_t& number = numbers[cellOf(vertex)];
+        if (number == 0) number = cell_count + 1u < kCellNumber ? ++cell_count : kCellNumber;
+    }
+    const Marks in_cells = verticesInCells(numbers, wanted);
+    const Buffer<std::uint32_t> found =
+        collectTriangles(mesh_, triangles_, nodes_, in_cells, allocator_, parallel_);
+    std::array<std::uint32_t, kCellNumber + 2> next = {};  // first how many, then where the next one is put
+    withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
+        for (const std::uint32_t t : found) {
+            unsigned at_nodes = 0;
+            for (std::uint32_t i = 3 * t; i < 3 * t + 3; ++i) {
+                const std::uint8_t mark = in_cells[vertexOf(i)];
+                ++next[(mark & kCellNumber) + 1u];
+                at_nodes += mark / kAtNode;
+            }
+            if (at_nodes > 1 && shared != nullptr) shared->push(t);
+        }
+        next[1] = 0;  // those in no wanted cell
+        Buffer<std::uint32_t> others(allocator_, next[kCellNumber + 1u]);
+        for (std::size_t cell = 1; cell < kCellNumber; ++cell) next[cell + 1] += next[cell];
+        Buffer<CellElement> elements(allocator_, next[kCellNumber]);
+        std::uint32_t other_count = 0;
+        for (const std::uint32_t t : found) {
+            for (std::uint32_t i = 3 * t; i < 3 * t + 3; ++i) {
+                const std::uint32_t vertex = vertexOf(i), mark = in_cells[vertex], cell = mark & kCellNumber;
+                if (cell == 0) continue;
+                if (cell == kCellNumber) {
+                    others[other_count++] = i;
+                } else {
+                    elements[next[cell]++] = {mesh_.positions[vertex], i | (mark >= kAtNode ? kMark : 0)};
+                }
+            }
+        }
+        // Now the elements of a cell end where it had been said that those of the next one begin.
+        parallel_.forTasks(cell_count, [&](std::size_t cell) {
+            const std::uint32_t begin = cell == 0 ? 0 : next[cell];
+            if (begin < next[cell + 1])
+                follow(elements.data() + begin, next[cell + 1] - begin, representatives, nullptr);
+        });
+        if (other_count != 0) find(others, wanted, representatives, nullptr);
+    });
+}
+
+/// The elements of one cell.
+void WeldOrder::follow(CellElement* elements, std::size_t count, std::uint32_t* representatives,
+                       std::uint8_t* not_welded) const {
+    const auto found = [&](std::uint32_t entry) {
+        const std::uint32_t corner = triangles_.corner(entry);
+        representatives[nodes_.of(mesh_, corner)] = corner;
+    };
+    const auto gaveUp = [&](std::uint32_t entry) {
+        if (not_welded != nullptr) not_welded[triangles_.corner(entry)] = 1;
+    };
+    WeldCell(elements, nodes_.tame, found, gaveUp).run(count);
+}
+
+/// `wanted`: one per node; empty: all nodes.
+CellElement WeldOrder::elementOf(std::uint32_t entry, const Marks& wanted) const {
+    const std::uint32_t corner = triangles_.corner(entry);
+    const bool want = wanted.empty() || wanted[nodes_.of(mesh_, corner)] != 0;
+    return {mesh_.positions[mesh_.indices[corner]], entry | (want ? kMark : 0)};
 }
 
 void WeldOrder::findAll(std::uint32_t* representatives, std::uint8_t* not_welded) const {
@@ -360,15 +284,15 @@ void WeldOrder::find(const Buffer<std::uint32_t>& entries, const Marks& wanted,
         ++cell_begin[cell + 1];
     }
     for (std::size_t cell = 0; cell < kCells; ++cell) cell_begin[cell + 1] += cell_begin[cell];
-    Buffer<Element> elements(allocator_, entries.size());
+    Buffer<CellElement> elements(allocator_, entries.size());
     Buffer<std::size_t> fill(allocator_, kCells);
     std::copy_n(cell_begin.data(), kCells, fill.data());
     for (std::size_t i = 0; i < entries.size(); ++i)
-        elements[fill[cells[i]]++] = elementOf(entries[i], mesh_, triangles_, nodes_, wanted);
+        elements[fill[cells[i]]++] = elementOf(entries[i], wanted);
     // Cells share nothing: a node lies in one of them.
     parallel_.forTasks(kCells, [&](std::size_t cell) {
-        if (cell_begin[cell] == cell_begin[cell + 1]) return;
-        Cell(elements.data(), representatives, not_welded).run({cell_begin[cell], cell_begin[cell + 1]});
+        const std::size_t begin = cell_begin[cell], count = cell_begin[cell + 1] - begin;
+        if (count != 0) follow(elements.data() + begin, count, representatives, not_welded);
     });
 }
 
@@ -379,13 +303,13 @@ void WeldOrder::findInFew(const Buffer<std::uint32_t>& entries, const Marks& wan
     for (std::size_t i = 0; i < entries.size(); ++i)
         by_cell[i] = std::uint64_t{cellOf(mesh_.indices[triangles_.corner(entries[i])])} << 32 | i;
     std::sort(by_cell.begin(), by_cell.end());
-    Buffer<Element> elements(allocator_, entries.size());
+    Buffer<CellElement> elements(allocator_, entries.size());
     for (std::size_t i = 0; i < entries.size(); ++i)
-        elements[i] = elementOf(entries[by_cell[i] & 0xffffffffu], mesh_, triangles_, nodes_, wanted);
+        elements[i] = elementOf(entries[by_cell[i] & 0xffffffffu], wanted);
     for (std::size_t begin = 0; begin < entries.size();) {
         std::size_t end = begin + 1;
         while (end < entries.size() && by_cell[end] >> 32 == by_cell[begin] >> 32) ++end;
-        Cell(elements.data(), representatives, not_welded).run({begin, end});
+        follow(elements.data() + begin, end - begin, representatives, not_welded);
         begin = end;
     }
 }

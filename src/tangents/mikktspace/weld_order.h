@@ -4,6 +4,7 @@
 // know.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "core/memory.h"
@@ -19,9 +20,15 @@ struct CornerRange {
     std::uint32_t first, last;
 };
 
+/// Cells of the reference's grid.
+inline constexpr std::size_t kWeldCells = 2048;
+
+struct CellElement;
+
 class WeldOrder {
   public:
-    /// All must outlive this object. `corners`: one per node, or empty; saves looking which vertices are used.
+    /// All must outlive this object. `corners`: one per node, or empty; saves looking which vertices are
+    /// used.
     WeldOrder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
               const Allocator* allocator, Parallel& parallel, std::span<const CornerRange> corners = {});
 
@@ -37,13 +44,16 @@ class WeldOrder {
     void findSome(std::span<const std::uint32_t> vertices, std::uint32_t* representatives,
                   Growing<std::uint32_t>* shared = nullptr) const;
 
+    using CellNumbers = std::array<std::uint8_t, kWeldCells>;
+
   private:
     using Marks = Buffer<std::uint8_t>;
 
     [[nodiscard]] std::size_t cellOf(std::uint32_t vertex) const;
-    [[nodiscard]] Buffer<std::uint32_t> entriesInCellsOf(std::span<const std::uint32_t> vertices,
-                                                         const Marks& wanted,
-                                                         Growing<std::uint32_t>* shared) const;
+    [[nodiscard]] Marks verticesInCells(const CellNumbers& numbers, const Marks& wanted) const;
+    [[nodiscard]] CellElement elementOf(std::uint32_t entry, const Marks& wanted) const;
+    void follow(CellElement* elements, std::size_t count, std::uint32_t* representatives,
+                std::uint8_t* not_welded) const;
     void find(const Buffer<std::uint32_t>& entries, const Marks& wanted, std::uint32_t* representatives,
               std::uint8_t* not_welded) const;
     void findInFew(const Buffer<std::uint32_t>& entries, const Marks& wanted, std::uint32_t* representatives,
