@@ -22,7 +22,7 @@ struct WalkedNodes {
 /// `doubtful`: the triangles without UV area (ascending) whose three nodes may have both orientations.
 /// `chosen` must have their nodes, and those of degenerate triangles and of faces whose triangles do not
 /// simply agree (node_sums.cpp). `source` is that of the sums, by vertices. Uses the places of second paths
-/// in `sums`; without sums `chosen` must have all nodes, and `doubtful` is not looked at. Takes about 150 bytes per triangle around these nodes. Throws OutOfMemory.
+/// in `sums`; without sums `chosen` must have all nodes, and `doubtful` is not looked at. Takes about 220 bytes per triangle around these nodes. Throws OutOfMemory.
 WalkedNodes walkNodes(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
                       const Nodes& nodes, std::span<const std::uint32_t> chosen,
                       std::span<const std::uint32_t> doubtful, const CornerSource& source,

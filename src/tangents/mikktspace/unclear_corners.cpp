@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Lists the corners of chosen nodes: finds the triangles around them, computes those once more, gives each
-// face one orientation, plans copies for corners of degenerate triangles.
+// Lists the corners of chosen nodes: finds the triangles around them, counts which node has how many,
+// computes the triangles and puts their corners where they belong, gives each face one orientation, plans
+// copies for corners of degenerate triangles.
 #include "tangents/mikktspace/unclear_corners.h"
 
 #include <algorithm>
+#include <atomic>
 
+#include "core/float4.h"
 #include "core/vec_math.h"
 #include "tangents/mikktspace/triangle_pass.h"
 
@@ -12,7 +15,8 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kBlockGrain = 16;
+constexpr std::size_t kBlockGrain = 16, kTriangleGrain = 4096;
+constexpr float kNothing[4] = {-0.0f, -0.0f, -0.0f, -0.0f};  // added to any number it leaves all its bits
 
 class CornerReader {
   public:
@@ -25,19 +29,30 @@ class CornerReader {
 
     UnclearCorners run() {
         findTriangles();
-        withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
-            const std::size_t blocks = (to_.found.size() + kTermTriangles - 1) / kTermTriangles;
-            from_.parallel.forRanges(blocks, kBlockGrain, [&](std::size_t begin, std::size_t end) {
-                readTriangles(begin, end, vertexOf);
-            });
+        placeCorners();
+        to_.flags = Buffer<std::uint8_t>(from_.allocator, count_);
+        const std::size_t blocks = (count_ + kTermTriangles - 1) / kTermTriangles;
+        std::atomic<std::uint64_t> degenerate{0}, flat{0}, mirrored{0};
+        from_.parallel.forRanges(blocks, kBlockGrain, [&](std::size_t begin, std::size_t end) {
+            Counts counts;
+            readBlocks(begin, end, counts);
+            degenerate += counts.degenerate;
+            flat += counts.flat;
+            mirrored += counts.mirrored;
         });
+        to_.degenerate_count = degenerate;
+        to_.no_uv_area_count = flat;
+        to_.mirrored_count = mirrored;
         if (!triangles_.faces.empty()) uniteFaces();
-        listCorners();
-        if (has_degenerate_) planCopies();
+        if (to_.degenerate_count != 0) planCopies();
         return std::move(to_);
     }
 
   private:
+    struct Counts {
+        std::uint64_t degenerate = 0, flat = 0, mirrored = 0;
+    };
+
     /// The place of a node's second path holds its number in `chosen` from here on; what it held before is no
     /// such number, or that of another node.
     [[nodiscard]] std::uint32_t placeOf(std::uint32_t node) const {
@@ -47,13 +62,22 @@ class CornerReader {
     }
 
     void findTriangles() {
-        to_.found = from_.sums == nullptr ? numbersBelow(triangles_.count, from_.allocator) : aroundChosen();
-        const std::size_t count = to_.found.size(), corners = 3 * count;
-        to_.triangles = Buffer<FoundTriangle>(from_.allocator, count);
-        to_.places = Buffer<std::uint32_t>(from_.allocator, corners);
-        to_.marks = Buffer<std::uint16_t>(from_.allocator, corners);
-        to_.directions = Buffer<Directions>(from_.allocator, corners);
-        if (from_.with_lengths) to_.lengths_t = Buffer<float>(from_.allocator, corners);
+        if (from_.sums != nullptr) to_.found = aroundChosen();
+        count_ = from_.sums != nullptr ? to_.found.size() : triangles_.count;
+        to_.nodes = Buffer<std::uint32_t>(from_.allocator, 3 * count_);
+        withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
+            const std::uint32_t* node_of =
+                from_.nodes.of_vertex.empty() ? nullptr : from_.nodes.of_vertex.data();
+            from_.parallel.forRanges(count_, kTriangleGrain, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t t = begin; t < end; ++t) {
+                    const std::size_t first = 3 * std::size_t{to_.triangleOf(t)};
+                    for (std::size_t k = 0; k < 3; ++k) {
+                        const std::uint32_t v = vertexOf(first + k);
+                        to_.nodes[3 * t + k] = node_of == nullptr ? v : node_of[v];
+                    }
+                }
+            });
+        });
     }
 
     Buffer<std::uint32_t> aroundChosen() {
@@ -65,74 +89,116 @@ class CornerReader {
                              from_.parallel);
     }
 
-    template <class VertexOf>
-    void readTriangles(std::size_t begin_block, std::size_t end_block, const VertexOf& vertexOf) {
+    /// Degenerate triangles get places too: which those are is not known yet.
+    void placeCorners() {
+        const std::size_t node_count = from_.chosen.size();
+        to_.at = Buffer<std::uint32_t>(from_.allocator, 3 * count_);
+        to_.begin = Buffer<std::uint32_t>(from_.allocator, node_count);
+        to_.end = Buffer<std::uint32_t>(from_.allocator, node_count + 1, 0u);
+        std::uint32_t *end = to_.end.data(), *at = to_.at.data();
+        if (from_.sums == nullptr) std::copy_n(to_.nodes.data(), 3 * count_, at);
+        for (std::size_t i = 0; i < 3 * count_; ++i) {
+            if (from_.sums != nullptr) at[i] = placeOf(to_.nodes[i]);
+            ++end[at[i] == kNone ? node_count : at[i]];
+        }
+        std::uint32_t sum = 0;
+        for (std::size_t place = 0; place < node_count; ++place) {
+            const std::uint32_t size = end[place];
+            to_.begin[place] = end[place] = sum;
+            sum += size;
+        }
+        for (std::size_t i = 0; i < 3 * count_; ++i) {
+            if (at[i] != kNone) at[i] = end[at[i]]++;
+        }
+        to_.corners = Buffer<UnclearCorner>(from_.allocator, sum);
+        if (from_.sums == nullptr) return;
+        places_ = Buffer<std::uint32_t>(from_.allocator, sum);
+        for (std::size_t place = 0; place < node_count; ++place)
+            std::fill(places_.data() + to_.begin[place], places_.data() + end[place],
+                      static_cast<std::uint32_t>(place));
+    }
+
+    void readBlocks(std::size_t begin_block, std::size_t end_block, Counts& counts) {
         CornerTerms terms;
-        if (from_.source.tangents_only)
-            std::fill_n(terms.t[0], 4 * kTermCorners, 0.0f);  // else they are written
-        std::uint32_t vertices[kTermCorners] = {};
+        std::fill_n(terms.t[0], 4 * kTermCorners, 0.0f);  // not written when tangents_only
+        std::fill_n(terms.lengths_t[0], kTermCorners, 0.0f);
+        std::uint32_t own[kTermCorners] = {};
         for (std::size_t block = begin_block; block < end_block; ++block) {
             const std::size_t begin = block * kTermTriangles,
-                              count = std::min(kTermTriangles, to_.found.size() - begin);
-            for (std::size_t t = 0; t < count; ++t) {
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const std::uint32_t v = vertexOf(3 * std::size_t{to_.found[begin + t]} + k),
-                                        node = from_.nodes.ofVertex(v);
-                    vertices[3 * t + k] = from_.nodes.mixed ? from_.nodes.vertex(node) : v;
-                    to_.triangles[begin + t].nodes[k] = node;
-                    to_.places[3 * (begin + t) + k] = placeOf(node);
-                }
+                              count = std::min(kTermTriangles, count_ - begin);
+            const std::uint32_t *nodes = to_.nodes.data() + 3 * begin, *vertices = nodes;
+            if (count < kTermTriangles || !from_.nodes.vertices.empty()) {
+                for (std::size_t i = 0; i < 3 * count; ++i) own[i] = from_.nodes.vertex(nodes[i]);
+                vertices = own;
             }
             from_.terms(from_.source, vertices, count, terms);
+            counts.degenerate += terms.degenerate_count;
+            counts.flat += terms.no_uv_area_count;
+            counts.mirrored += terms.mirrored_count;
             keepTerms(terms, begin, count);
         }
     }
 
     void keepTerms(const CornerTerms& terms, std::size_t begin, std::size_t count) {
-        for (std::size_t i = 0; i < 3 * count; ++i) {
-            std::copy_n(terms.s[i], 4, to_.directions[3 * begin + i].s.at);
-            std::copy_n(terms.t[i], 4, to_.directions[3 * begin + i].t.at);
-        }
         for (std::size_t t = 0; t < count; ++t) {
-            std::uint32_t any = 0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                to_.marks[3 * (begin + t) + k] = static_cast<std::uint16_t>(terms.marks[k][t]);
-                any |= terms.marks[k][t];
-                if (!to_.lengths_t.empty()) to_.lengths_t[3 * (begin + t) + k] = terms.lengths_t[k][t];
-            }
-            to_.triangles[begin + t].flags = flagsOf(any, begin + t);
+            const std::size_t row = 3 * t, first = 3 * (begin + t);
+            const std::uint32_t *n = to_.nodes.data() + first, *at = to_.at.data() + first;
+            const std::uint32_t triangle = to_.triangleOf(begin + t);
+            const std::uint8_t flags =
+                flagsOf(terms.marks[0][t] | terms.marks[1][t] | terms.marks[2][t], begin + t);
+            to_.flags[begin + t] = flags;
+            const bool flat = (flags & kAny) != 0;
+            const auto keep = [&](std::size_t k, std::uint32_t next, std::uint32_t previous) {
+                if (at[k] == kNone) return;
+                UnclearCorner& corner = to_.corners[at[k]];
+                storeFloat4(corner.s, loadFloat4(flat ? kNothing : terms.s[row + k]));
+                storeFloat4(corner.t, loadFloat4(flat ? kNothing : terms.t[row + k]));
+                corner.length_t = flat ? kNothing[0] : terms.lengths_t[k][t];
+                corner.next = next;
+                corner.previous = previous;
+                corner.triangle = static_cast<std::uint32_t>(begin + t);
+                corner.slot = triangles_.corner(3 * std::size_t{triangle} + k);
+                corner.place = places_.empty() ? n[k] : places_[at[k]];
+                corner.marks = static_cast<std::uint16_t>(flat ? kAllMarks : terms.marks[k][t]);
+                corner.flags = flags;
+            };
+            keep(0, n[1], n[2]);
+            keep(1, n[2], n[0]);
+            keep(2, n[0], n[1]);
         }
     }
 
     /// `marks`: what some corner of the triangle has. A triangle with a NaN has none of both orientations.
-    [[nodiscard]] std::uint32_t flagsOf(std::uint32_t marks, std::size_t t) const {
+    [[nodiscard]] std::uint8_t flagsOf(std::uint32_t marks, std::size_t t) const {
         if ((marks & kDegenerateMark) != 0) return kDegenerate;
         if ((marks & kNoUvArea) != 0) return kAny;
         const bool known = (marks & (kFacesUp | kFacesDown)) != 0;
-        return (known ? (marks & kFacesUp) != 0 : uvArea(t) > 0) ? std::uint32_t{kPositive} : 0;
+        return (known ? (marks & kFacesUp) != 0 : uvArea(t) > 0) ? std::uint8_t{kPositive} : std::uint8_t{0};
     }
 
     [[nodiscard]] float uvArea(std::size_t t) const {
         Vec2 uv[3];
-        for (std::size_t k = 0; k < 3; ++k) uv[k] = mesh_.uvs[from_.nodes.vertex(to_.triangles[t].nodes[k])];
+        for (std::size_t k = 0; k < 3; ++k) uv[k] = mesh_.uvs[from_.nodes.vertex(to_.nodes[3 * t + k])];
         const Vec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
         return a.x * b.y - a.y * b.x;
     }
 
+    [[nodiscard]] std::uint32_t faceOf(std::size_t t) const { return triangles_.faces[to_.triangleOf(t)]; }
+
     /// One orientation for each face. All triangles of a face that does not simply agree have been found; of
     /// another face, a part may be here.
     void uniteFaces() {
-        for (std::size_t first = 0; first < to_.found.size();) {
-            const std::uint32_t face = triangles_.faces[to_.found[first]];
+        for (std::size_t first = 0; first < count_;) {
+            const std::uint32_t face = faceOf(first);
             std::size_t end = first + 1;
-            while (end < to_.found.size() && triangles_.faces[to_.found[end]] == face) ++end;
+            while (end < count_ && faceOf(end) == face) ++end;
             if (end - first > 1 && isWhole(first, end)) uniteFace(first, end);
             first = end;
         }
     }
 
     [[nodiscard]] bool isWhole(std::size_t first, std::size_t end) const {
-        const std::size_t before = to_.found[first], after = std::size_t{to_.found[end - 1]} + 1;
+        const std::size_t before = to_.triangleOf(first), after = std::size_t{to_.triangleOf(end - 1)} + 1;
         const std::uint32_t face = triangles_.faces[before];
         return (before == 0 || triangles_.faces[before - 1] != face) &&
                (after == triangles_.count || triangles_.faces[after] != face);
@@ -143,13 +209,13 @@ class CornerReader {
         good_.drop(good_.size());
         bool up = false, down = false;
         for (std::size_t t = first; t < end; ++t) {
-            const std::uint32_t flags = to_.triangles[t].flags;
+            const std::uint32_t flags = to_.flags[t];
             if ((flags & kDegenerate) != 0) continue;
             good_.push(static_cast<std::uint32_t>(t));
             up |= flags == kPositive;
             down |= flags == 0;
         }
-        const auto isAny = [&](std::size_t i) { return (to_.triangles[good_[i]].flags & kAny) != 0; };
+        const auto isAny = [&](std::size_t i) { return (to_.flags[good_[i]] & kAny) != 0; };
         const bool flat_one_may_choose = good_.size() == 2 && isAny(0) && (up || down);
         if (!(up && down) && !flat_one_may_choose) return;
         const std::size_t chosen = orientingTriangle(0, good_.size(), isAny, [&](std::size_t i) {
@@ -157,27 +223,14 @@ class CornerReader {
             return area < 0 ? -area : area;
         });
         const std::uint32_t orientation = uvArea(good_[chosen]) > 0 ? kPositive : 0;
-        for (const std::uint32_t t : good_)
-            to_.triangles[t].flags = (to_.triangles[t].flags & ~std::uint32_t{kPositive}) | orientation;
-    }
-
-    void listCorners() {
-        to_.begin = Buffer<std::uint32_t>(from_.allocator, from_.chosen.size() + 2, 0u);
-        const auto forEachCorner = [&](const auto& body) {
-            for (std::size_t t = 0; t < to_.found.size(); ++t) {
-                if ((to_.triangles[t].flags & kDegenerate) != 0) continue;
-                for (std::size_t k = 0; k < 3; ++k) {
-                    if (to_.places[3 * t + k] != kNone) body(4 * t + k, to_.places[3 * t + k]);
-                }
+        for (const std::uint32_t t : good_) {
+            const auto flags = static_cast<std::uint8_t>((to_.flags[t] & ~unsigned{kPositive}) | orientation);
+            to_.flags[t] = flags;
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (to_.at[3 * std::size_t{t} + k] != kNone)
+                    to_.corners[to_.at[3 * std::size_t{t} + k]].flags = flags;
             }
-        };
-        forEachCorner([&](std::size_t, std::uint32_t place) { ++to_.begin[place + 2]; });
-        for (std::size_t i = 2; i < to_.begin.size(); ++i) to_.begin[i] += to_.begin[i - 1];
-        to_.list = Buffer<std::uint32_t>(from_.allocator, to_.begin[from_.chosen.size() + 1]);
-        forEachCorner([&](std::size_t corner, std::uint32_t place) {
-            to_.list[to_.begin[place + 1]++] = static_cast<std::uint32_t>(corner);
-        });
-        for (const FoundTriangle& t : to_.triangles) has_degenerate_ |= (t.flags & kDegenerate) != 0;
+        }
     }
 
     /// The rule of triangle_pass.cpp. All corners of degenerate triangles are at chosen nodes.
@@ -186,15 +239,15 @@ class CornerReader {
         Buffer<std::uint8_t> done;  // of polygons' corners: 1 has a good triangle, 2 is planned
         if (!triangles_.faces.empty()) {
             done = Buffer<std::uint8_t>(from_.allocator, mesh_.cornerCount(), std::uint8_t{0});
-            for (std::size_t t = 0; t < to_.found.size(); ++t) {
-                if ((to_.triangles[t].flags & kDegenerate) != 0) continue;
+            for (std::size_t t = 0; t < count_; ++t) {
+                if ((to_.flags[t] & kDegenerate) != 0) continue;
                 for (std::uint32_t k = 0; k < 3; ++k) done[slot(t, k)] = 1;
             }
         }
-        for (std::size_t t = 0; t < to_.found.size(); ++t) {
-            if ((to_.triangles[t].flags & kDegenerate) == 0) continue;
+        for (std::size_t t = 0; t < count_; ++t) {
+            if ((to_.flags[t] & kDegenerate) == 0) continue;
             for (std::uint32_t k = 0; k < 3; ++k) {
-                const std::uint32_t to = slot(t, k), place = to_.places[3 * t + k];
+                const std::uint32_t to = slot(t, k), place = placeAt(t, k);
                 std::uint32_t from = kMark | place;
                 if (!done.empty()) {
                     if (done[to] != 0) continue;
@@ -209,11 +262,11 @@ class CornerReader {
     /// The corner at the same position in the same triangle, if a good triangle of its face has it too.
     std::uint32_t copiedInFace(std::size_t t, std::uint32_t k, std::uint32_t otherwise,
                                const Buffer<std::uint8_t>& done) {
-        const auto at = [&](std::uint32_t corner) { return mesh_.positions[mesh_.indices[corner]]; };
+        const auto position = [&](std::uint32_t corner) { return mesh_.positions[mesh_.indices[corner]]; };
         for (std::uint32_t j = 1; j < 3; ++j) {
-            const std::uint32_t other = slot(t, (k + j) % 3), place = to_.places[3 * t + (k + j) % 3];
-            if (done[other] != 1 || !(at(other) == at(slot(t, k)))) continue;
-            const std::uint32_t own = to_.places[3 * t + k];
+            const std::uint32_t other = slot(t, (k + j) % 3), place = placeAt(t, (k + j) % 3);
+            if (done[other] != 1 || !(position(other) == position(slot(t, k)))) continue;
+            const std::uint32_t own = placeAt(t, k);
             if (place == own) {
                 to_.entangled[own] = std::max(to_.entangled[own], UnclearCorners::kSameNode);
             } else {
@@ -225,18 +278,32 @@ class CornerReader {
     }
 
     [[nodiscard]] std::uint32_t slot(std::size_t t, std::uint32_t k) const {
-        return to_.slot(triangles_, static_cast<std::uint32_t>(4 * t + k));
+        return triangles_.corner(3 * std::size_t{to_.triangleOf(t)} + k);
+    }
+    [[nodiscard]] std::uint32_t placeAt(std::size_t t, std::uint32_t k) const {
+        return to_.corners[to_.at[3 * t + k]].place;
     }
 
     const CornerReading& from_;
     const MeshView& mesh_;
     const TriangleList& triangles_;
     UnclearCorners to_;
-    Growing<std::uint32_t> good_;  // of one face
-    bool has_degenerate_ = false;
+    std::size_t count_ = 0;         // of triangles
+    Buffer<std::uint32_t> places_;  // of each corner; empty: places are nodes
+    Growing<std::uint32_t> good_;   // of one face
 };
 
 }  // namespace
+
+void UnclearCorners::dropDegenerate(std::size_t place) {
+    std::uint32_t to = begin[place];
+    for (std::uint32_t i = to; i < end[place]; ++i) {
+        if ((corners[i].flags & kDegenerate) != 0) continue;
+        if (to != i) corners[to] = corners[i];
+        ++to;
+    }
+    end[place] = to;
+}
 
 UnclearCorners readCorners(const CornerReading& reading) { return CornerReader(reading).run(); }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The corners of chosen nodes, with all that grouping and summing them needs: what node_walk.cpp works on.
+// The corners of chosen nodes, node by node, with all that grouping and summing them needs: what
+// node_walk.cpp works on.
 #pragma once
 
 #include <span>
@@ -11,34 +12,33 @@
 namespace tspace::mikk {
 
 /// More flags of a triangle, beside TriangleFlag.
-inline constexpr std::uint32_t kContested = 0x40, kDegenerate = 0x80;
+inline constexpr std::uint8_t kContested = 0x40, kDegenerate = 0x80;
 
-/// A triangle around a chosen node.
-struct alignas(16) FoundTriangle {
-    std::uint32_t nodes[3];
-    std::uint32_t flags;
+/// A corner at a chosen node. All of it is in one cache line, and those of a node lie side by side. What one
+/// of a triangle without UV area adds, and the marks that it takes away, are nothing.
+struct alignas(64) UnclearCorner {
+    float s[4], t[4];  ///< rows of corner_terms.h
+    float length_t;
+    std::uint32_t next, previous;  ///< nodes
+    std::uint32_t triangle;        ///< as a number in `found`
+    std::uint32_t slot;            ///< corner of the mesh
+    std::uint32_t place;           ///< number of the node in `chosen`
+    std::uint16_t marks;
+    std::uint8_t flags;  ///< of the triangle, as it was read
 };
 
-/// Rows of corner_terms.h.
-struct alignas(16) Row {
-    float at[4] = {0, 0, 0, 0};
-};
-struct alignas(32) Directions {
-    Row s, t;
-};
-
-/// A corner is written as 4 * found triangle + k.
 struct UnclearCorners {
-    Buffer<std::uint32_t> found;  ///< the triangles, as numbers in the mesh; ascending
-    Buffer<FoundTriangle> triangles;
-    // Three per triangle: see row().
-    Buffer<std::uint32_t> places;  ///< number of the node in `chosen`; kNone: not chosen
-    Buffer<std::uint16_t> marks;
-    Buffer<Directions> directions;
-    Buffer<float> lengths_t;  ///< empty when the caller has no use for them
+    // One per triangle around a chosen node.
+    Buffer<std::uint32_t> found;  ///< their numbers in the mesh, ascending; empty: all
+    Buffer<std::uint8_t> flags;
+    // Three per triangle.
+    Buffer<std::uint32_t> nodes;
+    Buffer<std::uint32_t> at;  ///< where the corner is in `corners`; kNone: not at a chosen node
+    std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;
 
-    Buffer<std::uint32_t> begin;  ///< one more than chosen nodes: ranges of `list`
-    Buffer<std::uint32_t> list;   ///< corners node by node, ascending; without degenerate triangles
+    Buffer<UnclearCorner> corners;  ///< node by node, ascending by triangle
+    // One per chosen node: its range of `corners`.
+    Buffer<std::uint32_t> begin, end;
     /// One per chosen node; empty: all 0. Whether some corner copies one of the same node that may not be
     /// the first of its list, or a corner of another node.
     Marks entangled;
@@ -53,22 +53,15 @@ struct UnclearCorners {
 
     explicit UnclearCorners(const Allocator* allocator) : copies(allocator) {}
 
-    [[nodiscard]] static std::size_t row(std::uint32_t corner) { return corner - (corner >> 2); }
-    [[nodiscard]] std::uint32_t count(std::size_t place) const { return begin[place + 1] - begin[place]; }
-    [[nodiscard]] std::uint32_t flags(std::uint32_t corner) const { return triangles[corner >> 2].flags; }
-    [[nodiscard]] std::uint32_t next(std::uint32_t corner) const {
-        return triangles[corner >> 2].nodes[kNext[corner & 3]];
+    [[nodiscard]] std::span<const UnclearCorner> around(std::size_t place) const {
+        return {corners.data() + begin[place], end[place] - begin[place]};
     }
-    [[nodiscard]] std::uint32_t previous(std::uint32_t corner) const {
-        return triangles[corner >> 2].nodes[kPrevious[corner & 3]];
-    }
-    /// Its corner of the mesh.
-    [[nodiscard]] std::uint32_t slot(const TriangleList& all, std::uint32_t corner) const {
-        return all.corner(3 * std::size_t{found[corner >> 2]} + (corner & 3));
-    }
+    /// Takes the corners of degenerate triangles out of a node's range, in which they are at first.
+    void dropDegenerate(std::size_t place);
 
-  private:
-    static constexpr std::uint8_t kNext[4] = {1, 2, 0, 0}, kPrevious[4] = {2, 0, 1, 0};
+    [[nodiscard]] std::uint32_t triangleOf(std::size_t t) const {
+        return found.empty() ? static_cast<std::uint32_t>(t) : found[t];
+    }
 };
 
 /// What the corners are read from.
@@ -77,8 +70,7 @@ struct CornerReading {
     const TriangleList& triangles;
     const Nodes& nodes;
     std::span<const std::uint32_t> chosen;  ///< nodes, ascending
-    CornerSource source;                    ///< tangents_only: neither t nor lengths_t
-    bool with_lengths = false;
+    CornerSource source;                    ///< tangents_only: neither t nor length_t
     CornerTermsFunction terms = nullptr;
     NodeSums* sums;  ///< the places of second paths are used; null: `chosen` are all nodes
     const Allocator* allocator = nullptr;

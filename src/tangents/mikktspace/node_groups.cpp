@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: MIT
+// Groups and results of one node, as groups.cpp and evaluate.cpp make them, but without a plan in between.
+#include "tangents/mikktspace/node_groups.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "tangents/mikktspace/corner_source.h"
+#include "tangents/mikktspace/triangle_pass.h"
+
+namespace tspace::mikk {
+
+namespace {
+
+/// Sine of the angle that vectors must keep from a plane: far more than rounding errors.
+constexpr float kOffPlane = 0.02f;
+constexpr float kLeastWeight = 1e-4f;  // below, a corner says too little about its direction
+/// Cosine of the angle that tangents of a pair must stay below: about 172 degrees.
+constexpr float kNotOpposed = -0.99f;
+constexpr std::uint32_t kFewMembers = 3;  // all pairs of so few are compared at once
+
+Vec3 vectorOf(const float* row) { return {row[0], row[1], row[2]}; }
+Vec3 vectorOf(Float4 row) { return {row[0], row[1], row[2]}; }
+
+/// Whether neither the tangents nor the bitangents of two corners come near opposite directions.
+bool farFromOpposed(const UnclearCorner& a, const UnclearCorner& b) {
+    const float limit = kNotOpposed * a.s[3] * b.s[3];
+    return dot(vectorOf(a.s), vectorOf(b.s)) > limit && dot(vectorOf(a.t), vectorOf(b.t)) > limit;
+}
+
+}  // namespace
+
+NodeGroups::NodeGroups(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
+                       const Nodes& nodes, std::span<const std::uint32_t> chosen, const TangentOutput& out,
+                       const UnclearCorners& corners)
+    : mesh_(mesh),
+      triangles_(triangles),
+      nodes_(nodes),
+      chosen_(chosen),
+      out_(out),
+      sink_(out, signFactor(options.convention) * normalFactor(options.convention),
+            signFactor(options.convention)),
+      corners_(corners),
+      may_split_(options.method == Method::mikktspace),
+      has_polygons_(!triangles.faces.empty()),
+      tangents_only_(wantsTangentsOnly(out)),
+      full_(has_polygons_ || !tangents_only_) {}
+
+Links::Links(std::span<const UnclearCorner> around) {
+    if (!linkUnambiguous(around)) linkAny(around);
+    one_path = isOnePath(around.size());
+}
+
+/// Where each half-edge has one possible partner at most, that is the one. Returns false where there is a
+/// choice, or too many members.
+bool Links::linkUnambiguous(std::span<const UnclearCorner> around) {
+    constexpr std::size_t kMost = 16;
+    const std::size_t count = around.size();
+    if (count > kMost) return false;
+    alignas(16) std::uint32_t previous[kMost];
+    for (std::size_t i = 0; i < count; ++i) {
+        previous[i] = around[i].previous;
+        right[i] = kNoLink;
+    }
+    std::size_t lanes = count;
+    for (; lanes % 4 != 0; ++lanes) previous[lanes] = kNone;
+    std::uint32_t taken = 0, again = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto next = static_cast<std::int32_t>(around[i].next);
+        const Mask4 wanted = Mask4{next, next, next, next};
+        std::uint32_t found = 0;
+        for (std::size_t j = 0; j < lanes; j += 4) {
+            Mask4 here;
+            std::memcpy(&here, previous + j, sizeof here);
+            found |= laneBits(here == wanted) << j;
+        }
+        again |= (found & taken) | (found & (found - 1));
+        taken |= found;
+        const auto partner = static_cast<std::uint8_t>(found == 0 ? int{kNoLink} : std::countr_zero(found));
+        left[i] = partner;
+        right[partner] = static_cast<std::uint8_t>(i);
+    }
+    return again == 0;
+}
+
+void Links::linkAny(std::span<const UnclearCorner> around) {
+    std::uint32_t next[kSmallNode], previous[kSmallNode], to_left[kSmallNode], to_right[kSmallNode];
+    const auto count = static_cast<std::uint32_t>(around.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        next[i] = around[i].next;
+        previous[i] = around[i].previous;
+    }
+    Around all{count, nullptr, next, previous, to_left, to_right};
+    pairSmall(all);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        left[i] = to_left[i] == kNone ? kNoLink : static_cast<std::uint8_t>(to_left[i]);
+        right[i] = to_right[i] == kNone ? kNoLink : static_cast<std::uint8_t>(to_right[i]);
+    }
+}
+
+bool Links::isOnePath(std::size_t count) const {
+    std::uint8_t start = 0;
+    while (start < count && right[start] != kNoLink) ++start;
+    if (start == count) start = 0;  // rings only
+    std::size_t reached = 1;
+    for (std::uint8_t m = left[start]; m != kNoLink && m != start; m = left[m]) ++reached;
+    return reached == count;
+}
+
+NodeState NodeGroups::walk(std::size_t place, WalkCounts& counts) const {
+    const std::span<const UnclearCorner> around = corners_.around(place);
+    const bool copies_elsewhere =
+        !corners_.entangled.empty() && corners_.entangled[place] == UnclearCorners::kOtherNode;
+    if (around.size() > kSmallNode || copies_elsewhere) return kLeft;
+    if (around.empty()) return kDone;
+    Sum sum;
+    std::uint32_t some = 0, all = kPositive;
+    for (const UnclearCorner& corner : around) {
+        const std::uint32_t no_matter = (corner.flags & kAny) != 0 ? std::uint32_t{kPositive} : 0;
+        some |= corner.flags & ~no_matter;
+        all &= corner.flags | no_matter;
+        sum.add(corner);
+    }
+    if (sum.adding == 0 && !has_polygons_) return writeDefaults(around, counts);
+    Members members(around);
+    if (sum.adding != 0) {
+        const Links links(around);
+        sum.positive = (all & kPositive) != 0;
+        // The usual case: one fan of one orientation, and nothing else to see to.
+        if (links.one_path && ((some ^ all) & kPositive) == 0)
+            return finishOneGroup(place, around, sum, counts);
+        formGroups(members, links);
+    } else {
+        std::fill_n(members.group, members.count(), kNoGroup);
+    }
+    return finish(place, members, counts);
+}
+
+NodeState NodeGroups::writeDefaults(std::span<const UnclearCorner> around, WalkCounts& counts) const {
+    for (const UnclearCorner& corner : around) sink_.write(corner.slot, Tangents{});
+    counts.defaults += around.size();
+    return kFirstIsDefault;
+}
+
+NodeState NodeGroups::finishOneGroup(std::size_t place, std::span<const UnclearCorner> around, const Sum& sum,
+                                     WalkCounts& counts) const {
+    if (may_split_ && sum.adding > 1 && splits(place, sum, around, [](std::size_t) { return true; }))
+        return kLeft;
+    const Tangents result = resultOf(sum);
+    if (!isSound(result)) return kLeft;
+    ++counts.groups;
+    if (tangents_only_) {
+        const Vec4 tangent{result.s.x, result.s.y, result.s.z, sink_.sign(result.positive)};
+        for (const UnclearCorner& corner : around) out_.tangents[corner.slot] = tangent;
+    } else {
+        for (const UnclearCorner& corner : around) sink_.write(corner.slot, result);
+    }
+    return kDone;
+}
+
+bool NodeGroups::isSound(const Tangents& result) const {
+    return isFinite(result.s) && (!has_polygons_ || sameResult(result, result)) &&
+           (may_split_ || notZero(result.s));
+}
+
+/// Groups of a node without contested triangles: those without UV area join any.
+void NodeGroups::formGroups(Members& members, const Links& links) {
+    const std::uint32_t count = members.count();
+    std::fill_n(members.group, count, kNoGroup);
+    for (std::uint32_t seed = 0; seed < count; ++seed) {
+        const std::uint32_t flags = members.corners[seed].flags;
+        if ((flags & kAny) != 0 || members.group[seed] != kNoGroup) continue;
+        const auto group = static_cast<std::uint8_t>(members.group_count++);
+        members.group[seed] = group;
+        for (const std::uint8_t* to : {links.left, links.right}) {
+            for (std::uint8_t m = to[seed]; m != Links::kNoLink && members.group[m] == kNoGroup; m = to[m]) {
+                const std::uint32_t other = members.corners[m].flags;
+                if ((other & kAny) == 0 && ((other ^ flags) & kPositive) != 0) break;
+                members.group[m] = group;
+            }
+        }
+    }
+}
+
+NodeState NodeGroups::finish(std::size_t place, const Members& members, WalkCounts& counts) const {
+    return members.group_count <= 2   ? finishGroups<2>(place, members, counts)
+           : members.group_count <= 8 ? finishGroups<8>(place, members, counts)
+                                      : finishGroups<kSmallNode>(place, members, counts);
+}
+
+template <std::size_t kMost>
+NodeState NodeGroups::finishGroups(std::size_t place, const Members& members, WalkCounts& counts) const {
+    if (has_polygons_ && repeatsApart(members.corners)) return kLeft;
+    if (isEntangled(place, members)) return kLeft;
+    Sum sums[kMost];
+    Tangents results[kMost];
+    for (std::uint32_t i = 0; i < members.count(); ++i) {
+        const UnclearCorner& corner = members.corners[i];
+        if (members.group[i] == kNoGroup || (corner.flags & kAny) != 0) continue;
+        Sum& sum = sums[members.group[i]];
+        sum.positive = (corner.flags & kPositive) != 0;
+        sum.add(corner);
+    }
+    for (std::uint32_t g = 0; g < members.group_count; ++g) {
+        const auto isMember = [&](std::size_t i) { return members.group[i] == g; };
+        if (may_split_ && sums[g].adding > 1 && splits(place, sums[g], members.corners, isMember))
+            return kLeft;
+        results[g] = resultOf(sums[g]);
+        if (!isSound(results[g])) return kLeft;
+    }
+    counts.groups += members.group_count;
+    return write(members, results, counts);
+}
+
+/// The angular test. Nearly all groups keep together: their sum shows it, or all members keep to one side of
+/// the planes across their sums, or no two come near opposite directions. Of others all pairs are compared as
+/// the reference does.
+template <class IsMember>
+bool NodeGroups::splits(std::size_t place, const Sum& sum, std::span<const UnclearCorner> around,
+                        const IsMember& isMember) const {
+    const Vec3& normal = normalOf(place);
+    const bool few = sum.adding <= kFewMembers;
+    float sum_s[4];
+    storeFloat4(sum_s, sum.s);
+    if (!few && sumCannotSplit(sum_s, sum.marks, normal)) return false;
+    const UnclearCorner* adding[kSmallNode];
+    std::uint32_t count = 0;
+    bool weighty = true;
+    for (std::size_t i = 0; i < around.size(); ++i) {
+        if (!isMember(i) || (around[i].flags & kAny) != 0) continue;
+        adding[count++] = &around[i];
+        weighty &= around[i].s[3] > kLeastWeight;
+    }
+    if (weighty) {
+        if (!few) {
+            const Vec3 s = vectorOf(sum.s), t = vectorOf(sum.t);
+            const float limit_s = kOffPlane * length(s), limit_t = kOffPlane * length(t);
+            bool one_side = true;
+            for (std::uint32_t i = 0; i < count && one_side; ++i) {
+                const float weight = adding[i]->s[3];
+                one_side = dot(s, vectorOf(adding[i]->s)) > weight * limit_s &&
+                           dot(t, vectorOf(adding[i]->t)) > weight * limit_t;
+            }
+            if (one_side) return false;
+        }
+        bool far = true;
+        for (std::uint32_t i = 1; i < count && far; ++i) {
+            for (std::uint32_t j = 0; j < i; ++j) far &= farFromOpposed(*adding[i], *adding[j]);
+        }
+        if (far) return false;
+    }
+    return anyOpposed({adding, count}, normal);
+}
+
+bool NodeGroups::anyOpposed(std::span<const UnclearCorner* const> adding, const Vec3& normal) const {
+    struct Direction {
+        Vec3 s, t;
+        std::uint32_t face;
+    };
+    Direction directions[kSmallNode];
+    std::uint32_t count = 0;
+    for (const UnclearCorner* corner : adding) {
+        const TriangleFrame frame = frameOf(corner->triangle);
+        const Direction here{flatten(normal, frame.s), flatten(normal, frame.t), faceOf(*corner)};
+        for (std::uint32_t j = 0; j < count; ++j) {
+            const Direction& other = directions[j];
+            if (other.face != here.face && !(dot(here.s, other.s) > -1.0f && dot(here.t, other.t) > -1.0f))
+                return true;
+        }
+        directions[count++] = here;
+    }
+    return false;
+}
+
+TriangleFrame NodeGroups::frameOf(std::uint32_t triangle) const {
+    Vec3 p[3];
+    Vec2 uv[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t vertex = nodes_.vertex(corners_.nodes[3 * std::size_t{triangle} + k]);
+        p[k] = mesh_.positions[vertex];
+        uv[k] = mesh_.uvs[vertex];
+    }
+    return triangleShape(p[0], p[1], p[2], uv[0], uv[1], uv[2]).frame;
+}
+
+Tangents NodeGroups::resultOf(const Sum& sum) const {
+    Tangents r;
+    r.positive = sum.positive;
+    r.s = unit(vectorOf(sum.s));
+    if (!full_) return r;
+    r.t = unit(vectorOf(sum.t));
+    r.mag_s = sum.t[3];
+    r.mag_t = sum.length_t;
+    if (sum.s[3] > 0) {
+        r.mag_s /= sum.s[3];
+        r.mag_t /= sum.s[3];
+    }
+    return r;
+}
+
+/// Whether corners of triangles that are one corner of the mesh have others between them. So it is only
+/// in a polygon with two corners at one node.
+bool NodeGroups::repeatsApart(std::span<const UnclearCorner> around) const {
+    for (std::size_t i = 0; i + 2 < around.size(); ++i) {
+        const std::uint32_t slot = around[i].slot, face = faceOf(around[i]);
+        bool apart = false;
+        for (std::size_t j = i + 1; j < around.size() && faceOf(around[j]) == face; ++j) {
+            const bool repeats = around[j].slot == slot;
+            if (repeats && apart) return true;
+            apart |= !repeats;
+        }
+    }
+    return false;
+}
+
+/// Whether a copy of one of the node's corners depends on more than its first corner.
+bool NodeGroups::isEntangled(std::size_t place, const Members& members) const {
+    if (corners_.entangled.empty() || corners_.entangled[place] == 0) return false;
+    if (corners_.entangled[place] == UnclearCorners::kOtherNode) return true;
+    const std::uint8_t* end = members.group + members.count();
+    return members.group_count != 0 && std::find(members.group, end, kNoGroup) != end;
+}
+
+NodeState NodeGroups::write(const Members& members, const Tangents* results, WalkCounts& counts) const {
+    NodeState state = kDone;
+    for (std::uint32_t i = 0; i < members.count();) {
+        const std::uint32_t slot = members.corners[i].slot;
+        std::uint32_t end = i + 1;
+        while (has_polygons_ && end < members.count() && members.corners[end].slot == slot) ++end;
+        if (!writeSlot(slot, members.group + i, members.group + end, results)) {
+            sink_.write(slot, Tangents{});
+            ++counts.defaults;
+            if (i == 0) state = kFirstIsDefault;
+        }
+        i = end;
+    }
+    return state;
+}
+
+/// The corners of a polygon's triangles that are one corner of the mesh are neighbours in the list. Their
+/// groups' results are merged in the order of groups. Returns false when there is none.
+bool NodeGroups::writeSlot(std::uint32_t slot, const std::uint8_t* first, const std::uint8_t* end,
+                           const Tangents* results) const {
+    std::uint8_t lowest = kNoGroup, highest = 0;
+    for (const std::uint8_t* g = first; g != end; ++g) {
+        if (*g == kNoGroup) continue;
+        lowest = std::min(lowest, *g);
+        highest = std::max(highest, *g);
+    }
+    if (lowest == kNoGroup) return false;
+    if (lowest == highest) {  // merging it with itself changes nothing: it is sound
+        sink_.write(slot, results[lowest]);
+        return true;
+    }
+    Tangents merged = results[lowest];
+    for (std::uint32_t next = lowest + 1u; next <= highest; ++next) {
+        for (const std::uint8_t* g = first; g != end; ++g) {
+            if (*g == next) merge(merged, results[next]);
+        }
+    }
+    sink_.write(slot, merged);
+    return true;
+}
+
+}  // namespace tspace::mikk

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// The corners around one node: which of them are a group, what groups add up to, and their results.
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "core/float4.h"
+#include "tangents/mikktspace/pairing.h"
+#include "tangents/mikktspace/results.h"
+#include "tangents/mikktspace/unclear_corners.h"
+
+namespace tspace::mikk {
+
+inline constexpr std::uint8_t kNoGroup = 0xff;
+
+/// What became of a node.
+enum NodeState : std::uint8_t { kDone, kLeft, kFirstIsDefault };
+
+/// The corners around one node, at most kSmallNode, and their groups.
+struct Members {
+    std::span<const UnclearCorner> corners;
+    std::uint32_t group_count = 0;
+    std::uint8_t group[kSmallNode];
+
+    explicit Members(std::span<const UnclearCorner> around) : corners(around) {}
+    [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(corners.size()); }
+};
+
+/// Who lies across the edges of each member: its place among them, or kNoLink.
+struct Links {
+    static constexpr std::uint8_t kNoLink = kSmallNode;
+    std::uint8_t left[kSmallNode + 1],
+        right[kSmallNode + 1];  // the last ones take what is written for kNoLink
+    bool one_path;              ///< that goes through all members
+
+    explicit Links(std::span<const UnclearCorner> around);
+
+  private:
+    bool linkUnambiguous(std::span<const UnclearCorner> around);
+    void linkAny(std::span<const UnclearCorner> around);
+    [[nodiscard]] bool isOnePath(std::size_t count) const;
+};
+
+struct WalkCounts {
+    std::uint64_t groups = 0, defaults = 0;
+};
+
+class NodeGroups {
+  public:
+    NodeGroups(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
+               const Nodes& nodes, std::span<const std::uint32_t> chosen, const TangentOutput& out,
+               const UnclearCorners& corners);
+
+    /// Whether bitangents and lengths decide on anything.
+    [[nodiscard]] bool isFull() const { return full_; }
+    [[nodiscard]] bool maySplit() const { return may_split_; }
+    [[nodiscard]] const Sink& sink() const { return sink_; }
+
+    /// Groups and writes a node without contested triangles. kLeft: nothing is written.
+    NodeState walk(std::size_t place, WalkCounts& counts) const;
+    /// Sums, results and corners of a node whose groups are known. The same.
+    NodeState finish(std::size_t place, const Members& members, WalkCounts& counts) const;
+
+  private:
+    /// What a group's members add up to. Triangles without UV area add nothing (UnclearCorner).
+    struct alignas(16) Sum {
+        Float4 s{}, t{};  // rows of corner_terms.h
+        float length_t = 0;
+        std::uint32_t marks = kAllMarks, adding = 0;  // how many members add to it
+        bool positive = false;
+
+        void add(const UnclearCorner& corner) {
+            marks &= corner.marks;
+            adding += (corner.flags & kAny) != 0 ? 0 : 1;
+            s += loadFloat4(corner.s);
+            t += loadFloat4(corner.t);
+            length_t += corner.length_t;
+        }
+    };
+
+    NodeState finishOneGroup(std::size_t place, std::span<const UnclearCorner> around, const Sum& sum,
+                             WalkCounts& counts) const;
+    NodeState writeDefaults(std::span<const UnclearCorner> around, WalkCounts& counts) const;
+    static void formGroups(Members& members, const Links& links);
+    template <std::size_t kMost>
+    NodeState finishGroups(std::size_t place, const Members& members, WalkCounts& counts) const;
+
+    template <class IsMember>
+    [[nodiscard]] bool splits(std::size_t place, const Sum& sum, std::span<const UnclearCorner> around,
+                              const IsMember& isMember) const;
+    [[nodiscard]] bool anyOpposed(std::span<const UnclearCorner* const> adding, const Vec3& normal) const;
+    [[nodiscard]] TriangleFrame frameOf(std::uint32_t triangle) const;
+
+    [[nodiscard]] Tangents resultOf(const Sum& sum) const;
+    [[nodiscard]] bool isSound(const Tangents& result) const;
+    [[nodiscard]] bool repeatsApart(std::span<const UnclearCorner> around) const;
+    [[nodiscard]] bool isEntangled(std::size_t place, const Members& members) const;
+    NodeState write(const Members& members, const Tangents* results, WalkCounts& counts) const;
+    bool writeSlot(std::uint32_t slot, const std::uint8_t* first, const std::uint8_t* end,
+                   const Tangents* results) const;
+    [[nodiscard]] std::uint32_t faceOf(const UnclearCorner& corner) const {
+        return triangles_.face(corners_.triangleOf(corner.triangle));
+    }
+    [[nodiscard]] const Vec3& normalOf(std::size_t place) const {
+        return mesh_.normals[nodes_.vertex(chosen_[place])];
+    }
+
+    const MeshView& mesh_;
+    const TriangleList& triangles_;
+    const Nodes& nodes_;
+    std::span<const std::uint32_t> chosen_;
+    TangentOutput out_;
+    Sink sink_;
+    const UnclearCorners& corners_;
+    bool may_split_;      // the angular test applies
+    bool has_polygons_;   // several triangles may have one corner of the mesh
+    bool tangents_only_;  // nothing else is written
+    bool full_;           // results with bitangents and lengths
+};
+
+}  // namespace tspace::mikk
