@@ -97,6 +97,11 @@ auto withListedVertices(const MeshView& mesh, const TriangleList& triangles, con
     if (mesh.indices.type == IndexType::none && triangles.corners.empty()) {
         return body([](std::size_t i) { return static_cast<std::uint32_t>(i); });
     }
+    if (mesh.indices.type == IndexType::u32) {
+        const auto* indices = static_cast<const std::uint32_t*>(mesh.indices.data);
+        const std::uint32_t* corners = triangles.corners.data();
+        return body([indices, corners](std::size_t i) { return indices[corners[i]]; });
+    }
     return body([&mesh, &triangles](std::size_t i) { return mesh.indices[triangles.corner(i)]; });
 }
 

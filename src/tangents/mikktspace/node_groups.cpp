@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 
 #include "tangents/mikktspace/corner_source.h"
 #include "tangents/mikktspace/triangle_pass.h"
@@ -16,17 +17,18 @@ namespace {
 /// Sine of the angle that vectors must keep from a plane: far more than rounding errors.
 constexpr float kOffPlane = 0.02f;
 constexpr float kLeastWeight = 1e-4f;  // below, a corner says too little about its direction
-/// Cosine of the angle that tangents of a pair must stay below: about 172 degrees.
-constexpr float kNotOpposed = -0.99f;
+/// Cosine of an angle of about 177 degrees. Rounding errors of the products are far below what is missing to 180.
+constexpr float kNotOpposed = -0.999f;
 constexpr std::uint32_t kFewMembers = 3;  // all pairs of so few are compared at once
 
 Vec3 vectorOf(const float* row) { return {row[0], row[1], row[2]}; }
 Vec3 vectorOf(Float4 row) { return {row[0], row[1], row[2]}; }
 
-/// Whether neither the tangents nor the bitangents of two corners come near opposite directions.
+/// Whether it is plain that neither the tangents nor the bitangents of two corners have opposite directions.
 bool farFromOpposed(const UnclearCorner& a, const UnclearCorner& b) {
-    const float limit = kNotOpposed * a.s[3] * b.s[3];
-    return dot(vectorOf(a.s), vectorOf(b.s)) > limit && dot(vectorOf(a.t), vectorOf(b.t)) > limit;
+    const float weight = a.s[3], other = b.s[3], limit = kNotOpposed * weight * other;
+    return (int{weight > kLeastWeight} & int{other > kLeastWeight} & int{dot(vectorOf(a.s), vectorOf(b.s)) > limit} &
+            int{dot(vectorOf(a.t), vectorOf(b.t)) > limit}) != 0;
 }
 
 }  // namespace
@@ -147,16 +149,26 @@ NodeState NodeGroups::finishOneGroup(std::size_t place, std::span<const UnclearC
                                      WalkCounts& counts) const {
     if (may_split_ && sum.adding > 1 && splits(place, sum, around, [](std::size_t) { return true; }))
         return kLeft;
-    const Tangents result = resultOf(sum);
-    if (!isSound(result)) return kLeft;
-    ++counts.groups;
-    if (tangents_only_) {
-        const Vec4 tangent{result.s.x, result.s.y, result.s.z, sink_.sign(result.positive)};
-        for (const UnclearCorner& corner : around) out_.tangents[corner.slot] = tangent;
-    } else {
+    if (!tangents_only_) {
+        const Tangents result = resultOf(sum);
+        if (!isSound(result)) return kLeft;
         for (const UnclearCorner& corner : around) sink_.write(corner.slot, result);
+    } else {
+        const Vec3 s = unit(vectorOf(sum.s));
+        if (has_polygons_ && !restIsSound(sum) ? !isSound(resultOf(sum)) : !isFinite(s) || !(may_split_ || notZero(s)))
+            return kLeft;
+        const Vec4 tangent{s.x, s.y, s.z, sink_.sign(sum.positive)};
+        for (const UnclearCorner& corner : around) out_.tangents[corner.slot] = tangent;
     }
+    ++counts.groups;
     return kDone;
+}
+
+/// Whether it is plain that a result's bitangent and lengths are no NaN: all members have finite lengths and weights.
+bool NodeGroups::restIsSound(const Sum& sum) {
+    const Vec3 t = vectorOf(sum.t);
+    const float square = dot(t, t);
+    return (sum.marks & (kFacesUp | kFacesDown)) != 0 && square > 0 && square < std::numeric_limits<float>::infinity();
 }
 
 bool NodeGroups::isSound(const Tangents& result) const {
@@ -226,31 +238,33 @@ bool NodeGroups::splits(std::size_t place, const Sum& sum, std::span<const Uncle
     if (!few && sumCannotSplit(sum_s, sum.marks, normal)) return false;
     const UnclearCorner* adding[kSmallNode];
     std::uint32_t count = 0;
-    bool weighty = true;
     for (std::size_t i = 0; i < around.size(); ++i) {
-        if (!isMember(i) || (around[i].flags & kAny) != 0) continue;
-        adding[count++] = &around[i];
-        weighty &= around[i].s[3] > kLeastWeight;
+        if (isMember(i) && (around[i].flags & kAny) == 0) adding[count++] = &around[i];
     }
-    if (weighty) {
-        if (!few) {
-            const Vec3 s = vectorOf(sum.s), t = vectorOf(sum.t);
-            const float limit_s = kOffPlane * length(s), limit_t = kOffPlane * length(t);
-            bool one_side = true;
-            for (std::uint32_t i = 0; i < count && one_side; ++i) {
-                const float weight = adding[i]->s[3];
-                one_side = dot(s, vectorOf(adding[i]->s)) > weight * limit_s &&
-                           dot(t, vectorOf(adding[i]->t)) > weight * limit_t;
-            }
-            if (one_side) return false;
+    if (!few && onOneSide({adding, count}, sum)) return false;
+    std::uint32_t doubts = 0;
+    for (std::uint32_t i = 1; i < count; ++i) {
+        for (std::uint32_t j = 0; j < i; ++j) {
+            if (farFromOpposed(*adding[i], *adding[j])) continue;
+            if (++doubts > count) return anyOpposed({adding, count}, normal);  // frames of all, once each
+            const UnclearCorner* const pair[2] = {adding[j], adding[i]};
+            if (anyOpposed(pair, normal)) return true;
         }
-        bool far = true;
-        for (std::uint32_t i = 1; i < count && far; ++i) {
-            for (std::uint32_t j = 0; j < i; ++j) far &= farFromOpposed(*adding[i], *adding[j]);
-        }
-        if (far) return false;
     }
-    return anyOpposed({adding, count}, normal);
+    return false;
+}
+
+/// Whether all keep to one side of the planes across their sums.
+bool NodeGroups::onOneSide(std::span<const UnclearCorner* const> adding, const Sum& sum) {
+    const Vec3 s = vectorOf(sum.s), t = vectorOf(sum.t);
+    const float limit_s = kOffPlane * length(s), limit_t = kOffPlane * length(t);
+    for (const UnclearCorner* corner : adding) {
+        const float weight = corner->s[3];
+        if (!(weight > kLeastWeight) || !(dot(s, vectorOf(corner->s)) > weight * limit_s) ||
+            !(dot(t, vectorOf(corner->t)) > weight * limit_t))
+            return false;
+    }
+    return true;
 }
 
 bool NodeGroups::anyOpposed(std::span<const UnclearCorner* const> adding, const Vec3& normal) const {
@@ -301,14 +315,12 @@ Tangents NodeGroups::resultOf(const Sum& sum) const {
 
 /// Whether corners of triangles that are one corner of the mesh have others between them. So it is only
 /// in a polygon with two corners at one node.
-bool NodeGroups::repeatsApart(std::span<const UnclearCorner> around) const {
-    for (std::size_t i = 0; i + 2 < around.size(); ++i) {
-        const std::uint32_t slot = around[i].slot, face = faceOf(around[i]);
-        bool apart = false;
-        for (std::size_t j = i + 1; j < around.size() && faceOf(around[j]) == face; ++j) {
-            const bool repeats = around[j].slot == slot;
-            if (repeats && apart) return true;
-            apart |= !repeats;
+bool NodeGroups::repeatsApart(std::span<const UnclearCorner> around) {
+    for (std::size_t j = 2; j < around.size(); ++j) {
+        const std::uint32_t slot = around[j].slot;
+        if (around[j - 1].slot == slot) continue;
+        for (std::size_t i = 0; i + 1 < j; ++i) {
+            if (around[i].slot == slot) return true;
         }
     }
     return false;
@@ -324,12 +336,20 @@ bool NodeGroups::isEntangled(std::size_t place, const Members& members) const {
 
 NodeState NodeGroups::write(const Members& members, const Tangents* results, WalkCounts& counts) const {
     NodeState state = kDone;
-    for (std::uint32_t i = 0; i < members.count();) {
+    const std::uint32_t count = members.count();
+    for (std::uint32_t i = 0; i < count;) {
         const std::uint32_t slot = members.corners[i].slot;
+        const std::uint8_t group = members.group[i];
         std::uint32_t end = i + 1;
-        while (has_polygons_ && end < members.count() && members.corners[end].slot == slot) ++end;
-        if (!writeSlot(slot, members.group + i, members.group + end, results)) {
-            sink_.write(slot, Tangents{});
+        bool same = true;
+        for (; has_polygons_ && end < count && members.corners[end].slot == slot; ++end)
+            same &= members.group[end] == group;
+        if (!same) {
+            writeMerged(slot, members.group + i, members.group + end, results);
+        } else if (group != kNoGroup) {  // merging it with itself changes nothing: it is sound
+            writeOne(slot, results[group]);
+        } else {
+            writeOne(slot, Tangents{});
             ++counts.defaults;
             if (i == 0) state = kFirstIsDefault;
         }
@@ -338,20 +358,23 @@ NodeState NodeGroups::write(const Members& members, const Tangents* results, Wal
     return state;
 }
 
+void NodeGroups::writeOne(std::uint32_t slot, const Tangents& result) const {
+    if (tangents_only_) {
+        out_.tangents[slot] = {result.s.x, result.s.y, result.s.z, sink_.sign(result.positive)};
+    } else {
+        sink_.write(slot, result);
+    }
+}
+
 /// The corners of a polygon's triangles that are one corner of the mesh are neighbours in the list. Their
-/// groups' results are merged in the order of groups. Returns false when there is none.
-bool NodeGroups::writeSlot(std::uint32_t slot, const std::uint8_t* first, const std::uint8_t* end,
-                           const Tangents* results) const {
+/// groups' results are merged in the order of groups; some of them has one.
+void NodeGroups::writeMerged(std::uint32_t slot, const std::uint8_t* first, const std::uint8_t* end,
+                             const Tangents* results) const {
     std::uint8_t lowest = kNoGroup, highest = 0;
     for (const std::uint8_t* g = first; g != end; ++g) {
         if (*g == kNoGroup) continue;
         lowest = std::min(lowest, *g);
         highest = std::max(highest, *g);
-    }
-    if (lowest == kNoGroup) return false;
-    if (lowest == highest) {  // merging it with itself changes nothing: it is sound
-        sink_.write(slot, results[lowest]);
-        return true;
     }
     Tangents merged = results[lowest];
     for (std::uint32_t next = lowest + 1u; next <= highest; ++next) {
@@ -359,8 +382,7 @@ bool NodeGroups::writeSlot(std::uint32_t slot, const std::uint8_t* first, const 
             if (*g == next) merge(merged, results[next]);
         }
     }
-    sink_.write(slot, merged);
-    return true;
+    writeOne(slot, merged);
 }
 
 }  // namespace tspace::mikk

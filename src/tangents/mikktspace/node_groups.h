@@ -89,16 +89,19 @@ class NodeGroups {
     template <class IsMember>
     [[nodiscard]] bool splits(std::size_t place, const Sum& sum, std::span<const UnclearCorner> around,
                               const IsMember& isMember) const;
+    static bool onOneSide(std::span<const UnclearCorner* const> adding, const Sum& sum);
+    static bool restIsSound(const Sum& sum);
     [[nodiscard]] bool anyOpposed(std::span<const UnclearCorner* const> adding, const Vec3& normal) const;
     [[nodiscard]] TriangleFrame frameOf(std::uint32_t triangle) const;
 
     [[nodiscard]] Tangents resultOf(const Sum& sum) const;
     [[nodiscard]] bool isSound(const Tangents& result) const;
-    [[nodiscard]] bool repeatsApart(std::span<const UnclearCorner> around) const;
+    [[nodiscard]] static bool repeatsApart(std::span<const UnclearCorner> around);
     [[nodiscard]] bool isEntangled(std::size_t place, const Members& members) const;
     NodeState write(const Members& members, const Tangents* results, WalkCounts& counts) const;
-    bool writeSlot(std::uint32_t slot, const std::uint8_t* first, const std::uint8_t* end,
-                   const Tangents* results) const;
+    void writeOne(std::uint32_t slot, const Tangents& result) const;
+    void writeMerged(std::uint32_t slot, const std::uint8_t* first, const std::uint8_t* end,
+                     const Tangents* results) const;
     [[nodiscard]] std::uint32_t faceOf(const UnclearCorner& corner) const {
         return triangles_.face(corners_.triangleOf(corner.triangle));
     }

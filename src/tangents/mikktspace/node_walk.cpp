@@ -147,22 +147,25 @@ class NodeWalk {
             if (all_small) linkContested(place, left + begin, right + begin);
         }
         if (!all_small) return false;
-        for (std::size_t row = 0; row < corners_.at.size(); ++row) {
-            const std::uint32_t flags = corners_.flags[row / 3];
-            if ((flags & kNearContested) == 0) continue;
-            const std::uint32_t at = corners_.at[row];
-            if (at == kNone) continue;
-            const std::uint32_t place = placeOf(at);
-            if (contested_[place] == 0) continue;
+        const auto spreadFrom = [&](std::uint32_t place, std::uint32_t flags) {
             const std::uint32_t begin = corners_.begin[place], seed = progress[place].cursor++;
             std::uint8_t* groups = group.data() + begin;
-            if ((flags & kAny) != 0 || groups[seed] != kNoGroup) continue;
+            if ((flags & kAny) != 0 || groups[seed] != kNoGroup) return;
             groups[seed] = progress[place].group_count++;
             for (const std::uint8_t* link : {left + begin, right + begin}) {
                 for (std::uint8_t m = link[seed]; m != Links::kNoLink && groups[m] == kNoGroup; m = link[m]) {
                     if (!joinsContested(corners_.corners[begin + m].triangle, flags & kPositive)) break;
                     groups[m] = groups[seed];
                 }
+            }
+        };
+        for (std::size_t t = 0; t < corners_.flags.size(); ++t) {
+            if ((corners_.flags[t] & kNearContested) == 0) continue;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t at = corners_.at[3 * t + k];
+                if (at == kNone) continue;
+                const std::uint32_t place = placeOf(at);
+                if (contested_[place] != 0) spreadFrom(place, corners_.flags[t]);
             }
         }
         for (std::size_t place = 0; place < chosen_.size(); ++place) {

@@ -384,12 +384,14 @@ class OnePass {
         }
         const Marks marks = marksOfVertices(std::move(at_nodes), nodes_, allocator_, parallel_);
         std::size_t faces = 0;
-        forEachFace(mesh_, [&](std::size_t, std::size_t first, std::uint32_t size) {
-            std::uint8_t wanted = 0;
-            for (std::uint32_t k = 0; k < size; ++k) wanted |= marks[mesh_.indices[first + k]];
-            if (wanted == 0 || too_much_rest_) return;
-            too_much_rest_ = ++faces > most;
-            if (!too_much_rest_) addFace(first, size);
+        withIndices(mesh_.indices, [&](auto vertexOf) {
+            forEachFace(mesh_, [&](std::size_t, std::size_t first, std::uint32_t size) {
+                std::uint8_t wanted = 0;
+                for (std::uint32_t k = 0; k < size; ++k) wanted |= marks[vertexOf(first + k)];
+                if (wanted == 0 || too_much_rest_) return;
+                too_much_rest_ = ++faces > most;
+                if (!too_much_rest_) addFace(first, size);
+            });
         });
     }
 
