@@ -17,9 +17,9 @@ bool areOne(const Vec3& a, const Vec3& b) {
 }  // namespace
 
 WeldClasses::WeldClasses(const LocalMesh& mesh) {
-    UniqueIndex<std::array<std::uint32_t, 8>> keys(mesh.positions.size());
-    class_of_.reserve(mesh.positions.size());
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    UniqueIndex<std::array<std::uint32_t, 8>> keys(mesh.positions.count);
+    class_of_.reserve(mesh.positions.count);
+    for (std::size_t v = 0; v < mesh.positions.count; ++v) {
         const Vec3 &p = mesh.positions[v], &n = mesh.normals[v];
         const Vec2 uv = mesh.uvs.empty() ? Vec2{} : mesh.uvs[v];
         class_of_.push_back(keys.indexOf({weldBits(p.x), weldBits(p.y), weldBits(p.z), weldBits(n.x), weldBits(n.y),
