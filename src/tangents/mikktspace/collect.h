@@ -72,8 +72,7 @@ Buffer<std::uint32_t> collect(std::size_t count, const Test& test, const MayHold
     Buffer<std::uint32_t> found(allocator, ends[blocks - 1]);
     parallel.forRanges(blocks, kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t block = begin; block < end; ++block) {
-            listBits(passed[block], kCollectBlock * block,
-                     found.data() + (block == 0 ? 0 : ends[block - 1]));
+            listBits(passed[block], kCollectBlock * block, found.data() + (block == 0 ? 0 : ends[block - 1]));
         }
     });
     return found;
@@ -115,7 +114,8 @@ inline Marks noMarks(const Allocator* allocator, std::size_t count) {
 }
 
 /// Vertices with their nodes' marks.
-inline Marks marksOfVertices(Marks at_nodes, const Nodes& nodes, const Allocator* allocator, Parallel& parallel) {
+inline Marks marksOfVertices(Marks at_nodes, const Nodes& nodes, const Allocator* allocator,
+                             Parallel& parallel) {
     constexpr std::size_t kGrain = 65536;
     if (nodes.of_vertex.empty()) return at_nodes;
     Marks marks(allocator, nodes.of_vertex.size());

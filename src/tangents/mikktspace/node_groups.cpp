@@ -17,7 +17,8 @@ namespace {
 /// Sine of the angle that vectors must keep from a plane: far more than rounding errors.
 constexpr float kOffPlane = 0.02f;
 constexpr float kLeastWeight = 1e-4f;  // below, a corner says too little about its direction
-/// Cosine of an angle of about 177 degrees. Rounding errors of the products are far below what is missing to 180.
+/// Cosine of an angle of about 177 degrees. Rounding errors of the products are far below what is missing to
+/// 180.
 constexpr float kNotOpposed = -0.999f;
 constexpr std::uint32_t kFewMembers = 3;  // all pairs of so few are compared at once
 
@@ -27,7 +28,8 @@ Vec3 vectorOf(Float4 row) { return {row[0], row[1], row[2]}; }
 /// Whether it is plain that neither the tangents nor the bitangents of two corners have opposite directions.
 bool farFromOpposed(const UnclearCorner& a, const UnclearCorner& b) {
     const float weight = a.s[3], other = b.s[3], limit = kNotOpposed * weight * other;
-    return (int{weight > kLeastWeight} & int{other > kLeastWeight} & int{dot(vectorOf(a.s), vectorOf(b.s)) > limit} &
+    return (int{weight > kLeastWeight} & int{other > kLeastWeight} &
+            int{dot(vectorOf(a.s), vectorOf(b.s)) > limit} &
             int{dot(vectorOf(a.t), vectorOf(b.t)) > limit}) != 0;
 }
 
@@ -117,31 +119,28 @@ NodeState NodeGroups::walk(std::size_t place, WalkCounts& counts) const {
     if (around.size() > kSmallNode || copies_elsewhere) return kLeft;
     if (around.empty()) return kDone;
     Sum sum;
-    std::uint32_t some = 0, all = kPositive;
-    for (const UnclearCorner& corner : around) {
-        const std::uint32_t no_matter = (corner.flags & kAny) != 0 ? std::uint32_t{kPositive} : 0;
-        some |= corner.flags & ~no_matter;
-        all &= corner.flags | no_matter;
-        sum.add(corner);
-    }
-    if (sum.adding == 0 && !has_polygons_) return writeDefaults(around, counts);
+    for (const UnclearCorner& corner : around) sum.add(corner);
+    if (sum.adding == 0 && !(has_polygons_ && repeatsApart(around))) return writeDefaults(around, counts);
+    const std::uint32_t facing = sum.common & (kIsUp | kIsDown);
+    sum.positive = (facing & kIsUp) != 0;
+    if (around.size() == 1) return finishOneGroup(place, around, sum, counts);
+    // The usual case: one fan of one orientation, and nothing else to see to.
+    const Links links(around);
+    if (links.one_path && facing != 0 && sum.adding != 0) return finishOneGroup(place, around, sum, counts);
     Members members(around);
-    if (sum.adding != 0) {
-        const Links links(around);
-        sum.positive = (all & kPositive) != 0;
-        // The usual case: one fan of one orientation, and nothing else to see to.
-        if (links.one_path && ((some ^ all) & kPositive) == 0)
-            return finishOneGroup(place, around, sum, counts);
-        formGroups(members, links);
-    } else {
-        std::fill_n(members.group, members.count(), kNoGroup);
-    }
+    formGroups(members, links);
     return finish(place, members, counts);
 }
 
+/// Of a node without groups. Corners of a polygon's triangles that are one corner of the mesh are neighbours.
 NodeState NodeGroups::writeDefaults(std::span<const UnclearCorner> around, WalkCounts& counts) const {
-    for (const UnclearCorner& corner : around) sink_.write(corner.slot, Tangents{});
-    counts.defaults += around.size();
+    std::uint32_t before = kNone;
+    for (const UnclearCorner& corner : around) {
+        if (corner.slot == before) continue;
+        before = corner.slot;
+        writeOne(before, Tangents{});
+        ++counts.defaults;
+    }
     return kFirstIsDefault;
 }
 
@@ -155,7 +154,8 @@ NodeState NodeGroups::finishOneGroup(std::size_t place, std::span<const UnclearC
         for (const UnclearCorner& corner : around) sink_.write(corner.slot, result);
     } else {
         const Vec3 s = unit(vectorOf(sum.s));
-        if (has_polygons_ && !restIsSound(sum) ? !isSound(resultOf(sum)) : !isFinite(s) || !(may_split_ || notZero(s)))
+        if (has_polygons_ && !restIsSound(sum) ? !isSound(resultOf(sum))
+                                               : !isFinite(s) || !(may_split_ || notZero(s)))
             return kLeft;
         const Vec4 tangent{s.x, s.y, s.z, sink_.sign(sum.positive)};
         for (const UnclearCorner& corner : around) out_.tangents[corner.slot] = tangent;
@@ -164,11 +164,13 @@ NodeState NodeGroups::finishOneGroup(std::size_t place, std::span<const UnclearC
     return kDone;
 }
 
-/// Whether it is plain that a result's bitangent and lengths are no NaN: all members have finite lengths and weights.
+/// Whether it is plain that a result's bitangent and lengths are no NaN: all members have finite lengths and
+/// weights.
 bool NodeGroups::restIsSound(const Sum& sum) {
     const Vec3 t = vectorOf(sum.t);
     const float square = dot(t, t);
-    return (sum.marks & (kFacesUp | kFacesDown)) != 0 && square > 0 && square < std::numeric_limits<float>::infinity();
+    return (sum.common & (kFacesUp | kFacesDown)) != 0 && square > 0 &&
+           square < std::numeric_limits<float>::infinity();
 }
 
 bool NodeGroups::isSound(const Tangents& result) const {
@@ -235,7 +237,7 @@ bool NodeGroups::splits(std::size_t place, const Sum& sum, std::span<const Uncle
     const bool few = sum.adding <= kFewMembers;
     float sum_s[4];
     storeFloat4(sum_s, sum.s);
-    if (!few && sumCannotSplit(sum_s, sum.marks, normal)) return false;
+    if (!few && sumCannotSplit(sum_s, sum.common, normal)) return false;
     const UnclearCorner* adding[kSmallNode];
     std::uint32_t count = 0;
     for (std::size_t i = 0; i < around.size(); ++i) {

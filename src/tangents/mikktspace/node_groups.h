@@ -67,11 +67,12 @@ class NodeGroups {
     struct alignas(16) Sum {
         Float4 s{}, t{};  // rows of corner_terms.h
         float length_t = 0;
-        std::uint32_t marks = kAllMarks, adding = 0;  // how many members add to it
+        std::uint32_t common = ~0u,
+                      adding = 0;  // what the members have in common; how many of them add to it
         bool positive = false;
 
         void add(const UnclearCorner& corner) {
-            marks &= corner.marks;
+            common &= corner.common;
             adding += (corner.flags & kAny) != 0 ? 0 : 1;
             s += loadFloat4(corner.s);
             t += loadFloat4(corner.t);

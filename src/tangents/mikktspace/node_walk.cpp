@@ -116,7 +116,7 @@ class NodeWalk {
         return result;
     }
     /// 1: up, 2: down; 0: neither.
-    static std::uint8_t facingOf(std::uint8_t flags) {
+    static std::uint8_t facingOf(std::uint32_t flags) {
         const auto facing = static_cast<std::uint8_t>((flags & kPositive) != 0 ? 1 : 2);
         return (flags & (kAny | kDegenerate)) != 0 ? std::uint8_t{0} : facing;
     }

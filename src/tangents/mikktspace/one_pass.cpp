@@ -9,7 +9,6 @@
 #include <cstring>
 #include <utility>
 
-#include "core/face_walk.h"
 #include "core/streamed_rows.h"
 #include "core/typed_indices.h"
 #include "tangents/estimators/group_estimates.h"
@@ -374,25 +373,35 @@ class OnePass {
             at_nodes[node] = 1;
             numberNode(node);
         });
-        if (triangles_.corners.empty()) {
-            const Buffer<std::uint32_t> found =
-                collectAround(mesh_, triangles_, nodes_, std::move(at_nodes), allocator_, parallel_);
+        const Buffer<std::uint32_t> found =
+            collectAround(mesh_, triangles_, nodes_, std::move(at_nodes), allocator_, parallel_);
+        if (triangles_.faces.empty()) {
             too_much_rest_ = found.size() > most;
             if (too_much_rest_) return;
             for (const std::uint32_t t : found) addFace(3 * std::size_t{t}, 3);
             return;
         }
-        const Marks marks = marksOfVertices(std::move(at_nodes), nodes_, allocator_, parallel_);
         std::size_t faces = 0;
-        withIndices(mesh_.indices, [&](auto vertexOf) {
-            forEachFace(mesh_, [&](std::size_t, std::size_t first, std::uint32_t size) {
-                std::uint8_t wanted = 0;
-                for (std::uint32_t k = 0; k < size; ++k) wanted |= marks[vertexOf(first + k)];
-                if (wanted == 0 || too_much_rest_) return;
-                too_much_rest_ = ++faces > most;
-                if (!too_much_rest_) addFace(first, size);
-            });
-        });
+        std::uint32_t before = kNone;
+        for (const std::uint32_t t : found) {
+            const std::uint32_t face = triangles_.faces[t];
+            if (face == std::exchange(before, face)) continue;
+            too_much_rest_ = ++faces > most;
+            if (too_much_rest_) return;
+            addFace(firstCornerOf(t), mesh_.face_sizes.empty() ? mesh_.face_size : mesh_.face_sizes[face]);
+        }
+    }
+
+    /// Of a triangle's face: it is in one of the face's triangles.
+    [[nodiscard]] std::size_t firstCornerOf(std::uint32_t triangle) const {
+        const std::uint32_t face = triangles_.faces[triangle];
+        std::size_t t = triangle;
+        while (t > 0 && triangles_.faces[t - 1] == face) --t;
+        std::uint32_t first = kNone;
+        for (; t < triangles_.count && triangles_.faces[t] == face; ++t) {
+            for (std::size_t k = 0; k < 3; ++k) first = std::min(first, triangles_.corner(3 * t + k));
+        }
+        return first;
     }
 
     void addFace(std::size_t first, std::uint32_t size) {

@@ -140,26 +140,33 @@ class CornerReader {
     }
 
     void keepTerms(const CornerTerms& terms, std::size_t begin, std::size_t count) {
+        const std::uint32_t *nodes = to_.nodes.data() + 3 * begin, *at = to_.at.data() + 3 * begin;
+        const std::uint32_t* found = to_.found.empty() ? nullptr : to_.found.data() + begin;
+        const std::uint32_t* places = places_.empty() ? nullptr : places_.data();
+        const std::uint32_t* slots = triangles_.corners.empty() ? nullptr : triangles_.corners.data();
+        UnclearCorner* corners = to_.corners.data();
+        std::uint8_t* all_flags = to_.flags.data() + begin;
         for (std::size_t t = 0; t < count; ++t) {
-            const std::size_t row = 3 * t, first = 3 * (begin + t);
-            const std::uint32_t *n = to_.nodes.data() + first, *at = to_.at.data() + first;
-            const std::uint32_t triangle = to_.triangleOf(begin + t);
+            const std::uint32_t *n = nodes + 3 * t, *to = at + 3 * t;
+            const auto number = static_cast<std::uint32_t>(begin + t);
+            const std::uint32_t first = 3 * (found == nullptr ? number : found[t]);
             const std::uint8_t flags =
-                flagsOf(terms.marks[0][t] | terms.marks[1][t] | terms.marks[2][t], begin + t);
-            to_.flags[begin + t] = flags;
+                flagsOf(terms.marks[0][t] | terms.marks[1][t] | terms.marks[2][t], number);
+            all_flags[t] = flags;
             const bool flat = (flags & kAny) != 0;
-            const auto keep = [&](std::size_t k, std::uint32_t next, std::uint32_t previous) {
-                if (at[k] == kNone) return;
-                UnclearCorner& corner = to_.corners[at[k]];
-                storeFloat4(corner.s, loadFloat4(flat ? kNothing : terms.s[row + k]));
-                storeFloat4(corner.t, loadFloat4(flat ? kNothing : terms.t[row + k]));
+            const std::uint32_t facing = facingBit(flags);
+            const auto keep = [&](std::uint32_t k, std::uint32_t next, std::uint32_t previous) {
+                if (to[k] == kNone) return;
+                UnclearCorner& corner = corners[to[k]];
+                storeFloat4(corner.s, loadFloat4(flat ? kNothing : terms.s[3 * t + k]));
+                storeFloat4(corner.t, loadFloat4(flat ? kNothing : terms.t[3 * t + k]));
                 corner.length_t = flat ? kNothing[0] : terms.lengths_t[k][t];
                 corner.next = next;
                 corner.previous = previous;
-                corner.triangle = static_cast<std::uint32_t>(begin + t);
-                corner.slot = triangles_.corner(3 * std::size_t{triangle} + k);
-                corner.place = places_.empty() ? n[k] : places_[at[k]];
-                corner.marks = static_cast<std::uint16_t>(flat ? kAllMarks : terms.marks[k][t]);
+                corner.triangle = number;
+                corner.slot = slots == nullptr ? first + k : slots[first + k];
+                corner.place = places == nullptr ? n[k] : places[to[k]];
+                corner.common = flat ? ~0u : terms.marks[k][t] | facing;
                 corner.flags = flags;
             };
             keep(0, n[1], n[2]);
@@ -167,6 +174,8 @@ class CornerReader {
             keep(2, n[0], n[1]);
         }
     }
+
+    static std::uint32_t facingBit(std::uint8_t flags) { return (flags & kPositive) != 0 ? kIsUp : kIsDown; }
 
     /// `marks`: what some corner of the triangle has. A triangle with a NaN has none of both orientations.
     [[nodiscard]] std::uint8_t flagsOf(std::uint32_t marks, std::size_t t) const {
@@ -188,12 +197,15 @@ class CornerReader {
     /// One orientation for each face. All triangles of a face that does not simply agree have been found; of
     /// another face, a part may be here.
     void uniteFaces() {
-        for (std::size_t first = 0; first < count_;) {
-            const std::uint32_t face = faceOf(first);
-            std::size_t end = first + 1;
-            while (end < count_ && faceOf(end) == face) ++end;
-            if (end - first > 1 && isWhole(first, end)) uniteFace(first, end);
-            first = end;
+        for (std::size_t t = 1; t < count_;) {
+            if (to_.flags[t] == to_.flags[t - 1] || faceOf(t) != faceOf(t - 1)) {
+                ++t;
+                continue;
+            }
+            std::size_t first = t - 1;
+            while (first > 0 && faceOf(first - 1) == faceOf(t)) --first;
+            while (t < count_ && faceOf(t) == faceOf(first)) ++t;
+            if (isWhole(first, t)) uniteFace(first, t);
         }
     }
 
@@ -227,8 +239,12 @@ class CornerReader {
             const auto flags = static_cast<std::uint8_t>((to_.flags[t] & ~unsigned{kPositive}) | orientation);
             to_.flags[t] = flags;
             for (std::size_t k = 0; k < 3; ++k) {
-                if (to_.at[3 * std::size_t{t} + k] != kNone)
-                    to_.corners[to_.at[3 * std::size_t{t} + k]].flags = flags;
+                const std::uint32_t at = to_.at[3 * std::size_t{t} + k];
+                if (at == kNone) continue;
+                UnclearCorner& corner = to_.corners[at];
+                corner.flags = flags;
+                if ((flags & kAny) == 0)
+                    corner.common = (corner.common & ~(kIsUp | kIsDown)) | facingBit(flags);
             }
         }
     }

@@ -14,8 +14,11 @@ namespace tspace::mikk {
 /// More flags of a triangle, beside TriangleFlag.
 inline constexpr std::uint8_t kContested = 0x40, kDegenerate = 0x80;
 
+/// In UnclearCorner::common, beside marks: the orientation of the triangle.
+inline constexpr std::uint32_t kIsUp = 0x10000, kIsDown = 0x20000;
+
 /// A corner at a chosen node. All of it is in one cache line, and those of a node lie side by side. What one
-/// of a triangle without UV area adds, and the marks that it takes away, are nothing.
+/// of a triangle without UV area adds is nothing.
 struct alignas(64) UnclearCorner {
     float s[4], t[4];  ///< rows of corner_terms.h
     float length_t;
@@ -23,8 +26,8 @@ struct alignas(64) UnclearCorner {
     std::uint32_t triangle;        ///< as a number in `found`
     std::uint32_t slot;            ///< corner of the mesh
     std::uint32_t place;           ///< number of the node in `chosen`
-    std::uint16_t marks;
-    std::uint8_t flags;  ///< of the triangle, as it was read
+    std::uint32_t common;          ///< marks, and kIsUp or kIsDown; all bits for a triangle without UV area
+    std::uint32_t flags;           ///< of the triangle, as it was read
 };
 
 struct UnclearCorners {
