@@ -5,14 +5,12 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
-#if defined(TSPACE_SIMD_X86)
-#include <emmintrin.h>
-#endif
-
+#include "core/float4.h"
 #include "core/vec_math.h"
 #include "tangents/mikktspace/grouped_plan.h"
 
@@ -110,24 +108,19 @@ class WeldCell {
 
     /// `wanted`: whether some element is.
     Box boxOf(Range range, bool& wanted) const {
-#if defined(TSPACE_SIMD_X86)
         // What the fourth lanes hold as numbers does not matter.
         if (tame_) {
-            const auto at = [&](std::size_t i) { return _mm_load_ps(&elements_[i].position.x); };
-            __m128 low = at(range.begin), high = low, any = low;
+            const auto at = [&](std::size_t i) { return loadFloat4(&elements_[i].position.x); };
+            Float4 low = at(range.begin), high = low, any = low;
             for (std::size_t i = range.begin + 1; i < range.end; ++i) {
-                const __m128 here = at(i);
-                low = _mm_min_ps(low, here);
-                high = _mm_max_ps(high, here);
-                any = _mm_or_ps(any, here);
+                const Float4 here = at(i);
+                low = min4(low, here);
+                high = max4(high, here);
+                any = or4(any, here);
             }
-            wanted = (_mm_movemask_ps(any) & 8) != 0;
-            alignas(16) float lowest[4], highest[4];
-            _mm_store_ps(lowest, low);
-            _mm_store_ps(highest, high);
-            return {{lowest[0], lowest[1], lowest[2]}, {highest[0], highest[1], highest[2]}};
+            wanted = (laneBits(std::bit_cast<Mask4>(any)) & 8) != 0;
+            return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
         }
-#endif
         Box box(elements_[range.begin].position);
         std::uint32_t any = 0;
         for (std::size_t i = range.begin; i < range.end; ++i) {
