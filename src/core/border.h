@@ -36,6 +36,10 @@ Error checkSpan(const StridedSpan<T>& span, std::size_t expected_count, const ch
     return checkSpan(span.data, span.count, span.stride_bytes, sizeof(T), expected_count, name);
 }
 
+/// What validate() does, but for whether each index is below the number of vertices: for code that finds out while it
+/// reads them for the first time. Error as checkSpan.
+Error checkAllButIndices(const MeshView& mesh);
+
 /// Checks that there are indices and that each is below `vertex_count`. Error as checkSpan.
 Error checkIndices(const IndexView& indices, std::size_t vertex_count);
 

@@ -77,7 +77,21 @@ bool allBelow(const IndexView& indices, std::size_t vertex_count) {
     return true;
 }
 
-Error check(const MeshView& mesh) {
+Error checkIndexSpan(const IndexView& indices) {
+    if (indices.type == IndexType::none) {
+        if (indices.count != 0) {
+            return {ErrorCode::invalidOption, "indices have a count but IndexType::none"};
+        }
+        return fine();
+    }
+    const auto bytes = static_cast<std::size_t>(indices.type);
+    if (bytes != 1 && bytes != 2 && bytes != 4) {
+        return {ErrorCode::invalidOption, "unknown index type " + std::to_string(bytes)};
+    }
+    return checkSpan(indices.data, indices.count, bytes, bytes, kNoElement, "indices");
+}
+
+Error check(const MeshView& mesh, bool indices_too) {
     if (mesh.positions.count > kMaxCorners || mesh.indices.count > kMaxCorners) {
         return {ErrorCode::tooLarge, "more than 2^31-1 vertices or corners"};
     }
@@ -89,7 +103,10 @@ Error check(const MeshView& mesh) {
     if (!mesh.uvs.empty()) {
         if (Error e = checkSpan(mesh.uvs, vertices, "uvs"); e.code != ErrorCode::ok) return e;
     }
-    if (Error e = checkIndices(mesh.indices, vertices); e.code != ErrorCode::ok) return e;
+    if (Error e = indices_too ? checkIndices(mesh.indices, vertices) : checkIndexSpan(mesh.indices);
+        e.code != ErrorCode::ok) {
+        return e;
+    }
     return checkFaces(mesh);
 }
 
@@ -123,20 +140,7 @@ Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, s
 }
 
 Error checkIndices(const IndexView& indices, std::size_t vertex_count) {
-    if (indices.type == IndexType::none) {
-        if (indices.count != 0) {
-            return {ErrorCode::invalidOption, "indices have a count but IndexType::none"};
-        }
-        return fine();
-    }
-    const auto bytes = static_cast<std::size_t>(indices.type);
-    if (bytes != 1 && bytes != 2 && bytes != 4) {
-        return {ErrorCode::invalidOption, "unknown index type " + std::to_string(bytes)};
-    }
-    if (Error e = checkSpan(indices.data, indices.count, bytes, bytes, kNoElement, "indices");
-        e.code != ErrorCode::ok) {
-        return e;
-    }
+    if (Error e = checkIndexSpan(indices); e.code != ErrorCode::ok) return e;
     if (allBelow(indices, vertex_count)) return fine();
     std::size_t c = 0;
     while (c < indices.count && indices[c] < vertex_count) ++c;
@@ -147,9 +151,11 @@ Error checkIndices(const IndexView& indices, std::size_t vertex_count) {
             c};
 }
 
+Error checkAllButIndices(const MeshView& mesh) { return check(mesh, false); }
+
 Result<Done> validate(const MeshView& mesh) {
     return atBorder([&]() -> Result<Done> {
-        Error e = check(mesh);
+        Error e = check(mesh, true);
         if (e.code != ErrorCode::ok) return e;
         return Done{};
     });

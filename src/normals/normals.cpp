@@ -256,11 +256,15 @@ class Averager {
 
 Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& posed, const NormalOptions& options,
                                       StridedSpan<Vec3> out) {
-    if (Result<Done> valid = validate(mesh); !valid) return std::move(valid).error();
+    const bool is_short = canSmoothTriangles(mesh, options);
+    if (Error e = checkAllButIndices(mesh); e.code != ErrorCode::ok) return e;
     if (Error e = checkSpan(posed.positions, mesh.vertexCount(), "positions"); e.code != ErrorCode::ok) return e;
     if (Error e = checkOptions(mesh, options, out); e.code != ErrorCode::ok) return e;
+    if (!is_short) {
+        if (Error e = checkIndices(mesh.indices, mesh.vertexCount()); e.code != ErrorCode::ok) return e;
+    }
     Parallel parallel(options.execution);
-    if (canSmoothTriangles(mesh, options)) return smoothTriangles(mesh, posed.positions, options, out, parallel);
+    if (is_short) return smoothTriangles(mesh, posed.positions, options, out, parallel);
     return Averager(mesh, posed, options, out, parallel).run(options.weld_positions);
 }
 

@@ -7,12 +7,43 @@
 
 namespace tspace {
 
+namespace {
+
+/// The bits that any of some numbers has, and those that all of them have.
+struct Bits {
+    std::uint32_t any, all;
+    bool are_below;  ///< whether all are below a limit, which is at most 2^31
+};
+Bits bitsOf(const std::uint32_t* numbers, std::size_t count, std::uint32_t limit) {
+    std::uint32_t any = 0, all = ~std::uint32_t{0}, below = ~std::uint32_t{0};
+    for (std::size_t i = 0; i < count; ++i) {
+        any |= numbers[i];
+        all &= numbers[i];
+        below &= numbers[i] - limit;  // for numbers below 2^31 the highest bit says whether they are below
+    }
+    return {any, all, (below & ~any) >> 31 != 0};
+}
+
+/// Whether each vertex is its own point. Mostly so; comparisons are cheaper than keeping what was read.
+bool areTheirOwn(const std::uint32_t* points, const std::uint32_t* vertices, std::size_t count) {
+    for (std::size_t i = 0; i < count; i += 3) {
+        if (points[vertices[i]] != vertices[i] || points[vertices[i + 1]] != vertices[i + 1] ||
+            points[vertices[i + 2]] != vertices[i + 2]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
 PointRanges::PointRanges(const IndexView& vertices, std::size_t triangle_count, std::size_t point_count,
                          const std::uint32_t* points)
     : vertices_(vertices),
       triangle_count_(triangle_count),
       block_count_((triangle_count + kBlock - 1) / kBlock),
       point_count_(point_count),
+      limit_(static_cast<std::uint32_t>(point_count)),
       points_(points) {}
 
 unsigned PointRanges::shiftFor(std::size_t wanted) const {
@@ -34,7 +65,7 @@ bool PointRanges::wouldBeCompact(std::size_t wanted) const {
     return 2 * named <= 3 * samples;
 }
 
-void PointRanges::cut(std::size_t wanted, const Allocator* allocator, Parallel& parallel) {
+bool PointRanges::cut(std::size_t wanted, const Allocator* allocator, Parallel& parallel) {
     shift_ = shiftFor(wanted);
     count_ = static_cast<unsigned>((point_count_ - 1) >> shift_) + 1;
     marks_ = Buffer<std::uint64_t>(allocator, block_count_);
@@ -42,7 +73,9 @@ void PointRanges::cut(std::size_t wanted, const Allocator* allocator, Parallel& 
     parallel.forRanges(block_count_, kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t block = begin; block < end; ++block) marks_[block] = markOf(block, shift_);
     });
+    if (std::find(marks_.begin(), marks_.end(), std::uint64_t{0}) != marks_.end()) return false;
     list(allocator);
+    return true;
 }
 
 std::uint64_t PointRanges::markOf(std::size_t block, unsigned shift) const {
@@ -50,27 +83,18 @@ std::uint64_t PointRanges::markOf(std::size_t block, unsigned shift) const {
     const std::size_t count = 3 * blockSize(block);
     if (count == 0) return 0;
     const std::uint32_t* v = blockVertices(vertices_, block * kBlock, count / 3, buffer);
-    std::uint32_t any = 0, all = ~std::uint32_t{0}, moved = 0;
-    if (points_ == nullptr) {
-        for (std::size_t i = 0; i < count; ++i) {
-            any |= v[i];
-            all &= v[i];
-        }
-    } else {
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t point = points_[v[i]];
-            any |= point;
-            all &= point;
-            moved |= point ^ v[i];
-        }
+    Bits bits = bitsOf(v, count, limit_);
+    if (!bits.are_below) return 0;
+    std::uint64_t mark = 0;
+    if (points_ != nullptr && !areTheirOwn(points_, v, count)) {
+        for (std::size_t i = 0; i < count; ++i) buffer[i] = points_[v[i]];
+        v = buffer;
+        bits = bitsOf(v, count, limit_);
+        mark = kRepeated;
     }
-    const std::uint64_t repeated = moved != 0 ? kRepeated : 0;
-    const auto bitOf = [&](std::uint32_t vertex) {
-        return std::uint64_t{1} << ((points_ == nullptr ? vertex : points_[vertex]) >> shift);
-    };
-    std::uint64_t mark = repeated | bitOf(v[0]);
-    if ((any ^ all) >> shift == 0) return mark;  // mostly so, and found without a loop over bits
-    for (std::size_t i = 1; i < count; ++i) mark |= bitOf(v[i]);
+    mark |= std::uint64_t{1} << (v[0] >> shift);
+    if ((bits.any ^ bits.all) >> shift == 0) return mark;  // mostly so, and found without a loop over bits
+    for (std::size_t i = 1; i < count; ++i) mark |= std::uint64_t{1} << (v[i] >> shift);
     return mark;
 }
 

@@ -22,12 +22,12 @@ class PointRanges {
                 const std::uint32_t* points);
 
     /// Whether blocks of triangles mostly name points of one range only, if points are cut into about `wanted`
-    /// ranges. Looks at some blocks.
+    /// ranges. Looks at some blocks. Here and in cut() vertices need not have been checked.
     [[nodiscard]] bool wouldBeCompact(std::size_t wanted) const;
 
     /// Cuts into about `wanted` ranges, at least one. Takes 12 bytes per block, or 4 more for each further
-    /// range of a block. Throws OutOfMemory.
-    void cut(std::size_t wanted, const Allocator* allocator, Parallel& parallel);
+    /// range of a block. False when there is no such vertex as a corner names. Throws OutOfMemory.
+    [[nodiscard]] bool cut(std::size_t wanted, const Allocator* allocator, Parallel& parallel);
 
     [[nodiscard]] unsigned count() const { return count_; }
     [[nodiscard]] VertexRange range(unsigned index) const {
@@ -63,11 +63,13 @@ class PointRanges {
         return left < kBlock ? left : kBlock;
     }
     [[nodiscard]] unsigned shiftFor(std::size_t wanted) const;
+    /// 0 when a vertex does not exist.
     [[nodiscard]] std::uint64_t markOf(std::size_t block, unsigned shift) const;
     void list(const Allocator* allocator);
 
     IndexView vertices_;
     std::size_t triangle_count_, block_count_, point_count_;
+    std::uint32_t limit_;
     const std::uint32_t* points_;
     unsigned count_ = 1, shift_ = 32;  ///< a point p is in range p >> shift_
     Buffer<std::uint64_t> marks_;      ///< per block a bit for each of its ranges, and kRepeated; empty for one range

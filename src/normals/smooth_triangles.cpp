@@ -13,6 +13,7 @@
 #include <numeric>
 
 #include "core/angle.h"
+#include "core/border.h"
 #include "core/float4.h"
 #include "core/sum_ranges.h"
 #include "core/vec_math.h"
@@ -116,22 +117,25 @@ class TriangleSmoother {
           points_(options.weld_positions ? weldPositions(mesh, allocator_, parallel_) : Buffer<std::uint32_t>()),
           ranges_(mesh.indices, triangle_count_, mesh.vertexCount(), points_.data()) {}
 
-    NormalReport run() {
+    Result<NormalReport> run() {
         const bool threads = parallel_.width() > 1 && triangle_count_ >= kWorthThreads;
         const std::size_t near = std::max(mesh_.vertexCount() / kNearPoints,
                                           threads ? kRangesPerThread * parallel_.width() : std::size_t{1});
         NormalReport report{triangle_count_, 0, 0};
         if (!is_best_ && near > 1 && ranges_.wouldBeCompact(near)) {
-            ranges_.cut(near, allocator_, parallel_);
+            if (!ranges_.cut(near, allocator_, parallel_)) return indexError();
             sumNear(report);
         } else {
-            if (threads) ranges_.cut(parallel_.width(), allocator_, parallel_);
+            if (!threads && indexError().code != ErrorCode::ok) return indexError();
+            if (threads && !ranges_.cut(parallel_.width(), allocator_, parallel_)) return indexError();
             sumFar(report);
         }
         return report;
     }
 
   private:
+    [[nodiscard]] Error indexError() const { return checkIndices(mesh_.indices, mesh_.vertexCount()); }
+
     /// Range by range, with memory for the sums of one range per task, which stays in the cache.
     void sumNear(NormalReport& report) {
         const std::size_t ranges = ranges_.count(), size = ranges_.range(0).end;
@@ -420,7 +424,7 @@ bool canSmoothTriangles(const MeshView& mesh, const NormalOptions& options) {
            options.weighting != NormalWeighting::flat && options.weighting != NormalWeighting::max;
 }
 
-NormalReport smoothTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positions, const NormalOptions& options,
+Result<NormalReport> smoothTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positions, const NormalOptions& options,
                              StridedSpan<Vec3> out, Parallel& parallel) {
     return TriangleSmoother(mesh, positions, options, out, parallel).run();
 }

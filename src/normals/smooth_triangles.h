@@ -13,11 +13,11 @@ namespace tspace {
 /// Whether smoothTriangles does this: a mesh of triangles, all weightings but flat and max, no crease, no groups.
 bool canSmoothTriangles(const MeshView& mesh, const NormalOptions& options);
 
-/// The result of generateNormals, or with other positions than the mesh's that of generatePoseNormals. The mesh has been
-/// validated. Scratch memory: 4 bytes per vertex and 1 to 5 MB for each thread; where triangles that follow one another
+/// The result of generateNormals, or with other positions than the mesh's that of generatePoseNormals. The mesh has
+/// been checked by checkAllButIndices(): indices are checked here. Scratch memory: 4 bytes per vertex and 1 to 5 MB for each thread; where triangles that follow one another
 /// are far apart, or vertices more than a million, 36 bytes per vertex; for `best` 68 (best_triangles.h). While vertices
 /// are welded 10 to 24. Throws OutOfMemory.
-NormalReport smoothTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positions, const NormalOptions& options,
+Result<NormalReport> smoothTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positions, const NormalOptions& options,
                              StridedSpan<Vec3> out, Parallel& parallel);
 
 }  // namespace tspace

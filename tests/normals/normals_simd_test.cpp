@@ -195,6 +195,28 @@ TEST(ShortWay, GivesTheNormalsOfTheGeneralOneAlsoForTinyHugeAndThinTriangles) {
     }
 }
 
+TEST(Indices, BeyondTheVerticesAreFoundInMeshesOfAnySizeAndOrder) {
+    for (const SimpleMesh& mesh : {sheet(200), sheet(20), randomMesh()}) {
+        const auto beyond = static_cast<std::uint32_t>(mesh.positions.size());
+        for (const std::size_t corner : {std::size_t{0}, mesh.indices.size() / 2, mesh.indices.size() - 1}) {
+            for (const std::uint32_t index : {beyond, ~std::uint32_t{0}}) {
+                SimpleMesh broken = mesh;
+                broken.indices[corner] = index;
+                std::vector<Vec3> out(broken.indices.size(), Vec3{7, 7, 7});
+                for (const unsigned threads : {1u, 3u}) {
+                    for (const bool weld : {false, true}) {
+                        const auto result = generateNormals(
+                            broken.view(), {.weld_positions = weld, .execution = {.thread_count = threads}}, out);
+                        ASSERT_FALSE(result.ok());
+                        EXPECT_EQ(result.error().code, ErrorCode::indexOutOfRange);
+                        EXPECT_EQ(out[0], (Vec3{7, 7, 7}));
+                    }
+                }
+            }
+        }
+    }
+}
+
 TEST(Welding, OfAnIndexedMeshIsThatOfTheSameVerticesWithoutIndices) {
     // Few of the first one's vertices share a position, most of the second one's do.
     for (const SimpleMesh& mesh : {sheet(150), randomMesh()}) {
