@@ -29,15 +29,16 @@ struct FaceTerms {
 
 /// The functions for one CPU.
 struct FaceKernel {
-    /// `vertices`: three per triangle, and valid ones up to the end of the last group. count <= kTermTriangles.
-    void (*compute)(const FaceSource& source, const std::uint32_t* vertices, std::size_t count, FaceTerms& terms);
-    /// Adds angle * normal to rows of four, one row per point, sums[4 * (point - begin)]. Returns how many triangles are
-    /// degenerate.
-    std::uint64_t (*add)(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
-                         std::uint32_t begin);
-    /// The same, but only for points from `begin` to before `end`, and triangles whose first point is one of them.
-    std::uint64_t (*add_some)(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
-                              std::uint32_t begin, std::uint32_t end);
+    /// `vertices`: three per triangle, and valid ones up to the end of the last group. count <= kTermTriangles. Returns
+    /// how many triangles are degenerate.
+    std::size_t (*compute)(const FaceSource& source, const std::uint32_t* vertices, std::size_t count,
+                           FaceTerms& terms);
+    /// Adds angle * normal to rows of four, one row per point, sums[4 * (point - begin)].
+    void (*add)(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
+                std::uint32_t begin);
+    /// The same, but only for points from `begin` to before `end`.
+    void (*add_some)(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
+                     std::uint32_t begin, std::uint32_t end);
     /// Of `count` rows of sums, a multiple of kTermGroup: writes four floats to the front of each row, the unit normal
     /// and 0; or, where the sum is not above `least` of the weights (the fourth number), three zeros and -0. Returns of
     /// how many rows with weights that is so.

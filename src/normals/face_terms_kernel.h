@@ -47,10 +47,10 @@ inline DoubleVectors cross(DoubleVectors a, DoubleVectors b) {
 }
 inline DoubleVectors part(Vectors v, std::size_t which) { return {part(v.x, which), part(v.y, which), part(v.z, which)}; }
 
-/// Writes normals and gives cotangents. In double: differences of floats are exact or nearly so, and nothing overflows
-/// or vanishes.
+/// Writes normals and gives cotangents, and the bits of those that have a normal. In double: differences of floats are
+/// exact or nearly so, and nothing overflows or vanishes.
 template <bool kByArea>
-inline void faceNormals(DoubleVectors o, DoubleVectors p1, DoubleVectors p2, double factor, double* rows,
+inline unsigned faceNormals(DoubleVectors o, DoubleVectors p1, DoubleVectors p2, double factor, double* rows,
                         Doubles (&cotangents)[3]) {
     const DoubleVectors a = p1 - o, b = p2 - o, n = cross(a, b);
     const Doubles length = squareRoot(dot(n, n)), one = broadcastDouble(1.0);
@@ -63,6 +63,7 @@ inline void faceNormals(DoubleVectors o, DoubleVectors p1, DoubleVectors p2, dou
     cotangents[0] = keepWhere(sound, ab * inverse);
     cotangents[1] = keepWhere(sound, (aa - ab) * inverse);
     cotangents[2] = keepWhere(sound, (bb - ab) * inverse);
+    return bitsOf(sound);
 }
 
 /// What the steps of a block leave for the next one. The steps are loops of their own, because each is a long chain of
@@ -84,17 +85,21 @@ inline void readPositions(const FaceSource& source, const std::uint32_t* vertice
 
 /// The angles are the same for a corner of a face and of its reverse, so that the two cancel.
 template <bool kByArea>
-void computeTerms(const FaceSource& source, const std::uint32_t* vertices, std::size_t count, FaceTerms& terms) {
+std::size_t computeTerms(const FaceSource& source, const std::uint32_t* vertices, std::size_t count, FaceTerms& terms) {
+    constexpr std::size_t kPart = kWidth / kDoubleParts;
+    std::size_t degenerate = 0;
     Steps steps;
     for (std::size_t t = 0; t < count; t += kWidth) readPositions(source, vertices + 3 * t, t, steps);
-    for (std::size_t t = 0; t < count; t += kWidth / kDoubleParts) {
+    for (std::size_t t = 0; t < count; t += kPart) {
         DoubleVectors p[3];
         for (std::size_t k = 0; k < 3; ++k) {
             const auto& [x, y, z] = steps.position[k];
             p[k] = {loadAsDoubles(x + t), loadAsDoubles(y + t), loadAsDoubles(z + t)};
         }
         Doubles cotangents[3];
-        faceNormals<kByArea>(p[0], p[1], p[2], source.factor, terms.normal[t], cotangents);
+        const unsigned sound = faceNormals<kByArea>(p[0], p[1], p[2], source.factor, terms.normal[t], cotangents);
+        const unsigned asked = (1u << (count - t < kPart ? count - t : kPart)) - 1;
+        if ((asked & ~sound) != 0) degenerate += static_cast<unsigned>(__builtin_popcount(asked & ~sound));
         for (std::size_t k = 0; k < 3; ++k) storeAsFloats(steps.angle[k] + t, cotangents[k]);
     }
     for (std::size_t t = 0; t < count; t += kWidth) {
@@ -104,40 +109,35 @@ void computeTerms(const FaceSource& source, const std::uint32_t* vertices, std::
         for (std::size_t k = 0; k < 3; ++k) store(steps.angle[k] + t, angles[k]);
     }
     for (std::size_t k = 0; k < 3; ++k) {
-        for (std::size_t t = 0; t < count; t += kWidth / kDoubleParts)
+        for (std::size_t t = 0; t < count; t += kPart)
             storeDoubles(terms.angle[k] + t, loadAsDoubles(steps.angle[k] + t));
     }
+    return degenerate;
 }
 
-void compute(const FaceSource& source, const std::uint32_t* vertices, std::size_t count, FaceTerms& terms) {
-    if (source.by_area)
-        computeTerms<true>(source, vertices, count, terms);
-    else
-        computeTerms<false>(source, vertices, count, terms);
+std::size_t compute(const FaceSource& source, const std::uint32_t* vertices, std::size_t count, FaceTerms& terms) {
+    return source.by_area ? computeTerms<true>(source, vertices, count, terms)
+                          : computeTerms<false>(source, vertices, count, terms);
 }
 
 template <class IsWanted>
-inline std::uint64_t addWanted(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
-                               std::uint32_t begin, IsWanted isWanted) {
-    std::uint64_t degenerate = 0;
+inline void addWanted(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
+                      std::uint32_t begin, IsWanted isWanted) {
     for (std::size_t t = 0; t < count; ++t, points += 3) {
         const DoubleRow normal = loadDoubleRow(terms.normal[t]);
         for (std::size_t k = 0; k < 3; ++k) {
             if (isWanted(points[k])) addDoubleRow(sums + std::size_t{4} * (points[k] - begin), terms.angle[k][t], normal);
         }
-        if (terms.normal[t][3] == 0.0 && isWanted(points[0])) ++degenerate;
     }
-    return degenerate;
 }
 
-std::uint64_t add(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
-                  std::uint32_t begin) {
-    return addWanted(terms, points, count, sums, begin, [](std::uint32_t) { return true; });
+void add(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums, std::uint32_t begin) {
+    addWanted(terms, points, count, sums, begin, [](std::uint32_t) { return true; });
 }
 
-std::uint64_t addSome(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
-                      std::uint32_t begin, std::uint32_t end) {
-    return addWanted(terms, points, count, sums, begin, [=](std::uint32_t point) { return point - begin < end - begin; });
+void addSome(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums, std::uint32_t begin,
+             std::uint32_t end) {
+    addWanted(terms, points, count, sums, begin, [=](std::uint32_t point) { return point - begin < end - begin; });
 }
 
 std::uint64_t finish(double* sums, std::size_t count, double least) {

@@ -10,6 +10,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <numeric>
 
 #include "core/angle.h"
@@ -194,7 +195,7 @@ class TriangleSmoother {
 
     /// Makes the unit normals of a range; returns the degenerate triangles whose first point is in it.
     std::uint64_t sum(unsigned index, const RangeSums& place) const {
-        std::fill_n(place.rows, place.size(), PointSum{});
+        std::memset(place.rows, 0, place.size() * sizeof(PointSum));
         double* const sums = &place.rows->x;
         const FaceSource source = faceSource(by_angle_, by_area_);
         Block block;
@@ -204,13 +205,14 @@ class TriangleSmoother {
             const std::uint32_t* v = blockVertices(mesh_.indices, b * kBlock, count, block.vertices);
             const std::uint32_t* points = blockPoints(b, v, count, block.points);
             if (ranges_.isWithinOne(b)) {
-                kernel_.compute(source, fillGroup(v, count, block.vertices), count, block.terms);
-                degenerate += kernel_.add(block.terms, points, count, sums, place.range.begin);
+                degenerate += kernel_.compute(source, fillGroup(v, count, block.vertices), count, block.terms);
+                kernel_.add(block.terms, points, count, sums, place.range.begin);
             } else {
                 count = select(v, points, count, place, block);
-                kernel_.compute(source, fillGroup(block.vertices, count, block.vertices), count, block.terms);
-                degenerate += kernel_.add_some(block.terms, block.points, count, sums, place.range.begin,
-                                               place.range.end);
+                const std::uint32_t* const vertices = fillGroup(block.vertices, count, block.vertices);
+                if (kernel_.compute(source, vertices, count, block.terms) != 0)
+                    degenerate += degenerateIn(block, count, place);
+                kernel_.add_some(block.terms, block.points, count, sums, place.range.begin, place.range.end);
             }
         });
         if (finish(place) != 0) [[unlikely]] sumDoubtful(index, place);
@@ -242,6 +244,14 @@ class TriangleSmoother {
             taken += any ? 1 : 0;
         }
         return taken;
+    }
+
+    /// How many of a block's triangles are degenerate and have their first point in the range.
+    static std::uint64_t degenerateIn(const Block& block, std::size_t count, const RangeSums& place) {
+        std::uint64_t degenerate = 0;
+        for (std::size_t t = 0; t < count; ++t)
+            degenerate += block.terms.normal[t][3] == 0.0 && place.has(block.points[3 * t]) ? 1 : 0;
+        return degenerate;
     }
 
     /// Turns sums into unit normals and returns how many are doubtful. Sums of products of floats neither

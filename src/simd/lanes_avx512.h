@@ -89,11 +89,10 @@ inline void storeDoubles(double* to, Doubles a) { _mm512_store_pd(to, a.v); }
 inline void storeDoubleRows(double* rows, Doubles x, Doubles y, Doubles z, Doubles w) {
     const __m512d xy[2] = {_mm512_unpacklo_pd(x.v, y.v), _mm512_unpackhi_pd(x.v, y.v)};
     const __m512d zw[2] = {_mm512_unpacklo_pd(z.v, w.v), _mm512_unpackhi_pd(z.v, w.v)};
-    for (std::size_t odd = 0; odd < 2; ++odd) {  // quarters of even or odd rows: 0 and 2, 4 and 6 and so on
-        const __m512d low = _mm512_shuffle_f64x2(xy[odd], zw[odd], 0x44);   // x y 0, x y 2, z w 0, z w 2
-        const __m512d high = _mm512_shuffle_f64x2(xy[odd], zw[odd], 0xee);  // the same of 4 and 6
-        const __m512d r02 = _mm512_shuffle_f64x2(low, low, 0xd8),
-                      r46 = _mm512_shuffle_f64x2(high, high, 0xd8);
+    const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), high = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
+    for (std::size_t odd = 0; odd < 2; ++odd) {  // even or odd rows: 0 and 2, 4 and 6 and so on
+        const __m512d r02 = _mm512_permutex2var_pd(xy[odd], low, zw[odd]);
+        const __m512d r46 = _mm512_permutex2var_pd(xy[odd], high, zw[odd]);
         double* to = rows + 4 * odd;
         _mm256_store_pd(to, _mm512_castpd512_pd256(r02));
         _mm256_store_pd(to + 8, _mm512_extractf64x4_pd(r02, 1));
