@@ -151,6 +151,25 @@ Buffer<std::uint32_t> findCandidates(StridedSpan<const Vec3> positions, std::uin
     return hashes;
 }
 
+/// Most candidates are there because a small table holds their hashes. Leaves those whose hash occurs more than once by
+/// other bits as well, among so few; returns how many.
+std::size_t lookAgain(StridedSpan<const Vec3> positions, std::uint32_t* candidates, std::size_t count,
+                      const Allocator* allocator, Parallel& parallel) {
+    Buffer<std::uint32_t> hashes(allocator, count);
+    const std::size_t ranges = RepeatedHashes::rangesFor(count, parallel);
+    RepeatedHashes repeated(2 * kPlacesPerVertex, allocator, count, ranges);
+    parallel.forTasks(ranges, [&](std::size_t range) {
+        repeated.clear(range);
+        const std::size_t begin = count * range / ranges, end = count * (range + 1) / ranges;
+        for (std::size_t i = begin; i < end; ++i) hashes[i] = static_cast<std::uint32_t>(hashOf(positions[candidates[i]]));
+        repeated.add(range, hashes.data() + begin, end - begin);
+    });
+    if (ranges > 1) repeated.sum(ranges, parallel);
+    const std::size_t left = repeated.collect(hashes.data(), count, ranges, hashes.data(), parallel);
+    for (std::size_t i = 0; i < left; ++i) candidates[i] = candidates[hashes[i]];
+    return left;
+}
+
 }  // namespace
 
 Buffer<std::uint32_t> weldPositions(const MeshView& mesh, const Allocator* allocator, Parallel& parallel) {
@@ -159,6 +178,7 @@ Buffer<std::uint32_t> weldPositions(const MeshView& mesh, const Allocator* alloc
     std::size_t count = positions.count;
     if (mesh.indices.type != IndexType::none && count >= kFew)
         candidates = findCandidates(positions, lowest.data(), count, allocator, parallel);
+    if (!candidates.empty()) count = lookAgain(positions, candidates.data(), count, allocator, parallel);
     const bool shared = parallel.width() > 1 && count >= kWorthThreads;
     const unsigned part_bits =
         shared ? std::min(6u, static_cast<unsigned>(std::bit_width(parallel.width() - 1))) : 0;
