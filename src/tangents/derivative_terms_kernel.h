@@ -105,29 +105,56 @@ void compute(const TriangleSource& source, const std::uint32_t* vertices, std::s
 using Head = float __attribute__((vector_size(16), aligned(4), may_alias));
 using Tail = float __attribute__((vector_size(8), aligned(4), may_alias));
 
-template <class IsWanted>
-inline void addWanted(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin,
-                      std::size_t end, SumArrays sums, IsWanted isWanted) {
+/// What one triangle adds at a vertex.
+struct Addend {
+    Head head;
+    Tail tail;
+
+    explicit Addend(const float* row)
+        : head(*reinterpret_cast<const Head*>(row)), tail(*reinterpret_cast<const Tail*>(row + 4)) {}
+};
+
+inline void addAt(SumArrays sums, std::size_t v, const Addend& a) {
+    *reinterpret_cast<Head*>(sums.heads + 4 * v) += a.head;
+    *reinterpret_cast<Tail*>(sums.tails + 2 * v) += a.tail;
+}
+/// First a, then b.
+inline void addAt(SumArrays sums, std::size_t v, const Addend& a, const Addend& b) {
+    auto* const head = reinterpret_cast<Head*>(sums.heads + 4 * v);
+    auto* const tail = reinterpret_cast<Tail*>(sums.tails + 2 * v);
+    *head = *head + a.head + b.head;
+    *tail = *tail + a.tail + b.tail;
+}
+
+/// Most of the time goes into writing sums. So two triangles that come of one quad, in the order that most
+/// programs cut it, write the two vertices that they share once.
+void add(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin, std::size_t end,
+         SumArrays sums) {
     for (std::size_t i = begin; i < end; ++i) {
-        const Head head = *reinterpret_cast<const Head*>(terms.rows[i]);
-        const Tail tail = *reinterpret_cast<const Tail*>(terms.rows[i] + 4);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t v = vertices[3 * i + k];
-            if (!isWanted(vertices[3 * i + k])) continue;
-            *reinterpret_cast<Head*>(sums.heads + 4 * v) += head;
-            *reinterpret_cast<Tail*>(sums.tails + 2 * v) += tail;
+        const std::uint32_t* const v = vertices + 3 * i;
+        const Addend a(terms.rows[i]);
+        if (i + 1 < end && v[3] == v[0] && v[4] == v[2]) {
+            const Addend b(terms.rows[i + 1]);
+            addAt(sums, v[0], a, b);
+            addAt(sums, v[1], a);
+            addAt(sums, v[2], a, b);
+            addAt(sums, v[5], b);
+            ++i;
+        } else {
+            for (std::size_t k = 0; k < 3; ++k) addAt(sums, v[k], a);
         }
     }
 }
 
-void add(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin, std::size_t end,
-         SumArrays sums) {
-    addWanted(terms, vertices, begin, end, sums, [](std::uint32_t) { return true; });
-}
-
 void addSome(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin, std::size_t end,
              SumArrays sums, std::uint32_t first, std::uint32_t past) {
-    addWanted(terms, vertices, begin, end, sums, [=](std::uint32_t v) { return v - first < past - first; });
+    for (std::size_t i = begin; i < end; ++i) {
+        const Addend a(terms.rows[i]);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t v = vertices[3 * i + k];
+            if (v - first < past - first) addAt(sums, v, a);
+        }
+    }
 }
 
 inline Floats size(Vectors a) { return absolute(a.x) + absolute(a.y) + absolute(a.z); }
