@@ -12,6 +12,8 @@
 
 namespace tspace {
 
+class Parallel;
+
 /// Runs `body`, which returns a Result, and turns running out of memory (and any defect of our own) into an Error.
 template <class Body>
 auto atBorder(Body&& body) -> std::invoke_result_t<Body> {
@@ -36,11 +38,15 @@ Error checkSpan(const StridedSpan<T>& span, std::size_t expected_count, const ch
     return checkSpan(span.data, span.count, span.stride_bytes, sizeof(T), expected_count, name);
 }
 
+/// What validate() checks. With `parallel`, indices are looked at by all threads.
+Error checkMesh(const MeshView& mesh, Parallel* parallel = nullptr);
+
 /// What validate() does, but for whether each index is below the number of vertices: for code that finds out while it
 /// reads them for the first time. Error as checkSpan.
 Error checkAllButIndices(const MeshView& mesh);
 
-/// Checks that there are indices and that each is below `vertex_count`. Error as checkSpan.
-Error checkIndices(const IndexView& indices, std::size_t vertex_count);
+/// Checks that there are indices and that each is below `vertex_count`, with `parallel` by all threads. Error as
+/// checkSpan.
+Error checkIndices(const IndexView& indices, std::size_t vertex_count, Parallel* parallel = nullptr);
 
 }  // namespace tspace

@@ -3,10 +3,12 @@
 #include "tspace/mesh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <string>
 
 #include "core/border.h"
+#include "core/parallel.h"
 
 namespace tspace {
 
@@ -62,15 +64,27 @@ bool allBelow(const Index* indices, std::size_t count, std::uint32_t limit) {
     return all != 0;
 }
 
-bool allBelow(const IndexView& indices, std::size_t vertex_count) {
+template <class Index>
+bool allBelow(const IndexView& indices, std::uint32_t limit, Parallel* parallel) {
+    const auto* const data = static_cast<const Index*>(indices.data);
+    if (parallel == nullptr) return allBelow(data, indices.count, limit);
+    constexpr std::size_t kGrain = 200'000;  // takes longer than starting a thread
+    std::atomic<bool> all{true};
+    parallel->forRanges(indices.count, kGrain, [&](std::size_t begin, std::size_t end) {
+        if (!allBelow(data + begin, end - begin, limit)) all.store(false, std::memory_order_relaxed);
+    });
+    return all;
+}
+
+bool allBelow(const IndexView& indices, std::size_t vertex_count, Parallel* parallel) {
     const auto limit = static_cast<std::uint32_t>(std::min<std::size_t>(vertex_count, 0x80000000u));
     switch (indices.type) {
         case IndexType::u8:
-            return allBelow(static_cast<const std::uint8_t*>(indices.data), indices.count, limit);
+            return allBelow<std::uint8_t>(indices, limit, parallel);
         case IndexType::u16:
-            return allBelow(static_cast<const std::uint16_t*>(indices.data), indices.count, limit);
+            return allBelow<std::uint16_t>(indices, limit, parallel);
         case IndexType::u32:
-            return allBelow(static_cast<const std::uint32_t*>(indices.data), indices.count, limit);
+            return allBelow<std::uint32_t>(indices, limit, parallel);
         case IndexType::none:
             break;
     }
@@ -91,7 +105,9 @@ Error checkIndexSpan(const IndexView& indices) {
     return checkSpan(indices.data, indices.count, bytes, bytes, kNoElement, "indices");
 }
 
-Error check(const MeshView& mesh, bool indices_too) {
+/// checkTheIndices(indices) as checkSpan.
+template <class CheckTheIndices>
+Error check(const MeshView& mesh, const CheckTheIndices& checkTheIndices) {
     if (mesh.positions.count > kMaxCorners || mesh.indices.count > kMaxCorners) {
         return {ErrorCode::tooLarge, "more than 2^31-1 vertices or corners"};
     }
@@ -103,10 +119,7 @@ Error check(const MeshView& mesh, bool indices_too) {
     if (!mesh.uvs.empty()) {
         if (Error e = checkSpan(mesh.uvs, vertices, "uvs"); e.code != ErrorCode::ok) return e;
     }
-    if (Error e = indices_too ? checkIndices(mesh.indices, vertices) : checkIndexSpan(mesh.indices);
-        e.code != ErrorCode::ok) {
-        return e;
-    }
+    if (Error e = checkTheIndices(mesh.indices); e.code != ErrorCode::ok) return e;
     return checkFaces(mesh);
 }
 
@@ -139,9 +152,9 @@ Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, s
     return fine();
 }
 
-Error checkIndices(const IndexView& indices, std::size_t vertex_count) {
+Error checkIndices(const IndexView& indices, std::size_t vertex_count, Parallel* parallel) {
     if (Error e = checkIndexSpan(indices); e.code != ErrorCode::ok) return e;
-    if (allBelow(indices, vertex_count)) return fine();
+    if (allBelow(indices, vertex_count, parallel)) return fine();
     std::size_t c = 0;
     while (c < indices.count && indices[c] < vertex_count) ++c;
     if (c == indices.count) return fine();
@@ -151,11 +164,15 @@ Error checkIndices(const IndexView& indices, std::size_t vertex_count) {
             c};
 }
 
-Error checkAllButIndices(const MeshView& mesh) { return check(mesh, false); }
+Error checkAllButIndices(const MeshView& mesh) { return check(mesh, checkIndexSpan); }
+
+Error checkMesh(const MeshView& mesh, Parallel* parallel) {
+    return check(mesh, [&](const IndexView& indices) { return checkIndices(indices, mesh.positions.count, parallel); });
+}
 
 Result<Done> validate(const MeshView& mesh) {
     return atBorder([&]() -> Result<Done> {
-        Error e = check(mesh, true);
+        Error e = checkMesh(mesh);
         if (e.code != ErrorCode::ok) return e;
         return Done{};
     });

@@ -59,9 +59,9 @@ Error checkOptions(const TangentOptions& options) {
     return {ErrorCode::ok, {}};
 }
 
-Error checkInput(const MeshView& mesh, const TangentOptions& options) {
+Error checkInput(const MeshView& mesh, const TangentOptions& options, Parallel& parallel) {
     if (Error e = checkOptions(options); e.code != ErrorCode::ok) return e;
-    if (const Result<Done> valid = validate(mesh); !valid) return valid.error();
+    if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
     if (mesh.vertexCount() == 0) return {ErrorCode::ok, {}};
     if (mesh.normals.empty())
         return {ErrorCode::missingAttribute, "tangents need normals, and the mesh has none"};
@@ -124,9 +124,9 @@ std::size_t TangentPlan::memoryBytes() const {
 Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options,
                                        const TangentOutput& out) {
     return atBorder([&]() -> Result<TangentReport> {
-        if (Error e = checkInput(mesh, options); e.code != ErrorCode::ok) return e;
-        if (Error e = checkOutput(out, outputCount(mesh, options)); e.code != ErrorCode::ok) return e;
         Parallel parallel(options.execution);
+        if (Error e = checkInput(mesh, options, parallel); e.code != ErrorCode::ok) return e;
+        if (Error e = checkOutput(out, outputCount(mesh, options)); e.code != ErrorCode::ok) return e;
         if (options.frame == FrameShape::gramSchmidt) return generateFrames(mesh, options, out, parallel);
         const NeededBitangents needed(out, options.execution.allocator);
         const TangentReport report = generateFrames(mesh, options, needed.out, parallel);
@@ -140,8 +140,8 @@ Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOption
 
 Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& options) {
     return atBorder([&]() -> Result<TangentPlan> {
-        if (Error e = checkInput(mesh, options); e.code != ErrorCode::ok) return e;
         Parallel parallel(options.execution);
+        if (Error e = checkInput(mesh, options, parallel); e.code != ErrorCode::ok) return e;
         auto state = std::make_unique<TangentPlan::State>();
         state->method = options.method;
         state->vertex_count = mesh.vertexCount();

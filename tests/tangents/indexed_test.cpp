@@ -379,6 +379,25 @@ TEST(Plan, RunsOutOfMemoryByItsOwnExceptionOnly) {
     EXPECT_GT(failures, 3);
 }
 
+TEST(Threads, FindTheFirstBadIndexOfALargeMesh) {
+    SimpleMesh mesh = square();
+    mesh.face_sizes.clear();
+    mesh.indices.assign(900'000, 1);
+    std::vector<Vec4> tangents(mesh.indices.size());
+    const auto run = [&](unsigned threads) {
+        return generateTangents(mesh.view(), {.method = Method::lengyel, .execution = {.thread_count = threads}},
+                                {.tangents = tangents});
+    };
+    EXPECT_TRUE(run(3));
+    mesh.indices[700'001] = mesh.indices[899'999] = 4;
+    for (const unsigned threads : {1u, 2u, 3u}) {
+        const auto report = run(threads);
+        ASSERT_FALSE(report);
+        EXPECT_EQ(report.error().code, ErrorCode::indexOutOfRange);
+        EXPECT_EQ(report.error().element, 700'001u);
+    }
+}
+
 TEST(Threads, DoNotChangeABit) {
     std::mt19937 random(11);
     SimpleMesh mesh;
