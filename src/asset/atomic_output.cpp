@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "asset/file_error.h"
+#include "core/parallel.h"
 
 namespace tspace {
 
@@ -37,6 +38,75 @@ fs::path besideName(const fs::path& target, const char* kind) {
     return name;
 }
 
+/// What is written at one time: bytes that are there, and a block of bytes that were made.
+class Batch {
+  public:
+    [[nodiscard]] bool empty() const { return parts_.empty(); }
+
+    /// Takes from the pieces from `piece` and `offset` on, which go on to what is next.
+    void fill(std::span<const OutputPiece> pieces, std::size_t& piece, std::size_t& offset) {
+        parts_.clear();
+        std::size_t used = 0, taken = 0;
+        while (piece < pieces.size() && taken < kMostBytes) {
+            const OutputPiece& from = pieces[piece];
+            std::size_t count = from.size() - offset;
+            if (from.maker && count != 0) {
+                if (block_.empty()) block_.resize(kBlockBytes);
+                count = std::min(count, block_.size() - used);
+                if (count == 0) break;
+                const auto made = std::span(block_).subspan(used, count);
+                from.maker->make(offset, made);
+                parts_.emplace_back(made);
+                used += count;
+            } else if (count != 0) {
+                parts_.push_back(from.bytes);
+            }
+            taken += count;
+            offset += count;
+            if (offset == from.size()) {
+                ++piece;
+                offset = 0;
+            }
+        }
+    }
+    [[nodiscard]] bool write(std::FILE* file) const {
+        return std::all_of(parts_.begin(), parts_.end(), [file](std::span<const std::uint8_t> part) {
+            return std::fwrite(part.data(), 1, part.size(), file) == part.size();
+        });
+    }
+
+  private:
+    static constexpr std::size_t kBlockBytes = std::size_t{1} << 19;  // stays in the second cache
+    static constexpr std::size_t kMostBytes = 4 * kBlockBytes;
+    std::vector<std::span<const std::uint8_t>> parts_;
+    Bytes block_;
+};
+
+/// Returns 0, or errno.
+int writePieces(std::FILE* file, std::span<const OutputPiece> pieces, Parallel& parallel) {
+    Batch batches[2];
+    std::size_t piece = 0, offset = 0;
+    int error = 0;
+    batches[0].fill(pieces, piece, offset);
+    for (std::size_t current = 0; error == 0 && !batches[current].empty(); current ^= 1) {
+        // The other one is filled even where nothing is left: then it is empty.
+        int no_memory = 0;
+        parallel.forTasks(2, [&](std::size_t task) {
+            if (task == 0) {
+                if (!batches[current].write(file)) error = errno;
+                return;
+            }
+            try {
+                batches[current ^ 1].fill(pieces, piece, offset);
+            } catch (...) {
+                no_memory = ENOMEM;
+            }
+        });
+        if (error == 0) error = no_memory;
+    }
+    return error;
+}
+
 }  // namespace
 
 AtomicOutput::~AtomicOutput() {
@@ -48,8 +118,7 @@ AtomicOutput::~AtomicOutput() {
         fs::remove(*folder, ignored);
 }
 
-void AtomicOutput::add(const fs::path& requested,
-                       std::span<const std::span<const std::uint8_t>> pieces) {
+void AtomicOutput::add(const fs::path& requested, std::span<const OutputPiece> pieces, const Execution& execution) {
     // A link keeps being a link: what it points at is replaced.
     std::error_code error;
     const fs::path target = fs::is_symlink(requested, error) ? fs::weakly_canonical(requested) : requested;
@@ -67,12 +136,12 @@ void AtomicOutput::add(const fs::path& requested,
     std::unique_ptr<std::FILE, CloseFile> file(std::fopen(temporary.c_str(), "wb"));
     if (!file) failWrite(target, std::strerror(errno));
     files_.push_back({temporary, target});
-    for (const auto& piece : pieces) {
-        if (!piece.empty() && std::fwrite(piece.data(), 1, piece.size(), file.get()) != piece.size()) {
-            failWrite(target, std::strerror(errno));
-        }
-        byte_count_ += piece.size();
+    const bool any_made = std::any_of(pieces.begin(), pieces.end(), [](const OutputPiece& p) { return p.maker != nullptr; });
+    Parallel parallel(any_made ? execution : Execution{.thread_count = 1});
+    if (const int failure = writePieces(file.get(), pieces, parallel); failure != 0) {
+        failWrite(target, std::strerror(failure));
     }
+    for (const OutputPiece& piece : pieces) byte_count_ += piece.size();
     if (std::fclose(file.release()) != 0) failWrite(target, std::strerror(errno));
     const fs::file_status old = fs::status(target, error);
     if (fs::exists(old)) fs::permissions(temporary, old.permissions(), error);

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "asset/file_io.h"
+#include "asset/output_piece.h"
+#include "tspace/execution.h"
 
 namespace tspace {
 
@@ -21,15 +22,15 @@ class AtomicOutput {
     AtomicOutput(const AtomicOutput&) = delete;
     AtomicOutput& operator=(const AtomicOutput&) = delete;
 
-    /// Writes `pieces` one after the other to a temporary file beside `target`. Missing folders are created.
-    void add(const std::filesystem::path& target,
-             std::span<const std::span<const std::uint8_t>> pieces);
-    void add(const std::filesystem::path& target,
-             std::initializer_list<std::span<const std::uint8_t>> pieces) {
+    /// Writes `pieces` one after the other to a temporary file beside `target`. Missing folders are created. Pieces are
+    /// made while the ones before them are written, where `execution` has a second thread.
+    void add(const std::filesystem::path& target, std::span<const OutputPiece> pieces,
+             const Execution& execution = {.thread_count = 1});
+    void add(const std::filesystem::path& target, std::initializer_list<OutputPiece> pieces) {
         add(target, std::span(pieces.begin(), pieces.size()));
     }
     void add(const std::filesystem::path& target, std::span<const std::uint8_t> bytes) {
-        add(target, {bytes});
+        add(target, {OutputPiece(bytes)});
     }
 
     /// Remembers a file whose content went into an output.

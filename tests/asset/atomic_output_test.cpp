@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 // All files or none.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <csignal>
+#include <memory>
 
 #include "asset/atomic_output.h"
 #include "gltf_builder.h"
@@ -54,6 +59,28 @@ TEST(AtomicOutput, TakesBackWhatWasRenamedWhenALaterRenameFails) {
     EXPECT_EQ(readFile(folder.path("last")), toBytes("old"));
     EXPECT_FALSE(std::filesystem::exists(folder.path("fresh")));
     EXPECT_TRUE(std::filesystem::is_directory(folder.path("first")));
+}
+
+TEST(AtomicOutput, SaysThatThereIsNoRoomForPiecesThatAreMade) {
+    struct Zeros final : ByteMaker {
+        [[nodiscard]] std::size_t size() const override { return 10'000'000; }
+        void make(std::size_t, std::span<std::uint8_t> to) const override { std::fill(to.begin(), to.end(), std::uint8_t{0}); }
+    };
+    const TempFolder folder;
+    rlimit old{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
+    const rlimit small{1'000'000, old.rlim_max};
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    for (const unsigned threads : {1u, 2u}) {
+        AtomicOutput output;
+        const std::vector<OutputPiece> pieces = {OutputPiece(std::make_shared<Zeros>())};
+        EXPECT_EQ(errorOf([&] { output.add(folder.path("a"), pieces, {.thread_count = threads}); }).code,
+                  ErrorCode::cannotWrite);
+    }
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &old), 0);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_EQ(folder.entryCount(), 0u);
 }
 
 TEST(AtomicOutput, WritesThroughALink) {

@@ -15,11 +15,29 @@ Bytes anyBytes() {
     return Bytes(values.begin(), values.end());
 }
 
-Bytes flat(const std::vector<std::span<const std::uint8_t>>& pieces) {
+Bytes flat(const std::vector<OutputPiece>& pieces) {
     Bytes all;
-    for (const auto& piece : pieces) all.insert(all.end(), piece.begin(), piece.end());
+    for (const OutputPiece& piece : pieces) {
+        Bytes made(piece.maker ? piece.size() : 0);
+        if (piece.maker) piece.maker->make(0, made);
+        const std::span<const std::uint8_t> bytes = piece.maker ? made : piece.bytes;
+        all.insert(all.end(), bytes.begin(), bytes.end());
+    }
     return all;
 }
+
+/// Bytes that lie somewhere, and are made as a copy of these.
+class Copying final : public ByteMaker {
+  public:
+    explicit Copying(Bytes bytes) : bytes_(std::move(bytes)) {}
+    [[nodiscard]] std::size_t size() const override { return bytes_.size(); }
+    void make(std::size_t begin, std::span<std::uint8_t> to) const override {
+        std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(begin), to.size(), to.begin());
+    }
+
+  private:
+    Bytes bytes_;
+};
 
 RC_GTEST_PROP(BufferBytes, HoldsWhatAnArrayWouldHold, ()) {
     Bytes outside = anyBytes();
@@ -34,8 +52,14 @@ RC_GTEST_PROP(BufferBytes, HoldsWhatAnArrayWouldHold, ()) {
         begins.push_back(expected.size());
         counts.push_back(added.size());
         expected.insert(expected.end(), added.begin(), added.end());
-        RC_ASSERT(bytes.append(added, alignment) == begins.back());
+        if (*rc::gen::arbitrary<bool>()) {
+            RC_ASSERT(bytes.append(added, alignment) == begins.back());
+        } else {
+            RC_ASSERT(bytes.append(std::make_shared<Copying>(added), alignment) == begins.back());
+        }
     }
+    RC_ASSERT(flat(bytes.pieces()) == expected);
+    if (*rc::gen::arbitrary<bool>()) bytes.makeAll();
     RC_ASSERT(bytes.size() == expected.size());
     RC_ASSERT(bytes.joined() == expected);
     RC_ASSERT(flat(bytes.pieces()) == expected);

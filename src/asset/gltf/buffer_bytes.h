@@ -4,10 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "asset/file_io.h"
+#include "asset/output_piece.h"
 
 namespace tspace::gltf {
 
@@ -37,24 +38,34 @@ class BufferBytes {
 
     /// Appends at the next multiple of `alignment`, behind zeros, and returns where that is.
     std::size_t append(Bytes bytes, std::size_t alignment);
+    /// The same with bytes that are made when they are written, or when somebody looks at them.
+    std::size_t append(std::shared_ptr<const ByteMaker> maker, std::size_t alignment);
+    /// Makes all bytes that were not made yet.
+    void makeAll();
 
     /// Takes ranges out, which are in order and do not overlap.
     void cut(std::span<const ByteCut> cuts);
 
     /// All bytes, one piece after the other.
-    [[nodiscard]] std::vector<std::span<const std::uint8_t>> pieces() const;
+    [[nodiscard]] std::vector<OutputPiece> pieces() const;
     [[nodiscard]] Bytes joined() const;
 
   private:
+    class Later;
     struct Piece {
-        std::size_t begin = 0;
-        std::span<std::uint8_t> bytes;
+        std::size_t begin = 0, count = 0;
+        std::span<std::uint8_t> bytes = {};  ///< empty: those of `later`
+        std::shared_ptr<Later> later = {};
+
+        [[nodiscard]] std::span<std::uint8_t> there() const;
     };
-    void addPiece(std::span<std::uint8_t> bytes);
+    void addPiece(Piece piece);
+    void pad(std::size_t alignment);
 
     std::vector<Piece> pieces_;   ///< none is empty
     std::vector<Bytes> storage_;  ///< of the pieces that are not somebody else's
     std::size_t size_ = 0;
+    std::size_t there_count_ = 0;  ///< of the pieces; so many are there for sure
 };
 
 }  // namespace tspace::gltf

@@ -294,18 +294,18 @@ void convertContainer(Document& document, const OutputTarget& target, bool will_
 }
 
 void writeDocument(Document& document, const OutputTarget& target, AtomicOutput& output,
-                   std::vector<std::string>& warnings) {
+                   std::vector<std::string>& warnings, const Execution& execution) {
     if (target.container == Container::glb) {
         const std::string text = writeJson(document.json, document.style);
         const bool has_bin = !document.buffers.empty() && document.buffers[0].source == BufferSource::bin;
         const GlbFrame frame =
             frameGlb(text, has_bin ? std::optional(document.buffers[0].bytes.size()) : std::nullopt,
                      document.extra_chunks);
-        std::vector<std::span<const std::uint8_t>> pieces;
+        std::vector<OutputPiece> pieces;
         if (has_bin) pieces = document.buffers[0].bytes.pieces();
         pieces.insert(pieces.begin(), frame.head);
         pieces.push_back(frame.tail);
-        output.add(target.path, pieces);
+        output.add(target.path, pieces, execution);
     } else {
         for (std::size_t i = 0; i < document.buffers.size(); ++i) {
             const Buffer& buffer = document.buffers[i];
@@ -318,7 +318,7 @@ void writeDocument(Document& document, const OutputTarget& target, AtomicOutput&
         output.add(target.path, bytesOf(writeJson(document.json, document.style)));
         for (const Buffer& buffer : document.buffers) {
             if (buffer.source == BufferSource::file && buffer.own && (buffer.edited || !target.in_place)) {
-                output.add(folderOf(target.path) / buffer.path, buffer.bytes.pieces());
+                output.add(folderOf(target.path) / buffer.path, buffer.bytes.pieces(), execution);
             }
         }
     }

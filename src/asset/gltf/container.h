@@ -34,7 +34,7 @@ std::string freeFileName(const Document& document, const OutputTarget& target, c
 
 /// Writes model, own buffers, and copies of the other files it names when the folder is another one.
 void writeDocument(Document& document, const OutputTarget& target, AtomicOutput& output,
-                   std::vector<std::string>& warnings);
+                   std::vector<std::string>& warnings, const Execution& execution);
 
 /// Writes the input's own bytes, with copies of the files it names as above.
 void writeUnchanged(const Document& document, const OutputTarget& target, AtomicOutput& output,

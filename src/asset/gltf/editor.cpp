@@ -108,6 +108,8 @@ bool Editor::canOverwrite(const Accessor& accessor) const {
 
 void Editor::overwrite(const Accessor& accessor, const Bytes& elements) {
     const BufferView view = readBufferView(document_, *accessor.view);
+    // What is to be copied later may lie here.
+    for (Buffer& any : document_.buffers) any.bytes.makeAll();
     Buffer& buffer = document_.buffers[view.buffer];
     std::uint8_t* to = buffer.bytes
                            .range(view.begin + accessor.byte_offset,
@@ -193,11 +195,14 @@ std::size_t Editor::storeView(ElementData&& data, const Form& form) {
     // Vertex attributes start at multiples of 4 bytes each; indices are packed.
     const std::size_t stride =
         data.target == kVertexTarget ? (data.element_bytes + 3) / 4 * 4 : data.element_bytes;
-    const std::size_t count = data.bytes.size() / data.element_bytes;
+    const std::size_t count = data.byteCount() / data.element_bytes;
     // The codec knows no indices of one byte.
     const bool packs = form.meshopt != nullptr && stride > 1;
     const std::size_t buffer = packs && form.decoded_buffer ? *form.decoded_buffer : targetBuffer();
-    const std::size_t begin = appendBytes(buffer, std::move(data.bytes), data.element_bytes, stride);
+    if (data.later && (packs || stride != data.element_bytes)) data.makeNow();
+    if (data.later) document_.buffers[buffer].edited = true;
+    const std::size_t begin = data.later ? document_.buffers[buffer].bytes.append(std::move(data.later), 4)
+                                         : appendBytes(buffer, std::move(data.bytes), data.element_bytes, stride);
     const std::size_t index = newView();
     Json& view = document_.json["bufferViews"][index];
     view["buffer"] = buffer;
@@ -240,10 +245,11 @@ Json Editor::storeSparse(ElementData&& data) {
 
 std::size_t Editor::store(ElementData&& data, std::optional<std::size_t> replaces) {
     // Each stays until the file is written; vertices that many primitives share are stored for each that needs its own.
-    document_.memory->take(data.bytes.size() + data.unfiltered.size(), "/accessors");
+    document_.memory->take(data.byteCount() + data.unfiltered.size(), "/accessors");
     changed_ = true;
     const Form form = data.in_draco ? Form{.is_draco = true} : formLike(data.like);
     if (replaces) letGoOf(readAccessor(document_, *replaces));
+    if (form.is_draco || data.places) data.makeNow();
     std::optional<std::size_t> view;
     Json sparse;
     if (form.is_draco) {

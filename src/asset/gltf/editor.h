@@ -31,6 +31,7 @@ struct ElementData {
     std::size_t count = 0;
     std::size_t element_bytes = 4;
     Bytes bytes = {};
+    std::shared_ptr<const ByteMaker> later = {};  ///< in place of `bytes`, which may then be made later
     unsigned target = kVertexTarget;
     /// An accessor: the new elements are compressed as its elements are.
     std::optional<std::size_t> like = {};
@@ -42,6 +43,14 @@ struct ElementData {
     /// stored as a sparse accessor.
     std::optional<std::vector<std::uint32_t>> places = {};
     Json min = nullptr, max = nullptr;  ///< written unless null
+
+    [[nodiscard]] std::size_t byteCount() const { return later ? later->size() : bytes.size(); }
+    void makeNow() {
+        if (!later) return;
+        bytes = Bytes(later->size());
+        later->make(0, bytes);
+        later.reset();
+    }
 };
 
 class Editor {

@@ -5,11 +5,53 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 #include "asset/gltf/sparse_elements.h"
 
 namespace tspace::gltf {
+
+namespace {
+
+/// Those of the accessor, but for the elements themselves.
+ElementData describe(const Document& document, const Accessor& accessor, std::size_t count) {
+    ElementData data;
+    data.component = accessor.component;
+    data.type = accessor.type;
+    data.normalized = accessor.normalized;
+    data.like = accessor.index;
+    data.filter = filterOf(document, accessor);
+    data.count = count;
+    data.element_bytes = accessor.element_bytes;
+    // Copies change no bound.
+    const Json& object = rootArray(document, "accessors")[accessor.index];
+    if (const Json* low = findMember(object, "min")) data.min = *low;
+    if (const Json* high = findMember(object, "max")) data.max = *high;
+    return data;
+}
+
+/// BIN lies there. Those bytes stay to the end, and Editor::overwrite takes care before it changes them.
+bool liesInModelFile(const Document& document, const std::uint8_t* data) {
+    const std::uint8_t *begin = document.file_bytes.data(), *end = begin + document.file_bytes.size();
+    return !std::less<>{}(data, begin) && std::less<>{}(data, end);
+}
+
+}  // namespace
+
+ElementData gatherSplit(const Document& document, const Accessor& accessor, const SplitSources& sources) {
+    const std::optional<ElementView> old = viewElements(document, accessor);
+    if (old && liesInModelFile(document, old->data) && filterOf(document, accessor) == MeshoptFilter::none) {
+        ElementData data = describe(document, accessor, sources.size());
+        data.later = std::make_shared<GatheredBytes>(old->data, old->stride, accessor.element_bytes, sources);
+        return data;
+    }
+    std::vector<std::uint32_t> all(sources.kept);
+    std::iota(all.begin(), all.end(), 0u);
+    all.insert(all.end(), sources.copies->begin(), sources.copies->end());
+    return gatherElements(document, accessor, all);
+}
 
 ElementData gatherElements(const Document& document, const Accessor& accessor,
                            std::span<const std::uint32_t> sources) {
@@ -19,15 +61,8 @@ ElementData gatherElements(const Document& document, const Accessor& accessor,
         packed = copyElements(document, accessor);
         old = {packed.data(), accessor.element_bytes};
     }
-    ElementData data;
-    data.component = accessor.component;
-    data.type = accessor.type;
-    data.normalized = accessor.normalized;
-    data.like = accessor.index;
-    data.filter = filterOf(document, accessor);
+    ElementData data = describe(document, accessor, sources.size());
     data.unfiltered = gatherUnfiltered(document, accessor, sources);
-    data.count = sources.size();
-    data.element_bytes = accessor.element_bytes;
     data.bytes.resize(sources.size() * accessor.element_bytes);
     withElementSize(data.element_bytes, [&](auto size) {
         std::uint8_t* const to = data.bytes.data();
@@ -35,10 +70,6 @@ ElementData gatherElements(const Document& document, const Accessor& accessor,
             std::memcpy(to + i * size, old->data + sources[i] * old->stride, size);
     });
     if (accessor.sparse && !accessor.view) makeSparseWhereSmaller(data);
-    // Copies change no bound.
-    const Json& object = rootArray(document, "accessors")[accessor.index];
-    if (const Json* low = findMember(object, "min")) data.min = *low;
-    if (const Json* high = findMember(object, "max")) data.max = *high;
     return data;
 }
 

@@ -103,7 +103,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     tell(options, "writing", 0, 1);
     report.changed = editor.changed() || converted || repacked || packed_more;
     if (report.changed) {
-        writeDocument(document, target, files, report.warnings);
+        writeDocument(document, target, files, report.warnings, options.tangents.execution);
     } else {
         writeUnchanged(document, target, files, report.warnings);
     }

@@ -121,8 +121,12 @@ PoolElements packFrames(const Document& document, std::span<const Primitive> pri
     if (pool.keeps_tangents) return elements;
     if (elements.was_split) {
         elements.carried = carriedAttributes(primitives, pool, frames);
+        // Old vertices come first, as they were.
+        SplitSources sources{.kept = primitives[pool.primitives[0]].vertex_count};
+        sources.copies = std::make_shared<const std::vector<std::uint32_t>>(
+            frames.source_vertices.begin() + static_cast<std::ptrdiff_t>(sources.kept), frames.source_vertices.end());
         for (auto& [accessor, carried] : elements.carried)
-            carried.data = gatherElements(document, readAccessor(document, accessor), frames.source_vertices);
+            carried.data = gatherSplit(document, readAccessor(document, accessor), sources);
         for (std::size_t i = 0; i < pool.geometries.size(); ++i) {
             const Primitive& first = primitives[pool.geometries[i].primitives[0]];
             elements.indices.push_back(newIndices(document, first, frames.indices[i], elements.vertex_count));
