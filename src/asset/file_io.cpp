@@ -2,10 +2,17 @@
 // Reading whole files, and questions about paths.
 #include "asset/file_io.h"
 
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
 #include <cstdio>
 #include <memory>
+#include <span>
 
 #include "asset/file_error.h"
+#include "core/parallel.h"
 
 namespace tspace {
 
@@ -17,9 +24,35 @@ struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
+/// Reads bytes from `begin` on. Returns false when the file has fewer.
+bool readAt(int file, std::size_t begin, std::span<std::uint8_t> to) {
+    while (!to.empty()) {
+        const ::ssize_t count = ::pread(file, to.data(), to.size(), static_cast<::off_t>(begin));
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return false;
+        begin += static_cast<std::size_t>(count);
+        to = to.subspan(static_cast<std::size_t>(count));
+    }
+    return true;
+}
+
+/// A step at a time, so that memory is read into while it is in the cache from being cleared.
+bool readSteps(int file, std::span<std::uint8_t> to, const Execution& execution) {
+    const std::size_t steps = (to.size() + kHugePage - 1) / kHugePage;
+    std::atomic<bool> good = true;
+    Parallel parallel(to.size() < kLargeBytes ? Execution{.thread_count = 1} : execution);
+    parallel.forTasks(steps, [&](std::size_t step) {
+        const std::size_t begin = step * kHugePage;
+        const auto part = to.subspan(begin, std::min(kHugePage, to.size() - begin));
+        if (to.size() >= kLargeBytes) askForPages(part.data(), part.size());
+        if (!readAt(file, begin, part)) good = false;
+    });
+    return good;
+}
+
 }  // namespace
 
-Bytes readFile(const fs::path& path, const std::string& place) {
+Bytes readFile(const fs::path& path, const std::string& place, const Execution& execution) {
     // What the user named cannot be read; what a model names makes the model incomplete.
     const ErrorCode code = place.empty() ? ErrorCode::cannotRead : ErrorCode::invalidFile;
     std::error_code error;
@@ -33,7 +66,7 @@ Bytes readFile(const fs::path& path, const std::string& place) {
     const std::unique_ptr<std::FILE, CloseFile> file(error ? nullptr : std::fopen(path.c_str(), "rb"));
     if (!file) failFile(code, "cannot open the file " + pathInQuotes(path), place);
     Bytes bytes(static_cast<std::size_t>(size));
-    if (!bytes.empty() && std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) {
+    if (!readSteps(::fileno(file.get()), bytes, execution)) {
         failFile(code, "cannot read all of the file " + pathInQuotes(path), place);
     }
     return bytes;

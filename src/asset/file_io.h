@@ -10,11 +10,14 @@
 #include <vector>
 
 #include "core/memory.h"
+#include "tspace/execution.h"
 
 namespace tspace {
 
-/// Takes memory as Buffer does, with its pages at once, and leaves new elements as they are: what is to be overwritten
-/// need not be zero before.
+inline constexpr std::size_t kLargeBytes = 2 * kHugePage;
+
+/// Takes memory as Buffer does, with its pages at once where it is not large, and leaves new elements as they are: what
+/// is to be overwritten need not be zero before.
 template <class T>
 struct UnsetAllocator {
     using value_type = T;
@@ -23,7 +26,15 @@ struct UnsetAllocator {
     template <class U>
     UnsetAllocator(const UnsetAllocator<U>&) {}
 
-    T* allocate(std::size_t count) { return static_cast<T*>(allocateBytes(nullptr, count * sizeof(T))); }
+    T* allocate(std::size_t count) {
+        const std::size_t bytes = count * sizeof(T);
+        if (bytes < kLargeBytes) return static_cast<T*>(allocateBytes(nullptr, bytes));
+        // Several threads may fill it, each with pages of its own.
+        void* memory = ::operator new(bytes, std::align_val_t(defaultAlignment(bytes)), std::nothrow);
+        if (memory == nullptr) throw OutOfMemory{};
+        askForHugePages(memory, bytes);
+        return static_cast<T*>(memory);
+    }
     void deallocate(T* memory, std::size_t count) { releaseBytes(nullptr, memory, count * sizeof(T)); }
     template <class U>
     void construct(U* place) {
@@ -42,8 +53,10 @@ struct UnsetAllocator {
 /// Bytes(n) and resize(n) leave new bytes unset; say Bytes(n, 0) for zeros.
 using Bytes = std::vector<std::uint8_t, UnsetAllocator<std::uint8_t>>;
 
-/// Reads a regular file. Fails with cannotRead; with invalidFile when `place` says where a model names it.
-Bytes readFile(const std::filesystem::path& path, const std::string& place = {});
+/// Reads a regular file, a large one with all threads. Fails with cannotRead; with invalidFile when `place` says where a
+/// model names it.
+Bytes readFile(const std::filesystem::path& path, const std::string& place = {},
+               const Execution& execution = {.thread_count = 1});
 
 /// The folder that a file lies in; "." for a bare name.
 std::filesystem::path folderOf(const std::filesystem::path& file);

@@ -26,13 +26,20 @@ inline constexpr std::size_t kMemoryAlignment = 64;  // a cache line, and the wi
 inline constexpr std::size_t kHugePage = std::size_t{2} << 20;
 inline std::size_t defaultAlignment(std::size_t bytes) { return bytes < kHugePage ? kMemoryAlignment : kHugePage; }
 
+/// A hint only.
+inline void askForHugePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+    if (bytes >= kHugePage) madvise(memory, bytes, MADV_HUGEPAGE);
+#endif
+}
+
 /// Touching fresh 4 KB pages one by one can cost as much as all the computing on them (a fault is 0.5 us and more on
 /// a virtual machine). So a large block asks for its pages at once, and for huge ones. Hints only: they may fail.
 inline void askForPages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__) && defined(MADV_POPULATE_WRITE)
     constexpr std::size_t kPage = 4096, kWorthACall = 32 * kPage;
     if (bytes < kWorthACall) return;
-    if (bytes >= kHugePage) madvise(memory, bytes, MADV_HUGEPAGE);
+    askForHugePages(memory, bytes);
     const std::size_t skip = -reinterpret_cast<std::uintptr_t>(memory) % kPage;
     madvise(static_cast<std::byte*>(memory) + skip, (bytes - skip) / kPage * kPage, MADV_POPULATE_WRITE);
 #endif

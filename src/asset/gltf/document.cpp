@@ -245,9 +245,9 @@ Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, cons
     return document;
 }
 
-Document loadDocument(const std::filesystem::path& path, const FileOptions& options) {
+Document loadDocument(const std::filesystem::path& path, const FileOptions& options, const Execution& execution) {
     if (isImportedFormat(path)) return importDocument(path, options);
-    return parseDocument(readFile(path), path, options);
+    return parseDocument(readFile(path, {}, execution), path, options);
 }
 
 std::string formatOf(const Document& document) {

@@ -74,7 +74,8 @@ struct Document {
 /// Reads a .glb or .gltf (told apart by content) and its buffers. Checks asset.version, buffers, buffer views
 /// and accessors (types, ranges), and that no URI of a buffer or image leads out of the folder. Images are
 /// not read.
-Document loadDocument(const std::filesystem::path& path, const FileOptions& options);
+Document loadDocument(const std::filesystem::path& path, const FileOptions& options,
+                      const Execution& execution = {.thread_count = 1});
 
 /// The same from bytes in memory; `path` says where relative URIs start.
 Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, const FileOptions& options);

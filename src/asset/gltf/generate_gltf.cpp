@@ -54,7 +54,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
                         const GenerateOptions& options) {
     GenerateReport report;
     tell(options, "reading", 0, 1);
-    Document document = loadDocument(input, options.file);
+    Document document = loadDocument(input, options.file, options.tangents.execution);
     const OutputTarget target = outputTarget(document, output_path);
     report.warnings = document.warnings;
     for (std::string& warning : checkRequiredExtensions(document))
