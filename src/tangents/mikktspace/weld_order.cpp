@@ -24,6 +24,7 @@ namespace {
 
 constexpr std::size_t kCells = kWeldCells;
 constexpr std::size_t kFewVertices = 512;  // so few are looked at without NearCells
+constexpr std::size_t kElementsForThreads = 4096;  // of cells: fewer are done sooner than threads are started
 /// Marks of vertices in wanted cells: the cell's number, from 1, and whether their nodes are wanted. All
 /// cells that get none of their own share the last number.
 constexpr std::uint8_t kCellNumber = 0x7f, kAtNode = 0x80;
@@ -234,10 +235,13 @@ void WeldOrder::findSome(std::span<const std::uint32_t> vertices, std::uint32_t*
             }
         }
         // Now the elements of a cell end where it had been said that those of the next one begin.
-        parallel_.forTasks(cell_count, [&](std::size_t cell) {
-            const std::uint32_t begin = cell == 0 ? 0 : next[cell];
-            if (begin < next[cell + 1])
-                follow(elements.data() + begin, next[cell + 1] - begin, representatives, nullptr);
+        const std::size_t grain = elements.size() < kElementsForThreads ? cell_count : 1;
+        parallel_.forRanges(cell_count, grain, [&](std::size_t first, std::size_t end) {
+            for (std::size_t cell = first; cell < end; ++cell) {
+                const std::uint32_t begin = cell == 0 ? 0 : next[cell];
+                if (begin < next[cell + 1])
+                    follow(elements.data() + begin, next[cell + 1] - begin, representatives, nullptr);
+            }
         });
         if (other_count != 0) find(others, wanted, representatives, nullptr);
     });
