@@ -63,6 +63,16 @@ bool isListed(std::uint32_t vertex, const MeshView& mesh, const TriangleList& tr
     });
 }
 
+/// Whether the vertex of the first entry, which the reference leaves out of its box, is in a later one. That
+/// is so of most polygons; looked for where it would be then.
+bool isFirstListedAgain(const MeshView& mesh, const TriangleList& triangles) {
+    constexpr std::size_t kNear = 256;  // entries
+    for (std::size_t i = 1; i < std::min(kNear, 3 * triangles.count); ++i) {
+        if (mesh.indices[triangles.corner(i)] == mesh.indices[triangles.corner(0)]) return true;
+    }
+    return false;
+}
+
 /// A box with the same longest axis, and the same ends on it. Reading vertices in order is much faster than
 /// reading those of the list; nearly always they make the same box. It does for us when vertices on both ends
 /// of its longest axis are in the list: the box of the list may be shorter on other axes only, and so has the
@@ -72,7 +82,7 @@ Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const IsLis
                 const Allocator* allocator, Parallel& parallel) {
     constexpr std::size_t kBoxed = 512;  // vertices
     constexpr std::size_t kGrain = 64;   // boxes
-    if (triangles.corner(0) != 0) return listedBox(mesh, triangles);
+    if (triangles.corner(0) != 0 && !isFirstListedAgain(mesh, triangles)) return listedBox(mesh, triangles);
     const Box start(mesh.positions[mesh.indices[0]]);
     const std::size_t count = mesh.vertexCount(), box_count = (count + kBoxed - 1) / kBoxed;
     Buffer<Box> boxes(allocator, box_count);
