@@ -60,10 +60,12 @@ class NodeWalk {
         result.mirrored_count = corners_.mirrored_count;
         result.group_count = groups + contested_counts_.groups;
         result.default_corner_count = defaults + contested_counts_.defaults + copyToDegenerate();
+        std::size_t left_count = 0;
         for (std::uint8_t& state : state_) {
             state = state == kLeft ? 1 : 0;
-            result.left_count += state;
+            left_count += state;
         }
+        result.left_count = left_count;
         result.left = std::move(state_);
         return result;
     }

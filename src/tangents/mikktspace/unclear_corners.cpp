@@ -120,8 +120,10 @@ class CornerReader {
 
     void readBlocks(std::size_t begin_block, std::size_t end_block, Counts& counts) {
         CornerTerms terms;
-        std::fill_n(terms.t[0], 4 * kTermCorners, 0.0f);  // not written when tangents_only
-        std::fill_n(terms.lengths_t[0], kTermCorners, 0.0f);
+        if (from_.source.tangents_only) {  // else they are written
+            std::fill_n(terms.t[0], 4 * kTermCorners, 0.0f);
+            std::fill_n(terms.lengths_t[0], kTermCorners, 0.0f);
+        }
         std::uint32_t own[kTermCorners] = {};
         for (std::size_t block = begin_block; block < end_block; ++block) {
             const std::size_t begin = block * kTermTriangles,
