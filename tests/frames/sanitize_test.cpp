@@ -282,7 +282,7 @@ RC_GTEST_PROP(Sanitize, KeepsItsPromisesOnGarbage, ()) {
             const double size2 = double{n.x} * n.x + double{n.y} * n.y + double{n.z} * n.z;
             if (size2 > 0 && size2 < std::numeric_limits<double>::infinity()) {
                 RC_ASSERT(std::abs(unitDot(n, t)) <=
-                          (is_same ? std::cos(0.99 * 3.14159265358979 / 180) : 1e-6));
+                          (is_same ? lengthOf(t) * std::cos(0.99 * 3.14159265358979 / 180) : 1e-6));
             }
             if (!is_same) ++changed;
         }
