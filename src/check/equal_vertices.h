@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "check/tangent_view.h"
+#include "tspace/span.h"
 
 namespace tspace {
 
@@ -14,7 +15,9 @@ struct EqualVertices {
     std::size_t class_count = 0;               ///< numbered in order of their first vertices
 };
 
-/// Bits decide, but both zeros are one value. Expected linear time.
+/// One entry per vertex in each; `uvs` may be empty. Bits decide, but both zeros are one value. Expected linear time.
+EqualVertices findEqualVertices(const StridedSpan<const Vec3>& positions, const StridedSpan<const Vec3>& normals,
+                                const StridedSpan<const Vec2>& uvs);
 EqualVertices findEqualVertices(const TangentView& mesh, bool with_uvs);
 
 }  // namespace tspace

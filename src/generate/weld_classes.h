@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "check/equal_vertices.h"
 #include "generate/local_mesh.h"
 
 namespace tspace {
@@ -12,11 +13,10 @@ namespace tspace {
 /// Vertices with equal position, normal and UV, over which the grouping methods go on.
 class WeldClasses {
   public:
-    WeldClasses() = default;
     /// Expected linear time; keeps 4 bytes per vertex.
-    explicit WeldClasses(const LocalMesh& mesh);
+    explicit WeldClasses(const LocalMesh& mesh) : classes_(findEqualVertices(mesh.positions, mesh.normals, mesh.uvs)) {}
 
-    [[nodiscard]] std::uint32_t of(std::uint32_t vertex) const { return class_of_[vertex]; }
+    [[nodiscard]] std::uint32_t of(std::uint32_t vertex) const { return classes_.class_of[vertex]; }
 
     /// Marks the classes whose vertices, those that `corners` name, have different positions or normals in a pose.
     /// Returns whether there is one. Linear.
@@ -24,8 +24,7 @@ class WeldClasses {
                    std::span<const Vec3> normals, std::vector<bool>& apart) const;
 
   private:
-    std::vector<std::uint32_t> class_of_ = {};
-    std::size_t count_ = 0;
+    EqualVertices classes_;
 };
 
 }  // namespace tspace
