@@ -15,7 +15,20 @@ namespace tspace {
 
 struct VertexRange {
     std::uint32_t begin = 0, end = 0;
+
+    [[nodiscard]] bool has(std::uint32_t vertex) const { return vertex - begin < end - begin; }
 };
+
+/// Kernels read whole groups of triangles, so the last one is filled up. The triangles' vertices: `vertices`, or `buffer`,
+/// which may be the same.
+inline const std::uint32_t* fillGroup(const std::uint32_t* vertices, std::size_t count, std::size_t group,
+                                      std::uint32_t* buffer) {
+    const std::size_t end = (count + group - 1) / group * group;
+    if (end == count) return vertices;
+    if (vertices != buffer) std::copy_n(vertices, 3 * count, buffer);
+    std::fill(buffer + 3 * count, buffer + 3 * end, buffer[0]);
+    return buffer;
+}
 
 /// Vertices of some triangles as 32-bit numbers: in `buffer`, of 3 * count, where they are not that already.
 inline const std::uint32_t* blockVertices(const IndexView& vertices, std::size_t first_triangle,

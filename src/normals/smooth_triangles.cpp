@@ -72,7 +72,7 @@ struct RangeSums {
     VertexRange range;
     std::uint64_t* doubtful;  ///< room for a bit per point
 
-    [[nodiscard]] bool has(std::uint32_t point) const { return point - range.begin < range.end - range.begin; }
+    [[nodiscard]] bool has(std::uint32_t point) const { return range.has(point); }
     [[nodiscard]] PointSum& at(std::uint32_t point) const { return rows[point - range.begin]; }
     [[nodiscard]] std::size_t size() const { return range.end - range.begin; }
 };
@@ -85,16 +85,6 @@ struct Block {
     std::uint32_t points[3 * kBlock];
     FaceTerms terms;
 };
-
-/// Whole groups are read, so the last one is filled up. The triangles' vertices: `vertices`, or `buffer`, which may be
-/// the same.
-const std::uint32_t* fillGroup(const std::uint32_t* vertices, std::size_t count, std::uint32_t* buffer) {
-    const std::size_t end = (count + kTermGroup - 1) / kTermGroup * kTermGroup;
-    if (end == count) return vertices;
-    if (vertices != buffer) std::copy_n(vertices, 3 * count, buffer);
-    std::fill(buffer + 3 * count, buffer + 3 * end, buffer[0]);
-    return buffer;
-}
 
 class TriangleSmoother {
   public:
@@ -127,8 +117,11 @@ class TriangleSmoother {
             if (!ranges_.cut(near, allocator_, parallel_)) return indexError();
             sumNear(report);
         } else {
-            if (!threads && indexError().code != ErrorCode::ok) return indexError();
-            if (threads && !ranges_.cut(parallel_.width(), allocator_, parallel_)) return indexError();
+            if (threads) {
+                if (!ranges_.cut(parallel_.width(), allocator_, parallel_)) return indexError();
+            } else if (Error e = indexError(); e.code != ErrorCode::ok) {
+                return e;
+            }
             sumFar(report);
         }
         return report;
@@ -205,11 +198,11 @@ class TriangleSmoother {
             const std::uint32_t* v = blockVertices(mesh_.indices, b * kBlock, count, block.vertices);
             const std::uint32_t* points = blockPoints(b, v, count, block.points);
             if (ranges_.isWithinOne(b)) {
-                degenerate += kernel_.compute(source, fillGroup(v, count, block.vertices), count, block.terms);
+                degenerate += kernel_.compute(source, fillGroup(v, count, kTermGroup, block.vertices), count, block.terms);
                 kernel_.add(block.terms, points, count, sums, place.range.begin);
             } else {
                 count = select(v, points, count, place, block);
-                const std::uint32_t* const vertices = fillGroup(block.vertices, count, block.vertices);
+                const std::uint32_t* const vertices = fillGroup(block.vertices, count, kTermGroup, block.vertices);
                 if (kernel_.compute(source, vertices, count, block.terms) != 0)
                     degenerate += degenerateIn(block, count, place);
                 kernel_.add_some(block.terms, block.points, count, sums, place.range.begin, place.range.end);
@@ -404,7 +397,7 @@ class TriangleSmoother {
     [[nodiscard, gnu::noinline]] Vec3 ownNormal(std::size_t triangle) const {
         Block block;
         const std::uint32_t* v = blockVertices(mesh_.indices, triangle, 1, block.vertices);
-        kernel_.compute(faceSource(false, false), fillGroup(v, 1, block.vertices), 1, block.terms);
+        kernel_.compute(faceSource(false, false), fillGroup(v, 1, kTermGroup, block.vertices), 1, block.terms);
         const double(&normal)[4] = block.terms.normal[0];
         if (normal[3] == 0.0) return {0, 0, 1};
         return toFloat({normal[0], normal[1], normal[2]});

@@ -28,7 +28,7 @@ struct FaceSums::Block {
         for (std::size_t i = 0; i < 3 * count; i += 3) {
             bool any = false;
             for (std::size_t k = 0; k < 3; ++k) {
-                any |= vertices[i + k] - range.begin < range.end - range.begin;
+                any |= range.has(vertices[i + k]);
                 buffer[3 * kept + k] = vertices[i + k];
             }
             kept += any ? 1 : 0;
@@ -36,22 +36,7 @@ struct FaceSums::Block {
         vertices = buffer;
         count = kept;
     }
-
-    /// Whole groups are read, so the last one is filled up.
-    void fillGroup() {
-        const std::size_t end = (count + kTermGroup - 1) / kTermGroup * kTermGroup;
-        if (end == count) return;
-        if (vertices != buffer) std::copy_n(vertices, 3 * count, buffer);
-        std::fill(buffer + 3 * count, buffer + 3 * end, buffer[0]);
-        vertices = buffer;
-    }
 };
-
-namespace {
-
-bool isIn(VertexRange range, std::uint32_t vertex) { return vertex - range.begin < range.end - range.begin; }
-
-}  // namespace
 
 TriangleCounts& TriangleCounts::operator+=(const TriangleCounts& other) {
     degenerate += other.degenerate;
@@ -94,7 +79,7 @@ TriangleCounts FaceSums::sum(unsigned index) const {
         block.vertices = blockVertices(plan_.triangle_vertices, first, block.count, block.buffer);
         const bool is_whole = ranges_.namesOnly(b, index);
         if (!is_whole) block.select(range);
-        block.fillGroup();
+        block.vertices = fillGroup(block.vertices, block.count, kTermGroup, block.buffer);
         kernel_.compute(source, block.vertices, block.count, block.terms);
         addBlock(block, range, is_whole, counts);
     }
@@ -119,11 +104,11 @@ void FaceSums::addBlock(const Block& block, VertexRange range, bool is_whole, Tr
         counts.mirrored += static_cast<unsigned>(std::popcount(block.terms.mirrored));
     } else {
         for (std::size_t i = 0; i < block.count; ++i)
-            counts.mirrored += (block.terms.mirrored >> i & 1) != 0 && isIn(range, v[3 * i]) ? 1 : 0;
+            counts.mirrored += (block.terms.mirrored >> i & 1) != 0 && range.has(v[3 * i]) ? 1 : 0;
     }
     if (visits_ == nullptr) return;
     for (std::size_t i = 0; i < 3 * block.count; ++i) {
-        if ((block.terms.safe >> (i / 3) & 1) != 0 && isIn(range, v[i])) visits_[v[i]] += 1;
+        if ((block.terms.safe >> (i / 3) & 1) != 0 && range.has(v[i])) visits_[v[i]] += 1;
     }
 }
 
@@ -132,7 +117,7 @@ void FaceSums::addUnsafe(const std::uint32_t* v, VertexRange range, TriangleCoun
     const Vec3 &p0 = positions_[v[0]], &p1 = positions_[v[1]], &p2 = positions_[v[2]];
     const UvFrame frame = uvFrame(p0, p1, p2, plan_.uvs[v[0]], plan_.uvs[v[1]], plan_.uvs[v[2]]);
     const bool has_area = hasUvArea(frame.determinant);
-    if (isIn(range, v[0])) {
+    if (range.has(v[0])) {
         counts.degenerate += p0 == p1 || p1 == p2 || p2 == p0 ? 1 : 0;
         counts.degenerate_uv += has_area ? 0 : 1;
         counts.mirrored += has_area && frame.determinant < 0 ? 1 : 0;
@@ -142,7 +127,7 @@ void FaceSums::addUnsafe(const std::uint32_t* v, VertexRange range, TriangleCoun
     const bool adds = has_area && isFinite(s) && isFinite(t);
     const float row[6] = {s.x + 0.0f, s.y, s.z, t.x, t.y, t.z};
     for (unsigned k = 0; k < 3; ++k) {
-        if (!isIn(range, v[k])) continue;
+        if (!range.has(v[k])) continue;
         float *const head = sums_.head(v[k]), *const tail = sums_.tail(v[k]);
         if (!adds) {
             *head += 0.0f;
