@@ -64,8 +64,8 @@ RowResult measureFile(const std::string& title, const std::string& model, Lab& l
         return row.wrong = true, row.note = "the copy is none, or nothing was generated", row;
 
     const Race::Ratio single = race.ratio(one, base, Clock::wall), both = race.ratio(two, base, Clock::wall);
-    row.one_thread = {single.best, single.low, single.high, 1.5, 0};
-    row.two_threads = {both.best, both.low, both.high, {}, 0};
+    row.one_thread = {single.median, single.low, single.high, 1.5, 0};
+    row.two_threads = {both.median, both.low, both.high, {}, 0};
     const auto ms = [&](std::size_t runner) {
         return std::to_string(static_cast<int>(1e3 * race.best(runner, Clock::wall)));
     };

@@ -50,8 +50,8 @@ Race::Ratio Race::ratio(std::size_t runner, std::size_t base, Clock clock) const
     std::vector<double> ratios;
     for (std::size_t i = 0; i < above.size(); ++i) ratios.push_back(above[i] / below[i]);
     std::ranges::sort(ratios);
-    return {best(runner, clock) / best(base, clock), ratios[ratios.size() / 4],
-            ratios[(ratios.size() - 1) - ratios.size() / 4]};
+    const std::size_t last = ratios.size() - 1, quarter = ratios.size() / 4;
+    return {(ratios[last / 2] + ratios[last - last / 2]) / 2, ratios[quarter], ratios[last - quarter]};
 }
 
 }  // namespace tspace::bench

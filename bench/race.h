@@ -19,13 +19,13 @@ class Race {
     std::size_t add(std::function<void()> body);
     void run(int rounds);
 
-    /// Seconds for one call in the best round.
+    /// Seconds for one call in the best round, which other load on the machine disturbs least.
     [[nodiscard]] double best(std::size_t runner, Clock clock = Clock::processor) const;
 
-    /// `best` divides the best times, which other load on the machine disturbs least; `low` and `high` are
-    /// the quartiles of the ratios inside each round.
+    /// Quartiles of the ratios inside each round. On a shared machine the pace changes from second to second, by half and
+    /// more; what runs in one round meets the same pace, the best rounds of two runners need not.
     struct Ratio {
-        double best = 0, low = 0, high = 0;
+        double median = 0, low = 0, high = 0;
     };
     [[nodiscard]] Ratio ratio(std::size_t runner, std::size_t base, Clock clock = Clock::processor) const;
 

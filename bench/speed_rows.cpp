@@ -32,7 +32,7 @@ std::string withSize(std::string mesh, const Lab& lab) {
 Cell cell(const Race& race, std::size_t runner, std::size_t base, std::size_t triangles,
           std::optional<double> asked, Clock clock) {
     const Race::Ratio ratio = race.ratio(runner, base, clock);
-    return {ratio.best, ratio.low, ratio.high, asked,
+    return {ratio.median, ratio.low, ratio.high, asked,
             1e9 * race.best(runner, clock) / static_cast<double>(triangles)};
 }
 
@@ -103,7 +103,7 @@ RowResult runContest(const std::string& title, const Contest& contest, Lab& lab)
     row.note = "plain " + inWords(1e9 * race.best(plain) / static_cast<double>(triangles)) + " ns";
     if (has_two) {
         row.two_threads = cell(race, both, plain, triangles, contest.asked_two, Clock::wall);
-        const double at_once = race.ratio(twice, plain, Clock::wall).best;
+        const double at_once = race.ratio(twice, plain, Clock::wall).median;
         row.two_threads.busy = at_once > kBusy;
         row.note += ", two at once " + inWords(at_once) + "x";
     }
