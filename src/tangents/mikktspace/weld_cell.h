@@ -108,19 +108,7 @@ class WeldCell {
 
     /// `wanted`: whether some element is.
     Box boxOf(Range range, bool& wanted) const {
-        // What the fourth lanes hold as numbers does not matter.
-        if (tame_) {
-            const auto at = [&](std::size_t i) { return loadFloat4(&elements_[i].position.x); };
-            Float4 low = at(range.begin), high = low, any = low;
-            for (std::size_t i = range.begin + 1; i < range.end; ++i) {
-                const Float4 here = at(i);
-                low = min4(low, here);
-                high = max4(high, here);
-                any = or4(any, here);
-            }
-            wanted = (laneBits(std::bit_cast<Mask4>(any)) & 8) != 0;
-            return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
-        }
+        if (tame_) return tameBoxOf(range, wanted);
         Box box(elements_[range.begin].position);
         std::uint32_t any = 0;
         for (std::size_t i = range.begin; i < range.end; ++i) {
@@ -129,6 +117,33 @@ class WeldCell {
         }
         wanted = (any & kMark) != 0;
         return box;
+    }
+
+    /// Without NaN the order of elements does not matter, so several boxes are made side by side: each waits for its
+    /// last minimum, four cycles long.
+    Box tameBoxOf(Range range, bool& wanted) const {
+        constexpr std::size_t kBoxes = 4;
+        // What the fourth lanes hold as numbers does not matter.
+        const auto at = [&](std::size_t i) { return loadFloat4(&elements_[i].position.x); };
+        Float4 low[kBoxes], high[kBoxes], any = splat(0);
+        for (std::size_t k = 0; k < kBoxes; ++k) low[k] = high[k] = at(range.begin);
+        const auto add = [&](std::size_t k, std::size_t i) {
+            const Float4 here = at(i);
+            low[k] = min4(low[k], here);
+            high[k] = max4(high[k], here);
+            any = or4(any, here);
+        };
+        std::size_t i = range.begin;
+        for (; i + kBoxes <= range.end; i += kBoxes) {
+            for (std::size_t k = 0; k < kBoxes; ++k) add(k, i + k);
+        }
+        for (; i < range.end; ++i) add(0, i);
+        for (std::size_t k = 1; k < kBoxes; ++k) {
+            low[0] = min4(low[0], low[k]);
+            high[0] = max4(high[0], high[k]);
+        }
+        wanted = (laneBits(std::bit_cast<Mask4>(any)) & 8) != 0;
+        return {{low[0][0], low[0][1], low[0][2]}, {high[0][0], high[0][1], high[0][2]}};
     }
 
     /// The reference swaps the first element that belongs to the right with the last one that belongs to the
