@@ -24,6 +24,14 @@ constexpr std::uint32_t kMaxTestedCorners = 1024;
 /// than this.
 constexpr double kOnLine = 1e-12;
 
+/// A vertex is convex for isFar, by far, when it and its neighbours span more than this part of the squared
+/// extent (twice the area): 8 * kOnLine would do, since no x and y of two points differ by more than four
+/// extents together. The rest is for rounding.
+constexpr double kTurns = 1e-9;
+
+/// Of more corners the next ear is never searched among all: they are bits of a word.
+constexpr std::uint32_t kMostSearched = 64;
+
 /// Numbers that sort as the floats do: -0 with +0, every NaN last.
 std::uint32_t sortable(float value) {
     if (std::isnan(value)) return 0xffffffffu;
@@ -52,9 +60,11 @@ class LeftSide {
     LeftSide(PlanePoint a, PlanePoint b)
         : a_(a), x_(b.x - a.x), y_(b.y - a.y), longest_(std::abs(x_) + std::abs(y_)) {}
 
-    /// Whether c is more than `slack` away from the line, to its left.
-    [[nodiscard]] bool isFar(PlanePoint c, double slack) const {
-        const double distance = across(c);
+    /// Distance of c from the line, times `length()`; positive to its left. Twice the area of the triangle.
+    [[nodiscard]] double across(PlanePoint c) const { return x_ * (c.y - a_.y) - y_ * (c.x - a_.x); }
+
+    /// Whether c is more than `slack` away from the line, to its left. `distance`: across(c).
+    [[nodiscard]] bool isFar(double distance, double slack) const {
         // The length between the two points is not above `longest_`: a square root tells only what is near.
         if (!(distance > 0)) return false;
         return distance > 2 * (slack * longest_) || distance - slack * length() > 0;
@@ -67,8 +77,6 @@ class LeftSide {
     }
 
   private:
-    /// Times the length.
-    [[nodiscard]] double across(PlanePoint c) const { return x_ * (c.y - a_.y) - y_ * (c.x - a_.x); }
     [[nodiscard]] double length() const { return std::sqrt(x_ * x_ + y_ * y_); }
 
     PlanePoint a_;
@@ -78,11 +86,15 @@ class LeftSide {
 /// Vertices are numbered in canonical order here.
 class Cutter {
   public:
-    Cutter(std::uint32_t count, bool has_uvs, PolygonScratch& scratch)
-        : count_(count), is_tested_(count <= kMaxTestedCorners), scratch_(scratch) {
+    Cutter(const Vec3* positions, const Vec2* uvs, std::uint32_t count, PolygonScratch& scratch)
+        : corner_positions_(positions),
+          corner_uvs_(uvs),
+          count_(count),
+          is_tested_(count <= kMaxTestedCorners),
+          start_(canonicalStart()),
+          scratch_(scratch) {
         if (scratch.positions.size() < count) grow(count);
         positions_ = scratch.positions.data();
-        uvs_ = has_uvs ? scratch.uvs.data() : nullptr;
         points_ = scratch.points.data();
         previous_ = scratch.previous.data();
         next_ = scratch.next.data();
@@ -90,14 +102,15 @@ class Cutter {
         is_reflex_ = scratch.is_reflex.data();
     }
 
-    void cut(const Vec3* positions, const Vec2* uvs, bool few, std::uint32_t* triangles) {
-        start_ = canonicalStart(positions, uvs);
-        std::rotate_copy(positions, positions + start_, positions + count_, positions_);
-        if (uvs != nullptr) std::rotate_copy(uvs, uvs + start_, uvs + count_, uvs_);
+    void cut(bool few, std::uint32_t* triangles) {
+        for (std::uint32_t v = 0; v < count_; ++v) positions_[v] = toDouble(corner_positions_[original(v)]);
         projectToPlane();
         link();
-        if (few) {
-            cutBy<SearchAll>(triangles);
+        const bool is_clearly_convex = findReflex();
+        if (few && is_clearly_convex) {
+            cutBy<SearchAll<true>, true>(triangles);
+        } else if (few) {
+            cutBy<SearchAll<false>>(triangles);
         } else {
             cutBy<Heap>(triangles);
         }
@@ -106,7 +119,6 @@ class Cutter {
   private:
     void grow(std::uint32_t count) {
         scratch_.positions.resize(count);
-        scratch_.uvs.resize(count);
         scratch_.points.resize(count);
         scratch_.previous.resize(count);
         scratch_.next.resize(count);
@@ -118,36 +130,45 @@ class Cutter {
         return v < count_ - start_ ? v + start_ : v - (count_ - start_);
     }
 
-    /// Orders two vertices by position and then UV.
-    static int compareVertices(const Vec3* positions, const Vec2* uvs, std::uint32_t a, std::uint32_t b) {
-        if (int c = compare(positions[a].x, positions[b].x); c != 0) return c;
-        if (int c = compare(positions[a].y, positions[b].y); c != 0) return c;
-        if (int c = compare(positions[a].z, positions[b].z); c != 0 || uvs == nullptr) return c;
-        if (int c = compare(uvs[a].x, uvs[b].x); c != 0) return c;
-        return compare(uvs[a].y, uvs[b].y);
+    /// Orders two corners of the caller by position and then UV.
+    [[nodiscard]] int compareCorners(std::uint32_t a, std::uint32_t b) const {
+        const Vec3 &p = corner_positions_[a], &q = corner_positions_[b];
+        if (int c = compare(p.x, q.x); c != 0) return c;
+        if (int c = compare(p.y, q.y); c != 0) return c;
+        if (int c = compare(p.z, q.z); c != 0 || corner_uvs_ == nullptr) return c;
+        if (int c = compare(corner_uvs_[a].x, corner_uvs_[b].x); c != 0) return c;
+        return compare(corner_uvs_[a].y, corner_uvs_[b].y);
     }
 
-    /// Where the least rotation of the sequence of vertices starts. Every sum below runs from there, so that
-    /// its rounding does not depend on the caller's first vertex.
-    [[nodiscard]] std::uint32_t canonicalStart(const Vec3* positions, const Vec2* uvs) const {
+    /// Where the least rotation of the sequence of corners starts. Every sum below runs from there, so that
+    /// its rounding does not depend on the caller's first corner.
+    [[nodiscard]] std::uint32_t canonicalStart() const {
+        const auto x = [this](std::uint32_t corner) { return corner_positions_[corner].x; };
+        std::uint32_t least = 0, same = 0;
+        for (std::uint32_t c = 1; c < count_; ++c) least = x(c) < x(least) ? c : least;
+        for (std::uint32_t c = 0; c < count_; ++c) same += x(c) == x(least) ? 1 : 0;
+        return same == 1 ? least : canonicalStartOfTies();
+    }
+
+    [[nodiscard]] std::uint32_t canonicalStartOfTies() const {
         std::uint32_t least = 0;
         bool is_alone = true;
-        for (std::uint32_t v = 1; v < count_; ++v) {
-            const int c = compareVertices(positions, uvs, v, least);
-            if (c < 0) least = v;
+        for (std::uint32_t corner = 1; corner < count_; ++corner) {
+            const int c = compareCorners(corner, least);
+            if (c < 0) least = corner;
             if (c <= 0) is_alone = c < 0;
         }
-        return is_alone ? least : startOfLeastRotation(positions, uvs);
+        return is_alone ? least : startOfLeastRotation();
     }
 
     /// Two candidates that leap over each other, O(n).
-    [[nodiscard]] std::uint32_t startOfLeastRotation(const Vec3* positions, const Vec2* uvs) const {
+    [[nodiscard]] std::uint32_t startOfLeastRotation() const {
         std::uint64_t i = 0;
         std::uint64_t j = 1;
         std::uint64_t same = 0;
         while (i < count_ && j < count_ && same < count_) {
-            const int c = compareVertices(positions, uvs, static_cast<std::uint32_t>((i + same) % count_),
-                                          static_cast<std::uint32_t>((j + same) % count_));
+            const int c = compareCorners(static_cast<std::uint32_t>((i + same) % count_),
+                                         static_cast<std::uint32_t>((j + same) % count_));
             if (c == 0) {
                 ++same;
                 continue;
@@ -161,11 +182,11 @@ class Cutter {
 
     /// Newell's normal, unit; zero or not finite when the polygon has no plane.
     [[nodiscard]] DVec3 unitNormal() const {
-        const DVec3 origin = toDouble(positions_[0]);
+        const DVec3 origin = positions_[0];
         DVec3 sum;
-        DVec3 last = toDouble(positions_[count_ - 1]) - origin;
+        DVec3 last = positions_[count_ - 1] - origin;
         for (std::uint32_t v = 0; v < count_; ++v) {
-            const DVec3 here = toDouble(positions_[v]) - origin;
+            const DVec3 here = positions_[v] - origin;
             sum = sum + cross(last, here);
             last = here;
         }
@@ -178,27 +199,54 @@ class Cutter {
     void projectToPlane() {
         const DVec3 n = unitNormal();
         const auto [x_axis, y_axis] = dot(n, n) > 0 ? planeAxes(n) : PlaneAxes{};
-        const DVec3 origin = toDouble(positions_[0]);
+        const DVec3 origin = positions_[0];
         double extent = 0;
         for (std::uint32_t v = 0; v < count_; ++v) {
-            const DVec3 p = toDouble(positions_[v]) - origin;
+            const DVec3 p = positions_[v] - origin;
             points_[v] = {dot(x_axis, p), dot(y_axis, p)};
             extent = std::max({extent, std::abs(points_[v].x), std::abs(points_[v].y)});
         }
+        extent_ = extent;
         on_line_ = kOnLine * extent;
     }
 
     void link() {
         for (std::uint32_t v = 0; v < count_; ++v) {
-            previous_[v] = v == 0 ? count_ - 1 : v - 1;
-            next_[v] = v + 1 == count_ ? 0 : v + 1;
-            is_reflex_[v] = 0;
+            previous_[v] = v - 1;
+            next_[v] = v + 1;
         }
-        for (std::uint32_t v = 0; v < count_; ++v) noteReflex(v);
+        previous_[0] = count_ - 1;
+        next_[count_ - 1] = 0;
+    }
+
+    /// Notes all reflex vertices. Returns whether there are clearly none, and will be none whatever is cut
+    /// off: each corner turns left, by far, and the boundary goes around once. Of all triangles between
+    /// vertices of a convex polygon one of three neighbours is the smallest: the distance of vertices from
+    /// the line through two of them rises to the farthest one and falls behind it. So no triangle that
+    /// appears later is smaller than all these.
+    bool findReflex() {
+        const double least = kTurns * extent_ * extent_;
+        bool turns_left = true;
+        std::uint32_t changes = 0;  // between rising and falling: two when it goes around once
+        bool was_rising = points_[0].y > points_[count_ - 1].y;
+        for (std::uint32_t v = 0; v < count_; ++v) {
+            const PlanePoint here = points_[v], before = points_[previous_[v]], after = points_[next_[v]];
+            const LeftSide side(after, before);
+            const double distance = side.across(here);
+            turns_left &= distance > least;  // not so for a NaN
+            const bool is_rising = after.y > here.y, is_reflex = !side.isFar(distance, on_line_);
+            changes += is_rising != was_rising ? 1 : 0;
+            was_rising = is_rising;
+            is_reflex_[v] = is_reflex ? 1 : 0;
+            reflex_[reflex_count_] = v;
+            reflex_count_ += is_tested_ && is_reflex ? 1 : 0;
+        }
+        return turns_left && changes == 2;
     }
 
     [[nodiscard]] bool isConvex(std::uint32_t v) const {
-        return LeftSide(points_[next_[v]], points_[previous_[v]]).isFar(points_[v], on_line_);
+        const LeftSide side(points_[next_[v]], points_[previous_[v]]);
+        return side.isFar(side.across(points_[v]), on_line_);
     }
 
     void noteReflex(std::uint32_t v) {
@@ -218,36 +266,46 @@ class Cutter {
     /// enough to look at those that are not convex. Vertices at the triangle's own points do not count
     /// (bridges to holes).
     [[nodiscard]] bool isOccupied(std::uint32_t v) const {
+        if (reflex_count_ == 0) return false;
         const std::uint32_t before = previous_[v], after = next_[v];
-        return std::any_of(reflex_, reflex_ + reflex_count_, [=, this](std::uint32_t r) {
-            return r != before && r != after &&
-                   isInEar(points_[r], points_[before], points_[v], points_[after]);
+        const PlanePoint a = points_[before], b = points_[v], c = points_[after];
+        const LeftSide ab(a, b), bc(b, c), ca(c, a);
+        const auto isAt = [](PlanePoint p, PlanePoint q) { return p.x == q.x && p.y == q.y; };
+        return std::any_of(reflex_, reflex_ + reflex_count_, [&](std::uint32_t r) {
+            if (r == before || r == after) return false;
+            const PlanePoint p = points_[r];
+            return ab.isNear(p, on_line_) && bc.isNear(p, on_line_) && ca.isNear(p, on_line_) &&
+                   !isAt(p, a) && !isAt(p, b) && !isAt(p, c);
         });
     }
 
-    [[nodiscard]] bool isInEar(PlanePoint p, PlanePoint a, PlanePoint b, PlanePoint c) const {
-        const auto isAt = [](PlanePoint q, PlanePoint r) { return q.x == r.x && q.y == r.y; };
-        return LeftSide(a, b).isNear(p, on_line_) && LeftSide(b, c).isNear(p, on_line_) &&
-               LeftSide(c, a).isNear(p, on_line_) && !isAt(p, a) && !isAt(p, b) && !isAt(p, c);
+    /// See PolygonEar. `is_blocked`: v is no ear.
+    [[nodiscard]] std::uint64_t orderOf(std::uint32_t v, bool is_blocked) const {
+        const DVec3 diagonal = positions_[next_[v]] - positions_[previous_[v]];
+        return std::bit_cast<std::uint64_t>(orderedLength(dot(diagonal, diagonal))) |
+               std::uint64_t{is_blocked} << 63;
     }
 
-    /// Sets all but the version. `is_reflex_` must be there for v.
+    /// `is_reflex_` must be there for v.
+    [[nodiscard]] bool isBlocked(std::uint32_t v) const { return is_reflex_[v] != 0 || isOccupied(v); }
+
+    /// Sets all but order and version.
     void setEar(PolygonEar& ear, std::uint32_t v) const {
         const std::uint32_t a = previous_[v], b = next_[v];
-        const DVec3 diagonal = toDouble(positions_[b]) - toDouble(positions_[a]);
         double length2_uv = 0;
-        if (uvs_ != nullptr) {
-            const double du = double{uvs_[b].x} - double{uvs_[a].x};
-            const double dv = double{uvs_[b].y} - double{uvs_[a].y};
+        if (corner_uvs_ != nullptr) {
+            const Vec2 from = corner_uvs_[original(a)], to = corner_uvs_[original(b)];
+            const double du = double{to.x} - double{from.x}, dv = double{to.y} - double{from.y};
             length2_uv = du * du + dv * dv;
         }
-        const bool blocked = is_reflex_[v] != 0 || isOccupied(v);
-        const auto length2_space = std::bit_cast<std::uint64_t>(orderedLength(dot(diagonal, diagonal)));
-        ear.order = length2_space | std::uint64_t{blocked} << 63;
         ear.length2_uv = orderedLength(length2_uv);
         ear.ends[0] = a;
         ear.ends[1] = b;
         ear.vertex = v;
+    }
+
+    [[nodiscard]] bool haveOneDiagonal(std::uint32_t v, std::uint32_t w) const {
+        return previous_[v] == next_[w] && next_[v] == previous_[w];
     }
 
     /// Whether a is cut off before b.
@@ -261,7 +319,7 @@ class Cutter {
             std::uint32_t lesser, greater;
         };
         const auto compareAt = [&](std::uint32_t v, std::uint32_t w) {
-            return compareVertices(positions_, uvs_, v, w);
+            return compareCorners(original(v), original(w));
         };
         const auto endsOf = [&](const PolygonEar& ear) {
             const auto [v, w] = ear.ends;
@@ -273,31 +331,53 @@ class Cutter {
         return a.vertex < b.vertex;
     }
 
-    /// The ears of all vertices that are left.
+    /// The vertices that are left, by the order of their ears. `kConvex`: nothing is reflex.
+    template <bool kConvex>
     class SearchAll {
       public:
         explicit SearchAll(Cutter& cutter) : cutter_(cutter) {
-            auto& ears = cutter.scratch_.ears;
-            if (ears.size() < cutter.count_) ears.resize(cutter.count_);
-            ears_ = ears.data();
             for (std::uint32_t v = 0; v < cutter.count_; ++v) renew(v);
         }
-        void renew(std::uint32_t v) { cutter_.setEar(ears_[v], v); }
-        /// `v` is any that is left.
-        std::uint32_t takeBest(std::uint32_t v) const {
-            std::uint32_t best = v;
-            for (std::uint32_t w = cutter_.next_[v]; w != v; w = cutter_.next_[w]) {
-                if (cutter_.isBefore(ears_[w], ears_[best])) best = w;
-            }
+        void renew(std::uint32_t v) { order_[v] = cutter_.orderOf(v, !kConvex && cutter_.isBlocked(v)); }
+
+        std::uint32_t takeBest() {
+            const std::uint32_t count = cutter_.count_;
+            std::uint64_t least = kTaken, same = 0;
+            for (std::uint32_t v = 0; v < count; ++v) least = std::min(least, order_[v]);
+            for (std::uint32_t v = 0; v < count; ++v) same |= std::uint64_t{order_[v] == least} << v;
+            const std::uint32_t best = (same & (same - 1)) == 0 ? lowestBit(same) : firstOf(same);
+            order_[best] = kTaken;
             return best;
         }
 
       private:
+        static constexpr std::uint64_t kTaken = ~std::uint64_t{0};  // above all ears
+
+        static std::uint32_t lowestBit(std::uint64_t bits) {
+            return static_cast<std::uint32_t>(std::countr_zero(bits));
+        }
+
+        /// Of ears of the same order.
+        [[nodiscard]] std::uint32_t firstOf(std::uint64_t vertices) const {
+            const std::uint32_t first = lowestBit(vertices);
+            vertices &= vertices - 1;
+            // Of the two ears of one diagonal the first: so it is whenever four vertices are left.
+            if ((vertices & (vertices - 1)) == 0 && cutter_.haveOneDiagonal(first, lowestBit(vertices)))
+                return first;
+            PolygonEar best, ear;
+            cutter_.setEar(best, first);
+            for (; vertices != 0; vertices &= vertices - 1) {
+                cutter_.setEar(ear, lowestBit(vertices));
+                if (cutter_.isBeforeOfSameOrder(ear, best)) best = ear;
+            }
+            return best.vertex;
+        }
+
         Cutter& cutter_;
-        PolygonEar* ears_;
+        std::uint64_t order_[kMostSearched];  // one per vertex
     };
 
-    /// The same in O(log n).
+    /// The same in O(log n), for any number.
     class Heap {
         [[nodiscard]] auto laterThan() const {
             return [this](const PolygonEar& a, const PolygonEar& b) { return cutter_.isBefore(b, a); };
@@ -308,15 +388,15 @@ class Cutter {
             : cutter_(cutter), heap_(cutter.scratch_.ears), version_(cutter.scratch_.version) {
             version_.assign(cutter.count_, 0);
             heap_.assign(cutter.count_, {});
-            for (std::uint32_t v = 0; v < cutter.count_; ++v) cutter.setEar(heap_[v], v);
+            for (std::uint32_t v = 0; v < cutter.count_; ++v) set(heap_[v], v);
             std::make_heap(heap_.begin(), heap_.end(), laterThan());
         }
         void renew(std::uint32_t v) {
             heap_.emplace_back().version = ++version_[v];
-            cutter_.setEar(heap_.back(), v);
+            set(heap_.back(), v);
             std::push_heap(heap_.begin(), heap_.end(), laterThan());
         }
-        std::uint32_t takeBest(std::uint32_t) {
+        std::uint32_t takeBest() {
             for (;;) {
                 std::pop_heap(heap_.begin(), heap_.end(), laterThan());
                 const PolygonEar best = heap_.back();
@@ -328,27 +408,35 @@ class Cutter {
         }
 
       private:
+        void set(PolygonEar& ear, std::uint32_t v) const {
+            ear.order = cutter_.orderOf(v, cutter_.isBlocked(v));
+            cutter_.setEar(ear, v);
+        }
+
         Cutter& cutter_;
         std::vector<PolygonEar>& heap_;
         std::vector<std::uint32_t>& version_;
     };
 
-    template <class Ears>
+    /// `kConvex`: nothing is reflex, and nothing becomes so.
+    template <class Ears, bool kConvex = false>
     void cutBy(std::uint32_t* triangles) {
         Ears ears(*this);
         std::uint32_t any_left = 0;
         for (std::uint32_t left = count_; left > 3; --left) {
-            const std::uint32_t ear = ears.takeBest(any_left), before = previous_[ear], after = next_[ear];
+            const std::uint32_t ear = ears.takeBest(), before = previous_[ear], after = next_[ear];
             *triangles++ = original(before);
             *triangles++ = original(ear);
             *triangles++ = original(after);
-            if (is_reflex_[ear] != 0) dropReflex(ear);
+            if (!kConvex && is_reflex_[ear] != 0) dropReflex(ear);
             next_[before] = after;
             previous_[after] = before;
             any_left = std::min(before, after);
             if (left == 4) break;
-            noteReflex(before);
-            noteReflex(after);
+            if (!kConvex) {
+                noteReflex(before);
+                noteReflex(after);
+            }
             ears.renew(before);
             ears.renew(after);
         }
@@ -359,15 +447,17 @@ class Cutter {
         *triangles++ = original(next_[last]);
     }
 
+    const Vec3* corner_positions_;  // in the caller's order, and so
+    const Vec2* corner_uvs_;        // these; null: there are none
     std::uint32_t count_;
-    bool is_tested_;  // ears are tested for emptiness
+    bool is_tested_;       // ears are tested for emptiness
+    std::uint32_t start_;  // the caller's number of the first vertex
     PolygonScratch& scratch_;
-    std::uint32_t start_ = 0;  // the caller's number of the first vertex
+    double extent_ = 0;  // the largest coordinate in the plane
     double on_line_ = 0;
     std::uint32_t reflex_count_ = 0;
     // The lists of scratch_.
-    Vec3* positions_;
-    Vec2* uvs_;  // null: there are none
+    DVec3* positions_;
     PlanePoint* points_;
     std::uint32_t *previous_, *next_, *reflex_;
     std::uint8_t* is_reflex_;
@@ -402,7 +492,7 @@ void cutPolygon(const Vec3* positions, const Vec2* uvs, std::uint32_t count, std
         std::copy_n(quadCutsAlong13(positions, uvs) ? kAlong13 : kAlong02, 6, triangles);
         return;
     }
-    Cutter(count, uvs != nullptr, scratch).cut(positions, uvs, count <= few, triangles);
+    Cutter(positions, uvs, count, scratch).cut(count <= std::min(few, kMostSearched), triangles);
 }
 
 }  // namespace tspace

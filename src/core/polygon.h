@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tspace/vec.h"
+#include "core/vec_math.h"
 
 namespace tspace {
 
@@ -34,17 +34,17 @@ struct PolygonEar {
 /// Memory that cutPolygon reuses from call to call: lists that only grow. Vertices in it are numbered in
 /// canonical order: from a start that geometry alone decides.
 struct PolygonScratch {
-    std::vector<Vec3> positions;
-    std::vector<Vec2> uvs;
+    std::vector<DVec3> positions;
     std::vector<PlanePoint> points;
     std::vector<std::uint32_t> previous, next;
     std::vector<std::uint32_t> version;
     std::vector<std::uint32_t> reflex;  ///< vertices that may lie in an ear: those that are not convex
     std::vector<std::uint8_t> is_reflex;
-    std::vector<PolygonEar> ears;  ///< one per vertex; or a heap, and more of them
+    std::vector<PolygonEar> ears;  ///< a heap
 };
 
-/// Of so many corners the next ear is searched among all, of more it is the top of a heap.
+/// Of so many corners the next ear is searched among all, of more it is the top of a heap. Above 64 it
+/// is a heap in any case.
 inline constexpr std::uint32_t kFewPolygonCorners = 48;
 
 /// Cuts a polygon of `count` >= 3 vertices into count - 2 triangles: writes 3 * (count - 2) local vertex

@@ -165,6 +165,25 @@ RC_GTEST_PROP(Polygon, GivesTheSameTrianglesByAHeapAsByASearch, ()) {
     RC_ASSERT(cut(simple, {}, 100) == cut(simple, {}, 0));
 }
 
+RC_GTEST_PROP(Polygon, GivesAConvexPolygonTheSameTrianglesWhetherVerticesAreTestedOrNot, ()) {
+    // On an ellipse, which goes around once or twice; neighbours may be at one place. A heap tests all.
+    const auto angles =
+        *rc::gen::container<std::vector<int>>(*rc::gen::inRange<std::size_t>(5, 30), rc::gen::inRange(0, 60));
+    std::vector<int> sorted = angles;
+    std::sort(sorted.begin(), sorted.end());
+    const int rounds = *rc::gen::inRange(1, 3);
+    const float width = *rc::gen::element(1.0f, 0.01f, 1e-4f, 1e-6f, 0.0f);
+    std::vector<Vec3> positions;
+    for (const int a : sorted) {
+        const double angle = 2 * 3.14159265358979 / 60 * rounds * a;
+        const auto x = static_cast<float>(std::cos(angle)), y = width * static_cast<float>(std::sin(angle));
+        positions.push_back({0.6f * x, 0.8f * x, y});
+    }
+    RC_ASSERT(cut(positions) == cut(positions, {}, 0));
+    std::reverse(positions.begin(), positions.end());
+    RC_ASSERT(cut(positions) == cut(positions, {}, 0));
+}
+
 TEST(Polygon, MakesNoFlatTriangleOfVerticesOnALine) {
     const std::vector<Vec3> polygon{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}};
     for (const auto& t : cut(polygon))
