@@ -4,6 +4,7 @@
 #include "tangents/mikktspace/faces.h"
 
 #include <algorithm>
+#include <span>
 
 #include "core/face_walk.h"
 #include "core/polygon.h"
@@ -14,14 +15,52 @@ namespace tspace::mikk {
 
 namespace {
 
-bool isUsed(std::uint32_t size, Ngons ngons) {
-    return size == 3 || size == 4 || (size > 4 && ngons == Ngons::triangulate);
+/// Which sizes of faces are cut, all others are skipped: 3 and 4, and those of n-gons if wanted.
+class UsedSizes {
+  public:
+    explicit UsedSizes(Ngons ngons) : count_(ngons == Ngons::triangulate ? 0u - kLeast : 5 - kLeast) {}
+    [[nodiscard]] bool has(std::uint32_t size) const { return size - kLeast < count_; }
+
+  private:
+    static constexpr std::uint32_t kLeast = 3;
+    std::uint32_t count_;
+};
+
+/// How many faces and corners of each kind there are. Corners are fewer than 2^31.
+struct FaceCounts {
+    std::uint32_t triangles = 0;  // after cutting
+    std::uint32_t faces_of_three = 0, skipped_faces = 0, skipped_corners = 0;
+    std::uint32_t largest = 0;
+};
+
+/// Without a branch, so that the loop becomes SIMD: a size that is not used counts as 0.
+FaceCounts countFaces(std::span<const std::uint32_t> sizes, Ngons ngons) {
+    const UsedSizes used(ngons);
+    std::uint32_t corners = 0, used_corners = 0, used_faces = 0, faces_of_three = 0;
+    std::int32_t largest = 0;  // signed is all that SSE2 can compare
+    for (const std::uint32_t size : sizes) {
+        const std::uint32_t used_size = used.has(size) ? size : 0;
+        corners += size;
+        used_corners += used_size;
+        used_faces += used_size != 0 ? 1 : 0;
+        faces_of_three += size == 3 ? 1 : 0;
+        largest = std::max(largest, static_cast<std::int32_t>(used_size));
+    }
+    const auto faces = static_cast<std::uint32_t>(sizes.size());
+    return {used_corners - 2 * used_faces, faces_of_three, faces - used_faces, corners - used_corners,
+            static_cast<std::uint32_t>(largest)};
 }
 
-bool allTriangles(const MeshView& mesh) {
-    if (mesh.face_sizes.empty()) return mesh.face_size == 3;
-    return std::all_of(mesh.face_sizes.begin(), mesh.face_sizes.end(),
-                       [](std::uint32_t n) { return n == 3; });
+/// The same for a mesh whose faces may have one size.
+FaceCounts countFaces(const MeshView& mesh, Ngons ngons) {
+    if (!mesh.face_sizes.empty()) return countFaces(mesh.face_sizes, ngons);
+    const std::uint32_t size = mesh.face_size;
+    const auto faces = static_cast<std::uint32_t>(mesh.faceCount());
+    FaceCounts counts = countFaces(std::span(&size, faces == 0 ? 0 : 1), ngons);
+    for (std::uint32_t* count :
+         {&counts.triangles, &counts.faces_of_three, &counts.skipped_faces, &counts.skipped_corners})
+        *count *= faces;
+    return counts;
 }
 
 /// The reference's choice of diagonal, on the face's own data: the shorter one in UV space; when equal (or
@@ -96,35 +135,22 @@ class Cutter {
 
 }  // namespace
 
-std::uint64_t countTriangles(const MeshView& mesh, Ngons ngons) {
-    if (mesh.face_sizes.empty())
-        return isUsed(mesh.face_size, ngons) ? std::uint64_t{mesh.faceCount()} * (mesh.face_size - 2) : 0;
-    std::uint64_t count = 0;
-    for (const std::uint32_t size : mesh.face_sizes) count += isUsed(size, ngons) ? size - 2 : 0;
-    return count;
-}
+std::uint64_t countTriangles(const MeshView& mesh, Ngons ngons) { return countFaces(mesh, ngons).triangles; }
 
 TriangleList cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator) {
+    const FaceCounts counts = countFaces(mesh, ngons);
     TriangleList list;
-    list.count = countTriangles(mesh, ngons);
-    if (allTriangles(mesh)) return list;
-    std::uint64_t skipped = 0;
-    std::uint32_t largest = 0;  // of the faces that need cutPolygon
-    forEachFace(mesh, [&](std::size_t, std::size_t, std::uint32_t size) {
-        if (!isUsed(size, ngons)) {
-            skipped += size;
-            ++list.skipped_face_count;
-        } else if (size > 4) {
-            largest = std::max(largest, size);
-        }
-    });
+    list.count = counts.triangles;
+    if (counts.faces_of_three == mesh.faceCount()) return list;
+    list.skipped_face_count = counts.skipped_faces;
     list.corners = Buffer<std::uint32_t>(allocator, 3 * list.count);
     list.faces = Buffer<std::uint32_t>(allocator, list.count);
-    list.skipped_corners = Buffer<std::uint32_t>(allocator, skipped);
-    Cutter cutter(mesh, allocator, largest, list);
+    list.skipped_corners = Buffer<std::uint32_t>(allocator, counts.skipped_corners);
+    Cutter cutter(mesh, allocator, counts.largest > 4 ? counts.largest : 0, list);
+    const UsedSizes used(ngons);
     std::size_t skip = 0;
     forEachFace(mesh, [&](std::size_t face, std::size_t corner, std::uint32_t size) {
-        if (isUsed(size, ngons)) {
+        if (used.has(size)) {
             cutter.cut(face, corner, size);
         } else {
             for (std::uint32_t k = 0; k < size; ++k) {
