@@ -118,6 +118,7 @@ class Lookup {
     /// `distinct`: about how many different candidates there are. Returns whether equal vertices differ in a
     /// zero's sign.
     bool run(std::size_t distinct, const Allocator* allocator, Parallel& parallel) {
+        if (candidates_ == nullptr && count_ < kFew) return runAtOnce(allocator);
         matchHashes(distinct, allocator, parallel);
         std::atomic<bool> any_mixed{false}, any_different{false};
         parallel.forRanges(count_, kGrain, [&](std::size_t begin, std::size_t end) {
@@ -143,6 +144,22 @@ class Lookup {
         std::uint32_t hash, vertex;
         std::size_t index;
     };
+
+    /// The same for all of few vertices: what is read and written stays in the caches.
+    bool runAtOnce(const Allocator* allocator) {
+        Buffer<std::uint32_t> table(allocator, std::bit_ceil(2 * count_), kNone);
+        const std::size_t mask = table.size() - 1;
+        bool mixed = false, different = false;
+        for (std::size_t v = 0; v < count_; ++v) {
+            std::size_t at = hashes_[v] & mask;
+            while (table[at] != kNone && hashes_[table[at]] != hashes_[v]) at = (at + 1) & mask;
+            if (table[at] == kNone) table[at] = static_cast<std::uint32_t>(v);
+            roots_[v] = table[at];
+            verify(v, mixed, different);
+        }
+        if (different) matchData(allocator, mixed);
+        return mixed;
+    }
 
     [[nodiscard]] std::uint32_t vertexOf(std::size_t i) const {
         return candidates_ == nullptr ? static_cast<std::uint32_t>(i) : candidates_[i];
