@@ -17,10 +17,10 @@
 // Few triangles are enough, nearly always: in a mesh in natural order most nodes of the last ones have no
 // other corners; in a mesh without order each edge of a late triangle has its key there once in 36 times.
 //
-// For a small mesh there is a shorter way. The first and the last corner of a node are bounds
-// of its representative, so they give a lower bound of V, and S can be the nodes whose last corner is not
-// below that: a handful. Where their edges cannot matter, whatever the representatives, nobody asks for
-// those.
+// For a small mesh there is a shorter way. The first and the last corner of a node are bounds of its
+// representative, so those of the late nodes give a lower bound of V. If it is not below F, S can be the
+// nodes whose last corner is not below that bound: a handful. Where their edges cannot matter, whatever the
+// representatives, nobody asks for those.
 #include "tangents/mikktspace/tail_check.h"
 
 #include <algorithm>
@@ -39,11 +39,18 @@ namespace {
 constexpr std::size_t kFirstTail = 24;  // triangles
 constexpr std::size_t kLonger = 4;      // times, when that was not enough
 constexpr std::size_t kManyEdges = 512;
-constexpr std::size_t kFewEntries = 4096;  // of the corner list; then each node gets bounds
+constexpr std::size_t kFewEntries = 4096;     // of the corner list; then late nodes get bounds
+constexpr std::size_t kFirstBoundedTail = 8;  // triangles; of those
+
+/// The first and the last corner of a node.
+struct CornerRange {
+    std::uint32_t first, last;
+};
 
 /// A half-edge with both ends in S.
 struct LateEdge {
     std::uint32_t from, to;  // nodes
+    std::uint32_t third;     // of the triangle; only on the shorter way
 };
 
 class TailCheck {
@@ -59,18 +66,17 @@ class TailCheck {
           late_vertices_(allocator),
           representatives_(allocator, nodes.count),
           edges_(allocator),
-          thirds_(allocator),
+          tail_nodes_(allocator),
+          shared_(allocator),
           records_(allocator),
           suspects_(allocator) {}
 
     bool run() {
         if (3 * triangles_.count <= kFewEntries) {
-            findBounds();
             const std::uint32_t least = leastKey();
             if (findEdgesByBounds(least)) {
                 if (!findSuspects(least)) return false;
-                const WeldOrder order(mesh_, triangles_, nodes_, allocator_, parallel_,
-                                      {bounds_.data(), bounds_.size()});
+                const WeldOrder order(mesh_, triangles_, nodes_, allocator_, parallel_);
                 if (!narrowSuspects(order, least)) return false;
                 findKey(order);
                 return bucketMatters();
@@ -91,52 +97,84 @@ class TailCheck {
     }
 
   private:
-    void findBounds() {
-        bounds_ = Buffer<CornerRange>(allocator_, nodes_.count, CornerRange{kNone, 0});
-        withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
-            for (std::size_t i = 0; i < 3 * triangles_.count; ++i) {
-                CornerRange& range = bounds_[nodes_.ofVertex(vertexOf(i))];
-                const std::uint32_t corner = triangles_.corner(i);
-                range = {std::min(range.first, corner), std::max(range.last, corner)};
-            }
-        });
+    /// A lower bound of V, not below F: the key of some edge is not below the first corners of its nodes. 0
+    /// when there is no edge. Leaves bounds of all nodes with corners from F on.
+    std::uint32_t leastKey() {
+        bounds_ = Buffer<CornerRange>(allocator_, nodes_.count);
+        for (std::size_t length = kFirstBoundedTail;; length *= kLonger) {
+            tail_ = tailOf(length);
+            std::uint32_t least = 0;
+            withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
+                findBounds(vertexOf);
+                for (std::size_t t = tail_; t < triangles_.count; ++t) {
+                    const auto first = [&](std::size_t k) {
+                        return bounds_[nodes_.ofVertex(vertexOf(3 * t + k))].first;
+                    };
+                    const std::uint32_t a = first(0), b = first(1), c = first(2);
+                    const std::uint32_t middle = std::max(std::min(a, b), std::min(std::max(a, b), c));
+                    if (middle > least && isGood(t, vertexOf)) least = middle;
+                }
+            });
+            if (tail_ == 0 || least >= firstCorner(tail_)) return least;
+            for (const std::uint32_t node : tail_nodes_) late_nodes_[node] = 0;
+            tail_nodes_.drop(tail_nodes_.size());
+            shared_.drop(shared_.size());
+        }
     }
 
-    /// A lower bound of V: the key of some edge is not below the first corners of its nodes.
-    [[nodiscard]] std::uint32_t leastKey() const {
-        std::uint32_t least = 0;
-        withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
-            const auto first = [&](std::size_t i) { return bounds_[nodes_.ofVertex(vertexOf(i))].first; };
-            for (std::size_t t = triangles_.count; t-- > 0;) {
-                const std::uint32_t a = first(3 * t), b = first(3 * t + 1), c = first(3 * t + 2);
-                const std::uint32_t middle = std::max(std::min(a, b), std::min(std::max(a, b), c));
-                if (middle > least && isGood(t)) least = middle;
+    /// The bounds of the nodes that triangles from tail_ on have, and the triangles before it that have two
+    /// of these or more.
+    template <class VertexOf>
+    void findBounds(const VertexOf& vertexOf) {
+        for (std::size_t i = 3 * tail_; i < 3 * triangles_.count; ++i) {
+            const std::uint32_t node = nodes_.ofVertex(vertexOf(i)), corner = triangles_.corner(i);
+            if (std::exchange(late_nodes_[node], std::uint8_t{1}) == 0) {
+                bounds_[node] = {corner, corner};
+                tail_nodes_.push(node);
             }
-        });
-        return least;
+            widen(node, corner);
+        }
+        for (std::size_t t = 0; t < tail_; ++t) {
+            const std::uint32_t n[3] = {nodes_.ofVertex(vertexOf(3 * t)),
+                                        nodes_.ofVertex(vertexOf(3 * t + 1)),
+                                        nodes_.ofVertex(vertexOf(3 * t + 2))};
+            const unsigned late_count = late_nodes_[n[0]] + late_nodes_[n[1]] + late_nodes_[n[2]];
+            if (late_count == 0) continue;
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (late_nodes_[n[k]] != 0) widen(n[k], triangles_.corner(3 * t + k));
+            }
+            if (late_count > 1) shared_.push(static_cast<std::uint32_t>(t));
+        }
+    }
+
+    void widen(std::uint32_t node, std::uint32_t corner) {
+        CornerRange& range = bounds_[node];
+        range = {std::min(range.first, corner), std::max(range.last, corner)};
     }
 
     /// Returns false when there are too many to be worth it.
     bool findEdgesByBounds(std::uint32_t least) {
-        for (std::size_t n = 0; n < nodes_.count; ++n)
-            late_nodes_[n] = bounds_[n].first != kNone && bounds_[n].last >= least ? 1 : 0;
+        for (const std::uint32_t node : tail_nodes_) late_nodes_[node] = bounds_[node].last >= least ? 1 : 0;
         withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
-            for (std::size_t t = 0; t < triangles_.count && edges_.size() <= kManyEdges; ++t) {
-                const std::uint32_t a = nodes_.ofVertex(vertexOf(3 * t)),
-                                    b = nodes_.ofVertex(vertexOf(3 * t + 1)),
-                                    c = nodes_.ofVertex(vertexOf(3 * t + 2));
-                if (late_nodes_[a] + late_nodes_[b] + late_nodes_[c] < 2 || !isGood(t)) continue;
-                const auto add = [&](std::uint32_t from, std::uint32_t to, std::uint32_t third) {
-                    if (late_nodes_[from] + late_nodes_[to] != 2) return;
-                    edges_.push({from, to});
-                    thirds_.push(third);
-                };
-                add(a, b, c);
-                add(b, c, a);
-                add(c, a, b);
-            }
+            for (const std::uint32_t t : shared_) addEdges(t, vertexOf);
+            for (std::size_t t = tail_; t < triangles_.count && edges_.size() <= kManyEdges; ++t)
+                addEdges(t, vertexOf);
         });
         return edges_.size() <= kManyEdges;
+    }
+
+    /// Those of a triangle.
+    template <class VertexOf>
+    void addEdges(std::size_t t, const VertexOf& vertexOf) {
+        const auto nodeOf = [&](std::size_t k) { return nodes_.ofVertex(vertexOf(3 * t + k)); };
+        const std::uint32_t a = nodeOf(0), b = nodeOf(1), c = nodeOf(2);
+        if (late_nodes_[a] + late_nodes_[b] + late_nodes_[c] < 2 || !isGood(t, vertexOf)) return;
+        const auto add = [&](std::uint32_t from, std::uint32_t to, std::uint32_t third) {
+            if (late_nodes_[from] + late_nodes_[to] == 2) edges_.push({from, to, third});
+        };
+        add(a, b, c);
+        add(b, c, a);
+        add(c, a, b);
     }
 
     /// What an edge is in the bucket of its lower node.
@@ -157,10 +195,9 @@ class TailCheck {
             if (bounds_[low].first < bounds_[high].last)
                 records_.push({std::uint64_t{low} << 32 | high << 1 | ascends, third});
         };
-        for (std::size_t i = 0; i < edges_.size(); ++i) {
-            const LateEdge& e = edges_[i];
-            add(e.from, e.to, thirds_[i], 1);
-            add(e.to, e.from, thirds_[i], 0);
+        for (const LateEdge& e : edges_) {
+            add(e.from, e.to, e.third, 1);
+            add(e.to, e.from, e.third, 0);
         }
         std::sort(records_.begin(), records_.end(),
                   [](const BoundedRecord& a, const BoundedRecord& b) { return a.key < b.key; });
@@ -208,8 +245,10 @@ class TailCheck {
             const std::uint32_t high = records[begin].high();
             std::uint32_t lowest = std::max(x.first, least),
                           highest = std::min(x.last, bounds_[high].last - 1);
-            for (end = begin; end < records.size() && records[end].high() == high; ++end)
-                lowest = std::max(lowest, bounds_[records[end].third].first + 1);
+            for (end = begin; end < records.size() && records[end].high() == high; ++end) {
+                const std::uint32_t third = records[end].third;
+                if (late_nodes_[third] != 0) lowest = std::max(lowest, bounds_[third].first + 1);
+            }
             if (lowest > highest) continue;
             const bool is_both = ((records[begin].key ^ records[end - 1].key) & 1) != 0;
             if (is_both && end - begin > 2) return true;
@@ -270,10 +309,9 @@ class TailCheck {
         return nodes_.of(mesh_, triangles_.corner(entry));
     }
 
-    [[nodiscard]] bool isGood(std::size_t triangle) const {
-        const auto at = [&](std::size_t k) {
-            return mesh_.positions[mesh_.indices[triangles_.corner(3 * triangle + k)]];
-        };
+    template <class VertexOf>
+    [[nodiscard]] bool isGood(std::size_t triangle, const VertexOf& vertexOf) const {
+        const auto at = [&](std::size_t k) { return mesh_.positions[vertexOf(3 * triangle + k)]; };
         const Vec3 a = at(0), b = at(1), c = at(2);
         return !(a == b || b == c || c == a);
     }
@@ -295,10 +333,10 @@ class TailCheck {
         edges_.drop(edges_.size());
         key_ = 0;
         for (const std::uint32_t t : shared) {
-            if (!isGood(t)) continue;
+            if (!isGood(t, [&](std::size_t i) { return mesh_.indices[triangles_.corner(i)]; })) continue;
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::size_t from = 3 * std::size_t{t} + k, to = k == 2 ? from - 2 : from + 1;
-                const LateEdge edge{nodeAt(from), nodeAt(to)};
+                const LateEdge edge{nodeAt(from), nodeAt(to), kNone};
                 if (late_nodes_[edge.from] == 0 || late_nodes_[edge.to] == 0) continue;
                 edges_.push(edge);
                 key_ = std::max(key_, keyOf(edge));
@@ -337,13 +375,15 @@ class TailCheck {
     const Nodes& nodes_;
     const Allocator* allocator_;
     Parallel& parallel_;
-    Buffer<CornerRange> bounds_;            // one per node; only on the shorter way
     Marks late_nodes_;                      // 1: in S
     Growing<std::uint32_t> late_vertices_;  // a vertex of each node in S
     Buffer<std::uint32_t> representatives_;
     Growing<LateEdge> edges_;
     // On the shorter way:
-    Growing<std::uint32_t> thirds_;  // the third node of each edge's triangle
+    std::size_t tail_ = 0;               // the first of the triangles whose nodes have bounds
+    Growing<std::uint32_t> tail_nodes_;  // these nodes
+    Growing<std::uint32_t> shared_;      // triangles before tail_ with two of them or more
+    Buffer<CornerRange> bounds_;         // one per node
     Growing<BoundedRecord> records_;
     Growing<Records> suspects_;  // buckets that may be the last one and matter
     std::uint32_t key_ = 0;      // L, and V in the end

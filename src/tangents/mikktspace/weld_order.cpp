@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/float4.h"
 #include "core/vec_math.h"
 #include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/grouped_plan.h"
@@ -24,6 +25,7 @@ namespace {
 
 constexpr std::size_t kCells = kWeldCells;
 constexpr std::size_t kFewVertices = 512;  // so few are looked at without NearCells
+constexpr std::size_t kFewEntries = 4096;  // of the corner list: one node of theirs is found without lists
 constexpr std::size_t kElementsForThreads = 4096;  // of cells: fewer are done sooner than threads are started
 /// Marks of vertices in wanted cells: the cell's number, from 1, and whether their nodes are wanted. All
 /// cells that get none of their own share the last number.
@@ -43,6 +45,19 @@ Box listedBox(const MeshView& mesh, const TriangleList& triangles) {
     for (std::size_t i = 1; i < 3 * triangles.count; ++i)
         box.add(mesh.positions[mesh.indices[triangles.corner(i)]]);
     return box;
+}
+
+/// A box and the vertices [begin, end), four components at a time: x, y, y and z.
+Box boxOfVertices(const Box& start, const StridedSpan<const Vec3>& positions, std::size_t begin,
+                  std::size_t end) {
+    const auto components = [](const Vec3& p) { return joinPairs(&p.x, &p.y); };
+    Float4 low = components(start.low), high = components(start.high);
+    for (std::size_t v = begin; v < end; ++v) {
+        const Float4 here = components(positions[v]);
+        low = min4(here, low);  // the bound where a NaN is met, as in Box
+        high = max4(here, high);
+    }
+    return {{low[0], low[1], low[3]}, {high[0], high[1], high[3]}};
 }
 
 /// Whether a vertex is in the corner list. Looks first where it is when vertices are numbered as triangles
@@ -77,9 +92,8 @@ bool isFirstListedAgain(const MeshView& mesh, const TriangleList& triangles) {
 /// reading those of the list; nearly always they make the same box. It does for us when vertices on both ends
 /// of its longest axis are in the list: the box of the list may be shorter on other axes only, and so has the
 /// same longest one. Not for a NaN in the list.
-template <class IsListed>
-Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const IsListed& isListed,
-                const Allocator* allocator, Parallel& parallel) {
+Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator,
+                Parallel& parallel) {
     constexpr std::size_t kBoxed = 512;  // vertices
     constexpr std::size_t kGrain = 64;   // boxes
     if (triangles.corner(0) != 0 && !isFirstListedAgain(mesh, triangles)) return listedBox(mesh, triangles);
@@ -87,12 +101,8 @@ Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const IsLis
     const std::size_t count = mesh.vertexCount(), box_count = (count + kBoxed - 1) / kBoxed;
     Buffer<Box> boxes(allocator, box_count);
     parallel.forRanges(box_count, kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t b = begin; b < end; ++b) {
-            Box box = start;
-            for (std::size_t v = b * kBoxed; v < std::min((b + 1) * kBoxed, count); ++v)
-                box.add(mesh.positions[v]);
-            boxes[b] = box;
-        }
+        for (std::size_t b = begin; b < end; ++b)
+            boxes[b] = boxOfVertices(start, mesh.positions, b * kBoxed, std::min((b + 1) * kBoxed, count));
     });
     Box whole = start;
     for (const Box& box : boxes) {
@@ -106,7 +116,7 @@ Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const IsLis
         std::size_t v = 0;
         while (side(boxes[v / kBoxed]) != side(whole)) v += kBoxed;
         while (component(mesh.positions[v], axis) != side(whole)) ++v;
-        if (!isListed(static_cast<std::uint32_t>(v))) return listedBox(mesh, triangles);
+        if (!isListed(static_cast<std::uint32_t>(v), mesh, triangles)) return listedBox(mesh, triangles);
     }
     return whole;
 }
@@ -154,16 +164,11 @@ class NearCells {
 }  // namespace
 
 WeldOrder::WeldOrder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                     const Allocator* allocator, Parallel& parallel, std::span<const CornerRange> corners)
+                     const Allocator* allocator, Parallel& parallel)
     : mesh_(mesh), triangles_(triangles), nodes_(nodes), allocator_(allocator), parallel_(parallel) {
     if (triangles.count == 0) return;
-    // A node's vertices are in one place: one in the list is as good as another.
-    const auto is_listed = [&](std::uint32_t vertex) {
-        if (corners.empty()) return isListed(vertex, mesh, triangles);
-        return corners[nodes.ofVertex(vertex)].first != kNone;
-    };
-    const Box box = nodes.tame ? boundingBox(mesh, triangles, is_listed, allocator, parallel)
-                               : listedBox(mesh, triangles);
+    const Box box =
+        nodes.tame ? boundingBox(mesh, triangles, allocator, parallel) : listedBox(mesh, triangles);
     axis_ = box.longestAxis();
     low_ = component(box.low, axis_);
     high_ = component(box.high, axis_);
@@ -206,6 +211,10 @@ Buffer<std::uint8_t> WeldOrder::verticesInCells(const CellNumbers& numbers, cons
 void WeldOrder::findSome(std::span<const std::uint32_t> vertices, std::uint32_t* representatives,
                          Growing<std::uint32_t>* shared) const {
     if (triangles_.count == 0) return;
+    if (vertices.size() == 1 && shared == nullptr && 3 * triangles_.count <= kFewEntries) {
+        findOne(vertices[0], representatives);
+        return;
+    }
     Marks wanted = noMarks(allocator_, nodes_.count);
     CellNumbers numbers = {};
     std::uint8_t cell_count = 0;
@@ -255,6 +264,29 @@ void WeldOrder::findSome(std::span<const std::uint32_t> vertices, std::uint32_t*
         });
         if (other_count != 0) find(others, wanted, representatives, nullptr);
     });
+}
+
+/// The same for one node of a small mesh: looks at all entries in turn.
+void WeldOrder::findOne(std::uint32_t vertex, std::uint32_t* representatives) const {
+    const std::uint32_t node = nodes_.ofVertex(vertex);
+    const std::size_t cell = cellOf(vertex), vertex_count = mesh_.vertexCount();
+    Marks in_cell(allocator_, vertex_count);  // 1; at the node 2
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+        const auto other = static_cast<std::uint32_t>(v);
+        in_cell[v] = mikk::cellOf(low_, high_, component(mesh_.positions[v], axis_)) != cell ? 0
+                     : nodes_.ofVertex(other) != node                                        ? 1
+                                                                                             : 2;
+    }
+    Buffer<CellElement> elements(allocator_, 3 * triangles_.count);
+    std::size_t count = 0;
+    withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
+        for (std::size_t i = 0; i < 3 * triangles_.count; ++i) {
+            const std::uint32_t v = vertexOf(i), mark = in_cell[v];
+            if (mark == 0) continue;
+            elements[count++] = {mesh_.positions[v], static_cast<std::uint32_t>(i) | (mark == 2 ? kMark : 0)};
+        }
+    });
+    follow(elements.data(), count, representatives, nullptr);
 }
 
 /// The elements of one cell.

@@ -15,11 +15,6 @@
 
 namespace tspace::mikk {
 
-/// The first and the last corner of a node; kNone as the first where it has none.
-struct CornerRange {
-    std::uint32_t first, last;
-};
-
 /// Cells of the reference's grid.
 inline constexpr std::size_t kWeldCells = 2048;
 
@@ -27,10 +22,9 @@ struct CellElement;
 
 class WeldOrder {
   public:
-    /// All must outlive this object. `corners`: one per node, or empty; saves looking which vertices are
-    /// used.
+    /// All must outlive this object.
     WeldOrder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-              const Allocator* allocator, Parallel& parallel, std::span<const CornerRange> corners = {});
+              const Allocator* allocator, Parallel& parallel);
 
     /// Sets representatives[node] to the corner that the reference keeps, for all nodes that have corners.
     /// `not_welded` may be null; else it has one zero byte per corner of the mesh, which becomes 1 where the
@@ -49,6 +43,7 @@ class WeldOrder {
   private:
     using Marks = Buffer<std::uint8_t>;
 
+    void findOne(std::uint32_t vertex, std::uint32_t* representatives) const;
     [[nodiscard]] std::size_t cellOf(std::uint32_t vertex) const;
     [[nodiscard]] Marks verticesInCells(const CellNumbers& numbers, const Marks& wanted) const;
     [[nodiscard]] CellElement elementOf(std::uint32_t entry, const Marks& wanted) const;
