@@ -1,12 +1,13 @@
 # Flags that every target of the project is built with. Nothing is set globally.
 include_guard(GLOBAL)
 
-# Warnings, sanitizers and include paths.
+# Warnings, sanitizers and include paths. No target contracts to FMA, which GCC would do wherever the CPU has it, as on every
+# 64-bit ARM: results would differ from those of other CPUs, and inline functions of src/core would have two versions.
 function(tspace_configure_target target)
     target_compile_features(${target} PUBLIC cxx_std_20)
     set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
     target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
-    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow)
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off)
     if(TSPACE_DEVELOPER)
         target_compile_options(${target} PRIVATE -Werror)
     endif()
@@ -17,9 +18,9 @@ function(tspace_configure_target target)
     endif()
 endfunction()
 
-# The core promises the same bits everywhere: no contraction to FMA, no relaxed arithmetic. errno of sqrt is never read.
+# The core promises the same bits everywhere: no relaxed arithmetic either. errno of sqrt is never read.
 function(tspace_configure_core target)
-    target_compile_options(${target} PRIVATE -ffp-contract=off -fno-fast-math -fno-math-errno -fno-trapping-math)
+    target_compile_options(${target} PRIVATE -fno-fast-math -fno-math-errno -fno-trapping-math)
     if(TSPACE_SIMD_X86)
         target_compile_definitions(${target} PRIVATE TSPACE_SIMD_X86)
     endif()
