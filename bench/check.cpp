@@ -136,7 +136,7 @@ std::string findError(const std::string& job_name, const Mesh& mesh) {
             return "other bits with " + std::to_string(threads) + " threads";
         }
     }
-    for (const char* target : {"scalar", "sse2", "avx2", "avx512"}) {
+    for (const char* target : {"scalar", "sse2", "avx2", "avx512", "neon"}) {
         Execution execution{.thread_count = 1};
         if (!forceSimd(execution, target)) continue;
         if (job_name != "split") fillWithGarbage(job.outputs->tangents);

@@ -57,6 +57,9 @@ int run(const char* name) {
 
 int main(int argc, char** argv) {
     if (argc == 2 && std::strcmp(argv[1], "--compiler") == 0) {
+#ifndef __x86_64__
+        std::fputs("not for x86-64: ", stdout);  // whose instructions were recorded
+#endif
 #ifdef __clang__
         std::puts("clang " __clang_version__ " " TSPACE_BENCH_FLAGS);
 #else

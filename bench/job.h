@@ -45,7 +45,7 @@ const std::vector<std::string>& jobNames();
 /// the same result; see check.cpp.
 std::string findError(const std::string& job_name, const Mesh& mesh);
 
-/// Targets by name: "scalar", "sse2", "avx2", "avx512". false where the library has no such choice, or this
+/// Targets by name: "scalar", "sse2", "avx2", "avx512", "neon". false where the library has no such choice, or this
 /// machine no such instructions.
 template <class Any>
 bool forceSimd(Any& execution, const std::string& target) {
@@ -59,6 +59,8 @@ bool forceSimd(Any& execution, const std::string& target) {
             __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl")) {
             return execution.simd = Target::avx512, true;
         }
+#elif defined(__aarch64__)
+        if (target == "neon") return execution.simd = Target::neon, true;
 #endif
     }
     return false;

@@ -86,7 +86,7 @@ int runSweep(Lab& lab, const std::string& pattern, const std::string& json) {
     for (const std::string& mesh : meshNames(lab)) {
         for (const std::string& job : jobNames()) {
             for (const unsigned threads : {1u, 2u}) {
-                for (const std::string target : {"best", "scalar", "sse2", "avx2", "avx512"}) {
+                for (const std::string target : {"best", "scalar", "sse2", "avx2", "avx512", "neon"}) {
                     Execution probe;
                     if (target != "best" && !forceSimd(probe, target)) continue;
                     const std::string name = std::filesystem::path(mesh).filename().string() + "/" + job +

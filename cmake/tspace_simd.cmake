@@ -1,4 +1,6 @@
-# Kernels that are compiled once per CPU and chosen at run time (src/simd). Without x86-64 there is only the scalar one.
+# Kernels that are compiled once per CPU and chosen at run time (src/simd): several for x86-64, one for 64-bit ARM
+# (little-endian), and the scalar ones for every CPU. The compiler is asked what it compiles for, so that cross compilers
+# need not be told.
 include_guard(GLOBAL)
 include(CheckCXXSourceCompiles)
 
@@ -7,6 +9,18 @@ check_cxx_source_compiles("
     #error
     #endif
     int main() { return 0; }" TSPACE_SIMD_X86)
+check_cxx_source_compiles("
+    #if !defined(__aarch64__) || !defined(__ARM_NEON) || defined(__AARCH64EB__)
+    #error
+    #endif
+    int main() { return 0; }" TSPACE_SIMD_ARM64)
+if(TSPACE_SIMD_X86)
+    set(tspace_simd_cpus sse2 avx2 avx512)
+elseif(TSPACE_SIMD_ARM64)
+    set(tspace_simd_cpus neon)
+else()
+    set(tspace_simd_cpus)
+endif()
 
 # Gives each source whose name ends in a CPU's name the flags for that CPU, for targets of the current folder, or of
 # the folder of the target that is named after the sources.
@@ -31,11 +45,9 @@ endfunction()
 # tspace_simd_sources(NAME): adds NAME_scalar.cpp and, where there are others, NAME_sse2.cpp ... of this folder.
 function(tspace_simd_sources name)
     set(sources "${CMAKE_CURRENT_SOURCE_DIR}/${name}_scalar.cpp")
-    if(TSPACE_SIMD_X86)
-        foreach(cpu sse2 avx2 avx512)
-            list(APPEND sources "${CMAKE_CURRENT_SOURCE_DIR}/${name}_${cpu}.cpp")
-        endforeach()
-    endif()
+    foreach(cpu ${tspace_simd_cpus})
+        list(APPEND sources "${CMAKE_CURRENT_SOURCE_DIR}/${name}_${cpu}.cpp")
+    endforeach()
     target_sources(tspace PRIVATE ${sources})
     tspace_simd_flags("${sources}" tspace)
 endfunction()

@@ -21,9 +21,11 @@ endfunction()
 # The core promises the same bits everywhere: no relaxed arithmetic either. errno of sqrt is never read.
 function(tspace_configure_core target)
     target_compile_options(${target} PRIVATE -fno-fast-math -fno-math-errno -fno-trapping-math)
-    if(TSPACE_SIMD_X86)
-        target_compile_definitions(${target} PRIVATE TSPACE_SIMD_X86)
-    endif()
+    foreach(kind X86 ARM64)
+        if(TSPACE_SIMD_${kind})
+            target_compile_definitions(${target} PRIVATE TSPACE_SIMD_${kind})
+        endif()
+    endforeach()
 endfunction()
 
 # A second library from the core's sources with other optimisation flags, to prove that the bits do not change.

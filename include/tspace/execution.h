@@ -31,6 +31,7 @@ enum class SimdTarget : std::uint32_t {
     sse2 = 2,    ///< x86-64 without anything else
     avx2 = 3,
     avx512 = 4,  ///< AVX-512 F and DQ
+    neon = 5,    ///< 64-bit ARM, every CPU
 };
 
 /// Passed by value inside option structs. What it points to must outlive the call (and a plan made with it).
@@ -38,7 +39,7 @@ struct Execution {
     unsigned thread_count = 0;             ///< 0: as many as there are cores; 1: the calling thread only
     const Executor* executor = nullptr;    ///< null: std::thread, started and joined within the call
     const Allocator* allocator = nullptr;  ///< null: operator new; only for scratch memory and plans
-    /// For tests and measurements. What this CPU lacks is replaced by the best below it.
+    /// For tests and measurements. What this CPU lacks becomes the best of a lower number.
     SimdTarget simd = SimdTarget::best;
 };
 

@@ -154,7 +154,8 @@ enum {
     TSPACE_SIMD_SCALAR = 1,
     TSPACE_SIMD_SSE2 = 2, /* x86-64 without anything else */
     TSPACE_SIMD_AVX2 = 3,
-    TSPACE_SIMD_AVX512 = 4 /* F and DQ */
+    TSPACE_SIMD_AVX512 = 4, /* F and DQ */
+    TSPACE_SIMD_NEON = 5    /* 64-bit ARM, every CPU */
 };
 
 /* Where work runs and where its memory comes from. Neither changes a bit of any result. The structs are read
@@ -163,7 +164,7 @@ typedef struct tspace_Execution {
     const tspace_Executor* executor;   /* null: threads started and joined within the call */
     const tspace_Allocator* allocator; /* null: operator new. For scratch memory and plans */
     uint32_t thread_count;             /* 0: as many as there are cores; 1: the calling thread only */
-    tspace_SimdTarget simd;            /* for tests and measurements; what the CPU lacks is replaced by the best below it */
+    tspace_SimdTarget simd;            /* for tests and measurements; what the CPU lacks becomes the best of a lower number */
 } tspace_Execution;
 
 /* Memory that is kept from call to call: from the second call on, no page is taken from the system. For one call at

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Four floats at a time, by the vector types of GCC and Clang: SSE2 on x86-64, other units or scalar code
-// elsewhere. Every lane rounds as the scalar operation does, so the bits are the same everywhere.
+// Four floats at a time, by the vector types of GCC and Clang: SSE2 on x86-64, NEON on 64-bit ARM, other
+// units or scalar code elsewhere. Every lane rounds as the scalar operation does, so the bits are the same
+// everywhere.
 #pragma once
 
 #include <bit>
@@ -8,8 +9,10 @@
 #include <cstdint>
 #include <cstring>
 
-#ifdef __SSE2__
+#if defined(__SSE2__)
 #include <emmintrin.h>
+#elif defined(__aarch64__) && defined(__ARM_NEON)
+#include <arm_neon.h>
 #endif
 
 #include "tspace/vec.h"
@@ -32,8 +35,11 @@ inline Float4 or4(Float4 a, Float4 b) {
 
 /// Bit i is set when lane i is true (its highest bit, that is).
 inline unsigned laneBits(Mask4 mask) {
-#ifdef __SSE2__
+#if defined(__SSE2__)
     return static_cast<unsigned>(_mm_movemask_ps(std::bit_cast<__m128>(mask)));
+#elif defined(__aarch64__) && defined(__ARM_NEON)
+    constexpr Mask4 kBits = {1, 2, 4, 8};
+    return vaddvq_u32(std::bit_cast<uint32x4_t>((mask >> 31) & kBits));
 #else
     unsigned bits = 0;
     for (unsigned i = 0; i < 4; ++i) bits |= mask[i] < 0 ? 1u << i : 0;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #if defined(TSPACE_SIMD_X86)
 #include <xmmintrin.h>
@@ -27,7 +28,7 @@ inline void streamRow(float* to, const float* row) {
 #if defined(TSPACE_SIMD_X86)
     _mm_stream_ps(to, _mm_load_ps(row));
 #else
-    for (int i = 0; i < 4; ++i) to[i] = row[i];
+    std::memcpy(to, row, 4 * sizeof(float));
 #endif
 }
 

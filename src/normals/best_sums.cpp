@@ -12,6 +12,8 @@ BestKernel bestKernelFor(SimdTarget wish) {
         case SimdTarget::avx512: return avx512::bestKernel();
         case SimdTarget::avx2: return avx2::bestKernel();
         case SimdTarget::sse2: return sse2::bestKernel();
+#elif defined(TSPACE_SIMD_ARM64)
+        case SimdTarget::neon: return neon::bestKernel();
 #endif
         default: return scalar::bestKernel();
     }

@@ -57,5 +57,8 @@ BestKernel bestKernel();
 namespace avx512 {
 BestKernel bestKernel();
 }
+namespace neon {
+BestKernel bestKernel();
+}
 
 }  // namespace tspace::smooth

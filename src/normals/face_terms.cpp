@@ -12,6 +12,8 @@ FaceKernel faceKernelFor(SimdTarget wish) {
         case SimdTarget::avx512: return avx512::faceKernel();
         case SimdTarget::avx2: return avx2::faceKernel();
         case SimdTarget::sse2: return sse2::faceKernel();
+#elif defined(TSPACE_SIMD_ARM64)
+        case SimdTarget::neon: return neon::faceKernel();
 #endif
         default: return scalar::faceKernel();
     }

@@ -60,5 +60,8 @@ FaceKernel faceKernel();
 namespace avx512 {
 FaceKernel faceKernel();
 }
+namespace neon {
+FaceKernel faceKernel();
+}
 
 }  // namespace tspace::smooth

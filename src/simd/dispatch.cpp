@@ -11,6 +11,8 @@ SimdTarget bestOfCpu() {
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) return SimdTarget::avx512;
     if (__builtin_cpu_supports("avx2")) return SimdTarget::avx2;
     return SimdTarget::sse2;
+#elif defined(TSPACE_SIMD_ARM64)
+    return SimdTarget::neon;
 #else
     return SimdTarget::scalar;
 #endif
@@ -20,7 +22,9 @@ SimdTarget bestOfCpu() {
 
 SimdTarget resolve(SimdTarget wish) {
     static const SimdTarget best = bestOfCpu();
-    return wish == SimdTarget::best || wish > best ? best : wish;
+    if (wish == SimdTarget::best || wish > best) return best;
+    // The numbers between the two are those of x86-64.
+    return best == SimdTarget::neon && wish < best ? SimdTarget::scalar : wish;
 }
 
 }  // namespace tspace::simd

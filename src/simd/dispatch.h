@@ -6,8 +6,8 @@
 
 namespace tspace::simd {
 
-/// The target that runs for a wish: `best` and targets that this CPU or this build lacks become the best one
-/// that is not above the wish. Never returns `best`. Thread-safe.
+/// The target that runs for a wish: `best`, and the best one of a lower number for those that this CPU or
+/// this build lacks. Never returns `best`. Thread-safe.
 SimdTarget resolve(SimdTarget wish);
 
 }  // namespace tspace::simd

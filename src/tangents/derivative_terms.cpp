@@ -15,6 +15,9 @@ DerivativeKernel derivativeKernelFor(SimdTarget wish) {
             return avx2::derivativeKernel();
         case SimdTarget::sse2:
             return sse2::derivativeKernel();
+#elif defined(TSPACE_SIMD_ARM64)
+        case SimdTarget::neon:
+            return neon::derivativeKernel();
 #endif
         default:
             return scalar::derivativeKernel();

@@ -69,5 +69,8 @@ DerivativeKernel derivativeKernel();
 namespace avx512 {
 DerivativeKernel derivativeKernel();
 }
+namespace neon {
+DerivativeKernel derivativeKernel();
+}
 
 }  // namespace tspace::derivatives

@@ -15,7 +15,8 @@ namespace {
 
 using test::SimpleMesh;
 
-constexpr SimdTarget kTargets[] = {SimdTarget::sse2, SimdTarget::avx2, SimdTarget::avx512, SimdTarget::best};
+constexpr SimdTarget kTargets[] = {SimdTarget::sse2, SimdTarget::avx2, SimdTarget::avx512, SimdTarget::neon,
+                                   SimdTarget::best};
 constexpr NormalWeighting kWeightings[] = {NormalWeighting::angle, NormalWeighting::area, NormalWeighting::angleArea,
                                            NormalWeighting::uniform, NormalWeighting::best};
 

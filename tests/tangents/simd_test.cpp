@@ -17,7 +17,7 @@ namespace tspace::test {
 namespace {
 
 constexpr SimdTarget kTargets[] = {SimdTarget::scalar, SimdTarget::sse2, SimdTarget::avx2,
-                                   SimdTarget::avx512};
+                                   SimdTarget::avx512, SimdTarget::neon};
 constexpr Method kMethods[] = {Method::mikktspace, Method::uniform, Method::angle,  Method::area,
                                Method::fast,       Method::best,    Method::lengyel};
 
@@ -139,7 +139,15 @@ TEST(Simd, AWishForMoreThanThereIsGetsTheBestThereIs) {
     const SimdTarget best = simd::resolve(SimdTarget::best);
     EXPECT_NE(best, SimdTarget::best);
     EXPECT_LE(simd::resolve(SimdTarget::avx512), best);
+    EXPECT_EQ(simd::resolve(SimdTarget::neon), best);
     EXPECT_EQ(simd::resolve(SimdTarget::scalar), SimdTarget::scalar);
+}
+
+TEST(Simd, AWishForAnotherKindOfCpuGetsOneThatIsThere) {
+    const SimdTarget best = simd::resolve(SimdTarget::best);
+    const bool is_x86 = best != SimdTarget::scalar && best != SimdTarget::neon;
+    for (const SimdTarget wish : {SimdTarget::sse2, SimdTarget::avx2, SimdTarget::avx512})
+        EXPECT_EQ(simd::resolve(wish) != SimdTarget::scalar, is_x86);
 }
 
 void planAndEvaluate(const Shape& shape, const TangentOptions& options, Outputs& outputs) {

@@ -15,6 +15,9 @@ Estimator twoWeightsFor(SimdTarget wish, bool tangents_only) {
             return avx2::twoWeights(tangents_only);
         case SimdTarget::sse2:
             return sse2::twoWeights(tangents_only);
+#elif defined(TSPACE_SIMD_ARM64)
+        case SimdTarget::neon:
+            return neon::twoWeights(tangents_only);
 #endif
         default:
             return scalar::twoWeights(tangents_only);
@@ -30,6 +33,9 @@ Estimator quadraticRecoveryFor(SimdTarget wish) {
             return avx2::quadraticRecovery();
         case SimdTarget::sse2:
             return sse2::quadraticRecovery();
+#elif defined(TSPACE_SIMD_ARM64)
+        case SimdTarget::neon:
+            return neon::quadraticRecovery();
 #endif
         default:
             return scalar::quadraticRecovery();

@@ -62,5 +62,9 @@ namespace avx512 {
 Estimator twoWeights(bool tangents_only);
 Estimator quadraticRecovery();
 }  // namespace avx512
+namespace neon {
+Estimator twoWeights(bool tangents_only);
+Estimator quadraticRecovery();
+}  // namespace neon
 
 }  // namespace tspace::estimators

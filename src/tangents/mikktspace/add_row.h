@@ -14,7 +14,12 @@ inline void addRow(float* to, const float* row) {
 #if defined(TSPACE_SIMD_X86)
     _mm_store_ps(to, _mm_add_ps(_mm_load_ps(to), _mm_load_ps(row)));
 #else
-    for (int i = 0; i < 4; ++i) to[i] = to[i] + row[i];
+    // Written when all are read, so that a compiler may add them together.
+    const float x = to[0] + row[0], y = to[1] + row[1], z = to[2] + row[2], w = to[3] + row[3];
+    to[0] = x;
+    to[1] = y;
+    to[2] = z;
+    to[3] = w;
 #endif
 }
 
@@ -26,7 +31,10 @@ inline void addVector(float* to, const float* row) {
     _mm_storel_epi64(reinterpret_cast<__m128i*>(to), _mm_castps_si128(sum));
     _mm_store_ss(to + 2, _mm_movehl_ps(sum, sum));
 #else
-    for (int i = 0; i < 3; ++i) to[i] = to[i] + row[i];
+    const float x = to[0] + row[0], y = to[1] + row[1], z = to[2] + row[2];
+    to[0] = x;
+    to[1] = y;
+    to[2] = z;
 #endif
 }
 

@@ -15,6 +15,9 @@ CornerTermsFunction cornerTermsFor(SimdTarget wish) {
             return avx2::cornerTerms;
         case SimdTarget::sse2:
             return sse2::cornerTerms;
+#elif defined(TSPACE_SIMD_ARM64)
+        case SimdTarget::neon:
+            return neon::cornerTerms;
 #endif
         default:
             return scalar::cornerTerms;

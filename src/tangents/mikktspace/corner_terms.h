@@ -87,5 +87,8 @@ void cornerTerms(const CornerSource&, const std::uint32_t*, std::size_t, CornerT
 namespace avx512 {
 void cornerTerms(const CornerSource&, const std::uint32_t*, std::size_t, CornerTerms&);
 }
+namespace neon {
+void cornerTerms(const CornerSource&, const std::uint32_t*, std::size_t, CornerTerms&);
+}
 
 }  // namespace tspace::mikk

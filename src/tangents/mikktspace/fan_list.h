@@ -6,9 +6,12 @@
 
 #include <bit>
 #include <cstdint>
+#include <cstring>
 
 #if defined(TSPACE_SIMD_X86)
 #include <emmintrin.h>
+#elif defined(TSPACE_SIMD_ARM64)
+#include <arm_neon.h>
 #endif
 
 namespace tspace::mikk {
@@ -33,46 +36,59 @@ struct FanLinks {
     std::uint64_t counts;  ///< how many there are
 };
 
-inline FanLinks linksOf(const FanList& list) {
+using FourNumbers = std::uint32_t __attribute__((vector_size(16)));
+
+/// From 256 times a count plus 8 times a place, which are below 256 each.
+inline FanLinks splitLinks(FourNumbers low, FourNumbers high) {
 #if defined(TSPACE_SIMD_X86)
-    // Lane by lane, with one half of the other list turned by 0 to 3 lanes: each match adds its place, and 1 to
-    // the byte above.
-    const auto load = [](const std::uint32_t* from) {
-        return _mm_load_si128(reinterpret_cast<const __m128i*>(from));
-    };
-    const __m128i next_low = load(list.next), next_high = load(list.next + 4);
-    __m128i low = _mm_setzero_si128(), high = low;
-    const auto match = [&](__m128i previous, __m128i places) {
-        low = _mm_add_epi32(low, _mm_and_si128(_mm_cmpeq_epi32(next_low, previous), places));
-        high = _mm_add_epi32(high, _mm_and_si128(_mm_cmpeq_epi32(next_high, previous), places));
-    };
-    const auto matchHalf = [&](__m128i previous, int first) {
-        const auto place = [=](int i) { return 0x100 + 8 * (first + i % 4); };
-        match(previous, _mm_setr_epi32(place(0), place(1), place(2), place(3)));
-        match(_mm_shuffle_epi32(previous, 0x39), _mm_setr_epi32(place(1), place(2), place(3), place(4)));
-        match(_mm_shuffle_epi32(previous, 0x4e), _mm_setr_epi32(place(2), place(3), place(4), place(5)));
-        match(_mm_shuffle_epi32(previous, 0x93), _mm_setr_epi32(place(3), place(4), place(5), place(6)));
-    };
-    matchHalf(load(list.previous), 0);
-    matchHalf(load(list.previous + 4), 4);
-    const __m128i both = _mm_packs_epi32(low, high);
+    const __m128i both = _mm_packs_epi32(std::bit_cast<__m128i>(low), std::bit_cast<__m128i>(high));
     const __m128i bytes =
         _mm_packus_epi16(_mm_and_si128(both, _mm_set1_epi16(0xff)), _mm_srli_epi16(both, 8));
     return {static_cast<std::uint64_t>(_mm_cvtsi128_si64(bytes)),
             static_cast<std::uint64_t>(_mm_cvtsi128_si64(_mm_unpackhi_epi64(bytes, bytes)))};
+#elif defined(TSPACE_SIMD_ARM64)
+    const uint16x8_t both =
+        vcombine_u16(vmovn_u32(std::bit_cast<uint32x4_t>(low)), vmovn_u32(std::bit_cast<uint32x4_t>(high)));
+    return {std::bit_cast<std::uint64_t>(vmovn_u16(both)),
+            std::bit_cast<std::uint64_t>(vshrn_n_u16(both, 8))};
 #else
     FanLinks links{0, 0};
     for (std::uint32_t i = 0; i < FanList::kMost; ++i) {
-        std::uint64_t place = 0, count = 0;
-        for (std::uint32_t j = 0; j < FanList::kMost; ++j) {
-            place += list.next[i] == list.previous[j] ? 8 * j : 0;
-            count += list.next[i] == list.previous[j] ? 1 : 0;
-        }
-        links.places |= (place & 0xff) << 8 * i;
-        links.counts |= count << 8 * i;
+        const std::uint64_t link = i < 4 ? low[i] : high[i - 4];
+        links.places |= (link & 0xff) << 8 * i;
+        links.counts |= (link >> 8) << 8 * i;
     }
     return links;
 #endif
+}
+
+/// Lane by lane, with one half of the other list turned by 0 to 3 lanes: each match adds its place, and 1 to
+/// the byte above.
+inline FanLinks linksOf(const FanList& list) {
+    const auto load = [](const std::uint32_t* from) {
+        FourNumbers numbers;
+        std::memcpy(&numbers, __builtin_assume_aligned(from, sizeof numbers), sizeof numbers);
+        return numbers;
+    };
+    const FourNumbers next_low = load(list.next), next_high = load(list.next + 4);
+    FourNumbers low = {}, high = {};
+    const auto match = [&](FourNumbers previous, FourNumbers places) {
+        low += std::bit_cast<FourNumbers>(next_low == previous) & places;
+        high += std::bit_cast<FourNumbers>(next_high == previous) & places;
+    };
+    const auto matchHalf = [&](FourNumbers previous, std::uint32_t first) {
+        const auto place = [=](std::uint32_t i) { return 0x100 + 8 * (first + i % 4); };
+        match(previous, FourNumbers{place(0), place(1), place(2), place(3)});
+        match(__builtin_shufflevector(previous, previous, 1, 2, 3, 0),
+              FourNumbers{place(1), place(2), place(3), place(4)});
+        match(__builtin_shufflevector(previous, previous, 2, 3, 0, 1),
+              FourNumbers{place(2), place(3), place(4), place(5)});
+        match(__builtin_shufflevector(previous, previous, 3, 0, 1, 2),
+              FourNumbers{place(3), place(4), place(5), place(6)});
+    };
+    matchHalf(load(list.previous), 0);
+    matchHalf(load(list.previous + 4), 4);
+    return splitLinks(low, high);
 }
 
 /// Whether the `count` corners of a list are one fan: each half-edge is there once, and the links of
