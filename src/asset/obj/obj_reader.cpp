@@ -5,6 +5,7 @@
 
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
 #include <cmath>
 #include <istream>
 #include <map>
@@ -26,6 +27,17 @@ class MemoryStream : private std::streambuf, public std::istream {
     }
 };
 
+/// Indices of corners that name nothing.
+struct DeadIndices {
+    std::uint64_t count = 0;
+    std::uint32_t first_line = kNone;
+
+    void add(std::uint32_t line) {
+        ++count;
+        first_line = std::min(first_line, line);
+    }
+};
+
 /// What the callbacks write to.
 struct Build {
     Model* model = nullptr;
@@ -41,6 +53,8 @@ struct Build {
     std::uint64_t bad_uv_count = 0;
     std::uint64_t bad_normal_count = 0;
     std::uint64_t small_face_count = 0;
+    DeadIndices dead_uvs = {};
+    DeadIndices dead_normals = {};
 };
 
 Build& buildOf(void* user) { return *static_cast<Build*>(user); }
@@ -86,17 +100,33 @@ void addNormal(void* user, float x, float y, float z) {
     build.model->normals.push_back(normal);
 }
 
-/// From the file's index to ours: 1 is the first, -1 the latest so far. Positive ones may still point ahead.
-std::uint32_t resolveIndex(const Build& build, int index, std::size_t count_so_far, const char* what) {
+/// From the file's index to ours: 1 is the first, -1 the latest so far. Positive ones may still point ahead;
+/// kNone for those that count back too far.
+std::uint32_t resolveIndex(int index, std::size_t count_so_far) {
     if (index > 0) return static_cast<std::uint32_t>(index - 1);
     const auto back = static_cast<std::size_t>(-static_cast<std::int64_t>(index));
-    if (back > count_so_far) {
+    return back > count_so_far ? kNone : static_cast<std::uint32_t>(count_so_far - back);
+}
+
+std::uint32_t resolvePosition(const Build& build, int index) {
+    const std::size_t count_so_far = build.model->positions.size();
+    const std::uint32_t position = resolveIndex(index, count_so_far);
+    if (position == kNone) {
         failFile(ErrorCode::invalidFile,
-                 "a face counts back to " + std::string(what) + " " + std::to_string(index) +
-                     ", but there are only " + std::to_string(count_so_far) + " before it",
+                 "a face counts back to vertex " + std::to_string(index) + ", but there are only " +
+                     std::to_string(count_so_far) + " before it",
                  currentPlace(build));
     }
-    return static_cast<std::uint32_t>(count_so_far - back);
+    return position;
+}
+
+/// Of a UV or normal. 0 is how some exporters write that there is none; others name some that the file does
+/// not have.
+std::uint32_t resolveOptional(int index, std::size_t count_so_far, std::uint32_t line, DeadIndices& dead) {
+    if (index == 0) return kNone;
+    const std::uint32_t resolved = resolveIndex(index, count_so_far);
+    if (resolved == kNone) dead.add(line);
+    return resolved;
 }
 
 /// Every shape and material with faces becomes a primitive: its lists, its report, its JSON.
@@ -147,17 +177,14 @@ void addFace(void* user, tinyobj::index_t* indices, int count) {
     for (int i = 0; i < count; ++i) {
         const tinyobj::index_t& index = indices[i];
         if (index.vertex_index == 0) {
-            failFile(ErrorCode::invalidFile, "a face has a corner without a vertex index",
+            failFile(ErrorCode::invalidFile, "a face has a corner without a vertex index; OBJ counts from 1",
                      currentPlace(build));
         }
-        Corner corner{.position = resolveIndex(build, index.vertex_index, model.positions.size(), "vertex")};
-        if (index.texcoord_index != 0) {
-            corner.uv = resolveIndex(build, index.texcoord_index, model.uvs.size(), "texture coordinate");
-        }
-        if (index.normal_index != 0) {
-            corner.normal = resolveIndex(build, index.normal_index, model.normals.size(), "normal");
-        }
-        model.corners.push_back(corner);
+        model.corners.push_back(
+            {.position = resolvePosition(build, index.vertex_index),
+             .uv = resolveOptional(index.texcoord_index, model.uvs.size(), face.line, build.dead_uvs),
+             .normal =
+                 resolveOptional(index.normal_index, model.normals.size(), face.line, build.dead_normals)});
     }
     if (count < 3) {
         ++build.small_face_count;
@@ -211,29 +238,27 @@ void parse(std::string& text, Build& build) {
     }
 }
 
-[[noreturn]] void failIndex(const Face& face, const char* what, std::uint32_t index, std::size_t count) {
-    failFile(ErrorCode::invalidFile,
-             "a face refers to " + std::string(what) + " " + std::to_string(std::uint64_t{index} + 1) +
-                 " of " + std::to_string(count),
-             "line " + std::to_string(face.line));
-}
-
-/// Positive indices could point ahead, so ranges are known only at the end. Corners let go of normals that
-/// are zero.
-void checkIndices(Model& model) {
+/// Positive indices could point ahead, so ranges are known only at the end. Without a position there is no
+/// surface; of UVs and normals that do not exist corners let go, as of normals that are zero.
+void checkIndices(Build& build) {
+    Model& model = *build.model;
     for (const Face& face : model.faces) {
         for (std::uint32_t i = 0; i < face.corner_count; ++i) {
             Corner& corner = model.corners[face.first_corner + i];
             if (corner.position >= model.positions.size()) {
-                failIndex(face, "vertex", corner.position, model.positions.size());
+                failFile(ErrorCode::invalidFile,
+                         "a face refers to vertex " + std::to_string(std::uint64_t{corner.position} + 1) +
+                             " of " + std::to_string(model.positions.size()),
+                         "line " + std::to_string(face.line));
             }
             if (corner.uv != kNone && corner.uv >= model.uvs.size()) {
-                failIndex(face, "texture coordinate", corner.uv, model.uvs.size());
+                build.dead_uvs.add(face.line);
+                corner.uv = kNone;
             }
             if (corner.normal == kNone) continue;
-            if (corner.normal >= model.normals.size())
-                failIndex(face, "normal", corner.normal, model.normals.size());
-            if (model.normals[corner.normal] == Vec3{}) corner.normal = kNone;
+            const bool is_dead = corner.normal >= model.normals.size();
+            if (is_dead) build.dead_normals.add(face.line);
+            if (is_dead || model.normals[corner.normal] == Vec3{}) corner.normal = kNone;
         }
     }
 }
@@ -253,6 +278,13 @@ void addWarnings(const Build& build, Model& model) {
     warnCount(build.bad_uv_count, "texture coordinates that are not finite and were set to 0");
     warnCount(build.bad_normal_count,
               "normals that are zero or not finite; the faces that use them get new ones");
+    const auto warnDead = [&](const DeadIndices& dead, const std::string& what, const char* result) {
+        if (dead.count == 0) return;
+        warn("indices of " + what + " that do not exist: " + std::to_string(dead.count) +
+             ", the first in line " + std::to_string(dead.first_line) + "; " + result);
+    };
+    warnDead(build.dead_uvs, "texture coordinates", "the faces that use them are taken to have none");
+    warnDead(build.dead_normals, "normals", "the faces that use them get new ones");
     warnCount(build.small_face_count, "faces with fewer than 3 corners, left out");
     if (notes.has_vertex_colors) warn("vertex colours are not carried over");
     if (notes.has_lines_or_points) warn("lines and points are not carried over");
@@ -310,7 +342,7 @@ Model readModel(const std::filesystem::path& path, const FileOptions& options) {
     if (build.face_line != notes.faces.size()) {
         failFile(ErrorCode::internal, "internal error: the OBJ parser found fewer faces than the first pass");
     }
-    checkIndices(model);
+    checkIndices(build);
     if (model.faces.empty()) failFile(ErrorCode::invalidFile, "the OBJ file has no faces");
     requireFaces(model);
     addWarnings(build, model);

@@ -368,13 +368,39 @@ TEST(Obj, BrokenFilesAreRefusedWithThePlace) {
     EXPECT_EQ(failure("").message, "the OBJ file has no faces");
     EXPECT_EQ(failure("v 0 0 0\nf 1 1\n").message, "the OBJ file has no faces");
     EXPECT_EQ(failure(std::string(64, '\0')).message, "the OBJ file has no faces");
-    for (const char* face :
-         {"f 1 2 5", "f 1 2 -5", "f 1 2 0", "f 1 2 x", "f 1/5 2/1 3/1", "f 1/1/1 2/2/1 3/3/1",
-          "f 1 2 4294967297", "f 1 2 99999999999999999999", "f 1 2 -99999999999", "f 1//-1 2 3"}) {
+    for (const char* face : {"f 1 2 5", "f 1 2 -5", "f 1 2 0", "f 1 2 x", "f 0/1 1/2 2/3", "f 1 2 4294967297",
+                             "f 1 2 99999999999999999999", "f 1 2 -99999999999", "f 1/4294967297 2/2 3/3"}) {
         const Error error = failure(std::string(kQuad) + "\n# comment\n" + face + "\n");
         EXPECT_EQ(error.code, ErrorCode::invalidFile) << face;
         EXPECT_EQ(error.place, "line 11") << face << ": " << error.message;
     }
+}
+
+/// Exporters do write such files: all normals left out but not their indices, or 0 for a normal that a corner
+/// lacks.
+TEST(Obj, FacesThatNameUvsOrNormalsThatAreNotThereHaveNone) {
+    const std::string vertices = std::string(kQuad) + "vn 0 0.6 0.8\nf 1/1/1 2/2/1 4/4/1\n";
+    const std::string rest = "f 2/2/1 3/3/1 4/4/1\n";
+    const TempFolder expected;
+    make(expected, vertices + "f 1 2 3\n" + rest);
+    for (const char* face :
+         {"f 1/5/2 2/2/1 3/3/1", "f 1/1/1 2/-5/1 3/3/-2", "f 1/9/9 2/9/9 3/9/9", "f 1/0/0 2/0/0 3/0/0",
+          "f 1/1/1 2/999999999/1 3/3/999999999", "f 1/0/1 2/2/0 3/3/1"}) {
+        const TempFolder folder;
+        make(folder, vertices + face + "\n" + rest);
+        EXPECT_EQ(folder.read("out.glb"), expected.read("out.glb")) << face;
+    }
+}
+
+TEST(Obj, IndicesThatNameNothingAreCountedAndSaid) {
+    const TempFolder folder;
+    const Made made = make(
+        folder, std::string(kQuad) + "f 1/1/1 2/5/2 3/-9/3\nf 1/-5 2/2 3/3\n# ahead:\nf 1/5/1 3/3/1 4/4/1\n");
+    EXPECT_TRUE(
+        mentions(made.report.warnings, "texture coordinates that do not exist: 4, the first in line 9;"));
+    EXPECT_TRUE(mentions(made.report.warnings, "normals that do not exist: 6, the first in line 9;"));
+    EXPECT_TRUE(make(folder, std::string(kQuad) + "f 1/0/0 2/0/0 3/0/0\n").report.warnings.empty())
+        << "0 says that there is none";
 }
 
 TEST(Obj, OddFloatsDoNotUpsetTheParser) {
