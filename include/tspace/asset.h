@@ -16,6 +16,8 @@
 
 namespace tspace {
 
+inline constexpr std::uint64_t kNoMemoryLimit = ~std::uint64_t{0};
+
 /// How files are opened.
 struct FileOptions {
     /// URIs in a model may lead only to files in its own folder (and below). true: anywhere.
@@ -26,6 +28,11 @@ struct FileOptions {
     std::uint64_t import_max_file_bytes = std::uint64_t{2} << 30;
     std::uint64_t import_max_memory_bytes = std::uint64_t{16} << 30;  ///< address space of the importer; a file gets 192 MiB and 256 times its size at most
     std::uint32_t import_max_seconds = 120;                           ///< wall clock and processor time
+    /// What working on one file may take of memory, about; what it would take is estimated first, and more is
+    /// refused (tooLarge). 0: 64 MB, and 16 times the bytes of the file, of those it names, and of what its
+    /// compressed geometry unpacks to. Other values stand for that, and for import_max_memory_bytes;
+    /// kNoMemoryLimit: as much as there is.
+    std::uint64_t memory_limit_bytes = 0;
 };
 
 /// Called now and then during long work. `done` of `total` steps; `what` names the step ("computing tangents").

@@ -56,8 +56,9 @@ void lookAt(const Scene& scene, const CheckOptions& options, NormalMap& map) {
         map.why_not = "it cannot be read";
         return;
     }
-    if (scene.memory && !scene.memory->has(imageWorkBytes(image.bytes))) {
-        map.why_not = "it needs far more memory than the file has bytes";
+    const std::uint64_t bytes = imageWorkBytes(image.bytes);
+    if (scene.memory && !scene.memory->has(bytes)) {
+        map.why_not = "it " + scene.memory->whyNot(bytes);
         return;
     }
     const std::optional<RgbImage> decoded = decodeImage(image.bytes, options.most_pixels, map.why_not);

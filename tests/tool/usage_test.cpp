@@ -43,6 +43,15 @@ TEST(Usage, WrongCommandLinesExitWithTwoAndOneLine) {
         "generate a.obj --in-place",
         "inspect",
         "inspect a.obj -o x",
+        "inspect a.obj --memory-limit 1000",
+        "inspect a.obj --memory-limit 63M",
+        "inspect a.obj --memory-limit -1G",
+        "inspect a.obj --memory-limit 1.5G",
+        "inspect a.obj --memory-limit 8X",
+        "inspect a.obj --memory-limit 8GB",
+        "inspect a.obj --memory-limit 99999999999999999999G",
+        "inspect a.obj --memory-limit G",
+        "inspect a.obj --memory-limit ''",
     };
     for (const std::string& arguments : wrong) {
         const ToolRun run = runTool(folder, arguments);
@@ -107,6 +116,7 @@ TEST(Usage, HelpOfGenerateNamesEveryOptionUnitAndDefault) {
                              "--no-sanitize",
                              "--orthogonalize",
                              "--threads N",
+                             "--memory-limit SIZE",
                              "--json",
                              "-q, --quiet",
                              "Default: mikktspace.",

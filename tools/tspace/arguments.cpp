@@ -50,6 +50,7 @@ CLI::App* addDiff(CLI::App& app, DiffArguments& arguments) {
         ->check(CLI::Range(0U, 10000U).description(""))
         ->default_str("8")
         ->group("Comparing");
+    addMemoryLimit(command, arguments.options.file);
     addReporting(command, arguments.json, arguments.quiet);
     return command;
 }
@@ -77,6 +78,7 @@ CLI::App* addIdentify(CLI::App& app, IdentifyArguments& arguments) {
         ->default_str("1")
         ->group("Comparing");
     addThreads(command, arguments.options.execution);
+    addMemoryLimit(command, arguments.options.file);
     addBatch(command, arguments.batch, false);
     addReporting(command, arguments.json, arguments.quiet);
     return command;
@@ -97,6 +99,7 @@ CLI::App* addInspect(CLI::App& app, InspectArguments& arguments) {
         std::string(kExitCodes));
     addInputs(command, arguments.inputs);
     addAllowExternal(command, arguments.file.allow_external);
+    addMemoryLimit(command, arguments.file);
     addBatch(command, arguments.batch, false);
     addReporting(command, arguments.json, arguments.quiet);
     return command;
@@ -162,6 +165,7 @@ CLI::App* addCheck(CLI::App& app, CheckArguments& arguments, RawCheck& raw) {
     addInputs(command, arguments.inputs);
     addAllowExternal(command, arguments.options.file.allow_external);
     addCheckOptions(command, arguments, raw);
+    addMemoryLimit(command, arguments.options.file);
     addBatch(command, arguments.batch, false);
     addReporting(command, arguments.json, arguments.quiet);
     return command;

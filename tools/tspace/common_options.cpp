@@ -18,6 +18,23 @@ bool parseShard(const std::string& text, Shard& shard) {
            shard.index <= shard.count;
 }
 
+/// "500M", "8G" or "none"; K, M, G and T count by 1024. At least what any file gets.
+bool parseMemory(const std::string& text, std::uint64_t& bytes) {
+    constexpr std::uint64_t kLeast = std::uint64_t{64} << 20, kMost = std::uint64_t{1} << 56;
+    if (text == "none") {
+        bytes = kNoMemoryLimit;
+        return true;
+    }
+    const std::size_t unit = text.find_first_not_of("0123456789");
+    const std::size_t power =
+        unit + 1 == text.size() ? std::string("KMGT").find(text[unit]) : std::string::npos;
+    std::uint64_t count = 0;
+    if (power == std::string::npos || !CLI::detail::lexical_cast(text.substr(0, unit), count)) return false;
+    const std::uint64_t factor = std::uint64_t{1} << (10 * (power + 1));
+    bytes = count * factor;
+    return count <= kMost / factor && bytes >= kLeast;
+}
+
 }  // namespace
 
 CLI::Validator degrees(double most) {
@@ -126,6 +143,26 @@ void addThreads(CLI::App* command, Execution& execution) {
         ->type_name("N")
         ->check(CLI::Range(0U, 1024U).description(""))
         ->default_str("0")
+        ->group("Running");
+}
+
+void addMemoryLimit(CLI::App* command, FileOptions& file) {
+    command
+        ->add_option_function<std::string>(
+            "--memory-limit",
+            [&file](const std::string& text) { parseMemory(text, file.memory_limit_bytes); },
+            "What working on one file may take of memory, about: a number with M or G (64M or more), or "
+            "none. What it "
+            "would take is estimated first, and more is refused. Default: 64M, and 16 times the bytes of the "
+            "file and of "
+            "those it names, so that a small file that claims to be huge does no harm.")
+        ->type_name("SIZE")
+        ->check(CLI::Validator(
+            [](std::string& text) -> std::string {
+                std::uint64_t unused = 0;
+                return parseMemory(text, unused) ? "" : "must be a number with M or G, 64M or more, or none";
+            },
+            ""))
         ->group("Running");
 }
 

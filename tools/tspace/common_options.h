@@ -38,6 +38,7 @@ void addBatch(CLI::App* command, BatchArguments& batch, bool with_manifest);
 void addReporting(CLI::App* command, bool& json, bool& quiet);
 void addAllowExternal(CLI::App* command, bool& allow_external);
 void addThreads(CLI::App* command, Execution& execution);
+void addMemoryLimit(CLI::App* command, FileOptions& file);
 
 /// The options given that decide about results: "--all --method=angle", in the order of their names, so that the
 /// manifest of another command line with the same meaning fits.

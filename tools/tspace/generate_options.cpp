@@ -219,6 +219,7 @@ void addOtherOptions(CLI::App* command, GenerateArguments& arguments, RawGenerat
             "matches bakes exactly where normals are not unit.")
         ->group("Repair");
     addThreads(command, options.tangents.execution);
+    addMemoryLimit(command, options.file);
 }
 
 }  // namespace

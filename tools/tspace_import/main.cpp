@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
     try {
         return run(argv[1], argv[2]);
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "reading it takes more memory than is allowed\n");
+        std::fprintf(stderr, "reading it takes more memory than is allowed (--memory-limit allows more)\n");
         return kOutOfMemory;
     } catch (const std::exception& failure) {
         std::fprintf(stderr, "%s\n", failure.what());

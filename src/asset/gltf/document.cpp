@@ -204,6 +204,7 @@ Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, cons
     document.path = path;
     document.folder = folderOf(path);
     document.options = options;
+    document.memory = std::make_shared<MemoryBudget>(options.memory_limit_bytes);
     document.file_bytes = std::move(file_bytes);
     document.input_bytes = document.file_bytes.size();
     document.container = isGlb(document.file_bytes) ? Container::glb : Container::gltf;

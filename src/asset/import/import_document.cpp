@@ -136,7 +136,9 @@ gltf::Document importDocument(const fs::path& path, const FileOptions& options) 
     }
     // A small file has no use for much memory; one that claims much is stopped early.
     constexpr std::uint64_t kAnyFile = std::uint64_t{192} << 20, kPerByte = 256;
-    const std::uint64_t memory = std::min(options.import_max_memory_bytes, kAnyFile + kPerByte * size);
+    const std::uint64_t memory = options.memory_limit_bytes != 0
+                                     ? options.memory_limit_bytes
+                                     : std::min(options.import_max_memory_bytes, kAnyFile + kPerByte * size);
     const ScratchFolder scratch;
     const fs::path result = scratch.path("scene.glb"), messages = scratch.path("messages");
     bool timed_out = false;

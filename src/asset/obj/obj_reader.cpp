@@ -329,6 +329,7 @@ Model readModel(const std::filesystem::path& path, const FileOptions& options) {
     model.folder = folderOf(path);
     model.input_bytes = bytes.size();
     model.input_files.push_back(path.string());
+    model.memory = std::make_shared<MemoryBudget>(options.memory_limit_bytes);
     model.memory->allow(bytes.size());
     model.memory->take(bytes.size(), {});
     std::string text(bytes.begin(), bytes.end());

@@ -16,8 +16,9 @@ namespace tspace::gltf {
 
 namespace {
 
-/// What decoding may take. Draco has no smallest size per vertex (a flat grid takes next to nothing), so this is a choice:
-/// a file of any size may decode to 4 MiB, and a large one to 256 times its size.
+/// What decoding may take where the user has not said it. Draco has no smallest size per vertex (a flat grid
+/// takes next to nothing), so this is a choice: a file of any size may decode to 4 MiB, and a large one to
+/// 256 times its size.
 constexpr std::size_t kFreeBytes = std::size_t{4} << 20;
 constexpr std::size_t kRatio = 256;
 /// What the library needs beside the values themselves.
@@ -177,6 +178,20 @@ class Decoder {
         if (packed.mode != kTriangles) json["mode"] = kTriangles;
     }
 
+    /// Before values are decoded: what their accessors claim.
+    void takeFromBudget(std::size_t bytes, const std::string& place) {
+        if (document_.memory->isUsers()) {
+            document_.memory->require(bytes * kWorkFactor, place);
+            return;
+        }
+        if (bytes > budget_) {
+            failAt("the accessors of the Draco primitive claim " + std::to_string(bytes) +
+                       " bytes, which is too much for a file of this size (--memory-limit allows more)",
+                   place);
+        }
+        budget_ -= bytes;
+    }
+
     DracoMesh decodeBlob(const Packed& packed) {
         DracoMesh mesh;
         DracoLimits limits;
@@ -194,12 +209,7 @@ class Decoder {
             limits.corner_count = packed.mode == kTriangles ? count : count * 3;
         }
         bytes += limits.corner_count * sizeof(std::uint32_t);
-        if (bytes > budget_) {
-            failAt("the accessors of the Draco primitive claim " + std::to_string(bytes) +
-                       " bytes, which is too much for a file of this size",
-                   packed.place());
-        }
-        budget_ -= bytes;
+        takeFromBudget(bytes, packed.place());
         limits.bytes = bytes * kWorkFactor;
         const BufferView view = readBufferView(document_, packed.view);
         if (document_.buffers[view.buffer].source == BufferSource::absent)
