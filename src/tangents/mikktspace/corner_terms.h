@@ -24,6 +24,8 @@ enum class Weighting : std::uint32_t {
 struct CornerSource : VertexArrays {
     Weighting weighting = Weighting::projected_angle;
     bool tangents_only = false;  ///< leave out `t` and `lengths_t`
+    /// Leave out rows of triangles that are degenerate or have no UV area, where that is less work.
+    bool adding_only = false;
 };
 
 inline constexpr std::size_t kTermTriangles = 64;  ///< of one block; its arrays stay in the first cache

@@ -136,6 +136,10 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
         for (std::size_t k = 0; k < 3; ++k) store(terms.marks[k] + first, all_marks);
         return;
     }
+    if (source.adding_only && ((bad | flat) & valid) == valid) [[unlikely]] {
+        for (std::size_t k = 0; k < 3; ++k) store(terms.marks[k] + first, flags);
+        return;
+    }
     Vectors s[3], t[3];
     Floats weights[3];
     Bits marks[3];

@@ -88,6 +88,7 @@ class OnePass {
         const CornerTermsFunction terms = cornerTermsFor(options_.execution.simd);
         CornerSource source = cornerSource({mesh_.positions, mesh_.normals}, mesh_.uvs, options_.method,
                                            estimates_ || wantsTangentsOnly(out_));
+        source.adding_only = true;
         const bool walks = first_look == FirstLook::eachNode ||
                            (first_look == FirstLook::asItSeems && mostNodesSeemUnclear(mesh_, triangles_));
         if (walks && !estimates_) return walkAll(source, terms);
