@@ -36,25 +36,23 @@ class NodeWalk {
           corners_(allocator_),
           groups_(mesh, options, triangles, nodes, chosen, out, corners_) {}
 
-    WalkedNodes run(std::span<const std::uint32_t> doubtful, CornerSource source, CornerTermsFunction terms,
-                    NodeSums* sums) {
+    WalkedNodes run(CornerSource source, CornerTermsFunction terms, NodeSums* sums) {
         source.tangents_only = !groups_.isFull() && !groups_.maySplit();
         corners_ =
             readCorners({mesh_, triangles_, nodes_, chosen_, source, terms, sums, allocator_, parallel_});
         state_ = Buffer<std::uint8_t>(allocator_, chosen_.size(), std::uint8_t{kDone});
-        if (sums == nullptr ? findContestedOfAll() : findContested(doubtful)) groupContested();
+        if (findContested()) groupContested();
         std::atomic<std::uint64_t> groups{0}, defaults{0};
         parallel_.forRanges(chosen_.size(), kNodeGrain, [&](std::size_t begin, std::size_t end) {
             WalkCounts counts;
             for (std::size_t place = begin; place < end; ++place) {
                 if (!contested_.empty() && contested_[place] != 0) continue;
-                if (corners_.degenerate_count != 0) corners_.dropDegenerate(place);
                 state_[place] = groups_.walk(place, counts);
             }
             groups += counts.groups;
             defaults += counts.defaults;
         });
-        WalkedNodes result;
+        WalkedNodes result(allocator_);
         result.degenerate_count = corners_.degenerate_count;
         result.no_uv_area_count = corners_.no_uv_area_count;
         result.mirrored_count = corners_.mirrored_count;
@@ -67,69 +65,40 @@ class NodeWalk {
         }
         result.left_count = left_count;
         result.left = std::move(state_);
+        if (left_count != 0) listLeft(result);
         return result;
     }
 
   private:
-    void mark(std::size_t triangle, const std::uint32_t* places) {
-        if (contested_.empty()) contested_ = noMarks(allocator_, chosen_.size());
-        corners_.flags[triangle] |= kContested;
-        for (std::size_t k = 0; k < 3; ++k) contested_[places[k]] = 1;
-    }
-
-    /// Marks contested triangles and their nodes. Returns whether there are any.
-    bool findContested(std::span<const std::uint32_t> doubtful) {
-        const std::uint32_t *found = corners_.found.data(), *end = found + corners_.found.size(),
-                            *next = found;
-        for (const std::uint32_t triangle : doubtful) {
-            next = std::lower_bound(next, end, triangle);
-            const auto t = static_cast<std::size_t>(next - found);
-            const std::uint32_t* at = corners_.at.data() + 3 * t;
-            const std::uint32_t p[3] = {placeOf(at[0]), placeOf(at[1]), placeOf(at[2])};
-            if ((facing(p[0]) | facing(p[1]) | facing(p[2])) == 3) mark(t, p);
-        }
-        return !contested_.empty();
-    }
-
-    /// The same among all triangles.
-    bool findContestedOfAll() {
+    /// Marks contested triangles and their nodes. Returns whether there are any. (Where a node of such a
+    /// triangle is not chosen, it has no groups, or one pass has seen that the nodes agree.)
+    bool findContested() {
         if (corners_.no_uv_area_count == 0) return false;
-        Buffer<std::uint8_t> facing(allocator_, chosen_.size(), std::uint8_t{0});
-        const std::size_t count = corners_.flags.size();
-        for (std::size_t t = 0; t < count; ++t) {
-            const std::uint8_t here = facingOf(corners_.flags[t]);
-            for (std::size_t k = 0; k < 3; ++k) facing[corners_.nodes[3 * t + k]] |= here;
-        }
-        for (std::size_t t = 0; t < count; ++t) {
+        const std::uint8_t* facing = corners_.facing.data();
+        for (std::size_t t = 0; t < corners_.flags.size(); ++t) {
             if ((corners_.flags[t] & kAny) == 0) continue;
-            const std::uint32_t* n = corners_.nodes.data() + 3 * t;
-            if ((facing[n[0]] | facing[n[1]] | facing[n[2]]) == 3) mark(t, n);
+            const std::uint32_t* places = corners_.placesOf(t);
+            if ((facing[places[0]] | facing[places[1]] | facing[places[2]]) == (kFacesUp | kFacesDown))
+                mark(t, places);
         }
         return !contested_.empty();
     }
 
-    /// Valid too where corners of degenerate triangles were taken out.
-    [[nodiscard]] std::uint32_t placeOf(std::uint32_t at) const { return corners_.corners[at].place; }
-
-    /// Which orientations the triangles at a node have.
-    [[nodiscard]] unsigned facing(std::size_t place) const {
-        unsigned result = 0;
-        for (const UnclearCorner& corner : corners_.around(place)) result |= facingOf(corner.flags);
-        return result;
-    }
-    /// 1: up, 2: down; 0: neither.
-    static std::uint8_t facingOf(std::uint32_t flags) {
-        const auto facing = static_cast<std::uint8_t>((flags & kPositive) != 0 ? 1 : 2);
-        return (flags & (kAny | kDegenerate)) != 0 ? std::uint8_t{0} : facing;
+    void mark(std::size_t triangle, const std::uint32_t* places) {
+        if (contested_.empty()) contested_ = noMarks(allocator_, chosen_.size() + 1);
+        corners_.flags[triangle] |= kContested;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (corners_.facing[places[k]] == 0 || contested_[places[k]] != 0) continue;
+            contested_[places[k]] = 1;
+            contested_places_.push(places[k]);
+        }
     }
 
     /// Nodes that share contested triangles are left together or not at all.
     void groupContested() {
         if (spreadContested()) return;
         contested_counts_ = {};
-        for (std::size_t place = 0; place < chosen_.size(); ++place) {
-            if (contested_[place] != 0) state_[place] = kLeft;
-        }
+        for (const std::uint32_t place : contested_places_) state_[place] = kLeft;
     }
 
     bool spreadContested() {
@@ -141,9 +110,7 @@ class NodeWalk {
         };
         Buffer<Progress> progress(allocator_, chosen_.size(), Progress{});
         bool all_small = true;
-        for (std::size_t place = 0; place < chosen_.size(); ++place) {
-            if (contested_[place] == 0) continue;
-            corners_.dropDegenerate(place);
+        for (const std::uint32_t place : contested_places_) {
             const std::uint32_t begin = corners_.begin[place];
             all_small &= corners_.around(place).size() <= kSmallNode;
             if (all_small) linkContested(place, left + begin, right + begin);
@@ -156,22 +123,20 @@ class NodeWalk {
             groups[seed] = progress[place].group_count++;
             for (const std::uint8_t* link : {left + begin, right + begin}) {
                 for (std::uint8_t m = link[seed]; m != Links::kNoLink && groups[m] == kNoGroup; m = link[m]) {
-                    if (!joinsContested(corners_.corners[begin + m].triangle, flags & kPositive)) break;
+                    if (!joinsContested(corners_.numberOf(corners_.corners[begin + m]), flags & kPositive))
+                        break;
                     groups[m] = groups[seed];
                 }
             }
         };
         for (std::size_t t = 0; t < corners_.flags.size(); ++t) {
             if ((corners_.flags[t] & kNearContested) == 0) continue;
+            const std::uint32_t* places = corners_.placesOf(t);
             for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint32_t at = corners_.at[3 * t + k];
-                if (at == kNone) continue;
-                const std::uint32_t place = placeOf(at);
-                if (contested_[place] != 0) spreadFrom(place, corners_.flags[t]);
+                if (contested_[places[k]] != 0) spreadFrom(places[k], corners_.flags[t]);
             }
         }
-        for (std::size_t place = 0; place < chosen_.size(); ++place) {
-            if (contested_[place] == 0) continue;
+        for (const std::uint32_t place : contested_places_) {
             Members members(corners_.around(place));
             std::copy_n(group.data() + corners_.begin[place], members.count(), members.group);
             members.group_count = progress[place].group_count;
@@ -187,7 +152,8 @@ class NodeWalk {
         const Links links(around);
         std::copy_n(links.left, around.size(), to_left);
         std::copy_n(links.right, around.size(), to_right);
-        for (const UnclearCorner& corner : around) corners_.flags[corner.triangle] |= kNearContested;
+        for (const UnclearCorner& corner : around)
+            corners_.flags[corners_.numberOf(corner)] |= kNearContested;
     }
 
     /// As in groups.cpp. A triangle that is not contested joins any group.
@@ -199,6 +165,17 @@ class NodeWalk {
         if ((flags & kPositive) != orientation) return false;
         flags |= kGrouped;
         return true;
+    }
+
+    void listLeft(WalkedNodes& result) const {
+        const auto isLeft = [&](std::uint32_t place) {
+            return place < chosen_.size() && result.left[place] != 0;
+        };
+        for (std::size_t t = 0; t < corners_.flags.size(); ++t) {
+            const std::uint32_t* places = corners_.placesOf(t);
+            if (isLeft(places[0]) || isLeft(places[1]) || isLeft(places[2]))
+                result.around_left.push(corners_.triangleOf(t));
+        }
     }
 
     /// Returns how many corners get the default.
@@ -228,19 +205,18 @@ class NodeWalk {
     UnclearCorners corners_;
     NodeGroups groups_;
     Buffer<std::uint8_t> state_;
-    Marks contested_;  // empty when there are none
+    Marks contested_;  // one per chosen node, and one more; empty when there are none
+    Growing<std::uint32_t> contested_places_{allocator_};
     WalkCounts contested_counts_;
 };
 
 }  // namespace
 
 WalkedNodes walkNodes(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
-                      const Nodes& nodes, std::span<const std::uint32_t> chosen,
-                      std::span<const std::uint32_t> doubtful, const CornerSource& source,
+                      const Nodes& nodes, std::span<const std::uint32_t> chosen, const CornerSource& source,
                       CornerTermsFunction terms, NodeSums* sums, const TangentOutput& out,
                       Parallel& parallel) {
-    return NodeWalk(mesh, options, triangles, nodes, chosen, out, parallel)
-        .run(doubtful, source, terms, sums);
+    return NodeWalk(mesh, options, triangles, nodes, chosen, out, parallel).run(source, terms, sums);
 }
 
 }  // namespace tspace::mikk

@@ -6,6 +6,7 @@
 
 #include <span>
 
+#include "tangents/mikktspace/growing.h"
 #include "tangents/mikktspace/node_sums.h"
 #include "tspace/tangents.h"
 
@@ -14,18 +15,22 @@ namespace tspace::mikk {
 struct WalkedNodes {
     Buffer<std::uint8_t> left;  ///< one per given node: 1 where it is left to the general steps
     std::size_t left_count = 0;
+    Growing<std::uint32_t> around_left;  ///< the triangles around those, ascending
     std::uint64_t group_count = 0, default_corner_count = 0;
-    std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;  ///< of the triangles around them
+    std::uint64_t degenerate_count = 0, no_uv_area_count = 0,
+                  mirrored_count = 0;  ///< of the triangles around all of them
+
+    explicit WalkedNodes(const Allocator* allocator) : around_left(allocator) {}
 };
 
 /// Writes the results of all corners at `chosen` nodes (ascending), but for those of nodes that are left.
-/// `doubtful`: the triangles without UV area (ascending) whose three nodes may have both orientations.
-/// `chosen` must have their nodes, and those of degenerate triangles and of faces whose triangles do not
+/// `chosen` must have the nodes of triangles without UV area whose three nodes may have both orientations,
+/// unless no other triangle is there, and those of degenerate triangles and of faces whose triangles do not
 /// simply agree (node_sums.cpp). `source` is that of the sums, by vertices. Uses the places of second paths
-/// in `sums`; without sums `chosen` must have all nodes, and `doubtful` is not looked at. Takes about 220 bytes per triangle around these nodes. Throws OutOfMemory.
+/// in `sums`; without sums `chosen` must have all nodes. Takes about 210 bytes per triangle around these
+/// nodes. Throws OutOfMemory.
 WalkedNodes walkNodes(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
-                      const Nodes& nodes, std::span<const std::uint32_t> chosen,
-                      std::span<const std::uint32_t> doubtful, const CornerSource& source,
+                      const Nodes& nodes, std::span<const std::uint32_t> chosen, const CornerSource& source,
                       CornerTermsFunction terms, NodeSums* sums, const TangentOutput& out,
                       Parallel& parallel);
 

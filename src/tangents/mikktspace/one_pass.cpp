@@ -7,6 +7,7 @@
 #include <atomic>
 #include <bit>
 #include <cstring>
+#include <span>
 #include <utility>
 
 #include "core/streamed_rows.h"
@@ -26,13 +27,18 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kNodeGrain = 8192, kCornerGrain = 16384;
+constexpr std::size_t kNodeGrain = 8192, kCornerGrain = 16384, kTriangleGrain = 16384;
+constexpr std::uint32_t kBothFacings = kFacesUp | kFacesDown;
+/// In NodeSums::flat: nothing shows that the triangle's nodes agree.
+constexpr std::uint8_t kDoubtful = 2;
 constexpr std::size_t kAlwaysSmall = 1024;  // faces left to the general steps that are never too many
 
-/// The mesh's triangles, as estimators read them: each node is a group. Triangles without UV area add nothing.
+/// The mesh's triangles, as estimators read them: each node is a group. Triangles without UV area add
+/// nothing.
 class MeshTriangles final : public estimators::TriangleGroups {
   public:
-    MeshTriangles(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const NodeSums& sums)
+    MeshTriangles(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+                  const NodeSums& sums)
         : TriangleGroups(triangles.count),
           mesh_(mesh),
           triangles_(triangles),
@@ -40,13 +46,15 @@ class MeshTriangles final : public estimators::TriangleGroups {
           flat_(sums.flat),
           has_flat_(sums.no_uv_area_count != 0) {}
 
-    void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const override {
+    void read(std::size_t first, std::size_t size, std::uint32_t* vertices,
+              std::uint32_t* groups) const override {
         if (triangles_.corners.empty()) {
             withIndices(mesh_.indices, [&](auto vertexOf) {
                 for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = vertexOf(3 * first + i);
             });
         } else {
-            for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = mesh_.indices[triangles_.corners[3 * first + i]];
+            for (std::size_t i = 0; i < 3 * size; ++i)
+                groups[i] = mesh_.indices[triangles_.corners[3 * first + i]];
         }
         if (vertices != nullptr) std::copy_n(groups, 3 * size, vertices);
         if (!nodes_.of_vertex.empty()) {
@@ -101,11 +109,8 @@ class OnePass {
         sums_.marks = {};
         sums_.rest = {};
         sums_.lengths_t = {};
-        if (unclear_count_ != 0 && !estimates_) walkUnclear(source, terms);
-        if (unclear_count_ != 0) {
-            collectRest();
-            if (too_much_rest_) return std::nullopt;
-        }
+        if (unclear_count_ != 0) estimates_ ? collectUnclear() : walkUnclear(source, terms);
+        if (too_much_rest_) return std::nullopt;
         return finishReport(sums_);
     }
 
@@ -115,7 +120,7 @@ class OnePass {
         for (const std::uint32_t c : triangles_.skipped_corners)
             Sink(out_, sign_factor_, signFactor(options_.convention)).clear(c);
         const Buffer<std::uint32_t> all = numbersBelow(nodes_.count, allocator_);
-        const WalkedNodes walked = walkNodes(mesh_, options_, triangles_, nodes_, {all.data(), all.size()}, {},
+        const WalkedNodes walked = walkNodes(mesh_, options_, triangles_, nodes_, {all.data(), all.size()},
                                              source, terms, nullptr, out_, parallel_);
         unclear_count_ = walked.left_count;
         group_count_ = walked.group_count;
@@ -125,7 +130,7 @@ class OnePass {
             for (std::size_t n = 0; n < nodes_.count; ++n)
                 unclear_[n / 64] |= std::uint64_t{walked.left[n]} << (n % 64);
             numbers_ = Buffer<std::uint32_t>(allocator_, nodes_.count, kNone);
-            collectRest();
+            collectRest({walked.around_left.begin(), walked.around_left.size()});
             if (too_much_rest_) return std::nullopt;
         }
         return finishReport(walked);
@@ -154,48 +159,63 @@ class OnePass {
         }
         const MeshTriangles triangles(mesh_, triangles_, nodes_, sums_);
         scale_ = estimators::inputScale(triangles, mesh_.positions, mesh_.uvs);
-        const estimators::GroupEstimates to{reinterpret_cast<std::byte*>(sums_.nodes.data()), sizeof(NodeSum),
-                                            reinterpret_cast<std::byte*>(sums_.rest.data()), sizeof(NodeRest),
-                                            reinterpret_cast<std::byte*>(sums_.lengths_t.data()), sizeof(float)};
+        const estimators::GroupEstimates to{
+            reinterpret_cast<std::byte*>(sums_.nodes.data()),     sizeof(NodeSum),
+            reinterpret_cast<std::byte*>(sums_.rest.data()),      sizeof(NodeRest),
+            reinterpret_cast<std::byte*>(sums_.lengths_t.data()), sizeof(float)};
         Execution execution = options_.execution;
         execution.allocator = brief_.allocator();
-        estimators::estimateGroups(options_.method, triangles, nodes_.count, {mesh_.positions, mesh_.normals}, mesh_.uvs,
-                                   scale_, to, execution, parallel_);
+        estimators::estimateGroups(options_.method, triangles, nodes_.count, {mesh_.positions, mesh_.normals},
+                                   mesh_.uvs, scale_, to, execution, parallel_);
     }
 
     /// A triangle without UV area takes the orientation of the first group that reaches it, at any of its
     /// nodes. Where all other triangles at its three nodes have one orientation, so will it, whoever is
-    /// first; then it just links its neighbours in a fan. Nodes of others are left aside.
+    /// first; then it just links its neighbours in a fan. Nodes of others are left aside, but for those where
+    /// no other triangle is: there is no group.
     void checkFlatTriangles() {
         if (sums_.no_uv_area_count == 0) return;
-        forEachFlat([&](std::size_t triangle) {
-            std::uint32_t facing = 0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint32_t node = nodeAt(3 * triangle + k);
-                const std::uint32_t here = sums_.marks[node] & (kFacesUp | kFacesDown);
-                // A node that is left aside may have any.
-                facing |= here == 0 ? kFacesUp | kFacesDown : sums_.isEmpty(node) ? 0 : here;
-            }
-            if (facing == (kFacesUp | kFacesDown)) doubtful_.push(static_cast<std::uint32_t>(triangle));
+        const bool has_polygons = !triangles_.faces.empty();
+        Marks counted;  // several triangles of a polygon may have one corner of the mesh
+        if (has_polygons) counted = noMarks(allocator_, mesh_.cornerCount());
+        std::atomic<std::uint64_t> defaults{0};
+        std::atomic<bool> any_doubtful{false};
+        const auto look = [&](std::size_t begin, std::size_t end, const auto& vertexOf) {
+            std::uint64_t defaults_here = 0;
+            bool doubtful = false;
+            forEachFlat(begin, end, [&](std::size_t triangle) {
+                std::uint32_t facing = 0;
+                for (std::size_t i = 3 * triangle; i < 3 * triangle + 3; ++i) {
+                    const std::uint32_t here = sums_.marks[nodes_.ofVertex(vertexOf(i))] & kBothFacings;
+                    // A node that is left aside may have any.
+                    facing |= here == 0 ? kBothFacings : here == kBothFacings ? 0 : here;
+                    const bool counts =
+                        here == kBothFacings &&
+                        (!has_polygons || std::exchange(counted[triangles_.corner(i)], std::uint8_t{1}) == 0);
+                    defaults_here += counts ? 1 : 0;
+                }
+                if (facing != kBothFacings) return;
+                sums_.flat[triangle] = kDoubtful;
+                doubtful = true;
+            });
+            defaults += defaults_here;
+            if (doubtful) any_doubtful = true;
+        };
+        withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
+            const std::size_t grain = has_polygons ? triangles_.count : kTriangleGrain;
+            parallel_.forRanges(triangles_.count, grain,
+                                [&](std::size_t begin, std::size_t end) { look(begin, end, vertexOf); });
         });
-        for (const std::uint32_t triangle : doubtful_) {
-            for (std::size_t k = 0; k < 3; ++k) sums_.marks[nodeAt(3 * std::size_t{triangle} + k)] = 0;
-        }
-        countDefaults();
+        default_corner_count_ = defaults;
+        if (any_doubtful) leaveDoubtful();
     }
 
-    /// Corners of triangles without UV area at nodes where no other triangle is. Several triangles of a
-    /// polygon may have one corner of the mesh.
-    void countDefaults() {
-        const bool has_polygons = !triangles_.faces.empty();
-        Marks counted;
-        if (has_polygons) counted = noMarks(allocator_, mesh_.cornerCount());
-        forEachFlat([&](std::size_t triangle) {
-            for (std::size_t i = 3 * triangle; i < 3 * triangle + 3; ++i) {
-                if (!sums_.isEmpty(nodeAt(i))) continue;
-                if (has_polygons && std::exchange(counted[triangles_.corner(i)], std::uint8_t{1}) != 0)
-                    continue;
-                ++default_corner_count_;
+    void leaveDoubtful() {
+        forEachFlat(0, triangles_.count, [&](std::size_t triangle) {
+            if (sums_.flat[triangle] != kDoubtful) return;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t node = nodeAt(3 * triangle + k);
+                if (!sums_.isEmpty(node)) sums_.marks[node] = 0;
             }
         });
     }
@@ -204,12 +224,12 @@ class OnePass {
         return nodes_.ofVertex(mesh_.indices[triangles_.corner(i)]);
     }
 
-    /// body(triangle) for those without UV area.
+    /// body(triangle) for those of [begin, end) without UV area.
     template <class Body>
-    void forEachFlat(const Body& body) const {
+    void forEachFlat(std::size_t begin, std::size_t end, const Body& body) const {
         const Buffer<std::uint8_t>& flat = sums_.flat;
-        for (std::size_t begin = 0; begin < flat.size(); begin += sizeof(std::uint64_t)) {
-            const std::size_t count = std::min(sizeof(std::uint64_t), flat.size() - begin);
+        for (; begin < end; begin += sizeof(std::uint64_t)) {
+            const std::size_t count = std::min(sizeof(std::uint64_t), end - begin);
             std::uint64_t any = 0;
             std::memcpy(&any, flat.data() + begin, count);
             for (std::size_t t = begin; any != 0 && t < begin + count; ++t) {
@@ -257,13 +277,13 @@ class OnePass {
         Buffer<std::uint32_t> chosen(allocator_, unclear_count_);
         std::size_t count = 0;
         forEachUnclear([&](std::uint32_t node) { chosen[count++] = node; });
-        const WalkedNodes walked =
-            walkNodes(mesh_, options_, triangles_, nodes_, {chosen.data(), count},
-                      {doubtful_.begin(), doubtful_.size()}, source, terms, &sums_, out_, parallel_);
+        const WalkedNodes walked = walkNodes(mesh_, options_, triangles_, nodes_, {chosen.data(), count},
+                                             source, terms, &sums_, out_, parallel_);
         for (std::size_t i = 0; i < count; ++i) {
             if (walked.left[i] == 0) unclear_[chosen[i] / 64] &= ~(std::uint64_t{1} << (chosen[i] % 64));
         }
         unclear_count_ = walked.left_count;
+        if (unclear_count_ != 0) collectRest({walked.around_left.begin(), walked.around_left.size()});
         group_count_ += walked.group_count;
         default_corner_count_ += walked.default_corner_count;
     }
@@ -289,8 +309,9 @@ class OnePass {
         NodeRest& rest = sums_.rest[node];
         float& length_t = sums_.lengths_t[node];
         const Vec3 sum_t{rest.t[0], rest.t[1], rest.t[2]};
-        const Vec3 t =
-            signFactor(options_.convention) * (empty ? Vec3{0, 1, 0} : estimates_ ? sum_t : unit(sum_t));
+        const Vec3 t = signFactor(options_.convention) * (empty        ? Vec3{0, 1, 0}
+                                                          : estimates_ ? sum_t
+                                                                       : unit(sum_t));
         rest.t[0] = t.x;
         rest.t[1] = t.y;
         rest.t[2] = t.z;
@@ -347,7 +368,8 @@ class OnePass {
         if (streamed) endOfRows();
     }
 
-    void writeTangents(std::size_t first, const std::uint32_t* nodes, std::size_t count, bool streamed) const {
+    void writeTangents(std::size_t first, const std::uint32_t* nodes, std::size_t count,
+                       bool streamed) const {
         if (streamed) {
             auto* to = reinterpret_cast<float*>(out_.tangents.data + first);
             for (std::size_t i = 0; i < count; ++i) streamRow(to + 4 * i, sums_.nodes[nodes[i]].s);
@@ -365,17 +387,19 @@ class OnePass {
         if (!out_.magnitudes_t.empty()) out_.magnitudes_t[c] = length_t;
     }
 
-    /// The faces around unclear nodes, as a mesh of their own whose vertices are nodes: first the unclear
-    /// ones, then their neighbours.
-    void collectRest() {
-        const std::size_t most = std::max(mesh_.faceCount() / 2, kAlwaysSmall);
+    void collectUnclear() {
         Marks at_nodes = noMarks(allocator_, nodes_.count);
-        forEachUnclear([&](std::uint32_t node) {
-            at_nodes[node] = 1;
-            numberNode(node);
-        });
+        forEachUnclear([&](std::uint32_t node) { at_nodes[node] = 1; });
         const Buffer<std::uint32_t> found =
             collectAround(mesh_, triangles_, nodes_, std::move(at_nodes), allocator_, parallel_);
+        collectRest({found.data(), found.size()});
+    }
+
+    /// The faces of the triangles around unclear nodes (`found`, ascending), as a mesh of their own whose
+    /// vertices are nodes: first the unclear ones, then their neighbours.
+    void collectRest(std::span<const std::uint32_t> found) {
+        const std::size_t most = std::max(mesh_.faceCount() / 2, kAlwaysSmall);
+        forEachUnclear([&](std::uint32_t node) { numberNode(node); });
         if (triangles_.faces.empty()) {
             too_much_rest_ = found.size() > most;
             if (too_much_rest_) return;
@@ -489,8 +513,7 @@ class OnePass {
     float sign_factor_;  // what the sign of the UV determinant is multiplied with
 
     NodeSums sums_;
-    Growing<std::uint32_t> doubtful_{allocator_};  // triangles without UV area whose nodes may not agree
-    Buffer<std::uint64_t> unclear_;                // one bit per node
+    Buffer<std::uint64_t> unclear_;  // one bit per node
     std::size_t unclear_count_ = 0;
     std::uint64_t group_count_ = 0, default_corner_count_ = 0;
 

@@ -10,9 +10,9 @@ namespace tspace::mikk {
 namespace {
 
 /// A sixth of the triangles is enough, since each has three nodes. Measured: meshes with 16 % and more
-/// (Ghost.glb, obliterated, crangeract, rancid_geometry) take 7 to 30 % less time without the pass, those
-/// with 10 % and less (tangeract, Market_495k.glb, doomcone) take more. Where triangles are few, setting up a
-/// second look costs as much as the pass: one of them is enough.
+/// (Ghost.glb, obliterated, crangeract, rancid_geometry) take 8 to 40 % less time without the pass, those
+/// with about 10 % (tangeract, Market_495k.glb, doomcone) as long, others more. Where triangles are few,
+/// setting up a second look costs as much as the pass: one of them is enough.
 constexpr std::size_t kShare = 6;
 constexpr std::size_t kTiny = 64, kSmall = 1024, kSmallSample = 16, kSample = 256;  // triangles
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Lists the corners of chosen nodes: finds the triangles around them, counts which node has how many,
-// computes the triangles and puts their corners where they belong, gives each face one orientation, plans
-// copies for corners of degenerate triangles.
+// Lists the corners of chosen nodes: finds the triangles around them, computes them, gives each face one
+// orientation, counts which node has how many, puts corners where they belong, plans copies for corners of
+// degenerate triangles.
 #include "tangents/mikktspace/unclear_corners.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kBlockGrain = 16, kTriangleGrain = 4096;
+constexpr std::size_t kBlockGrain = 16;
 constexpr float kNothing[4] = {-0.0f, -0.0f, -0.0f, -0.0f};  // added to any number it leaves all its bits
 
 class CornerReader {
@@ -28,22 +28,13 @@ class CornerReader {
           good_(reading.allocator) {}
 
     UnclearCorners run() {
-        findTriangles();
-        placeCorners();
-        to_.flags = Buffer<std::uint8_t>(from_.allocator, count_);
-        const std::size_t blocks = (count_ + kTermTriangles - 1) / kTermTriangles;
-        std::atomic<std::uint64_t> degenerate{0}, flat{0}, mirrored{0};
-        from_.parallel.forRanges(blocks, kBlockGrain, [&](std::size_t begin, std::size_t end) {
-            Counts counts;
-            readBlocks(begin, end, counts);
-            degenerate += counts.degenerate;
-            flat += counts.flat;
-            mirrored += counts.mirrored;
-        });
-        to_.degenerate_count = degenerate;
-        to_.no_uv_area_count = flat;
-        to_.mirrored_count = mirrored;
+        if (from_.sums != nullptr) to_.found = aroundChosen();
+        count_ = from_.sums != nullptr ? to_.found.size() : triangles_.count;
+        readTriangles();
         if (!triangles_.faces.empty()) uniteFaces();
+        countCorners();
+        makeRoom();
+        placeCorners();
         if (to_.degenerate_count != 0) planCopies();
         return std::move(to_);
     }
@@ -52,33 +43,6 @@ class CornerReader {
     struct Counts {
         std::uint64_t degenerate = 0, flat = 0, mirrored = 0;
     };
-
-    /// The place of a node's second path holds its number in `chosen` from here on; what it held before is no
-    /// such number, or that of another node.
-    [[nodiscard]] std::uint32_t placeOf(std::uint32_t node) const {
-        if (from_.sums == nullptr) return node;
-        const std::uint32_t number = from_.sums->nodes[node].fan.leaves[1];
-        return number < from_.chosen.size() && from_.chosen[number] == node ? number : kNone;
-    }
-
-    void findTriangles() {
-        if (from_.sums != nullptr) to_.found = aroundChosen();
-        count_ = from_.sums != nullptr ? to_.found.size() : triangles_.count;
-        to_.nodes = Buffer<std::uint32_t>(from_.allocator, 3 * count_);
-        withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
-            const std::uint32_t* node_of =
-                from_.nodes.of_vertex.empty() ? nullptr : from_.nodes.of_vertex.data();
-            from_.parallel.forRanges(count_, kTriangleGrain, [&](std::size_t begin, std::size_t end) {
-                for (std::size_t t = begin; t < end; ++t) {
-                    const std::size_t first = 3 * std::size_t{to_.triangleOf(t)};
-                    for (std::size_t k = 0; k < 3; ++k) {
-                        const std::uint32_t v = vertexOf(first + k);
-                        to_.nodes[3 * t + k] = node_of == nullptr ? v : node_of[v];
-                    }
-                }
-            });
-        });
-    }
 
     Buffer<std::uint32_t> aroundChosen() {
         for (std::size_t i = 0; i < from_.chosen.size(); ++i)
@@ -89,95 +53,158 @@ class CornerReader {
                              from_.parallel);
     }
 
-    /// Degenerate triangles get places too: which those are is not known yet.
-    void placeCorners() {
-        const std::size_t node_count = from_.chosen.size();
-        to_.at = Buffer<std::uint32_t>(from_.allocator, 3 * count_);
-        to_.begin = Buffer<std::uint32_t>(from_.allocator, node_count);
-        to_.end = Buffer<std::uint32_t>(from_.allocator, node_count + 1, 0u);
-        std::uint32_t *end = to_.end.data(), *at = to_.at.data();
-        if (from_.sums == nullptr) std::copy_n(to_.nodes.data(), 3 * count_, at);
-        for (std::size_t i = 0; i < 3 * count_; ++i) {
-            if (from_.sums != nullptr) at[i] = placeOf(to_.nodes[i]);
-            ++end[at[i] == kNone ? node_count : at[i]];
+    /// The place of a node's second path holds its number in `chosen` from here on; what it held before is no
+    /// such number, or that of another node.
+    [[nodiscard]] std::uint32_t placeOf(std::uint32_t node) const {
+        const std::uint32_t number = from_.sums->nodes[node].fan.leaves[1];
+        return number < from_.chosen.size() && from_.chosen[number] == node
+                   ? number
+                   : static_cast<std::uint32_t>(from_.chosen.size());
+    }
+
+    void readTriangles() {
+        to_.nodes = Buffer<std::uint32_t>(from_.allocator, 3 * count_);
+        if (from_.sums != nullptr) to_.places = Buffer<std::uint32_t>(from_.allocator, 3 * count_);
+        to_.flags = Buffer<std::uint8_t>(from_.allocator, count_);
+        to_.terms = Buffer<CornerTerms>(from_.allocator, (count_ + kTermTriangles - 1) / kTermTriangles);
+        std::atomic<std::uint64_t> degenerate{0}, flat{0}, mirrored{0};
+        withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
+            from_.parallel.forRanges(to_.terms.size(), kBlockGrain, [&](std::size_t begin, std::size_t end) {
+                Counts counts;
+                for (std::size_t block = begin; block < end; ++block) readBlock(block, vertexOf, counts);
+                degenerate += counts.degenerate;
+                flat += counts.flat;
+                mirrored += counts.mirrored;
+            });
+        });
+        to_.degenerate_count = degenerate;
+        to_.no_uv_area_count = flat;
+        to_.mirrored_count = mirrored;
+    }
+
+    template <class VertexOf>
+    void readBlock(std::size_t block, const VertexOf& vertexOf, Counts& counts) {
+        const std::size_t begin = block * kTermTriangles, count = std::min(kTermTriangles, count_ - begin);
+        std::uint32_t vertices[kTermCorners];
+        for (std::size_t t = 0; t < count; ++t) {
+            const std::size_t first = 3 * std::size_t{to_.triangleOf(begin + t)};
+            for (std::size_t k = 0; k < 3; ++k) vertices[3 * t + k] = vertexOf(first + k);
         }
-        std::uint32_t sum = 0;
-        for (std::size_t place = 0; place < node_count; ++place) {
+        std::fill(vertices + 3 * count, vertices + kTermCorners, vertices[0]);
+        readNodes(3 * begin, 3 * count, vertices);
+        CornerTerms& terms = to_.terms[block];
+        from_.terms(from_.source, vertices, count, terms);
+        counts.degenerate += terms.degenerate_count;
+        counts.flat += terms.no_uv_area_count;
+        counts.mirrored += terms.mirrored_count;
+        std::uint8_t* flags = to_.flags.data() + begin;
+        for (std::size_t t = 0; t < count; ++t) {
+            flags[t] = flagsOf(terms.marks[0][t] | terms.marks[1][t] | terms.marks[2][t], begin + t);
+            if ((flags[t] & kAny) != 0) clearRows(terms, t);
+        }
+    }
+
+    static void clearRows(CornerTerms& terms, std::size_t t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            storeFloat4(terms.s[3 * t + k], loadFloat4(kNothing));
+            storeFloat4(terms.t[3 * t + k], loadFloat4(kNothing));
+            terms.lengths_t[k][t] = kNothing[0];
+        }
+    }
+
+    /// And takes those vertices whose data stand for the nodes.
+    void readNodes(std::size_t first, std::size_t count, std::uint32_t* vertices) {
+        const Nodes& map = from_.nodes;
+        std::uint32_t* nodes = to_.nodes.data() + first;
+        if (map.of_vertex.empty()) {
+            std::copy_n(vertices, count, nodes);
+        } else {
+            for (std::size_t i = 0; i < count; ++i) nodes[i] = map.of_vertex[vertices[i]];
+            for (std::size_t i = 0; map.mixed && i < count; ++i) vertices[i] = map.vertex(nodes[i]);
+        }
+        if (to_.places.empty()) return;
+        for (std::size_t i = 0; i < count; ++i) to_.places[first + i] = placeOf(nodes[i]);
+    }
+
+    /// Corners of all triangles but degenerate ones.
+    void countCorners() {
+        const std::size_t place_count = from_.chosen.size() + 1;
+        to_.facing = noMarks(from_.allocator, place_count);
+        to_.end = Buffer<std::uint32_t>(from_.allocator, place_count, 0u);
+        std::uint8_t* facing = to_.facing.data();
+        std::uint32_t* sizes = to_.end.data();
+        const std::uint8_t* flags = to_.flags.data();
+        const std::uint32_t* places = to_.placesOf(0);
+        const std::size_t count = count_;
+        for (std::size_t t = 0; t < count; ++t, places += 3) {
+            if ((flags[t] & kDegenerate) != 0) continue;
+            const std::uint8_t here = facingOf(flags[t]);
+            for (std::size_t k = 0; k < 3; ++k) {
+                ++sizes[places[k]];
+                facing[places[k]] |= here;
+            }
+        }
+        facing[place_count - 1] = 0;
+    }
+
+    void makeRoom() {
+        const std::size_t place_count = from_.chosen.size();
+        to_.begin = Buffer<std::uint32_t>(from_.allocator, place_count);
+        std::uint32_t *begin = to_.begin.data(), *end = to_.end.data(), sum = 0;
+        for (std::size_t place = 0; place < place_count; ++place) {
             const std::uint32_t size = end[place];
-            to_.begin[place] = end[place] = sum;
+            begin[place] = end[place] = sum;
             sum += size;
         }
-        for (std::size_t i = 0; i < 3 * count_; ++i) {
-            if (at[i] != kNone) at[i] = end[at[i]]++;
-        }
         to_.corners = Buffer<UnclearCorner>(from_.allocator, sum);
-        if (from_.sums == nullptr) return;
-        places_ = Buffer<std::uint32_t>(from_.allocator, sum);
-        for (std::size_t place = 0; place < node_count; ++place)
-            std::fill(places_.data() + to_.begin[place], places_.data() + end[place],
-                      static_cast<std::uint32_t>(place));
     }
 
-    void readBlocks(std::size_t begin_block, std::size_t end_block, Counts& counts) {
-        CornerTerms terms;
-        if (from_.source.tangents_only) {  // else they are written
-            std::fill_n(terms.t[0], 4 * kTermCorners, 0.0f);
-            std::fill_n(terms.lengths_t[0], kTermCorners, 0.0f);
-        }
-        std::uint32_t own[kTermCorners] = {};
-        for (std::size_t block = begin_block; block < end_block; ++block) {
-            const std::size_t begin = block * kTermTriangles,
-                              count = std::min(kTermTriangles, count_ - begin);
-            const std::uint32_t *nodes = to_.nodes.data() + 3 * begin, *vertices = nodes;
-            if (count < kTermTriangles || !from_.nodes.vertices.empty()) {
-                for (std::size_t i = 0; i < 3 * count; ++i) own[i] = from_.nodes.vertex(nodes[i]);
-                vertices = own;
-            }
-            from_.terms(from_.source, vertices, count, terms);
-            counts.degenerate += terms.degenerate_count;
-            counts.flat += terms.no_uv_area_count;
-            counts.mirrored += terms.mirrored_count;
-            keepTerms(terms, begin, count);
+    void placeCorners() {
+        if (to_.places.empty()) {
+            placeCorners([](std::uint32_t) { return true; });
+        } else {
+            const auto nowhere = static_cast<std::uint32_t>(from_.chosen.size());
+            placeCorners([nowhere](std::uint32_t place) { return place != nowhere; });
         }
     }
 
-    void keepTerms(const CornerTerms& terms, std::size_t begin, std::size_t count) {
-        const std::uint32_t *nodes = to_.nodes.data() + 3 * begin, *at = to_.at.data() + 3 * begin;
-        const std::uint32_t* found = to_.found.empty() ? nullptr : to_.found.data() + begin;
-        const std::uint32_t* places = places_.empty() ? nullptr : places_.data();
+    template <class IsChosen>
+    void placeCorners(const IsChosen& isChosen) {
         const std::uint32_t* slots = triangles_.corners.empty() ? nullptr : triangles_.corners.data();
+        const std::uint32_t* found = to_.found.empty() ? nullptr : to_.found.data();
+        std::uint32_t* ends = to_.end.data();
         UnclearCorner* corners = to_.corners.data();
-        std::uint8_t* all_flags = to_.flags.data() + begin;
-        for (std::size_t t = 0; t < count; ++t) {
-            const std::uint32_t *n = nodes + 3 * t, *to = at + 3 * t;
-            const auto number = static_cast<std::uint32_t>(begin + t);
-            const std::uint32_t first = 3 * (found == nullptr ? number : found[t]);
-            const std::uint8_t flags =
-                flagsOf(terms.marks[0][t] | terms.marks[1][t] | terms.marks[2][t], number);
-            all_flags[t] = flags;
-            const bool flat = (flags & kAny) != 0;
-            const std::uint32_t facing = facingBit(flags);
-            const auto keep = [&](std::uint32_t k, std::uint32_t next, std::uint32_t previous) {
-                if (to[k] == kNone) return;
-                UnclearCorner& corner = corners[to[k]];
-                storeFloat4(corner.s, loadFloat4(flat ? kNothing : terms.s[3 * t + k]));
-                storeFloat4(corner.t, loadFloat4(flat ? kNothing : terms.t[3 * t + k]));
-                corner.length_t = flat ? kNothing[0] : terms.lengths_t[k][t];
-                corner.next = next;
-                corner.previous = previous;
-                corner.triangle = number;
-                corner.slot = slots == nullptr ? first + k : slots[first + k];
-                corner.place = places == nullptr ? n[k] : places[to[k]];
-                corner.common = flat ? ~0u : terms.marks[k][t] | facing;
-                corner.flags = flags;
-            };
-            keep(0, n[1], n[2]);
-            keep(1, n[2], n[0]);
-            keep(2, n[0], n[1]);
+        for (std::size_t begin = 0; begin < count_; begin += kTermTriangles) {
+            const CornerTerms& terms = to_.terms[begin / kTermTriangles];
+            const std::size_t count = std::min(kTermTriangles, count_ - begin);
+            const std::uint32_t *n = to_.nodes.data() + 3 * begin, *places = to_.placesOf(begin);
+            const std::uint8_t* flags = to_.flags.data() + begin;
+            for (std::size_t t = 0; t < count; ++t, n += 3, places += 3) {
+                if ((flags[t] & kDegenerate) != 0) continue;
+                const std::uint32_t first =
+                    3 * (found == nullptr ? static_cast<std::uint32_t>(begin + t) : found[begin + t]);
+                const std::uint32_t orientation = orientationOf(flags[t]);
+                const auto place = [&](std::uint32_t k, std::uint32_t next, std::uint32_t previous) {
+                    if (!isChosen(places[k])) return;
+                    corners[ends[places[k]]++] = {terms.s[3 * t + k], next, previous,
+                                                  slots == nullptr ? first + k : slots[first + k],
+                                                  terms.marks[k][t] | orientation};
+                };
+                place(0, n[1], n[2]);
+                place(1, n[2], n[0]);
+                place(2, n[0], n[1]);
+            }
         }
     }
 
-    static std::uint32_t facingBit(std::uint8_t flags) { return (flags & kPositive) != 0 ? kIsUp : kIsDown; }
+    static std::uint8_t facingOf(std::uint8_t flags) {
+        const std::uint32_t facing = (flags & kPositive) != 0 ? kFacesUp : kFacesDown;
+        return static_cast<std::uint8_t>((flags & kAny) != 0 ? 0 : facing);
+    }
+    static std::uint32_t orientationOf(std::uint8_t flags) {
+        const std::uint32_t orientation = (flags & kPositive) != 0 ? kIsUp : kIsDown;
+        return (flags & kAny) != 0 ? UnclearCorner::kAddsNothing : orientation;
+    }
 
     /// `marks`: what some corner of the triangle has. A triangle with a NaN has none of both orientations.
     [[nodiscard]] std::uint8_t flagsOf(std::uint32_t marks, std::size_t t) const {
@@ -238,16 +265,7 @@ class CornerReader {
         });
         const std::uint32_t orientation = uvArea(good_[chosen]) > 0 ? kPositive : 0;
         for (const std::uint32_t t : good_) {
-            const auto flags = static_cast<std::uint8_t>((to_.flags[t] & ~unsigned{kPositive}) | orientation);
-            to_.flags[t] = flags;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint32_t at = to_.at[3 * std::size_t{t} + k];
-                if (at == kNone) continue;
-                UnclearCorner& corner = to_.corners[at];
-                corner.flags = flags;
-                if ((flags & kAny) == 0)
-                    corner.common = (corner.common & ~(kIsUp | kIsDown)) | facingBit(flags);
-            }
+            to_.flags[t] = static_cast<std::uint8_t>((to_.flags[t] & ~unsigned{kPositive}) | orientation);
         }
     }
 
@@ -298,30 +316,17 @@ class CornerReader {
     [[nodiscard]] std::uint32_t slot(std::size_t t, std::uint32_t k) const {
         return triangles_.corner(3 * std::size_t{to_.triangleOf(t)} + k);
     }
-    [[nodiscard]] std::uint32_t placeAt(std::size_t t, std::uint32_t k) const {
-        return to_.corners[to_.at[3 * t + k]].place;
-    }
+    [[nodiscard]] std::uint32_t placeAt(std::size_t t, std::uint32_t k) const { return to_.placesOf(t)[k]; }
 
     const CornerReading& from_;
     const MeshView& mesh_;
     const TriangleList& triangles_;
     UnclearCorners to_;
-    std::size_t count_ = 0;         // of triangles
-    Buffer<std::uint32_t> places_;  // of each corner; empty: places are nodes
-    Growing<std::uint32_t> good_;   // of one face
+    std::size_t count_ = 0;        // of triangles
+    Growing<std::uint32_t> good_;  // of one face
 };
 
 }  // namespace
-
-void UnclearCorners::dropDegenerate(std::size_t place) {
-    std::uint32_t to = begin[place];
-    for (std::uint32_t i = to; i < end[place]; ++i) {
-        if ((corners[i].flags & kDegenerate) != 0) continue;
-        if (to != i) corners[to] = corners[i];
-        ++to;
-    }
-    end[place] = to;
-}
 
 UnclearCorners readCorners(const CornerReading& reading) { return CornerReader(reading).run(); }
 

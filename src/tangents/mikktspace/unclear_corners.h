@@ -3,6 +3,7 @@
 // node_walk.cpp works on.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "tangents/mikktspace/collect.h"
@@ -17,33 +18,41 @@ inline constexpr std::uint8_t kContested = 0x40, kDegenerate = 0x80;
 /// In UnclearCorner::common, beside marks: the orientation of the triangle.
 inline constexpr std::uint32_t kIsUp = 0x10000, kIsDown = 0x20000;
 
-/// A corner at a chosen node. All of it is in one cache line, and those of a node lie side by side. What one
-/// of a triangle without UV area adds is nothing.
-struct alignas(64) UnclearCorner {
-    float s[4], t[4];  ///< rows of corner_terms.h
-    float length_t;
+/// A corner of a triangle that is not degenerate. Those of a node lie side by side.
+struct UnclearCorner {
+    const float* s;                ///< its row of CornerTerms::s
     std::uint32_t next, previous;  ///< nodes
-    std::uint32_t triangle;        ///< as a number in `found`
     std::uint32_t slot;            ///< corner of the mesh
-    std::uint32_t place;           ///< number of the node in `chosen`
-    std::uint32_t common;          ///< marks, and kIsUp or kIsDown; all bits for a triangle without UV area
-    std::uint32_t flags;           ///< of the triangle, as it was read
+    std::uint32_t common;          ///< marks, and kIsUp or kIsDown; kAddsNothing for one without UV area
+
+    static constexpr std::uint32_t kAddsNothing = ~0u;
+    [[nodiscard]] bool addsNothing() const { return common == kAddsNothing; }
+    /// Its row of CornerTerms::t.
+    [[nodiscard]] const float* t() const {
+        constexpr std::size_t kFromS = offsetof(CornerTerms, t) - offsetof(CornerTerms, s);
+        return reinterpret_cast<const float*>(reinterpret_cast<const std::byte*>(s) + kFromS);
+    }
 };
 
 struct UnclearCorners {
     // One per triangle around a chosen node.
     Buffer<std::uint32_t> found;  ///< their numbers in the mesh, ascending; empty: all
     Buffer<std::uint8_t> flags;
+    Buffer<CornerTerms> terms;  ///< kTermTriangles each; the rows of those without UV area are kNothing
     // Three per triangle.
     Buffer<std::uint32_t> nodes;
-    Buffer<std::uint32_t> at;  ///< where the corner is in `corners`; kNone: not at a chosen node
+    Buffer<std::uint32_t>
+        places;  ///< numbers of their nodes in `chosen`, of others its size; empty: as `nodes`
     std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;
 
     Buffer<UnclearCorner> corners;  ///< node by node, ascending by triangle
-    // One per chosen node: its range of `corners`.
-    Buffer<std::uint32_t> begin, end;
-    /// One per chosen node; empty: all 0. Whether some corner copies one of the same node that may not be
-    /// the first of its list, or a corner of another node.
+    // One per chosen node.
+    Buffer<std::uint32_t> begin, end;  ///< its range of `corners`
+    /// Which orientations the triangles that add to it have: kFacesUp, kFacesDown. One more, 0, for nodes
+    /// that are not chosen.
+    Marks facing;
+    /// Whether some corner copies one of the same node that may not be the first of its list, or a corner of
+    /// another node. Empty: all 0.
     Marks entangled;
     static constexpr std::uint8_t kSameNode = 1, kOtherNode = 2;
     /// Corners of degenerate triangles, as corners of the mesh, with the corners that they copy; kMark | the
@@ -59,11 +68,22 @@ struct UnclearCorners {
     [[nodiscard]] std::span<const UnclearCorner> around(std::size_t place) const {
         return {corners.data() + begin[place], end[place] - begin[place]};
     }
-    /// Takes the corners of degenerate triangles out of a node's range, in which they are at first.
-    void dropDegenerate(std::size_t place);
-
     [[nodiscard]] std::uint32_t triangleOf(std::size_t t) const {
         return found.empty() ? static_cast<std::uint32_t>(t) : found[t];
+    }
+    /// 3 * the triangle's number in `found` + k.
+    [[nodiscard]] std::uint32_t tricornerOf(const UnclearCorner& corner) const {
+        const auto bytes = static_cast<std::size_t>(reinterpret_cast<const std::byte*>(corner.s) -
+                                                    reinterpret_cast<const std::byte*>(terms.data()));
+        const std::size_t block = bytes / sizeof(CornerTerms),
+                          row = bytes % sizeof(CornerTerms) / sizeof terms[0].s[0];
+        return static_cast<std::uint32_t>(kTermCorners * block + row);
+    }
+    [[nodiscard]] std::uint32_t numberOf(const UnclearCorner& corner) const {
+        return tricornerOf(corner) / 3;
+    }
+    [[nodiscard]] const std::uint32_t* placesOf(std::size_t t) const {
+        return (places.empty() ? nodes.data() : places.data()) + 3 * t;
     }
 };
 
@@ -73,7 +93,7 @@ struct CornerReading {
     const TriangleList& triangles;
     const Nodes& nodes;
     std::span<const std::uint32_t> chosen;  ///< nodes, ascending
-    CornerSource source;                    ///< tangents_only: neither t nor length_t
+    CornerSource source;                    ///< tangents_only: terms without t and lengths_t
     CornerTermsFunction terms = nullptr;
     NodeSums* sums;  ///< the places of second paths are used; null: `chosen` are all nodes
     const Allocator* allocator = nullptr;
