@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Morph targets: whether base plus delta is still a frame of the morphed surface.
+#include <algorithm>
 #include <array>
 #include <set>
 
 #include "check/direction_cones.h"
+#include "check/equal_vertices.h"
 #include "check/findings.h"
 #include "check/primitive_checks.h"
 #include "core/angle.h"
@@ -41,9 +43,10 @@ void applyTarget(const TangentView& base, const SceneMorphTarget& target, Morphe
                     .corners = base.corners};
 }
 
-/// How wrong each vertex's tangent is, in degrees: its direction in the surface, or its lean out of it.
-std::vector<float> frameErrors(const TangentView& mesh, const Surface& surface, const CheckOptions& options) {
-    std::vector<float> errors = directionDistances(mesh, surface, options.direction_deg);
+/// How wrong each vertex's tangent is, in degrees: its direction in the surface (`distances`), or its lean
+/// out of it.
+std::vector<float> frameErrors(const TangentView& mesh, std::vector<float> distances) {
+    std::vector<float> errors = std::move(distances);
     for (std::size_t v = 0; v < errors.size(); ++v) {
         DVec3 normal = toDouble(mesh.normals[v]), tangent = toDouble(xyz(mesh.tangents[v]));
         if (!normalize(normal)) continue;
@@ -53,6 +56,50 @@ std::vector<float> frameErrors(const TangentView& mesh, const Surface& surface, 
         errors[v] = std::max(errors[v], static_cast<float>(lean));
     }
     return errors;
+}
+
+/// Vertices whose frame on the base is known and good. What is wrong without a target is found without it;
+/// and where no triangle says where the tangent points, it is made up, and no target can be held against it.
+std::vector<bool> goodVertices(const PrimitiveFacts& facts) {
+    const double limit = facts.options.direction_deg;
+    const std::vector<float> distances = directionDistances(facts.mesh, facts.surface, limit);
+    const std::vector<float> errors = frameErrors(facts.mesh, distances);
+    std::vector<bool> good(errors.size());
+    for (std::size_t v = 0; v < good.size(); ++v)
+        good[v] = distances[v] != kUnknownDirection && errors[v] <= limit;
+    return good;
+}
+
+/// Whether the triangle is next to nothing: its area is that of rounding, beside its longest edge.
+bool isThin(const TangentView& mesh, std::size_t face, float area) {
+    constexpr double kThin = 1e-6;
+    const auto square = [&](std::size_t k) {
+        const auto position = [&](std::size_t i) {
+            return toDouble(mesh.positions[mesh.corners[3 * face + i % 3]]);
+        };
+        const DVec3 edge = position(k + 1) - position(k);
+        return dot(edge, edge);
+    };
+    return area <= kThin * std::max({square(0), square(1), square(2)});
+}
+
+/// Takes out the vertices of triangles that are next to nothing before or after, and vertices equal to them:
+/// with groups that are those of the base, a triangle that collapses still counts, and one that opens does
+/// not, and what direction a collapsed one has is chance. Triangles that are nothing before and after are in
+/// nobody's way.
+void forgetCollapsed(const TangentView& mesh, const Surface& base, const TangentView& morphed_mesh,
+                     const Surface& morphed, const EqualVertices& equal, std::vector<bool>& good) {
+    constexpr float kCollapsed = 1e-4f;  // of the area: a hundredth of each side
+    std::vector<bool> is_out(equal.class_count, false);
+    for (std::size_t f = 0; f < base.faces.size(); ++f) {
+        const FaceFrame &before = base.faces[f], &after = morphed.faces[f];
+        if (before.tangent == Vec3{} && after.tangent == Vec3{}) continue;
+        if (after.area >= kCollapsed * before.area && !isThin(mesh, f, before.area) &&
+            !isThin(morphed_mesh, f, after.area))
+            continue;
+        for (std::size_t k = 0; k < 3; ++k) is_out[equal.class_of[mesh.corners[3 * f + k]]] = true;
+    }
+    for (std::size_t v = 0; v < good.size(); ++v) good[v] = good[v] && !is_out[equal.class_of[v]];
 }
 
 /// Targets with the same fault.
@@ -65,7 +112,7 @@ struct MorphFault {
 class MorphChecker {
   public:
     explicit MorphChecker(PrimitiveFacts& facts)
-        : facts_(facts), base_errors_(frameErrors(facts.mesh, facts.surface, facts.options)) {}
+        : facts_(facts), good_on_base_(goodVertices(facts)), equal_(findEqualVertices(facts.mesh, true)) {}
 
     void check(std::size_t number, const SceneMorphTarget& target) {
         const bool missing = target.tangents.empty();
@@ -75,15 +122,15 @@ class MorphChecker {
         MorphedMesh morphed;
         applyTarget(facts_.mesh, target, morphed);
         const Surface surface = describeSurface(morphed.view);
-        const std::vector<float> errors = frameErrors(morphed.view, surface, facts_.options);
         const double limit = facts_.options.direction_deg;
+        const std::vector<float> errors =
+            frameErrors(morphed.view, directionDistances(morphed.view, surface, limit));
+        std::vector<bool> good = good_on_base_;
+        forgetCollapsed(facts_.mesh, facts_.surface, morphed.view, surface, equal_, good);
         Tally tally;
         double far_area = 0;
         for (std::uint32_t v = 0; v < errors.size(); ++v) {
-            // What is wrong without the target is found without it.
-            if (!(errors[v] > limit) || base_errors_[v] > limit) continue;
-            // Nobody sees a frame around which there is no surface.
-            if (surface.vertex_areas[v] == 0 && facts_.surface.vertex_areas[v] == 0) continue;
+            if (!good[v] || !(errors[v] > limit)) continue;
             tally.add(v, facts_.surface.vertex_areas[v], errors[v]);
             if (errors[v] > facts_.options.error_deg) far_area += facts_.surface.vertex_areas[v];
         }
@@ -123,7 +170,8 @@ class MorphChecker {
     }
 
     PrimitiveFacts& facts_;
-    std::vector<float> base_errors_;
+    std::vector<bool> good_on_base_;
+    EqualVertices equal_;
     MorphFault missing_ = {}, wrong_ = {};
 };
 

@@ -19,8 +19,11 @@ constexpr double kDegrees = 180 / kPi;
 
 /// A tangent that lies within 6 degrees of N has no direction to speak of in the plane.
 constexpr double kLeastInPlane = 0.1;
-/// Methods weight the directions of triangles without a look at this, so nearly all of them count.
-constexpr double kLeastOfTriangle = 1e-4;
+/// Methods weight the directions of triangles without a look at this, so nearly all of them count. Less is
+/// rounding.
+constexpr double kLeastOfTriangle = 1e-6;
+/// An edge along N has no direction in the plane.
+constexpr double kLeastOfEdge = 1e-4;
 
 double signedAngle(double x, double y) { return y < 0 ? -polarAngle(x, -y) : polarAngle(x, y); }
 
@@ -43,6 +46,33 @@ double angleInPlane(const Vec3& normal, const Vec3& v, double least, bool& found
     return signedAngle(dot(axes.x, d), dot(axes.y, d));
 }
 
+/// Whether the corner spans an angle, seen along N, that is more than the rounding of floats. A method that
+/// weights by this angle, as MikkTSpace does, gives other corners no weight, or one by chance.
+bool spansAngle(const TangentView& mesh, std::size_t corner) {
+    constexpr double kLeastAngle = 1e-3;  // the arc cosine of a float that is one step below 1 is 3.5e-4
+    const std::size_t face = corner / 3 * 3, place = corner - face;
+    const auto position = [&](std::size_t k) { return toDouble(mesh.positions[mesh.corners[face + k % 3]]); };
+    DVec3 n = toDouble(mesh.normals[mesh.corners[corner]]);
+    DVec3 a = position(place + 1) - position(place), b = position(place + 2) - position(place);
+    if (!normalize(n) || !projectUnit(n, a, kLeastOfEdge) || !projectUnit(n, b, kLeastOfEdge)) return false;
+    return dot(a, b) < 0 || length(cross(a, b)) > kLeastAngle;
+}
+
+/// Vertices beyond the tolerance where no triangle with a direction spans an angle: methods that weight by it
+/// make up a direction there.
+void forgetThinCorners(const TangentView& mesh, const Surface& surface, double tolerance_deg,
+                       std::vector<float>& distances) {
+    std::vector<bool> spans(distances.size(), false);
+    for (std::size_t c = 0; c < surface.faces.size() * 3; ++c) {
+        const std::uint32_t v = mesh.corners[c];
+        if (!(distances[v] > tolerance_deg) || spans[v] || surface.faces[c / 3].tangent == Vec3{}) continue;
+        spans[v] = spansAngle(mesh, c);
+    }
+    for (std::size_t v = 0; v < distances.size(); ++v) {
+        if (distances[v] > tolerance_deg && !spans[v]) distances[v] = kUnknownDirection;
+    }
+}
+
 /// The nearest directions on either side of each vertex's tangent, among the triangles that use it.
 class NearestDirections {
   public:
@@ -53,7 +83,12 @@ class NearestDirections {
         DVec3 n = toDouble(mesh_.normals[vertex]);
         DVec3 t = toDouble(xyz(mesh_.tangents[vertex]));
         DVec3 d = toDouble(face.tangent);
-        if (!normalize(n) || !projectUnit(n, t, kLeastInPlane) || !projectUnit(n, d, kLeastOfTriangle)) return;
+        if (!normalize(n) || !projectUnit(n, t, kLeastInPlane)) return;
+        if (!projectUnit(n, d, kLeastOfTriangle)) {
+            // What rounding leaves of a direction along N points anywhere, and counts as much as the others.
+            if (face.tangent != Vec3{}) addAngle(vertex, 0);
+            return;
+        }
         addAngle(vertex, static_cast<float>(signedAngle(dot(t, d), dot(cross(n, t), d))));
         if (face.orientation == 0) {
             addAngle(vertex, static_cast<float>(signedAngle(-dot(t, d), -dot(cross(n, t), d))));
@@ -184,7 +219,9 @@ std::vector<float> directionDistances(const TangentView& mesh, const Surface& su
         distances[v] = nearest.distance(v);
         is_any_far = is_any_far || distances[v] > tolerance_deg;
     }
-    if (is_any_far) considerEqualVertices(mesh, surface, tolerance_deg, distances);
+    if (!is_any_far) return distances;
+    forgetThinCorners(mesh, surface, tolerance_deg, distances);
+    considerEqualVertices(mesh, surface, tolerance_deg, distances);
     return distances;
 }
 

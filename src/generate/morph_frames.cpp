@@ -45,6 +45,14 @@ bool liesAcross(const Vec4& tangent, const Vec3& normal) {
     return hasDirection(tangent) && std::fabs(dot(t, n)) <= kTenthOfADegree * length(t) * length(n);
 }
 
+/// Whether it points out of the plane of a unit normal. No sum of what lies in the plane does, unless it
+/// cancels out and leaves its rounding.
+bool leansOut(const Vec4& tangent, const Vec3& normal) {
+    constexpr double kAboutUnit = 1e-3, kSineOfFiveDegrees = 0.08715574274765817;
+    const DVec3 t = toDouble(xyz(tangent)), n = toDouble(normal);
+    return std::fabs(dot(n, n) - 1) < kAboutUnit && std::fabs(dot(t, n)) > kSineOfFiveDegrees * length(t);
+}
+
 /// The tangent of the base, made orthogonal to another normal that has a direction.
 Vec4 carried(const Vec4& tangent, const Vec3& from, const Vec3& to) {
     if (from == to || !isFinite(to) || isZero(to)) return tangent;
@@ -173,12 +181,14 @@ Result<Done> MorphTangents::regroup(const Piece& piece, const MeshView& posed) {
     return Done{};
 }
 
-/// Where faces collapsed.
+/// Where faces collapsed, or their tangents cancel out.
 void MorphTangents::carryOver(const Piece& piece, std::span<const Vec4> base) {
     for (std::size_t c = 0; c < base.size(); ++c) {
-        if (!piece.has_direction[c] || hasDirection(tangents_[c])) continue;
         const std::uint32_t v = piece.mesh.indices[c];
-        tangents_[c] = carried(base[c], piece.mesh.normals[v], pose_.normals()[v]);
+        const Vec3 &from = piece.mesh.normals[v], &to = pose_.normals()[v];
+        const bool is_lost =
+            !hasDirection(tangents_[c]) || (leansOut(tangents_[c], to) && liesAcross(base[c], from));
+        if (piece.has_direction[c] && is_lost) tangents_[c] = carried(base[c], from, to);
     }
 }
 

@@ -360,6 +360,50 @@ TEST(Check, FindsMorphTargetsWhoseTangentsDoNotFit) {
     EXPECT_EQ(codesOf(patch), Codes{"error morphTangentsWrong"});
 }
 
+/// Moves the first three rows of the first half to one point.
+void collapse(const ScenePrimitive& patch, SceneMorphTarget& target) {
+    edit(target.positions, [&](auto& deltas) {
+        for (std::size_t v = 0; v < 3 * kSide; ++v) deltas[v] = Vec3{1, 2, 3} - patch.positions[v];
+    });
+}
+
+TEST(Check, ForgivesTangentsOfWhatATargetCollapses) {
+    ScenePrimitive patch = goodPatch();
+    patch.morph_targets = {bend(patch, 1.0)};
+    collapse(patch, patch.morph_targets[0]);
+    edit(patch.morph_targets[0].tangents, [&](auto& deltas) {
+        for (std::size_t v = 0; v < 3 * kSide; ++v) deltas[v] = Vec3{};
+    });
+    EXPECT_EQ(codesOf(patch), Codes{});
+}
+
+TEST(Check, FindsMorphTangentsThatDoNotFitBesideWhatCollapses) {
+    ScenePrimitive patch = goodPatch();
+    patch.morph_targets = {bend(patch, 1.0)};
+    collapse(patch, patch.morph_targets[0]);
+    edit(patch.morph_targets[0].tangents, [](auto& deltas) {
+        for (std::size_t v = 5 * kSide; v < deltas.size(); ++v) deltas[v] = -1.0f * deltas[v];
+    });
+    EXPECT_EQ(codesOf(patch), Codes{"error morphTangentsWrong"});
+}
+
+/// Against the right direction, gone, and along the normal.
+TEST(Check, FindsEveryWayInWhichMorphTangentsAreWrong) {
+    for (const double share : {-2.0, -1.0, 0.0}) {
+        ScenePrimitive patch = goodPatch();
+        patch.morph_targets = {bend(patch, 1.0)};
+        edit(patch.morph_targets[0].tangents, [&](auto& deltas) {
+            for (std::size_t v = 0; v < deltas.size(); ++v) {
+                const Vec3 base = xyz(patch.tangents[v]), fitting = base + deltas[v];
+                const Vec3 normal = patch.normals[v] + patch.morph_targets[0].normals[v];
+                const Vec3 wrong = share == 0.0 ? normal : static_cast<float>(1 + share) * fitting;
+                deltas[v] = wrong - base;
+            }
+        });
+        EXPECT_EQ(codesOf(patch), Codes{"error morphTangentsWrong"}) << share;
+    }
+}
+
 TEST(Check, FindsTexturesThatNeedDifferentFrames) {
     ScenePrimitive patch = goodPatch();
     patch.uses.push_back({.needed_by = "clearcoatNormalTexture", .place = "/materials/0/extensions/coat"});

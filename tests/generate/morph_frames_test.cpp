@@ -111,10 +111,16 @@ std::vector<bool> takenApart(const VertexPool& base, const VertexPool& moved, co
     return result;
 }
 
+/// Of the angle between the vector and the plane.
+double sineOf(const Vec3& t, const Vec3& n) {
+    return (double{n.x} * t.x + double{n.y} * t.y + double{n.z} * t.z) / lengthOf(n) / lengthOf(t);
+}
+
 constexpr float kAnyDirection = 1e9f;
 
-/// One primitive of a written pool, moved by a target, evaluated with the groups of the base, or where that takes equal
-/// vertices apart with those of the moved shape. Where this gives a corner no tangent, the result is kAnyDirection.
+/// One primitive of a written pool, moved by a target, evaluated with the groups of the base, or where that
+/// takes equal vertices apart with those of the moved shape. Where this gives a corner no tangent, or one
+/// that leans out of the plane in which that of the base lies, the result is kAnyDirection.
 std::vector<Vec4> evaluated(VertexPool pool, const PrimitiveGeometry& primitive, const MorphOffsets& target,
                             const std::vector<Vec4>& base, const GenerateOptions& options) {
     MeshView mesh;
@@ -149,9 +155,9 @@ std::vector<Vec4> evaluated(VertexPool pool, const PrimitiveGeometry& primitive,
     };
     for (std::size_t c = 0; c < tangents.size(); ++c) {
         if (!apart[c]) continue;
-        const Vec3 &n = pool.normals[primitive.indices[c]], t = xyz(regrouped[c]);
-        const double lean = (double{n.x} * t.x + double{n.y} * t.y + double{n.z} * t.z) / lengthOf(n) / lengthOf(t);
-        const bool in_plane = std::fabs(lean) <= std::sin(std::numbers::pi / 1800) || isZero(n);
+        const Vec3& n = pool.normals[primitive.indices[c]];
+        const bool in_plane =
+            std::fabs(sineOf(xyz(regrouped[c]), n)) <= std::sin(std::numbers::pi / 1800) || isZero(n);
         if (hasDirection(regrouped[c]) && in_plane && regrouped[c].w == tangents[c].w) {
             tangents[c] = regrouped[c];
         } else if (hasDirection(tangents[c])) {
@@ -160,8 +166,17 @@ std::vector<Vec4> evaluated(VertexPool pool, const PrimitiveGeometry& primitive,
     }
     if (!options.sanitize) return tangents;
     std::vector<std::size_t> collapsed;
+    const auto isLost = [&](std::size_t c) {
+        const std::uint32_t v = primitive.indices[c];
+        const Vec3 &from = at_rest.normals[v], &to = pool.normals[v];
+        const bool is_unit = std::fabs(lengthOf(to) * lengthOf(to) - 1) < 1e-3;
+        const bool leans =
+            is_unit && std::fabs(sineOf(xyz(tangents[c]), to)) > std::sin(std::numbers::pi / 36);
+        const bool leant = std::fabs(sineOf(xyz(base[v]), from)) > std::sin(std::numbers::pi / 1800);
+        return !hasDirection(tangents[c]) || (leans && !leant);
+    };
     for (std::size_t c = 0; c < tangents.size(); ++c) {
-        if (!hasDirection(rest[c]) || hasDirection(tangents[c])) continue;
+        if (!hasDirection(rest[c]) || !isLost(c)) continue;
         collapsed.push_back(c);
         tangents[c] = carried(base[primitive.indices[c]], primitive.indices[c]);
     }
