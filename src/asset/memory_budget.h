@@ -46,6 +46,18 @@ class MemoryBudget {
     }
     [[nodiscard]] bool has(std::uint64_t bytes) const { return limited(bytes) <= left_; }
 
+    /// How many of `count` things, one at least, may be worked on together. bytesOf(i) is what the work on
+    /// one takes.
+    template <class BytesOf>
+    [[nodiscard]] std::size_t countTogether(std::size_t count, BytesOf&& bytesOf) const {
+        std::uint64_t bytes = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            bytes += bytesOf(i);
+            if (i > 0 && !has(bytes)) return i;
+        }
+        return count;
+    }
+
     /// Whether the user said how much it is.
     [[nodiscard]] bool isUsers() const { return is_users_; }
 

@@ -62,6 +62,11 @@ struct ScenePrimitive {
     std::vector<TangentUse> uses = {};
 };
 
+/// What checking a primitive takes of memory for a while, about: most where tangents are computed to compare.
+inline std::uint64_t checkBytes(std::uint64_t corner_count, std::uint64_t vertex_count, bool has_tangents) {
+    return corner_count * (has_tangents ? 96 : 24) + 48 * vertex_count;
+}
+
 struct SceneImage {
     std::string name = {};           ///< may be empty
     std::string uri = {};            ///< as the file says; empty when embedded

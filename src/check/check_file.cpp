@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exception>
 #include <map>
+#include <span>
 
 #include "asset/file_error.h"
 #include "asset/scene.h"
@@ -61,19 +62,33 @@ Work collectWork(const Scene& scene) {
     return work;
 }
 
+/// How many of the primitives, one at least, may be worked on together.
+std::size_t countTogether(const Scene& scene, std::span<const std::size_t> primitives) {
+    if (!scene.memory) return primitives.size();
+    return scene.memory->countTogether(primitives.size(), [&](std::size_t i) {
+        const ScenePrimitive& primitive = scene.primitives[primitives[i]];
+        return checkBytes(primitive.corners.size(), primitive.positions.size(), !primitive.tangents.empty());
+    });
+}
+
 std::vector<std::vector<Finding>> checkAll(const Scene& scene, const Work& work, const CheckOptions& options) {
     std::vector<std::vector<Finding>> results(work.primitives.size());
     std::vector<std::exception_ptr> failures(results.size());
     const bool is_gltf = scene.format == "glb" || scene.format == "gltf";
     Parallel parallel(options.execution);
-    parallel.forTasks(results.size(), [&](std::size_t i) {
-        try {
-            results[i] = valueOrThrow(
-                checkPrimitive(scene.primitives[work.primitives[i]], options, is_gltf));
-        } catch (...) {
-            failures[i] = std::current_exception();
-        }
-    });
+    for (std::size_t begin = 0; begin < results.size();) {
+        const std::size_t count = countTogether(scene, std::span(work.primitives).subspan(begin));
+        parallel.forTasks(count, [&](std::size_t task) {
+            const std::size_t i = begin + task;
+            try {
+                results[i] =
+                    valueOrThrow(checkPrimitive(scene.primitives[work.primitives[i]], options, is_gltf));
+            } catch (...) {
+                failures[i] = std::current_exception();
+            }
+        });
+        begin += count;
+    }
     for (const std::exception_ptr& failure : failures) {
         if (failure) std::rethrow_exception(failure);
     }

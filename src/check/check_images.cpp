@@ -40,14 +40,9 @@ std::vector<NormalMap> collectNormalMaps(const Scene& scene) {
 
 /// How many of the images, one at least, may be in memory together.
 std::size_t countTogether(const Scene& scene, std::span<const NormalMap> maps) {
-    std::uint64_t bytes = 0;
-    std::size_t count = 0;
-    while (count < maps.size()) {
-        bytes += imageWorkBytes(scene.images[maps[count].image].bytes);
-        if (count > 0 && scene.memory && !scene.memory->has(bytes)) break;
-        ++count;
-    }
-    return count;
+    if (!scene.memory) return maps.size();
+    return scene.memory->countTogether(
+        maps.size(), [&](std::size_t i) { return imageWorkBytes(scene.images[maps[i].image].bytes); });
 }
 
 void lookAt(const Scene& scene, const CheckOptions& options, NormalMap& map) {

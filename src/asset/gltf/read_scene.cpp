@@ -99,12 +99,12 @@ class PrimitiveLoader {
         return corners_.emplace(key, readTriangleCorners(document_, primitive)).first->second;
     }
 
-    /// The corners, and what looking at them takes for a while: most where tangents are computed to compare.
+    /// The corners, and what looking at them takes for a while.
     void takeCorners(const Primitive& primitive) {
         const std::uint64_t corners = std::uint64_t{3} * primitive.triangleCount();
-        const std::uint64_t work = primitive.find("TANGENT") ? 96 : 24;
         budget_.take(corners * sizeof(std::uint32_t), primitive.place());
-        budget_.require(corners * work + std::uint64_t{48} * primitive.vertex_count, primitive.place());
+        budget_.require(checkBytes(corners, primitive.vertex_count, primitive.find("TANGENT").has_value()),
+                        primitive.place());
     }
 
     using CornerKey = std::tuple<std::size_t, std::size_t, Mode>;

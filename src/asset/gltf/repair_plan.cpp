@@ -32,13 +32,21 @@ void keepGoodPools(const Document& document, std::span<const Primitive> primitiv
     std::vector<std::exception_ptr> failures(plan.pools.size());
     GenerateOptions one_thread = options;
     one_thread.tangents.execution = {.thread_count = 1};
-    Parallel(options.tangents.execution).forTasks(plan.pools.size(), [&](std::size_t i) noexcept {
-        try {
-            if (plan.pools[i].has_tangents) reasons[i] = whyWrong(document, primitives, plan.pools[i], one_thread);
-        } catch (...) {
-            failures[i] = std::current_exception();
-        }
-    });
+    Parallel parallel(options.tangents.execution);
+    for (std::size_t begin = 0; begin < plan.pools.size();) {
+        const std::size_t count = document.memory->countTogether(
+            plan.pools.size() - begin, [&](std::size_t i) { return plan.pools[begin + i].workBytes(); });
+        parallel.forTasks(count, [&](std::size_t task) noexcept {
+            const std::size_t i = begin + task;
+            try {
+                if (plan.pools[i].has_tangents)
+                    reasons[i] = whyWrong(document, primitives, plan.pools[i], one_thread);
+            } catch (...) {
+                failures[i] = std::current_exception();
+            }
+        });
+        begin += count;
+    }
     std::vector<Pool> rest;
     for (std::size_t i = 0; i < plan.pools.size(); ++i) {
         if (failures[i]) std::rethrow_exception(failures[i]);
