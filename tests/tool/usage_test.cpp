@@ -71,6 +71,13 @@ TEST(Usage, AnOutputIsAskedForInWords) {
     EXPECT_NE(run.err.find("--in-place"), std::string::npos) << run.err;
 }
 
+TEST(Usage, ACommandThatDoesNotExistIsNamed) {
+    for (const std::string name : {"help", "chek", "a.glb"}) {
+        EXPECT_EQ(runTool(TempFolder(), name).err,
+                  "tspace: there is no command '" + name + "' (see tspace --help)\n");
+    }
+}
+
 TEST(Usage, VersionIsPrinted) {
     const ToolRun run = runTool(TempFolder(), "--version");
     EXPECT_EQ(run.exit_code, 0);
@@ -84,7 +91,7 @@ TEST(Usage, HelpNamesCommandsAndExitCodes) {
         EXPECT_EQ(run.exit_code, 0);
         EXPECT_EQ(run.err, "");
         for (const char* text :
-             {"Exit codes:", "0  done", "2  wrong usage", "3  bad input", "4  cannot", "5  internal"}) {
+             {"Exit codes:", "0  done", "2  wrong usage", "3  bad input", "4  cannot", "5  out of memory"}) {
             EXPECT_NE(run.out.find(text), std::string::npos) << arguments << " lacks " << text;
         }
     }

@@ -205,6 +205,8 @@ Arguments parseArguments(int argc, char** argv) {
         return printResult(std::string(version.what()) + "\n") ? ExitCode::done : ExitCode::cannotReadOrWrite;
     } catch (const CLI::ParseError& error) {
         const auto chosen = app.get_subcommands();
+        if (chosen.empty() && argc > 1 && argv[1][0] != '-')
+            return printUsageError("there is no command '" + std::string(argv[1]) + "' (see tspace --help)");
         return printUsageError(std::string(error.what()) + " (see tspace " +
                                (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help)");
     }

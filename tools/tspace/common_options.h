@@ -18,7 +18,7 @@ inline constexpr const char* kExitCodes =
     "  2  wrong usage\n"
     "  3  bad input: a file is broken, not supported, or leads outside its folder\n"
     "  4  cannot read or write a file\n"
-    "  5  internal error\n"
+    "  5  out of memory, or an internal error\n"
     "Of several files the worst decides. Every error is one line on stderr.\n";
 
 /// One of the names.
