@@ -50,7 +50,7 @@ class Batch {
         while (piece < pieces.size() && taken < kMostBytes) {
             const OutputPiece& from = pieces[piece];
             std::size_t count = from.size() - offset;
-            if (from.maker && count != 0) {
+            if (!from.isThere() && count != 0) {
                 if (block_.empty()) block_.resize(kBlockBytes);
                 count = std::min(count, block_.size() - used);
                 if (count == 0) break;
@@ -136,7 +136,8 @@ void AtomicOutput::add(const fs::path& requested, std::span<const OutputPiece> p
     std::unique_ptr<std::FILE, CloseFile> file(std::fopen(temporary.c_str(), "wb"));
     if (!file) failWrite(target, std::strerror(errno));
     files_.push_back({temporary, target});
-    const bool any_made = std::any_of(pieces.begin(), pieces.end(), [](const OutputPiece& p) { return p.maker != nullptr; });
+    const bool any_made =
+        std::any_of(pieces.begin(), pieces.end(), [](const OutputPiece& p) { return !p.isThere(); });
     Parallel parallel(any_made ? execution : Execution{.thread_count = 1});
     if (const int failure = writePieces(file.get(), pieces, parallel); failure != 0) {
         failWrite(target, std::strerror(failure));

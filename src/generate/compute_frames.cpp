@@ -245,23 +245,28 @@ class FrameComputer {
     }
 
     void writeTangents(const SplitResult& split, PoolFrames& frames) const {
-        const float unused_sign = signFactor(options_.tangents.convention);
         // Room first: pages that the vector would find missing one by one.
         frames.tangents.reserve(split.vertexCount());
         askForPages(frames.tangents.data(), split.vertexCount() * sizeof(Vec4));
-        frames.tangents.resize(split.vertexCount());
-        if (generates_bitangents_) frames.bitangents.resize(split.vertexCount());
+        if (generates_bitangents_) frames.bitangents.reserve(split.vertexCount());
         for (std::size_t v = 0; v < split.vertexCount(); ++v) {
-            if (const std::uint32_t corner = split.source_corners[v]; corner != kNoCorner) {
-                frames.tangents[v] = tangents_[corner];
-                if (generates_bitangents_) frames.bitangents[v] = bitangents_[corner];
+            const std::uint32_t corner = split.source_corners[v];
+            if (corner == kNoCorner) {
+                writeUnused(split.source_vertices[v], frames);
                 continue;
             }
-            const Vec3 normal = generates_normals_ ? Vec3{0, 0, 1} : pool_.normals[split.source_vertices[v]];
-            const Vec3 t = orthonormalize({.tangent = {}, .bitangent = {}, .normal = normal}).tangent;
-            frames.tangents[v] = {t.x, t.y, t.z, unused_sign};
-            if (generates_bitangents_) frames.bitangents[v] = bitangentOf(frames.tangents[v], normal);
+            frames.tangents.push_back(tangents_[corner]);
+            if (generates_bitangents_) frames.bitangents.push_back(bitangents_[corner]);
         }
+    }
+
+    /// The frame of a vertex that no corner uses: any that is orthonormal.
+    void writeUnused(std::uint32_t vertex, PoolFrames& frames) const {
+        const float sign = signFactor(options_.tangents.convention);
+        const Vec3 normal = generates_normals_ ? Vec3{0, 0, 1} : pool_.normals[vertex];
+        const Vec3 t = orthonormalize({.tangent = {}, .bitangent = {}, .normal = normal}).tangent;
+        frames.tangents.push_back({t.x, t.y, t.z, sign});
+        if (generates_bitangents_) frames.bitangents.push_back(bitangentOf(frames.tangents.back(), normal));
     }
 
     [[nodiscard]] std::span<Vec4> tangents() { return {tangents_.data(), tangents_.size()}; }

@@ -52,10 +52,15 @@ RC_GTEST_PROP(BufferBytes, HoldsWhatAnArrayWouldHold, ()) {
         begins.push_back(expected.size());
         counts.push_back(added.size());
         expected.insert(expected.end(), added.begin(), added.end());
-        if (*rc::gen::arbitrary<bool>()) {
+        const auto kind = *rc::gen::inRange(0, 3);
+        if (kind == 0) {
             RC_ASSERT(bytes.append(added, alignment) == begins.back());
-        } else {
+        } else if (kind == 1) {
             RC_ASSERT(bytes.append(std::make_shared<Copying>(added), alignment) == begins.back());
+        } else {
+            using Kept = KeptBytes<std::uint8_t>;
+            const auto kept = std::make_shared<Kept>(std::vector<std::uint8_t>(added.begin(), added.end()));
+            RC_ASSERT(bytes.append(kept, alignment) == begins.back());
         }
     }
     RC_ASSERT(flat(bytes.pieces()) == expected);
@@ -91,6 +96,18 @@ TEST(BufferBytes, AreWrittenWhereTheyLie) {
     bytes.range(5, 1)[0] = 60;
     EXPECT_EQ(outside, (Bytes{1, 20, 3, 4}));
     EXPECT_EQ(bytes.joined(), (Bytes{1, 20, 3, 4, 5, 60}));
+}
+
+TEST(BufferBytes, ThatAreKeptAreWrittenFromWhereTheyAre) {
+    std::vector<std::uint32_t> values{1, 2, 3};
+    const void* place = values.data();
+    BufferBytes bytes;
+    bytes.append(std::make_shared<KeptBytes<std::uint32_t>>(std::move(values)), 4);
+    const std::vector<OutputPiece> pieces = bytes.pieces();
+    ASSERT_EQ(pieces.size(), 1u);
+    EXPECT_TRUE(pieces[0].isThere());
+    EXPECT_EQ(pieces[0].bytes.data(), place);
+    EXPECT_EQ(pieces[0].bytes.size(), 12u);
 }
 
 TEST(BufferBytes, StayWhereTheyAreWhenMoved) {

@@ -114,6 +114,7 @@ class Applier {
             current = readAccessor(document_, *old);
             if (!hasFormatOf(*current, data)) current.reset();
         }
+        if (current) data.makeNow();
         if (current && copyElements(document_, *current) == data.bytes) return false;
         if (data.normalized) editor_.require("KHR_mesh_quantization");
         if (target != kBase) makeSparseWhereSmaller(data);

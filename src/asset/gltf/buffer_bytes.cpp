@@ -21,6 +21,7 @@ class BufferBytes::Later {
             bytes_ = Bytes(maker_->size());
             maker_->make(0, bytes_);
             is_made_ = true;
+            maker_.reset();
         });
         return bytes_;
     }

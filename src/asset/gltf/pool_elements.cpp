@@ -14,19 +14,18 @@ namespace tspace::gltf {
 namespace {
 
 template <class Vec>
-ElementData floatVectors(const std::vector<Vec>& values) {
+ElementData floatVectors(std::vector<Vec>&& values) {
     ElementData data;
     data.type = "VEC" + std::to_string(sizeof(Vec) / sizeof(float));
     data.count = values.size();
     data.element_bytes = sizeof(Vec);
-    data.bytes.resize(values.size() * sizeof(Vec));
-    if (!values.empty()) std::memcpy(data.bytes.data(), values.data(), data.bytes.size());
+    data.later = std::make_shared<KeptBytes<Vec>>(std::move(values));
     return data;
 }
 
 template <class Vec>
-ElementData unitVectors(const std::vector<Vec>& values, VectorFormat format) {
-    if (format == VectorFormat::float32) return floatVectors(values);
+ElementData unitVectors(std::vector<Vec>&& values, VectorFormat format) {
+    if (format == VectorFormat::float32) return floatVectors(std::move(values));
     constexpr std::size_t components = sizeof(Vec) / sizeof(float);
     ElementData data;
     data.component = format == VectorFormat::snorm8 ? ComponentType::i8 : ComponentType::i16;
@@ -50,7 +49,8 @@ Bytes narrow(const std::vector<std::uint32_t>& indices) {
 }
 
 /// u8 and u16 keep their width while every vertex fits below the primitive restart value.
-ElementData indexElements(const std::vector<std::uint32_t>& indices, ComponentType narrowest, std::size_t vertex_count) {
+ElementData indexElements(std::vector<std::uint32_t>&& indices, ComponentType narrowest,
+                          std::size_t vertex_count) {
     ElementData data;
     data.target = kIndexTarget;
     data.component = narrowest;
@@ -58,9 +58,13 @@ ElementData indexElements(const std::vector<std::uint32_t>& indices, ComponentTy
     if (data.component == ComponentType::u16 && vertex_count > 65535) data.component = ComponentType::u32;
     data.count = indices.size();
     data.element_bytes = bytesOf(data.component);
-    data.bytes = data.element_bytes == 1   ? narrow<std::uint8_t>(indices)
-                 : data.element_bytes == 2 ? narrow<std::uint16_t>(indices)
-                                           : narrow<std::uint32_t>(indices);
+    if (data.element_bytes == 1) {
+        data.bytes = narrow<std::uint8_t>(indices);
+    } else if (data.element_bytes == 2) {
+        data.bytes = narrow<std::uint16_t>(indices);
+    } else {
+        data.later = std::make_shared<KeptBytes<std::uint32_t>>(std::move(indices));
+    }
     return data;
 }
 
@@ -89,7 +93,7 @@ std::map<std::size_t, CarriedElements> carriedAttributes(std::span<const Primiti
     return carried;
 }
 
-ElementData newIndices(const Document& document, const Primitive& first, const std::vector<std::uint32_t>& indices,
+ElementData newIndices(const Document& document, const Primitive& first, std::vector<std::uint32_t>&& indices,
                        std::size_t vertex_count) {
     ComponentType narrowest = ComponentType::u16;
     bool has_bounds = false;
@@ -98,12 +102,15 @@ ElementData newIndices(const Document& document, const Primitive& first, const s
         const Json& old = rootArray(document, "accessors")[*first.indices];
         has_bounds = old.contains("min") || old.contains("max");
     }
-    ElementData data = indexElements(indices, narrowest, vertex_count);
+    Json low, high;
     if (has_bounds) {
-        const auto [low, high] = std::minmax_element(indices.begin(), indices.end());
-        data.min = Json::array({*low});
-        data.max = Json::array({*high});
+        const auto [least, most] = std::minmax_element(indices.begin(), indices.end());
+        low = Json::array({*least});
+        high = Json::array({*most});
     }
+    ElementData data = indexElements(std::move(indices), narrowest, vertex_count);
+    data.min = std::move(low);
+    data.max = std::move(high);
     return data;
 }
 
@@ -129,19 +136,23 @@ PoolElements packFrames(const Document& document, std::span<const Primitive> pri
             carried.data = gatherSplit(document, readAccessor(document, accessor), sources);
         for (std::size_t i = 0; i < pool.geometries.size(); ++i) {
             const Primitive& first = primitives[pool.geometries[i].primitives[0]];
-            elements.indices.push_back(newIndices(document, first, frames.indices[i], elements.vertex_count));
+            elements.indices.push_back(
+                newIndices(document, first, std::move(frames.indices[i]), elements.vertex_count));
         }
     }
-    if (frames.normals_generated) elements.normals = unitVectors(frames.normals, format);
-    elements.tangents = unitVectors(frames.tangents, format);
-    if (elements.bitangents_generated) elements.bitangents = unitVectors(frames.bitangents, format);
+    if (frames.normals_generated) elements.normals = unitVectors(std::move(frames.normals), format);
+    elements.tangents = unitVectors(std::move(frames.tangents), format);
+    if (elements.bitangents_generated)
+        elements.bitangents = unitVectors(std::move(frames.bitangents), format);
     return elements;
 }
 
 ElementData offsetElements(const VertexOffsets& offsets, std::size_t vertex_count) {
     std::vector<Vec3> dense(vertex_count);
     for (std::size_t i = 0; i < offsets.vertices.size(); ++i) dense[offsets.vertices[i]] = offsets.offsets[i];
-    return floatVectors(dense);
+    ElementData data = floatVectors(std::move(dense));
+    data.makeNow();  // zeros among them may be left out
+    return data;
 }
 
 }  // namespace tspace::gltf
