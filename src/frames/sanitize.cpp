@@ -395,12 +395,15 @@ class Sanitizer {
             for (std::size_t v = begin; v < end; ++v) is_asked[v] = positions.isAsked(mesh_.positions[v]) ? 1 : 0;
         });
         withIndices(mesh_.indices, [&](auto vertexOf) {
-            forEachFace(mesh_, [&](std::size_t, std::size_t first, std::uint32_t size) {
-                if (size < 3) return;
-                for (std::size_t c = first; c < first + size; ++c) {
+            const auto offerCorners = [&](std::size_t begin, std::size_t end) {
+                for (std::size_t c = begin; c < end; ++c) {
                     if (is_asked[vertexOf(c)] != 0 && causes_[c] == Cause::sound)
                         positions.offer(positionAt(c), tangents_[c]);
                 }
+            };
+            if (mesh_.face_sizes.empty()) return offerCorners(0, mesh_.cornerCount());
+            forEachFace(mesh_, [&](std::size_t, std::size_t first, std::uint32_t size) {
+                if (size >= 3) offerCorners(first, first + size);
             });
         });
     }
