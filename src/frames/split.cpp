@@ -25,7 +25,7 @@ constexpr std::uint32_t kNone = kNoCorner;
 constexpr std::size_t kCornersPerTask = 1 << 13;
 /// Fewer tasks are done sooner than threads are started.
 constexpr std::size_t kTasksForThreads = 16;
-/// Corners whose first corners are fetched together, so that memory answers for all of them at once.
+/// Corners that are compared without a branch before those that differ are listed.
 constexpr std::size_t kBlock = 64;
 
 template <class Word>
@@ -115,10 +115,6 @@ class Splitter {
 
     SplitResult split(const IndexView& indices) {
         withIndices(indices, [&](auto vertexOf) {
-            // Backwards, so that the first corner of a vertex is the one that stays.
-            for (std::size_t c = result_.indices.size(); c-- > 0;) {
-                result_.source_corners[vertexOf(c)] = static_cast<std::uint32_t>(c);
-            }
             using Tangents = ExactAttributes<4>;
             using Normals = ExactAttributes<3>;
             using Both = ExactAttributes<3, 4>;
@@ -142,14 +138,24 @@ class Splitter {
     template <class VertexOf, class Attributes>
     void splitAll(VertexOf vertexOf, const Attributes& attributes) {
         if (parallel_.width() == 1 || pending_.size() < kTasksForThreads) {
-            // One after the other, while the corners are in the cache.
+            // One after the other, while corners are in the cache; the first corner of a vertex is found on
+            // the way.
             for (std::size_t task = 0; task < pending_.size(); ++task) {
-                compare(task, vertexOf, attributes);
+                compare(task, vertexOf, attributes, [](std::uint32_t& first, std::uint32_t corner) {
+                    static_assert(kNone == 0xffffffffu);  // above all corners
+                    return first = std::min(first, corner);
+                });
                 resolve(task, vertexOf);
             }
             return;
         }
-        parallel_.forTasks(pending_.size(), [&](std::size_t task) { compare(task, vertexOf, attributes); });
+        // Backwards, so that the first corner of a vertex is the one that stays.
+        for (std::size_t c = result_.indices.size(); c-- > 0;) {
+            result_.source_corners[vertexOf(c)] = static_cast<std::uint32_t>(c);
+        }
+        parallel_.forTasks(pending_.size(), [&](std::size_t task) {
+            compare(task, vertexOf, attributes, [](std::uint32_t first, std::uint32_t) { return first; });
+        });
         for (std::size_t task = 0; task < pending_.size(); ++task) {
             for (std::uint32_t corner = pending_[task]; corner != kNone; corner = result_.indices[corner]) {
                 attributes.fetch(corner);
@@ -158,31 +164,32 @@ class Splitter {
         }
     }
 
-    /// Gives corners that equal the first one of their vertex this vertex, and lists the others.
-    template <class VertexOf, class Attributes>
-    void compare(std::size_t task, VertexOf vertexOf, const Attributes& attributes) {
+    /// Gives corners that equal the first one of their vertex this vertex, and lists the others. `firstOf`
+    /// says which corner is the first one, from what is known of the vertex and the corner itself.
+    template <class VertexOf, class Attributes, class FirstOf>
+    void compare(std::size_t task, VertexOf vertexOf, const Attributes& attributes, FirstOf firstOf) {
+        // Copies: numbers that are written might be those of the vectors themselves.
+        std::uint32_t* const indices = result_.indices.data();
+        std::uint32_t* const known_firsts = result_.source_corners.data();
         const std::size_t end = std::min((task + 1) * kCornersPerTask, result_.indices.size());
         std::uint32_t first = kNone, last = kNone;
         for (std::size_t begin = task * kCornersPerTask; begin < end; begin += kBlock) {
             const std::size_t count = std::min(kBlock, end - begin);
-            std::array<std::uint32_t, kBlock> first_corners, different;
-            for (std::size_t i = 0; i < count; ++i) {
-                first_corners[i] = result_.source_corners[vertexOf(begin + i)];
-                attributes.fetch(first_corners[i]);
-            }
+            std::array<std::uint32_t, kBlock> different;
             std::size_t different_count = 0;
             for (std::size_t i = 0; i < count; ++i) {
                 const auto corner = static_cast<std::uint32_t>(begin + i);
-                result_.indices[corner] = vertexOf(corner);
+                const std::uint32_t vertex = vertexOf(corner);
+                indices[corner] = vertex;
                 different[different_count] = corner;
-                different_count += attributes.areEqual(corner, first_corners[i]) ? 0 : 1;
+                different_count += attributes.areEqual(corner, firstOf(known_firsts[vertex], corner)) ? 0 : 1;
             }
             for (std::size_t i = 0; i < different_count; ++i) {
-                (last == kNone ? first : result_.indices[last]) = different[i];
+                (last == kNone ? first : indices[last]) = different[i];
                 last = different[i];
             }
         }
-        if (last != kNone) result_.indices[last] = kNone;
+        if (last != kNone) indices[last] = kNone;
         pending_[task] = first;
     }
 
