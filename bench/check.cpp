@@ -38,15 +38,11 @@ struct Callbacks {
     std::vector<std::size_t> first_corners;
     Outputs outputs;
 
-    static Callbacks& of(const SMikkTSpaceContext* context) {
-        return *static_cast<Callbacks*>(context->m_pUserData);
-    }
+    static Callbacks& of(const SMikkTSpaceContext* context) { return *static_cast<Callbacks*>(context->m_pUserData); }
     [[nodiscard]] std::size_t corner(int face, int local) const {
         return first_corners[static_cast<std::size_t>(face)] + static_cast<std::size_t>(local);
     }
-    [[nodiscard]] std::size_t vertex(int face, int local) const {
-        return mesh->view().indices[corner(face, local)];
-    }
+    [[nodiscard]] std::size_t vertex(int face, int local) const { return mesh->view().indices[corner(face, local)]; }
 };
 
 std::uint64_t hashThroughCallbacks(const Mesh& mesh) {
@@ -65,8 +61,7 @@ std::uint64_t hashThroughCallbacks(const Mesh& mesh) {
         return static_cast<int>(Callbacks::of(c).corner(face + 1, 0) - Callbacks::of(c).corner(face, 0));
     };
     calls.m_getPosition = [](const SMikkTSpaceContext* c, float out[], const int face, const int local) {
-        std::memcpy(out, &Callbacks::of(c).mesh->positions[Callbacks::of(c).vertex(face, local)],
-                    sizeof(Vec3));
+        std::memcpy(out, &Callbacks::of(c).mesh->positions[Callbacks::of(c).vertex(face, local)], sizeof(Vec3));
     };
     calls.m_getNormal = [](const SMikkTSpaceContext* c, float out[], const int face, const int local) {
         std::memcpy(out, &Callbacks::of(c).mesh->normals[Callbacks::of(c).vertex(face, local)], sizeof(Vec3));
@@ -74,10 +69,10 @@ std::uint64_t hashThroughCallbacks(const Mesh& mesh) {
     calls.m_getTexCoord = [](const SMikkTSpaceContext* c, float out[], const int face, const int local) {
         std::memcpy(out, &Callbacks::of(c).mesh->uvs[Callbacks::of(c).vertex(face, local)], sizeof(Vec2));
     };
-    calls.m_setTSpaceBasic = [](const SMikkTSpaceContext* c, const float tangent[], const float sign,
-                                const int face, const int local) {
-        Callbacks::of(c).outputs.tangents[Callbacks::of(c).corner(face, local)] = {tangent[0], tangent[1],
-                                                                                   tangent[2], sign};
+    calls.m_setTSpaceBasic = [](const SMikkTSpaceContext* c, const float tangent[], const float sign, const int face,
+                                const int local) {
+        Callbacks::of(c).outputs.tangents[Callbacks::of(c).corner(face, local)] = {tangent[0], tangent[1], tangent[2],
+                                                                                   sign};
     };
     const SMikkTSpaceContext context = {&calls, &data};
     return genTangSpaceDefault(&context) ? hashOf(data.outputs) : 0;
@@ -108,9 +103,8 @@ std::string lengyelError(const Mesh& mesh, const Outputs& outputs) {
         const Vec4 &a = outputs.tangents[per_vertex ? v : c], &b = expected[v];
         if (!(a.x * b.x + a.y * b.y + a.z * b.z > kNear && a.w == b.w)) ++wrong;
     }
-    return wrong * kOneInSoMany > mesh.cornerCount()
-               ? std::to_string(wrong) + " corners differ from the plain loop"
-               : std::string();
+    return wrong * kOneInSoMany > mesh.cornerCount() ? std::to_string(wrong) + " corners differ from the plain loop"
+                                                     : std::string();
 }
 
 std::string splitError(const Mesh& mesh, const Outputs& outputs) {
@@ -118,8 +112,7 @@ std::string splitError(const Mesh& mesh, const Outputs& outputs) {
     for (std::size_t c = 0; c < mesh.cornerCount(); ++c) {
         const std::uint32_t v = split.indices[c];
         if (split.source_vertices[v] != mesh.view().indices[c]) return "a corner lost its vertex";
-        if (std::memcmp(&outputs.tangents[split.source_corners[v]], &outputs.tangents[c], sizeof(Vec4)) !=
-            0) {
+        if (std::memcmp(&outputs.tangents[split.source_corners[v]], &outputs.tangents[c], sizeof(Vec4)) != 0) {
             return "a corner lost its tangent";
         }
     }

@@ -32,9 +32,8 @@ void runTool(const std::vector<std::string>& arguments) {
 /// Memory rather than a disk, where there is such a folder.
 std::string temporaryFolder() {
     const bool has_memory = std::filesystem::is_directory("/dev/shm");
-    std::string name =
-        (has_memory ? std::filesystem::path("/dev/shm") : std::filesystem::temp_directory_path()) /
-        "tspace_bench_XXXXXX";
+    std::string name = (has_memory ? std::filesystem::path("/dev/shm") : std::filesystem::temp_directory_path()) /
+                       "tspace_bench_XXXXXX";
     return mkdtemp(name.data()) != nullptr ? name : std::string();
 }
 
@@ -60,8 +59,7 @@ RowResult measureFile(const std::string& title, const std::string& model, Lab& l
     const bool copied = std::filesystem::file_size(copy) == std::filesystem::file_size(input);
     const bool changed = std::filesystem::file_size(result) != std::filesystem::file_size(input);
     std::filesystem::remove_all(folder);
-    if (!copied || !changed)
-        return row.wrong = true, row.note = "the copy is none, or nothing was generated", row;
+    if (!copied || !changed) return row.wrong = true, row.note = "the copy is none, or nothing was generated", row;
 
     const Race::Ratio single = race.ratio(one, base, Clock::wall), both = race.ratio(two, base, Clock::wall);
     row.one_thread = {single.median, single.low, single.high, 1.5, 0};

@@ -53,8 +53,7 @@ void addTorusVertices(Mesh& mesh, std::uint32_t columns, std::uint32_t rows, std
     const std::vector<float> u = foldedU(columns, fold);
     for (std::uint32_t i = 0; i <= columns; ++i) {
         for (std::uint32_t j = 0; j <= rows; ++j) {
-            const double su = around.sine[i], cu = around.cosine[i], sv = across.sine[j],
-                         cv = across.cosine[j];
+            const double su = around.sine[i], cu = around.cosine[i], sv = across.sine[j], cv = across.cosine[j];
             const double radius = kMinor + kHeight * around.ripple[i] * across.ripple[j];
             const double by_u = kHeight * around.ripple_slope[i] * across.ripple[j];
             const double by_v = kHeight * around.ripple[i] * across.ripple_slope[j];

@@ -73,10 +73,10 @@ Job evaluateJob(const Mesh& mesh) {
     auto outputs = std::make_shared<Outputs>();
     outputs->tangents.resize(mesh.cornerCount());
     auto plan = std::make_shared<TangentPlan>(orDie(planTangents(mesh.view(), {})));
-    return {outputs, [&mesh, outputs, plan](const Execution& execution) {
-                orDie(evaluateTangents(*plan, {mesh.positions, mesh.normals}, {.tangents = outputs->tangents},
-                                       execution));
-            }};
+    return {
+        outputs, [&mesh, outputs, plan](const Execution& execution) {
+            orDie(evaluateTangents(*plan, {mesh.positions, mesh.normals}, {.tangents = outputs->tangents}, execution));
+        }};
 }
 
 /// Asks for a result per vertex, where the library has that.
@@ -122,9 +122,8 @@ Job splitJob(const Mesh& mesh) {
     const Job tangents = tangentsJob(mesh, {});
     tangents.call({});
     auto outputs = tangents.outputs;
-    return {outputs, [&mesh, outputs](const Execution& execution) {
-                outputs->split = orDie(split(mesh, *outputs, execution));
-            }};
+    return {outputs,
+            [&mesh, outputs](const Execution& execution) { outputs->split = orDie(split(mesh, *outputs, execution)); }};
 }
 
 }  // namespace
@@ -168,10 +167,12 @@ Job makeJob(const std::string& name, const Mesh& mesh) {
 }
 
 const std::vector<std::string>& jobNames() {
-    static const std::vector<std::string> names = {
-        "mikktspace", "mikktspace_all", "mikktspace_corrected", "evaluate", "uniform", "angle",
-        "area",       "lengyel",        "lengyel_vertex",       "flat",     "basis",   "normals",
-        "split",      "fast",           "best",                 "normals_best"};
+    static const std::vector<std::string> names = {"mikktspace",  "mikktspace_all", "mikktspace_corrected",
+                                                   "evaluate",    "uniform",        "angle",
+                                                   "area",        "lengyel",        "lengyel_vertex",
+                                                   "flat",        "basis",          "normals",
+                                                   "split",       "fast",           "best",
+                                                   "normals_best"};
     return names;
 }
 

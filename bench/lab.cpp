@@ -43,8 +43,7 @@ const Mesh& Lab::mesh(const std::string& name) {
         if (name == "small") {
             mesh = std::make_unique<Mesh>(torus(20, 5, 10));
         } else {
-            mesh =
-                std::make_unique<Mesh>(std::filesystem::exists(name) ? modelMesh(name) : generatedMesh(name));
+            mesh = std::make_unique<Mesh>(std::filesystem::exists(name) ? modelMesh(name) : generatedMesh(name));
         }
     }
     return *mesh;

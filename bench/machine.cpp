@@ -38,8 +38,8 @@ nlohmann::ordered_json machineJson() {
 }
 
 std::string machineText() {
-    return fmt::format("{}, {} cores, {}, {}; tspace {}", cpuName(), std::thread::hardware_concurrency(),
-                       kCompiler, TSPACE_BENCH_FLAGS, TSPACE_VERSION_STRING);
+    return fmt::format("{}, {} cores, {}, {}; tspace {}", cpuName(), std::thread::hardware_concurrency(), kCompiler,
+                       TSPACE_BENCH_FLAGS, TSPACE_VERSION_STRING);
 }
 
 }  // namespace tspace::bench

@@ -16,8 +16,7 @@ int main(int argc, char** argv) {
     app.add_option("--json", json, "Write the figures as JSON to a file, or - for stdout");
     app.add_option("--shared", shared_folder, "Folder with the models");
     app.add_option("--tool", tool, "The built tspace");
-    auto* sweep =
-        app.add_subcommand("sweep", "Every mesh, method, thread count and SIMD target")->fallthrough();
+    auto* sweep = app.add_subcommand("sweep", "Every mesh, method, thread count and SIMD target")->fallthrough();
     for (CLI::App* command : {&app, sweep}) {
         command->add_option("pattern", pattern, "Regular expression on the names of rows");
     }

@@ -22,8 +22,7 @@ Row peak(const std::string& title, const std::string& job_name, const std::strin
                 const auto measure = [&](unsigned threads) {
                     CountingAllocator allocator;
                     job.call({.thread_count = threads, .allocator = allocator.hook()});
-                    return static_cast<double>(allocator.peakBytes()) /
-                           static_cast<double>(mesh.triangleCount());
+                    return static_cast<double>(allocator.peakBytes()) / static_cast<double>(mesh.triangleCount());
                 };
                 row.one_thread.value = measure(1);
                 row.two_threads.value = measure(2);
@@ -75,8 +74,7 @@ std::vector<Row> memoryRows() {
     return {
         peak("`mikktspace`, memory", "mikktspace", "torus", 32),
         peak("`mikktspace`, unindexed corners, memory", "mikktspace", "soup", 32),
-        peak("`mikktspace`, input already welded (no two vertices are equal), memory", "mikktspace", "grid",
-             20),
+        peak("`mikktspace`, input already welded (no two vertices are equal), memory", "mikktspace", "grid", 20),
         peak("`evaluate`, memory", "evaluate", "torus", 8),
         peak("`lengyel`, memory", "lengyel", "torus", 12),
         secondCallFaults("`mikktspace`, page faults of a second call in an arena", "mikktspace"),

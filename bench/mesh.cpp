@@ -31,8 +31,7 @@ Mesh Mesh::triangulated() const {
     const std::size_t faces = view().faceCount();
     for (std::size_t face = 0, first = 0; face < faces; ++face) {
         const std::size_t size = face_sizes.empty() ? face_size : face_sizes[face];
-        for (std::size_t i = 2; i < size; ++i)
-            cut.triangle(corner[first], corner[first + i - 1], corner[first + i]);
+        for (std::size_t i = 2; i < size; ++i) cut.triangle(corner[first], corner[first + i - 1], corner[first + i]);
         first += size;
     }
     return cut;
@@ -45,9 +44,7 @@ std::uint32_t Mesh::vertex(const Vec3& position, const Vec3& normal, const Vec2&
     return static_cast<std::uint32_t>(positions.size() - 1);
 }
 
-void Mesh::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    indices.insert(indices.end(), {a, b, c});
-}
+void Mesh::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { indices.insert(indices.end(), {a, b, c}); }
 
 Mesh unindexed(const Mesh& mesh) {
     Mesh soup{.face_sizes = mesh.face_sizes, .face_size = mesh.face_size};

@@ -18,9 +18,7 @@ struct Mesh {
     std::uint32_t face_size = 3;
 
     [[nodiscard]] MeshView view() const;
-    [[nodiscard]] std::size_t cornerCount() const {
-        return indices.empty() ? positions.size() : indices.size();
-    }
+    [[nodiscard]] std::size_t cornerCount() const { return indices.empty() ? positions.size() : indices.size(); }
     /// Triangles after cutting each face as a fan.
     [[nodiscard]] std::size_t triangleCount() const;
     /// The faces cut as fans, for loops that know only indexed triangles.

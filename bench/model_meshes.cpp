@@ -19,15 +19,13 @@ Mesh gltfMesh(const std::string& path) {
     gltf::checkRequiredExtensions(document);
     Mesh mesh;
     for (const gltf::Primitive& primitive : gltf::readPrimitives(document)) {
-        if (!gltf::hasTriangles(primitive.mode) || !primitive.find("NORMAL") || !primitive.find("TEXCOORD_0"))
-            continue;
+        if (!gltf::hasTriangles(primitive.mode) || !primitive.find("NORMAL") || !primitive.find("TEXCOORD_0")) continue;
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
         append(mesh.positions, gltf::readVec3(document, primitive, "POSITION"));
         append(mesh.normals, gltf::readVec3(document, primitive, "NORMAL"));
         append(mesh.uvs, gltf::readUvs(document, primitive, 0));
-        for (const std::uint32_t v : gltf::readTriangleCorners(document, primitive))
-            mesh.indices.push_back(first + v);
+        for (const std::uint32_t v : gltf::readTriangleCorners(document, primitive)) mesh.indices.push_back(first + v);
     }
     return mesh;
 }

@@ -34,8 +34,7 @@ void Race::run(int rounds) {
         for (Runner& runner : runners_) {
             const double wall = now(CLOCK_MONOTONIC), processor = now(CLOCK_PROCESS_CPUTIME_ID);
             for (int i = 0; i < runner.calls_per_round; ++i) runner.body();
-            runner.processor_seconds.push_back((now(CLOCK_PROCESS_CPUTIME_ID) - processor) /
-                                               runner.calls_per_round);
+            runner.processor_seconds.push_back((now(CLOCK_PROCESS_CPUTIME_ID) - processor) / runner.calls_per_round);
             runner.wall_seconds.push_back((now(CLOCK_MONOTONIC) - wall) / runner.calls_per_round);
         }
     }

@@ -22,8 +22,8 @@ class Race {
     /// Seconds for one call in the best round, which other load on the machine disturbs least.
     [[nodiscard]] double best(std::size_t runner, Clock clock = Clock::processor) const;
 
-    /// Quartiles of the ratios inside each round. On a shared machine the pace changes from second to second, by half and
-    /// more; what runs in one round meets the same pace, the best rounds of two runners need not.
+    /// Quartiles of the ratios inside each round. On a shared machine the pace changes from second to second, by half
+    /// and more; what runs in one round meets the same pace, the best rounds of two runners need not.
     struct Ratio {
         double median = 0, low = 0, high = 0;
     };

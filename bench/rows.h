@@ -20,7 +20,7 @@ struct Cell {
     double low = 0, high = 0;     ///< quartiles over rounds, for ratios of times
     std::optional<double> asked;  ///< at most this
     double ns = 0;                ///< per triangle, for times
-    bool busy = false;  ///< other work held the second core, so two threads could not show what they do
+    bool busy = false;            ///< other work held the second core, so two threads could not show what they do
 
     [[nodiscard]] bool pass() const { return !value || !asked || *value <= *asked; }
 };

@@ -29,8 +29,8 @@ std::string withSize(std::string mesh, const Lab& lab) {
     return at == std::string::npos ? mesh : mesh.replace(at, 4, lab.size());
 }
 
-Cell cell(const Race& race, std::size_t runner, std::size_t base, std::size_t triangles,
-          std::optional<double> asked, Clock clock) {
+Cell cell(const Race& race, std::size_t runner, std::size_t base, std::size_t triangles, std::optional<double> asked,
+          Clock clock) {
     const Race::Ratio ratio = race.ratio(runner, base, clock);
     return {ratio.median, ratio.low, ratio.high, asked,
             1e9 * race.best(runner, clock) / static_cast<double>(triangles)};
@@ -131,8 +131,8 @@ RowResult runGrowth(const std::string& title, Lab& lab) {
         const std::size_t base = race.add([&] { small_job.call(execution); });
         const std::size_t grown = race.add([&] { large_job.call(execution); });
         race.run(std::max(3, lab.rounds() / 2));
-        Cell result = cell(race, grown, base, large.triangleCount(), 1.35,
-                           threads == 1 ? Clock::processor : Clock::wall);
+        Cell result =
+            cell(race, grown, base, large.triangleCount(), 1.35, threads == 1 ? Clock::processor : Clock::wall);
         for (double* value : {&*result.value, &result.low, &result.high}) *value /= times_larger;
         return result;
     };
@@ -158,23 +158,19 @@ std::vector<Row> speedRows() {
         contest("`uniform` with grouping", {"uniform", "torus_SIZE", 4.5, 2.7}),
         contest("`fast`", {"fast", "torus_SIZE", 6.0, {}}),
         contest("`best`", {"best", "torus_SIZE", 12.0, {}}),
-        contest("`lengyel`, a result per vertex as in the plain loop",
-                {"lengyel_vertex", "torus_SIZE", 0.8, 0.5}),
+        contest("`lengyel`, a result per vertex as in the plain loop", {"lengyel_vertex", "torus_SIZE", 0.8, 0.5}),
         contest("`lengyel`, a result per corner", {"lengyel", "torus_SIZE", 0.8, 0.5}),
         contest("normals, angle-weighted", {"normals", "torus_SIZE", 2.0, 1.2}),
     };
     const std::string growth = "8M triangles: `mikktspace` per triangle against its own 1M figure";
     rows.push_back({growth, [=](Lab& lab) { return runGrowth(growth, lab); }});
-    rows.push_back(
-        contest("small meshes: 200 triangles, per call", {"mikktspace", "small", 12.0, {}, {}, true}));
-    for (const char* name : {"cube", "doomcone", "doomcone_smooth", "crangeract", "obliterated",
-                             "rancid_geometry", "tangeract"}) {
-        const std::string title = std::string("torture: ") + name,
-                          file = std::string("models/obj/mikktspace/") + name;
-        rows.push_back(
-            {title, [=](Lab& lab) {
-                 return runContest(title, {"mikktspace", lab.shared(file + ".obj"), 15.0, {}}, lab);
-             }});
+    rows.push_back(contest("small meshes: 200 triangles, per call", {"mikktspace", "small", 12.0, {}, {}, true}));
+    for (const char* name :
+         {"cube", "doomcone", "doomcone_smooth", "crangeract", "obliterated", "rancid_geometry", "tangeract"}) {
+        const std::string title = std::string("torture: ") + name, file = std::string("models/obj/mikktspace/") + name;
+        rows.push_back({title, [=](Lab& lab) {
+                            return runContest(title, {"mikktspace", lab.shared(file + ".obj"), 15.0, {}}, lab);
+                        }});
     }
     rows.push_back(contest("split (10 % of vertices split)", {"split", "folds_SIZE", 2.0, {}}));
     return rows;

@@ -35,12 +35,10 @@ void measure(benchmark::State& state, Lab& lab, std::string& current_mesh, const
     const Mesh &mesh = lab.mesh(c.mesh), &plain_mesh = lab.plainMesh(c.mesh);
     if (mesh.triangleCount() == 0) return state.SkipWithError("this mesh cannot be made");
     Execution execution{.thread_count = c.threads};
-    if (c.target != "best" && !forceSimd(execution, c.target))
-        return state.SkipWithError("no such SIMD target here");
+    if (c.target != "best" && !forceSimd(execution, c.target)) return state.SkipWithError("no such SIMD target here");
     const Job job = makeJob(c.job, mesh);
     if (!job.outputs) return state.SkipWithError("the library does not have this yet");
-    if (const std::string& error = lab.error(c.job, c.mesh); !error.empty())
-        return state.SkipWithError(error.c_str());
+    if (const std::string& error = lab.error(c.job, c.mesh); !error.empty()) return state.SkipWithError(error.c_str());
 
     CountingAllocator allocator;
     Execution counted = execution;
@@ -91,11 +89,10 @@ int runSweep(Lab& lab, const std::string& pattern, const std::string& json) {
                     if (target != "best" && !forceSimd(probe, target)) continue;
                     const std::string name = std::filesystem::path(mesh).filename().string() + "/" + job +
                                              "/threads:" + std::to_string(threads) + "/" + target;
-                    benchmark::RegisterBenchmark(
-                        name.c_str(),
-                        [&lab, &current_mesh, mesh, job, threads, target](auto& state) {
-                            measure(state, lab, current_mesh, {mesh, job, target, threads});
-                        })
+                    benchmark::RegisterBenchmark(name.c_str(),
+                                                 [&lab, &current_mesh, mesh, job, threads, target](auto& state) {
+                                                     measure(state, lab, current_mesh, {mesh, job, target, threads});
+                                                 })
                         ->UseManualTime()
                         ->Unit(benchmark::kMillisecond);
                 }

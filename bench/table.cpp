@@ -29,9 +29,7 @@ std::string valueText(const Cell& cell, const std::string& unit) {
     return cell.value ? fmt::format("{:.2f}{}", *cell.value, unit) : std::string();
 }
 
-std::string askedText(const Cell& cell) {
-    return cell.asked ? fmt::format("{:g}", *cell.asked) : std::string();
-}
+std::string askedText(const Cell& cell) { return cell.asked ? fmt::format("{:g}", *cell.asked) : std::string(); }
 
 std::string verdict(const Cell& cell) {
     if (!cell.value || !cell.asked) return {};
@@ -40,9 +38,7 @@ std::string verdict(const Cell& cell) {
 }
 
 /// One text for both cells; empty where neither has one.
-std::string joined(const std::string& a, const std::string& b) {
-    return a.empty() || b.empty() ? a + b : a + "; " + b;
-}
+std::string joined(const std::string& a, const std::string& b) { return a.empty() || b.empty() ? a + b : a + "; " + b; }
 
 std::string spreadText(const Cell& cell) {
     return cell.high > 0 ? fmt::format("{:.2f} to {:.2f}", cell.low, cell.high) : std::string();
@@ -52,9 +48,9 @@ std::string nsText(const Cell& cell) { return cell.ns > 0 ? fmt::format("{:.1f}"
 
 void printRow(const RowResult& row) {
     const Cell &a = row.one_thread, &b = row.two_threads;
-    fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", row.title, valueText(a, row.unit),
-               askedText(a), row.wrong ? "WRONG" : verdict(a), valueText(b, row.unit), askedText(b),
-               verdict(b), joined(nsText(a), nsText(b)), joined(spreadText(a), spreadText(b)), row.note);
+    fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", row.title, valueText(a, row.unit), askedText(a),
+               row.wrong ? "WRONG" : verdict(a), valueText(b, row.unit), askedText(b), verdict(b),
+               joined(nsText(a), nsText(b)), joined(spreadText(a), spreadText(b)), row.note);
     std::fflush(stdout);
 }
 
@@ -96,8 +92,7 @@ struct Yardsticks {
 };
 
 Yardsticks measureYardsticks(Lab& lab) {
-    const Mesh &natural = lab.mesh("torus_" + lab.size()),
-               &random = lab.mesh("torus_" + lab.size() + "_shuffled");
+    const Mesh &natural = lab.mesh("torus_" + lab.size()), &random = lab.mesh("torus_" + lab.size() + "_shuffled");
     std::vector<Vec4> per_vertex(natural.positions.size()), per_corner(natural.cornerCount());
     Race race;
     race.add([&] { plainLoop(natural, per_vertex); });

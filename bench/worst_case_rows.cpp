@@ -48,8 +48,7 @@ RowResult measureGrowth(const std::string& name, Lab& lab) {
     const std::size_t base = race.add([&] { small_job.call(one); });
     const std::size_t grown = race.add([&] { large_job.call(one); });
     race.run(lab.rounds());
-    const double times_larger =
-        static_cast<double>(large.triangleCount()) / static_cast<double>(small.triangleCount());
+    const double times_larger = static_cast<double>(large.triangleCount()) / static_cast<double>(small.triangleCount());
     const Race::Ratio ratio = race.ratio(grown, base);
     row.one_thread = {ratio.median / times_larger, ratio.low / times_larger, ratio.high / times_larger, 1.5,
                       1e9 * race.best(grown) / static_cast<double>(large.triangleCount())};

@@ -45,8 +45,8 @@ int main(void) {
         return fail(&error);
     for (size_t v = 0; v < split->vertex_count; ++v) {
         const float* t = tangents[split->source_corners[v]];
-        printf("vertex %zu copies %u: tangent %g %g %g sign %g\n", v, (unsigned)split->source_vertices[v],
-               t[0], t[1], t[2], t[3]);
+        printf("vertex %zu copies %u: tangent %g %g %g sign %g\n", v, (unsigned)split->source_vertices[v], t[0], t[1],
+               t[2], t[3]);
     }
     printf("%d vertices became %zu\n", VERTICES, split->vertex_count);
     tspace_destroySplitResult(split);

@@ -47,8 +47,7 @@ int main() {
     if (!sanitized) return fail(sanitized.error());
 
     // Corners that disagree get a vertex of their own.
-    const std::array attributes = {
-        tspace::cornerAttribute(tspace::StridedSpan<const tspace::Vec4>(tangents))};
+    const std::array attributes = {tspace::cornerAttribute(tspace::StridedSpan<const tspace::Vec4>(tangents))};
     const auto split = tspace::splitVertices(mesh.indices, kVertices.size(), tangents.size(), attributes);
     if (!split) return fail(split.error());
     for (std::size_t v = 0; v < split->vertexCount(); ++v) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs a fuzz program without libFuzzer: fuzz_NAME SEEDS SECONDS. First every file below SEEDS as it is, then files with
-// random changes until the time is up. The same order every time. What kills the program is left in "crash-input".
+// Runs a fuzz program without libFuzzer: fuzz_NAME SEEDS SECONDS. First every file below SEEDS as it is, then files
+// with random changes until the time is up. The same order every time. What kills the program is left in "crash-input".
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -51,20 +51,34 @@ class Mutator {
         const std::size_t at = below(input.size());
         const auto place = input.begin() + static_cast<std::ptrdiff_t>(at);
         switch (below(7)) {
-            case 0: *place ^= static_cast<std::uint8_t>(1U << below(8)); break;
-            case 1: *place = kTelling[below(std::size(kTelling))]; break;
-            case 2: *place = static_cast<std::uint8_t>(random_()); break;
-            case 3: input.erase(place, place + static_cast<std::ptrdiff_t>(1 + below(std::min<std::size_t>(input.size() - at, 16)))); break;
-            case 4: input.resize(at); break;
+            case 0:
+                *place ^= static_cast<std::uint8_t>(1U << below(8));
+                break;
+            case 1:
+                *place = kTelling[below(std::size(kTelling))];
+                break;
+            case 2:
+                *place = static_cast<std::uint8_t>(random_());
+                break;
+            case 3:
+                input.erase(place, place + static_cast<std::ptrdiff_t>(
+                                               1 + below(std::min<std::size_t>(input.size() - at, 16))));
+                break;
+            case 4:
+                input.resize(at);
+                break;
             case 5: {
-                const Input piece(place, place + static_cast<std::ptrdiff_t>(below(std::min<std::size_t>(input.size() - at, 32) + 1)));
-                input.insert(input.begin() + static_cast<std::ptrdiff_t>(below(input.size() + 1)), piece.begin(), piece.end());
+                const Input piece(place, place + static_cast<std::ptrdiff_t>(
+                                                     below(std::min<std::size_t>(input.size() - at, 32) + 1)));
+                input.insert(input.begin() + static_cast<std::ptrdiff_t>(below(input.size() + 1)), piece.begin(),
+                             piece.end());
                 break;
             }
             default: {  // a piece of another seed
                 const Input& other = seeds_[below(seeds_.size())];
                 if (other.empty()) break;
-                const std::size_t from = below(other.size()), count = below(std::min<std::size_t>(other.size() - from, 64) + 1);
+                const std::size_t from = below(other.size()),
+                                  count = below(std::min<std::size_t>(other.size() - from, 64) + 1);
                 for (std::size_t i = 0; i < count && at + i < input.size(); ++i) input[at + i] = other[from + i];
             }
         }

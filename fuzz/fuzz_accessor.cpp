@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Accessors: input is JSON with `bufferViews` and `accessors`, a zero byte, and the bytes of buffer 0. Every accessor is
-// decoded in every way; each must end with values or with an error.
+// Accessors: input is JSON with `bufferViews` and `accessors`, a zero byte, and the bytes of buffer 0. Every accessor
+// is decoded in every way; each must end with values or with an error.
 #include <algorithm>
 #include <string>
 

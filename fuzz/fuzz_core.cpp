@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The core's border: any mesh with any options. One thread with plain C++ and three threads with the best SIMD give the same
-// bits, as do generate and plan + evaluate; sanitize leaves nothing broken.
+// The core's border: any mesh with any options. One thread with plain C++ and three threads with the best SIMD give the
+// same bits, as do generate and plan + evaluate; sanitize leaves nothing broken.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -93,7 +93,8 @@ struct Outputs {
         for (std::size_t i = 0; i < tangents.size(); ++i) {
             const Vec4 &a = tangents[i], &b = o.tangents[i];
             const Vec3 &c = bitangents[i], &d = o.bitangents[i];
-            if (!sameFloat(a.x, b.x) || !sameFloat(a.y, b.y) || !sameFloat(a.z, b.z) || !sameFloat(a.w, b.w)) return false;
+            if (!sameFloat(a.x, b.x) || !sameFloat(a.y, b.y) || !sameFloat(a.z, b.z) || !sameFloat(a.w, b.w))
+                return false;
             if (!sameFloat(c.x, d.x) || !sameFloat(c.y, d.y) || !sameFloat(c.z, d.z)) return false;
         }
         return true;
@@ -113,7 +114,8 @@ void checkTangents(const MeshView& mesh, TangentOptions options) {
     require(one == three, "threads and SIMD change no bit");
     const Result<TangentPlan> plan = planTangents(mesh, options);
     require(plan.ok(), "what can be generated can be planned");
-    require(evaluateTangents(*plan, {mesh.positions, mesh.normals}, evaluated.spans()).ok(), "a plan fits its own pose");
+    require(evaluateTangents(*plan, {mesh.positions, mesh.normals}, evaluated.spans()).ok(),
+            "a plan fits its own pose");
     require(one == evaluated, "generate gives the bits of plan and evaluate");
 
     require(sanitizeTangents(mesh, std::span(one.tangents), {}).ok(), "any tangents can be sanitized");
@@ -127,7 +129,8 @@ void checkTangents(const MeshView& mesh, TangentOptions options) {
         }
     }
     const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec4>(std::span<const Vec4>(one.tangents)));
-    require(splitVertices(mesh.indices, mesh.vertexCount(), mesh.cornerCount(), {&attribute, 1}).ok(), "results can be split");
+    require(splitVertices(mesh.indices, mesh.vertexCount(), mesh.cornerCount(), {&attribute, 1}).ok(),
+            "results can be split");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One hostile file through every command. What must hold: no crash, no leak, no report of a sanitizer; and a run that fails
-// leaves nothing behind.
+// One hostile file through every command. What must hold: no crash, no leak, no report of a sanitizer; and a run that
+// fails leaves nothing behind.
 #pragma once
 
 #include <cstddef>
@@ -47,7 +47,8 @@ inline void runOnFile(const std::uint8_t* bytes, std::size_t count, const char* 
     options.tangents.execution.thread_count = 1;
     const Result<GenerateReport> report = generateFile(input, output, options);
     std::error_code ignored;
-    require(report.ok() == std::filesystem::exists(output, ignored), "there is an output exactly when the run succeeds");
+    require(report.ok() == std::filesystem::exists(output, ignored),
+            "there is an output exactly when the run succeeds");
     if (report) {
         GenerateOptions again = options;
         again.existing = ExistingTangents::keep;

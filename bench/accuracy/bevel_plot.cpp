@@ -23,8 +23,8 @@ constexpr Step kScale[] = {{0.1, "#ffffff"}, {0.5, "#fff9c4"}, {1, "#ffe082"},  
 constexpr std::size_t kSteps = std::size(kScale);
 
 std::size_t stepOf(double error_deg) {
-    const auto* found =
-        std::find_if(std::begin(kScale), std::end(kScale), [&](const Step& step) { return error_deg < step.below_deg; });
+    const auto* found = std::find_if(std::begin(kScale), std::end(kScale),
+                                     [&](const Step& step) { return error_deg < step.below_deg; });
     return std::min<std::size_t>(static_cast<std::size_t>(found - kScale), kSteps - 1);
 }
 
@@ -77,19 +77,21 @@ std::string edges(const TestMesh& mesh, double left, double top) {
     for (const std::uint32_t triangle : mesh.measured) {
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3& p = mesh.positions[mesh.indices[3 * std::size_t{triangle} + k]];
-            path += fmt::format("{}{:g} {:g}", k == 0 ? "M" : "L", left + kSide * (p.x + 1) / 2, top + kSide * (1 - p.y) / 2);
+            path += fmt::format("{}{:g} {:g}", k == 0 ? "M" : "L", left + kSide * (p.x + 1) / 2,
+                                top + kSide * (1 - p.y) / 2);
         }
         path += "z";
     }
-    return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#000\" stroke-opacity=\"0.35\" stroke-width=\"0.7\"/>\n", path);
+    return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#000\" stroke-opacity=\"0.35\" stroke-width=\"0.7\"/>\n",
+                       path);
 }
 
 std::string legend(double left, double top) {
     std::string svg;
     for (std::size_t i = 0; i < kSteps; ++i) {
         const double x = left + 78.0 * static_cast<double>(i);
-        svg += fmt::format("<rect x=\"{:g}\" y=\"{:g}\" width=\"16\" height=\"14\" fill=\"{}\" stroke=\"#666\"/>\n", x, top,
-                           kScale[i].colour);
+        svg += fmt::format("<rect x=\"{:g}\" y=\"{:g}\" width=\"16\" height=\"14\" fill=\"{}\" stroke=\"#666\"/>\n", x,
+                           top, kScale[i].colour);
         const std::string words = i + 1 < kSteps ? fmt::format("&lt; {:g}°", kScale[i].below_deg) : "more";
         svg += fmt::format("<text x=\"{:g}\" y=\"{:g}\">{}</text>\n", x + 21, top + 12, words);
     }
@@ -104,7 +106,8 @@ std::string bevelPlot(const std::string& title, const TestMesh& mesh, const DVec
     const double width = kGap + kColumns * (kSide + kGap), height = kTop + rows * (kSide + kName + kGap) + 30;
     std::string svg = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" height=\"{1:g}\" "
-        "role=\"img\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"14\" fill=\"#222\">\n<title>{2}</title>\n"
+        "role=\"img\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"14\" "
+        "fill=\"#222\">\n<title>{2}</title>\n"
         "<rect width=\"{0:g}\" height=\"{1:g}\" fill=\"#fff\"/>\n"
         "<text x=\"{3:g}\" y=\"26\" font-size=\"16\" font-weight=\"bold\">{2}</text>\n",
         width, height, title, kGap);

@@ -39,8 +39,9 @@ bool isSecondCopy(const TestMesh& mesh, std::size_t v) {
 }
 
 void moveVertices(TestMesh& mesh, bool uvs, double share, Random& random) {
-    const std::vector<double> edges = uvs ? meanEdges(mesh, [&](std::uint32_t v) { return uvOf(mesh, v); })
-                                          : meanEdges(mesh, [&](std::uint32_t v) { return toDouble(mesh.positions[v]); });
+    const std::vector<double> edges =
+        uvs ? meanEdges(mesh, [&](std::uint32_t v) { return uvOf(mesh, v); })
+            : meanEdges(mesh, [&](std::uint32_t v) { return toDouble(mesh.positions[v]); });
     for (std::size_t v = 0; v < edges.size(); ++v) {
         const double size = (uvs ? kUvNoise : 1) * share * edges[v];
         const double x = size * normalDeviate(random), y = size * normalDeviate(random);
@@ -73,20 +74,31 @@ void estimateNormals(TestMesh& mesh) {
 
 const char* nameOf(Damage damage) {
     switch (damage) {
-        case Damage::none: return "none";
-        case Damage::position_noise: return "position-noise";
-        case Damage::uv_noise: return "uv-noise";
-        case Damage::welded_uvs: return "welded-uvs";
+        case Damage::none:
+            return "none";
+        case Damage::position_noise:
+            return "position-noise";
+        case Damage::uv_noise:
+            return "uv-noise";
+        case Damage::welded_uvs:
+            return "welded-uvs";
     }
     return "";
 }
 
 void damage(TestMesh& mesh, Damage kind, double share, Random random) {
     switch (kind) {
-        case Damage::none: return;
-        case Damage::position_noise: moveVertices(mesh, false, share, random); break;
-        case Damage::uv_noise: moveVertices(mesh, true, share, random); break;
-        case Damage::welded_uvs: weldUvs(mesh, share, random); break;
+        case Damage::none:
+            return;
+        case Damage::position_noise:
+            moveVertices(mesh, false, share, random);
+            break;
+        case Damage::uv_noise:
+            moveVertices(mesh, true, share, random);
+            break;
+        case Damage::welded_uvs:
+            weldUvs(mesh, share, random);
+            break;
     }
     estimateNormals(mesh);
 }

@@ -25,9 +25,7 @@ inline Dual operator*(const Dual& a, const Dual& b) {
 /// The function whose value at a is `value` and whose derivative there is `slope`.
 inline Dual chain(const Dual& a, double value, double slope) { return {value, slope * a.ds, slope * a.dt}; }
 
-inline Dual operator/(const Dual& a, const Dual& b) {
-    return a * chain(b, 1 / b.value, -1 / (b.value * b.value));
-}
+inline Dual operator/(const Dual& a, const Dual& b) { return a * chain(b, 1 / b.value, -1 / (b.value * b.value)); }
 inline Dual sqrt(const Dual& a) {
     const double root = std::sqrt(a.value);
     return chain(a, root, 0.5 / root);

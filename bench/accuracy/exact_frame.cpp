@@ -26,9 +26,7 @@ SurfacePoint pointOf(const Surface& surface, double s, double t, int side) {
 
 }  // namespace
 
-DVec3 ExactFrame::tangentAcross(const DVec3& n) const {
-    return unit(tangent - (dot(n, tangent) / dot(n, n)) * n);
-}
+DVec3 ExactFrame::tangentAcross(const DVec3& n) const { return unit(tangent - (dot(n, tangent) / dot(n, n)) * n); }
 
 ExactFrame exactFrame(const Surface& surface, double s, double t, int side) {
     const SurfacePoint point = pointOf(surface, s, t, side);

@@ -39,8 +39,8 @@ double cleanMean(const std::vector<RecordType>& records, const std::string& meth
 
 /// Vertex errors of damaged meshes, with shares in [low, high].
 template <class RecordType>
-double damagedMean(const std::vector<RecordType>& records, const std::string& method, const std::string& damage, double low,
-                   double high, bool held_out) {
+double damagedMean(const std::vector<RecordType>& records, const std::string& method, const std::string& damage,
+                   double low, double high, bool held_out) {
     return meanOf<RecordType>(
         records,
         [&](const RecordType& r) {
@@ -84,7 +84,7 @@ Figure vertexFigure(const std::string& tessellation, int cells) {
             }};
 }
 
-Figure spreadFigure(const char* key, const char* title, double Spread::* part) {
+Figure spreadFigure(const char* key, const char* title, double Spread::*part) {
     return {key, title, [=](const Study& study, const std::string& method, bool held_out) {
                 return cleanMean<Record>(study.records, method, kScattered, 32, held_out,
                                          [=](const Record& r) { return r.inside.*part; });
@@ -100,13 +100,14 @@ Figure orderFigure(int coarse, int fine) {
             }};
 }
 
-Figure damageFigure(const std::string& key, const std::string& title, const std::string& damage, double low, double high) {
+Figure damageFigure(const std::string& key, const std::string& title, const std::string& damage, double low,
+                    double high) {
     return {key, title, [=](const Study& study, const std::string& method, bool held_out) {
                 return damagedMean(study.records, method, damage, low, high, held_out);
             }};
 }
 
-Figure bitangentFigure(const char* key, const char* title, double Record::* value) {
+Figure bitangentFigure(const char* key, const char* title, double Record::*value) {
     return {key, title, [=](const Study& study, const std::string& method, bool held_out) {
                 return cleanMean<Record>(study.records, method, kScattered, 32, held_out,
                                          [=](const Record& r) { return r.*value; });
@@ -122,7 +123,7 @@ Figure bakedFigure(const std::string& tessellation, int cells) {
             }};
 }
 
-Figure bevelFigure(const char* key, const char* title, double Record::* value) {
+Figure bevelFigure(const char* key, const char* title, double Record::*value) {
     return {key, title, [=](const Study& study, const std::string& method, bool) {
                 return arithmeticMean(
                     bevelValues<Record>(study.records, method, [=](const Record& r) { return r.*value; }));
@@ -183,8 +184,8 @@ std::vector<Figure> makeNormalFigures() {
         for (const int cells : {8, 32, 128}) all.push_back(normalFigure(tessellation, cells));
     }
     all.push_back({"normal_bevel", "bevel, flat part", [](const Study& study, const std::string& weighting, bool) {
-                       return arithmeticMean(bevelValues<NormalRecord>(study.normals, weighting,
-                                                                       [](const NormalRecord& r) { return r.all.mean; }));
+                       return arithmeticMean(bevelValues<NormalRecord>(
+                           study.normals, weighting, [](const NormalRecord& r) { return r.all.mean; }));
                    }});
     all.push_back({"normal_bevel_worst", "bevel, worst", [](const Study& study, const std::string& weighting, bool) {
                        return largest(bevelValues<NormalRecord>(study.normals, weighting,

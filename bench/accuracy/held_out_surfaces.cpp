@@ -58,14 +58,10 @@ SurfacePoint mirroredFolds(const Dual& s, const Dual& t, int side) {
 }
 
 constexpr Surface kSurfaces[] = {
-    {"catenoid", catenoid},
-    {"enneper", enneper},
-    {"shell", shell},
-    {.name = "swirl", .at = swirl, .is_flat = true},
-    {"tractroid", tractroid},
-    {"ellipsoid", ellipsoid},
-    {"hill", hill},
-    {"mirrored-folds", mirroredFolds, 0.5},
+    {"catenoid", catenoid},   {"enneper", enneper},
+    {"shell", shell},         {.name = "swirl", .at = swirl, .is_flat = true},
+    {"tractroid", tractroid}, {"ellipsoid", ellipsoid},
+    {"hill", hill},           {"mirrored-folds", mirroredFolds, 0.5},
 };
 
 }  // namespace

@@ -82,8 +82,8 @@ std::string drawn(const Axis& x_axis, const Axis& y_axis, const std::vector<Line
 
 std::string colourOf(const std::string& name) {
     static const std::map<std::string, std::string> colours = {
-        {"mikktspace", "#1565c0"}, {"lengyel", "#8d6e63"}, {"uniform", "#7b1fa2"}, {"angle", "#26a69a"},
-        {"area", "#ef6c00"},       {"flat", "#9e9e9e"},    {"fast", "#c0ca33"},    {"best", "#c62828"},
+        {"mikktspace", "#1565c0"}, {"lengyel", "#8d6e63"}, {"uniform", "#7b1fa2"},    {"angle", "#26a69a"},
+        {"area", "#ef6c00"},       {"flat", "#9e9e9e"},    {"fast", "#c0ca33"},       {"best", "#c62828"},
         {"floor", "#212121"},      {"max", "#2e7d32"},     {"angle-area", "#1565c0"},
     };
     const auto found = colours.find(name);
@@ -97,7 +97,8 @@ std::string linePlot(const std::string& title, const std::string& x_title, const
     const Axis y_axis = heightAxis(lines);
     std::string svg = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" height=\"{1:g}\" "
-        "role=\"img\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"14\" fill=\"#222\">\n<title>{2}</title>\n"
+        "role=\"img\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"14\" "
+        "fill=\"#222\">\n<title>{2}</title>\n"
         "<rect width=\"{0:g}\" height=\"{1:g}\" fill=\"#fff\"/>\n",
         width, height, title);
     svg += fmt::format("<text x=\"{:g}\" y=\"24\" font-size=\"16\" font-weight=\"bold\">{}</text>\n", kLeft, title);

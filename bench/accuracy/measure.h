@@ -30,7 +30,8 @@ class Shading {
     /// Mean angle between the exact directions and those of interpolated frames, as shaders make them: N and T not
     /// normalised, B = sign * cross(N, T), and only the result normalised.
     [[nodiscard]] double meanError(const Frames& frames) const;
-    /// The same between two kinds of frames: what is wrong when a map was baked with the one and is shaded with the other.
+    /// The same between two kinds of frames: what is wrong when a map was baked with the one and is shaded with the
+    /// other.
     [[nodiscard]] double meanDifference(const Frames& frames, const Frames& baked) const;
 
   private:

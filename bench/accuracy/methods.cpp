@@ -53,9 +53,8 @@ Frames exactFrames(const TestMesh& mesh) {
 
 std::vector<NamedWeighting> weightings() {
     return {
-        {"uniform", NormalWeighting::uniform}, {"area", NormalWeighting::area},
-        {"angle", NormalWeighting::angle},     {"angle-area", NormalWeighting::angleArea},
-        {"max", NormalWeighting::max},         {"best", NormalWeighting::best},
+        {"uniform", NormalWeighting::uniform},      {"area", NormalWeighting::area}, {"angle", NormalWeighting::angle},
+        {"angle-area", NormalWeighting::angleArea}, {"max", NormalWeighting::max},   {"best", NormalWeighting::best},
     };
 }
 

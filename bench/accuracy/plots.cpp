@@ -46,9 +46,11 @@ std::string tangentPlot(const Study& study, bool shading) {
 std::string normalPlot(const Study& study) {
     std::vector<Line> lines;
     for (const std::string& weighting : study.weightings) {
-        lines.push_back(lineOf(weighting, [&](int cells) { return normalError(study, weighting, "irregular", cells, false); }));
+        lines.push_back(
+            lineOf(weighting, [&](int cells) { return normalError(study, weighting, "irregular", cells, false); }));
     }
-    return linePlot("Error of vertex normals on irregular meshes", "cells along each side", "degrees", ticksOf(lines), lines);
+    return linePlot("Error of vertex normals on irregular meshes", "cells along each side", "degrees", ticksOf(lines),
+                    lines);
 }
 
 std::string bevelTangents() {

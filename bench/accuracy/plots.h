@@ -8,8 +8,8 @@
 
 namespace tspace::accuracy {
 
-/// Writes vertex-error.svg, shading-error.svg, normal-error.svg, bevel-tangents.svg and bevel-normals.svg into a folder,
-/// which is made where it is missing. False when one cannot be written.
+/// Writes vertex-error.svg, shading-error.svg, normal-error.svg, bevel-tangents.svg and bevel-normals.svg into a
+/// folder, which is made where it is missing. False when one cannot be written.
 bool writePlots(const Study& study, const std::string& folder);
 
 }  // namespace tspace::accuracy

@@ -25,15 +25,9 @@ struct Target {
 };
 
 constexpr Target kTargets[] = {
-    {"vertex_scattered_32", 0.14, 0.047},
-    {"vertex_loops_32", 0.21, 0.12},
-    {"shading_scattered_32", 0.076, 0.058},
-    {"shading_loops_8", 1.41, 1.30},
-    {"bevel_shading", 0.14, 0.095},
-    {"bevel_worst", 12, 10},
-    {"position_noise_10_20", 4.5, 4.4},
-    {"uv_noise_10_20", 5.1, 5.1},
-    {"order_32_128", 0, 1.7, true},
+    {"vertex_scattered_32", 0.14, 0.047}, {"vertex_loops_32", 0.21, 0.12}, {"shading_scattered_32", 0.076, 0.058},
+    {"shading_loops_8", 1.41, 1.30},      {"bevel_shading", 0.14, 0.095},  {"bevel_worst", 12, 10},
+    {"position_noise_10_20", 4.5, 4.4},   {"uv_noise_10_20", 5.1, 5.1},    {"order_32_128", 0, 1.7, true},
 };
 
 std::string text(double value) {
@@ -59,7 +53,8 @@ std::string targetText(const Study& study, const Target& target, const std::stri
 
 void printTargets(const Study& study) {
     fmt::print("**What is asked**: degrees; means over the twelve surfaces\n\n");
-    fmt::print("| what | mikktspace | area | fast | asked | | best | asked | |\n|---|---|---|---|---|---|---|---|---|\n");
+    fmt::print(
+        "| what | mikktspace | area | fast | asked | | best | asked | |\n|---|---|---|---|---|---|---|---|---|\n");
     for (const Target& target : kTargets) {
         const Figure& figure = tangentFigure(target.key);
         fmt::print("| {} | {} | {} |{}{}\n", figure.title, text(figure.value(study, "mikktspace", false)),

@@ -123,7 +123,8 @@ class Runner {
     void measureNormals(const TestMesh& mesh, const Record& of) {
         for (const NamedWeighting& weighting : weightings()) {
             const std::vector<Vec3> normals = normalsBy(weighting.weighting, mesh);
-            NormalRecord record{of.surface, of.tessellation, of.damage, weighting.name, of.held_out, of.cells, of.share};
+            NormalRecord record{of.surface,  of.tessellation, of.damage, weighting.name,
+                                of.held_out, of.cells,        of.share};
             const bool is_bevel = mesh.surface == nullptr;
             record.inside = normalErrors(mesh, normals, is_bevel ? Corners::measured : Corners::inside);
             record.all = normalErrors(mesh, normals, is_bevel ? Corners::measured : Corners::all);

@@ -16,10 +16,10 @@ struct Record {
     std::string surface, tessellation, damage, method;
     bool held_out = false;
     int cells = 0;
-    double share = 0;  ///< of the damage
+    double share = 0;              ///< of the damage
     Spread inside = {}, all = {};  ///< tangents
     double shading = 0;
-    double from_mikktspace = 0;  ///< shading against that of `mikktspace`
+    double from_mikktspace = 0;       ///< shading against that of `mikktspace`
     double bitangent = 0, cross = 0;  ///< mean errors of both kinds of bitangent
 
     [[nodiscard]] bool isIrregular() const { return tessellation == "irregular" || tessellation == "random"; }
@@ -57,7 +57,8 @@ Study runStudy(const StudyOptions& options);
 double geometricMean(const std::vector<double>& values);
 
 template <class RecordType>
-std::vector<double> collect(const std::vector<RecordType>& records, const std::function<bool(const RecordType&)>& wanted,
+std::vector<double> collect(const std::vector<RecordType>& records,
+                            const std::function<bool(const RecordType&)>& wanted,
                             const std::function<double(const RecordType&)>& value) {
     std::vector<double> values;
     for (const RecordType& record : records) {

@@ -9,8 +9,7 @@ namespace tspace::accuracy {
 namespace {
 
 SurfacePoint planeWarp(const Dual& s, const Dual& t, int) {
-    return {{s, t, 0.0},
-            {s + 0.08 * sin(2 * kPi * t) + 0.05 * sin(2 * kPi * s), t + 0.08 * sin(2 * kPi * s + 1.0)}};
+    return {{s, t, 0.0}, {s + 0.08 * sin(2 * kPi * t) + 0.05 * sin(2 * kPi * s), t + 0.08 * sin(2 * kPi * s + 1.0)}};
 }
 
 SurfacePoint sphereLatLong(const Dual& s, const Dual& t, int) {

@@ -53,7 +53,8 @@ class Grid {
 
   private:
     [[nodiscard]] std::size_t number(int column, int row) const {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_ + 1) + static_cast<std::size_t>(column);
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_ + 1) +
+               static_cast<std::size_t>(column);
     }
     [[nodiscard]] bool onFold(const Point& p) const { return std::fabs(p.s - surface_.fold) < 1e-12; }
 
@@ -115,9 +116,12 @@ class Grid {
         const bool chance = random_.coin();
         switch (kind_) {
             case Tessellation::regular:
-            case Tessellation::loops: return 0;
-            case Tessellation::alternating: return (column + row) % 2;
-            default: break;
+            case Tessellation::loops:
+                return 0;
+            case Tessellation::alternating:
+                return (column + row) % 2;
+            default:
+                break;
         }
         // Where a cell has a hollow corner only one diagonal is inside.
         if (turn(a, b, c) <= 0 || turn(a, c, d) <= 0) return 1;
@@ -150,12 +154,18 @@ class Grid {
 
 const char* nameOf(Tessellation tessellation) {
     switch (tessellation) {
-        case Tessellation::regular: return "regular";
-        case Tessellation::alternating: return "alternating";
-        case Tessellation::irregular: return "irregular";
-        case Tessellation::random: return "random";
-        case Tessellation::anisotropic: return "anisotropic";
-        case Tessellation::loops: return "loops";
+        case Tessellation::regular:
+            return "regular";
+        case Tessellation::alternating:
+            return "alternating";
+        case Tessellation::irregular:
+            return "irregular";
+        case Tessellation::random:
+            return "random";
+        case Tessellation::anisotropic:
+            return "anisotropic";
+        case Tessellation::loops:
+            return "loops";
     }
     return "";
 }

@@ -19,12 +19,14 @@ struct TestMesh {
     // One per vertex:
     std::vector<ExactFrame> frames;
     std::vector<double> s, t;
-    std::vector<std::int8_t> sides;        ///< of the fold; vertices on it are there twice, once for each side
-    std::vector<std::uint8_t> is_inside;   ///< not on the border of the chart, nor on the fold
+    std::vector<std::int8_t> sides;       ///< of the fold; vertices on it are there twice, once for each side
+    std::vector<std::uint8_t> is_inside;  ///< not on the border of the chart, nor on the fold
     /// The triangles that shading is measured on: all, or those of a bevel's flat part.
     std::vector<std::uint32_t> measured;
 
-    [[nodiscard]] MeshView view() const { return {.positions = positions, .normals = normals, .uvs = uvs, .indices = {indices}}; }
+    [[nodiscard]] MeshView view() const {
+        return {.positions = positions, .normals = normals, .uvs = uvs, .indices = {indices}};
+    }
     [[nodiscard]] std::size_t triangleCount() const { return indices.size() / 3; }
     [[nodiscard]] bool hasExactUvs() const { return surface != nullptr; }
 };
@@ -46,9 +48,9 @@ TestMesh tessellate(const Surface& surface, Tessellation tessellation, int cells
 /// A square face with rounded borders.
 struct Bevel {
     double radius = 0.05;
-    int strips = 1;      ///< across the rounded part
-    int flat_cells = 1;  ///< along each side of the flat part
-    int diagonal = 0;    ///< 0 or 1: one of the two; 2: by chance
+    int strips = 1;                     ///< across the rounded part
+    int flat_cells = 1;                 ///< along each side of the flat part
+    int diagonal = 0;                   ///< 0 or 1: one of the two; 2: by chance
     double stretch = 1, shear_deg = 0;  ///< of the UV map across the rounded part
 };
 

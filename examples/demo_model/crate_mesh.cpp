@@ -52,8 +52,8 @@ void addVertex(Mesh& mesh, const Axes& axes, const Line& column, const Line& row
     const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     for (int k = 0; k < 3; ++k) {
         normal[k] /= length;
-        position[k] = axes.right[k] * column.flat + axes.down[k] * row.flat +
-                      axes.out[k] * (kHalfEdge - kBevelRadius) + kBevelRadius * normal[k];
+        position[k] = axes.right[k] * column.flat + axes.down[k] * row.flat + axes.out[k] * (kHalfEdge - kBevelRadius) +
+                      kBevelRadius * normal[k];
         mesh.positions.push_back(static_cast<float>(position[k]));
         mesh.normals.push_back(static_cast<float>(normal[k]));
     }

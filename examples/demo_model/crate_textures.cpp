@@ -87,16 +87,15 @@ double detail(Side side, Point p) {
                 return 0;
             }
             const double slat = repeat(p.y, 0.06) / 0.06;
-            return smoothstep(0.005, -0.005, std::abs(p.x) - 0.2) * smoothstep(0.5, 0.42, std::abs(slat)) *
-                   0.016 * (slat - 0.5);
+            return smoothstep(0.005, -0.005, std::abs(p.x) - 0.2) * smoothstep(0.5, 0.42, std::abs(slat)) * 0.016 *
+                   (slat - 0.5);
         }
         case Side::under:
             return inside * groove(std::min(std::abs(p.x - p.y), std::abs(p.x + p.y)) * 0.7071067811865476);
         case Side::back: {
             const double pipe = 1 - repeat(p.x - 0.05, 0.1) * repeat(p.x - 0.05, 0.1) / (0.03 * 0.03);
-            return pipe > 0 && std::abs(p.x) < 0.3
-                       ? smoothstep(0.29, 0.27, std::abs(p.y)) * 0.015 * std::sqrt(pipe)
-                       : 0;
+            return pipe > 0 && std::abs(p.x) < 0.3 ? smoothstep(0.29, 0.27, std::abs(p.y)) * 0.015 * std::sqrt(pipe)
+                                                   : 0;
         }
         case Side::right: {
             // Eight bolts by symmetry: fold into one eighth of the circle.
@@ -123,8 +122,8 @@ double height(Side side, Point p) {
 
 /// 0..1, constant over a cell of the integer grid.
 double noiseAt(std::int64_t x, std::int64_t y) {
-    std::uint64_t bits = static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u ^
-                         static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4Fu;
+    std::uint64_t bits =
+        static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u ^ static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4Fu;
     bits = (bits ^ (bits >> 29)) * 0xBF58476D1CE4E5B9u;
     bits = (bits ^ (bits >> 32)) * 0x94D049BB133111EBu;
     return static_cast<double>(bits >> 40) / static_cast<double>(1u << 24);
@@ -181,9 +180,7 @@ Side sideAt(double u, double v) {
     return v < 0.5 ? Side::right : Side::left;
 }
 
-std::uint8_t toByte(double value) {
-    return static_cast<std::uint8_t>(std::clamp(value, 0.0, 1.0) * 255 + 0.5);
-}
+std::uint8_t toByte(double value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0, 1.0) * 255 + 0.5); }
 
 }  // namespace
 

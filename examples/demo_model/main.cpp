@@ -43,21 +43,17 @@ struct Builder {
     }
 
     template <class T>
-    std::size_t addAccessor(const std::vector<T>& values, std::size_t width, int type, const char* shape,
-                            int target) {
+    std::size_t addAccessor(const std::vector<T>& values, std::size_t width, int type, const char* shape, int target) {
         const std::size_t view = addView(values.data(), values.size() * sizeof(T), target);
-        accessors.push_back({{"bufferView", view},
-                             {"componentType", type},
-                             {"count", values.size() / width},
-                             {"type", shape}});
+        accessors.push_back(
+            {{"bufferView", view}, {"componentType", type}, {"count", values.size() / width}, {"type", shape}});
         return accessors.size() - 1;
     }
 
     std::size_t addImage(const crate::Image& image) {
         std::string png;
         const auto append = [](void* to, void* data, int bytes) {
-            static_cast<std::string*>(to)->append(static_cast<const char*>(data),
-                                                  static_cast<std::size_t>(bytes));
+            static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(bytes));
         };
         stbi_write_png_to_func(append, &png, image.size, image.size, 3, image.rgb.data(), image.size * 3);
         return addView(png.data(), png.size(), 0);
@@ -99,11 +95,10 @@ std::string makeGlb() {
                         {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", uvs}}},
                           {"indices", indices},
                           {"material", 0}}}}}};
-    root["materials"] = {
-        {{"name", "painted steel"},
-         {"pbrMetallicRoughness",
-          {{"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0.1}, {"roughnessFactor", 0.55}}},
-         {"normalTexture", {{"index", 1}}}}};
+    root["materials"] = {{{"name", "painted steel"},
+                          {"pbrMetallicRoughness",
+                           {{"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0.1}, {"roughnessFactor", 0.55}}},
+                          {"normalTexture", {{"index", 1}}}}};
     root["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 1}, {"sampler", 0}}};
     root["samplers"] = {
         {{"magFilter", kLinear}, {"minFilter", kLinearMipmapLinear}, {"wrapS", kRepeat}, {"wrapT", kRepeat}}};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Model files: read one, put normals and tangents where its materials need them, write it with everything else in
-// it untouched. CMake target tspace::asset. Reads glTF 2.0 (.glb, .gltf) and Wavefront OBJ, and through the importer FBX,
-// PLY, STL, DAE, 3DS and more; writes glTF.
+// it untouched. CMake target tspace::asset. Reads glTF 2.0 (.glb, .gltf) and Wavefront OBJ, and through the importer
+// FBX, PLY, STL, DAE, 3DS and more; writes glTF.
 #pragma once
 
 #include <cstdint>
@@ -22,12 +22,13 @@ inline constexpr std::uint64_t kNoMemoryLimit = ~std::uint64_t{0};
 struct FileOptions {
     /// URIs in a model may lead only to files in its own folder (and below). true: anywhere.
     bool allow_external = false;
-    /// Path of tspace-import, the program that reads .fbx, .ply, .stl, .dae, .3ds and others; empty: such files are refused.
-    /// It runs as a process of its own, so that a crash or a runaway there is an error here (invalidFile).
+    /// Path of tspace-import, the program that reads .fbx, .ply, .stl, .dae, .3ds and others; empty: such files are
+    /// refused. It runs as a process of its own, so that a crash or a runaway there is an error here (invalidFile).
     std::string importer = {};
     std::uint64_t import_max_file_bytes = std::uint64_t{2} << 30;
-    std::uint64_t import_max_memory_bytes = std::uint64_t{16} << 30;  ///< address space of the importer; a file gets 192 MiB and 256 times its size at most
-    std::uint32_t import_max_seconds = 120;                           ///< wall clock and processor time
+    /// Address space of the importer; a file gets 192 MiB and 256 times its size at most.
+    std::uint64_t import_max_memory_bytes = std::uint64_t{16} << 30;
+    std::uint32_t import_max_seconds = 120;  ///< wall clock and processor time
     /// What working on one file may take of memory, about; what it would take is estimated first, and more is
     /// refused (tooLarge). 0: 64 MB, and 16 times the bytes of the file, of those it names, and of what its
     /// compressed geometry unpacks to. Other values stand for that, and for import_max_memory_bytes;
@@ -42,7 +43,7 @@ using Progress = std::function<void(const char* what, std::uint64_t done, std::u
 enum class ExistingTangents : std::uint32_t {
     keep = 0,     ///< they stay; only missing ones are added
     replace = 1,  ///< they are computed anew
-    repair = 2,   ///< good ones stay, wrong ones are computed anew; decided for all primitives that share vertices at once
+    repair = 2,   ///< good ones stay, wrong ones are computed anew; primitives that share vertices decide together
 };
 
 /// Whether tangents follow the UVs before or after KHR_texture_transform. It matters for a rotation, and for a scale of
@@ -57,7 +58,7 @@ enum class Compression : std::uint32_t {
     keep = 0,     ///< what came in compressed goes out compressed the same way, new data in it; the rest stays plain
     none = 1,     ///< everything is unpacked
     meshopt = 2,  ///< EXT_meshopt_compression for vertices and indices; changes no value
-    draco = 3,    ///< KHR_draco_mesh_compression for triangles; rounds positions, normals and UVs that were not in it before
+    draco = 3,    ///< KHR_draco_mesh_compression for triangles; rounds positions, normals and UVs new to it
 };
 
 /// The numbers of written tangents and generated normals.
@@ -75,8 +76,8 @@ struct GenerateOptions {
     bool bitangents = false;
     ExistingTangents existing = ExistingTangents::keep;
     TextureTransform texture_transform = TextureTransform::apply;
-    /// Its execution serves the whole file: primitives are computed at the same time, and normals and sanitize run where
-    /// their primitive does. With an allocator one primitive follows the other.
+    /// Its execution serves the whole file: primitives are computed at the same time, and normals and sanitize run
+    /// where their primitive does. With an allocator one primitive follows the other.
     TangentOptions tangents{.convention = conventions::gltf};
     /// For primitives without normals. The default is what glTF asks of a client.
     NormalOptions normals{.weighting = NormalWeighting::flat};
@@ -93,14 +94,14 @@ struct GenerateOptions {
 
 /// What was done to one primitive.
 enum class PrimitiveAction : std::uint32_t {
-    generated = 0,    ///< tangents were added
-    replaced = 1,     ///< tangents were there and were computed anew
-    unchanged = 2,    ///< computed anew with the same bits as those in the file
-    kept = 3,         ///< tangents were there and stay (not to be replaced, or found good)
-    notNeeded = 4,    ///< the material needs no tangents (no `all`)
-    notTriangles = 5, ///< points or lines
-    impossible = 6,   ///< no UVs, no positions or nothing to compute; `reason` says which
-    removed = 7,      ///< no material needs the tangents, and they were taken away (`strip`)
+    generated = 0,     ///< tangents were added
+    replaced = 1,      ///< tangents were there and were computed anew
+    unchanged = 2,     ///< computed anew with the same bits as those in the file
+    kept = 3,          ///< tangents were there and stay (not to be replaced, or found good)
+    notNeeded = 4,     ///< the material needs no tangents (no `all`)
+    notTriangles = 5,  ///< points or lines
+    impossible = 6,    ///< no UVs, no positions or nothing to compute; `reason` says which
+    removed = 7,       ///< no material needs the tangents, and they were taken away (`strip`)
 };
 /// Stable lowerCamelCase name, for JSON.
 const char* actionName(PrimitiveAction action);
@@ -111,16 +112,16 @@ struct PrimitiveReport {
     std::string mesh_name = {};      ///< may be empty
     std::string material_name = {};  ///< may be empty
     PrimitiveAction action = PrimitiveAction::notNeeded;
-    std::string reason = {};          ///< one sentence for a person: why this action
+    std::string reason = {};              ///< one sentence for a person: why this action
     std::vector<std::string> notes = {};  ///< further sentences: textures that want other tangents, transforms, repairs
-    std::int32_t uv_set = -1;    ///< n of TEXCOORD_n the tangents follow, or -1
+    std::int32_t uv_set = -1;             ///< n of TEXCOORD_n the tangents follow, or -1
     bool normals_generated = false;
     bool bitangents_generated = false;  ///< _BITANGENT was computed
     std::uint64_t triangle_count = 0;
     std::uint64_t vertices_before = 0;
     std::uint64_t vertices_after = 0;
-    std::uint32_t morph_target_count = 0;    ///< morph targets that the primitive has
-    std::uint32_t morph_deltas_computed = 0; ///< those whose tangent deltas were computed
+    std::uint32_t morph_target_count = 0;     ///< morph targets that the primitive has
+    std::uint32_t morph_deltas_computed = 0;  ///< those whose tangent deltas were computed
     /// Corners, over all targets, at which the frame of the moved shape has the other sign, which glTF cannot morph.
     std::uint64_t morph_sign_flip_count = 0;
     NormalReport normals = {};
@@ -130,11 +131,11 @@ struct PrimitiveReport {
 
 struct GenerateReport {
     std::vector<PrimitiveReport> primitives = {};  ///< in file order
-    bool changed = false;                     ///< false: the output is byte for byte the input
-    std::uint64_t input_bytes = 0;            ///< the model file and what it loads
+    bool changed = false;                          ///< false: the output is byte for byte the input
+    std::uint64_t input_bytes = 0;                 ///< the model file and what it loads
     std::uint64_t output_bytes = 0;
-    std::vector<std::string> input_files = {};     ///< everything that was read, the model first
-    std::vector<std::string> output_files = {};    ///< everything that was written, the model first
+    std::vector<std::string> input_files = {};   ///< everything that was read, the model first
+    std::vector<std::string> output_files = {};  ///< everything that was written, the model first
     std::vector<std::string> warnings = {};
 };
 
@@ -148,15 +149,15 @@ Result<GenerateReport> generateFile(const std::string& input, const std::string&
 
 /// One texture or parameter of a material that is shaded in tangent space.
 struct TangentUseInfo {
-    std::string needed_by = {};     ///< "normalTexture", "clearcoatNormalTexture" or "anisotropy"
-    std::string place = {};         ///< JSON pointer of the texture reference or extension; empty for OBJ
+    std::string needed_by = {};  ///< "normalTexture", "clearcoatNormalTexture" or "anisotropy"
+    std::string place = {};      ///< JSON pointer of the texture reference or extension; empty for OBJ
     std::uint32_t material = 0;
-    bool only_in_variant = false;   ///< not the primitive's own material, but one of KHR_materials_variants
-    std::int32_t uv_set = 0;        ///< n of TEXCOORD_n
-    double uv_offset[2] = {0, 0};   ///< KHR_texture_transform
+    bool only_in_variant = false;  ///< not the primitive's own material, but one of KHR_materials_variants
+    std::int32_t uv_set = 0;       ///< n of TEXCOORD_n
+    double uv_offset[2] = {0, 0};  ///< KHR_texture_transform
     double uv_rotation_rad = 0;
     double uv_scale[2] = {1, 1};
-    bool follows_first = true;      ///< tangents made for the first use of the primitive fit this one too
+    bool follows_first = true;  ///< tangents made for the first use of the primitive fit this one too
 };
 
 /// What is in one primitive, as a person would want to know it before generating.
@@ -165,30 +166,30 @@ struct PrimitiveInfo {
     std::uint32_t primitive = 0;
     std::string mesh_name = {};
     std::string material_name = {};
-    std::string mode = {};                      ///< "triangles", "triangle strip", "points", ...
+    std::string mode = {};  ///< "triangles", "triangle strip", "points", ...
     std::uint64_t triangle_count = 0;
     std::uint64_t vertex_count = 0;
-    std::string index_type = {};                ///< "u8", "u16", "u32" or "none"
-    std::string compression = {};               ///< "meshopt", "draco" or "none"
-    std::vector<std::string> attributes = {};   ///< "POSITION float3", "NORMAL snorm16x3", ...
+    std::string index_type = {};               ///< "u8", "u16", "u32" or "none"
+    std::string compression = {};              ///< "meshopt", "draco" or "none"
+    std::vector<std::string> attributes = {};  ///< "POSITION float3", "NORMAL snorm16x3", ...
     std::uint32_t uv_set_count = 0;
     std::uint32_t morph_target_count = 0;
     bool skinned = false;
     bool has_normals = false;
     bool has_tangents = false;
     bool needs_tangents = false;
-    std::string needed_by = {};                 ///< "normalTexture", "clearcoatNormalTexture", "anisotropy", ... or empty
+    std::string needed_by = {};                     ///< "normalTexture", "anisotropy", ... or empty
     std::vector<TangentUseInfo> tangent_uses = {};  ///< everything that needs tangents; they follow the first
-    std::uint32_t variant_material_count = 0;  ///< materials that KHR_materials_variants can put on it
-    std::uint32_t node_count = 0;              ///< nodes that draw its mesh
-    std::uint64_t instance_count = 0;          ///< how often they draw it: EXT_mesh_gpu_instancing counts each
-    std::int32_t uv_set = -1;              ///< the UV set that tangents would follow, or -1
-    std::uint64_t degenerate_uv_count = 0;       ///< triangles without UV area in that set
-    std::uint64_t degenerate_triangle_count = 0; ///< triangles with two corners at one position
+    std::uint32_t variant_material_count = 0;       ///< materials that KHR_materials_variants can put on it
+    std::uint32_t node_count = 0;                   ///< nodes that draw its mesh
+    std::uint64_t instance_count = 0;               ///< how often they draw it: EXT_mesh_gpu_instancing counts each
+    std::int32_t uv_set = -1;                       ///< the UV set that tangents would follow, or -1
+    std::uint64_t degenerate_uv_count = 0;          ///< triangles without UV area in that set
+    std::uint64_t degenerate_triangle_count = 0;    ///< triangles with two corners at one position
     /// Triangles that show the texture mirrored (V direction and KHR_texture_transform considered).
     std::uint64_t mirrored_triangle_count = 0;
-    std::uint32_t uv_island_count = 0;           ///< connected pieces of the UV map
-    std::uint32_t mirrored_island_count = 0;     ///< those of which most of the area is mirrored
+    std::uint32_t uv_island_count = 0;        ///< connected pieces of the UV map
+    std::uint32_t mirrored_island_count = 0;  ///< those of which most of the area is mirrored
 };
 
 struct Inspection {

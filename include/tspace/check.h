@@ -26,34 +26,34 @@ const char* severityName(Severity severity);
 /// What was found. Names (findingName) and numbers are stable and never reused.
 enum class FindingCode : std::uint32_t {
     positionsNotFinite = 0,
-    uvsMissing = 1,             ///< a texture needs tangents along a UV set that the primitive does not have
+    uvsMissing = 1,  ///< a texture needs tangents along a UV set that the primitive does not have
     uvsNotFinite = 2,
-    uvsDegenerate = 3,          ///< triangles without UV area: no direction can be had from them
+    uvsDegenerate = 3,  ///< triangles without UV area: no direction can be had from them
     normalsMissing = 4,
     normalsNotFinite = 5,
     normalsNotUnit = 6,         ///< also those of length 0
     normalsAgainstWinding = 7,  ///< they point to the back of their triangles
     tangentsMissing = 8,
-    tangentsUnused = 9,         ///< no material asks for them
-    tangentsIgnored = 10,       ///< tangents without normals, which glTF tells readers to ignore
+    tangentsUnused = 9,    ///< no material asks for them
+    tangentsIgnored = 10,  ///< tangents without normals, which glTF tells readers to ignore
     tangentsNotFinite = 11,
-    tangentsNotUnit = 12,       ///< also those of length 0
-    tangentsNotOrthogonal = 13, ///< they lean out of the plane of the surface
-    signsNotOne = 14,           ///< w is not +1 or -1
-    signsMixed = 15,            ///< w differs between the corners of a triangle
-    signsInverted = 16,         ///< every sign is the opposite of what the UVs say
-    signsWrong = 17,            ///< some signs are
-    mirroredSeamAveraged = 18,  ///< one tangent serves both sides of a seam between mirrored and other triangles
-    uvSeamAveraged = 19,        ///< one tangent serves both sides of a seam in the UV map
-    directionsWrong = 20,       ///< tangents do not point where u grows
-    uvSetWrong = 21,            ///< tangents follow another UV set than the texture
+    tangentsNotUnit = 12,          ///< also those of length 0
+    tangentsNotOrthogonal = 13,    ///< they lean out of the plane of the surface
+    signsNotOne = 14,              ///< w is not +1 or -1
+    signsMixed = 15,               ///< w differs between the corners of a triangle
+    signsInverted = 16,            ///< every sign is the opposite of what the UVs say
+    signsWrong = 17,               ///< some signs are
+    mirroredSeamAveraged = 18,     ///< one tangent serves both sides of a seam between mirrored and other triangles
+    uvSeamAveraged = 19,           ///< one tangent serves both sides of a seam in the UV map
+    directionsWrong = 20,          ///< tangents do not point where u grows
+    uvSetWrong = 21,               ///< tangents follow another UV set than the texture
     textureTransformIgnored = 22,  ///< tangents follow the UVs before KHR_texture_transform
-    splitFramesDiffer = 23,     ///< vertices that are equal but for their tangents: a seam without a cause
+    splitFramesDiffer = 23,        ///< vertices that are equal but for their tangents: a seam without a cause
     morphTangentsMissing = 24,
     morphTangentsWrong = 25,
-    texturesDisagree = 26,      ///< two textures of one primitive need different frames
-    greenFlipped = 27,          ///< a normal map whose green points down (DirectX)
-    normalMapUnreadable = 28,   ///< the image could not be looked at
+    texturesDisagree = 26,     ///< two textures of one primitive need different frames
+    greenFlipped = 27,         ///< a normal map whose green points down (DirectX)
+    normalMapUnreadable = 28,  ///< the image could not be looked at
 };
 inline constexpr std::uint32_t kFindingCodeCount = 29;
 
@@ -66,7 +66,7 @@ const char* findingRemedy(FindingCode code);
 struct Finding {
     FindingCode code = FindingCode::positionsNotFinite;
     Severity severity = Severity::note;
-    std::string place = {};          ///< JSON pointer (OBJ: "usemtl NAME")
+    std::string place = {};  ///< JSON pointer (OBJ: "usemtl NAME")
     std::uint32_t mesh = 0;
     std::uint32_t primitive = 0;     ///< in its mesh
     std::string mesh_name = {};      ///< may be empty
@@ -78,13 +78,13 @@ struct Finding {
     double worst_deg = 0;            ///< the largest angle, for findings about angles; else 0
     double confidence = 1;           ///< 0 to 1; below 1 for findings that rest on statistics
     std::vector<std::uint32_t> vertices = {};  ///< the first of them, at most 8
-    std::string message = {};        ///< one plain sentence
-    std::string remedy = {};         ///< findingRemedy(code)
+    std::string message = {};                  ///< one plain sentence
+    std::string remedy = {};                   ///< findingRemedy(code)
 };
 
 struct CheckOptions {
-    /// How far a tangent may lie outside the directions that the triangles around it give, in degrees. All common ways to
-    /// average lie between those directions.
+    /// How far a tangent may lie outside the directions that the triangles around it give, in degrees. All common ways
+    /// to average lie between those directions.
     double direction_deg = 10;
     /// From here on a direction is so wrong that it is an error.
     double error_deg = 45;
@@ -108,15 +108,15 @@ struct CheckOptions {
 };
 
 struct CheckReport {
-    std::string format = {};                ///< as Inspection::format
-    std::string generator = {};             ///< the program that wrote the file; may be empty
-    std::vector<Finding> findings = {};     ///< errors first; among equals in file order, then by code
+    std::string format = {};             ///< as Inspection::format
+    std::string generator = {};          ///< the program that wrote the file; may be empty
+    std::vector<Finding> findings = {};  ///< errors first; among equals in file order, then by code
     std::uint64_t error_count = 0;
     std::uint64_t warning_count = 0;
     std::uint64_t note_count = 0;
-    std::uint64_t primitive_count = 0;      ///< in the file
-    std::uint64_t tangents_count = 0;       ///< primitives of those whose tangents were examined
-    std::uint64_t image_count = 0;          ///< normal maps that were looked at
+    std::uint64_t primitive_count = 0;  ///< in the file
+    std::uint64_t tangents_count = 0;   ///< primitives of those whose tangents were examined
+    std::uint64_t image_count = 0;      ///< normal maps that were looked at
 };
 
 /// Reads a model and says what is wrong with its frames. Near-linear in the size of the model. Memory: the model as

@@ -59,8 +59,8 @@ namespace conventions {
 inline constexpr Convention opengl{};
 /// glTF 2.0: v down, green up; so w is the negative of the raw UV orientation.
 inline constexpr Convention gltf{.v_axis = VAxis::down};
-inline constexpr Convention directx{.v_axis = VAxis::down, .green = Green::down, .handedness = Handedness::left,
-                                    .winding = Winding::clockwise};
+inline constexpr Convention directx{
+    .v_axis = VAxis::down, .green = Green::down, .handedness = Handedness::left, .winding = Winding::clockwise};
 inline constexpr Convention unreal{.v_axis = VAxis::down, .green = Green::down, .handedness = Handedness::left};
 inline constexpr Convention unity{.handedness = Handedness::left, .winding = Winding::clockwise};
 inline constexpr Convention blender{};

@@ -42,9 +42,9 @@ float frameSign(const Frame& frame);
 /// B = sign * cross(N, T). `tangent.w` is the sign.
 Vec3 rebuildBitangent(const Vec3& normal, const Vec4& tangent);
 
-/// Orthonormal frame by Gram-Schmidt: N' = N/|N|; T' = T - N'(N'.T); B' = B - N'(N'.B) - T'(T'.B)/(T'.T'); each normalised.
-/// Where T is (nearly) parallel to N, or zero, T' comes from basisFromNormal; where B' vanishes, it is cross(N', T').
-/// N zero or not finite is taken as (0, 0, 1). The result is always finite, unit and orthogonal.
+/// Orthonormal frame by Gram-Schmidt: N' = N/|N|; T' = T - N'(N'.T); B' = B - N'(N'.B) - T'(T'.B)/(T'.T'); each
+/// normalised. Where T is (nearly) parallel to N, or zero, T' comes from basisFromNormal; where B' vanishes, it is
+/// cross(N', T'). N zero or not finite is taken as (0, 0, 1). The result is always finite, unit and orthogonal.
 Frame orthonormalize(const Frame& frame);
 
 /// The packed form of an orthonormalised frame: T' and the sign of the original frame.

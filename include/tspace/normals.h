@@ -15,14 +15,14 @@ namespace tspace {
 /// How much a face counts in the mean at one of its corners. e1, e2 are the edges at the corner, a the interior
 /// angle between them (above 180 degrees where a polygon is reflex).
 enum class NormalWeighting : std::uint32_t {
-    flat = 0,       ///< no averaging: each corner gets its face's unit normal (what glTF asks for when normals are missing)
+    flat = 0,       ///< no averaging: each corner gets its face's unit normal, as glTF asks where normals are missing
     uniform = 1,    ///< 1: mean of unit face normals (Gouraud 1971)
     area = 2,       ///< the face's area (|e1 x e2| / 2 for a triangle): large faces count more
     angle = 3,      ///< a: independent of tessellation (Thuermer & Wuethrich 1998)
     angleArea = 4,  ///< a * area
     max = 5,        ///< sin(a) / (|e1| |e2|): exact on a sphere (Max 1999)
-    /// No mean: the normal of a quadratic surface through the edges at the point. Where these look like noise or a bevel
-    /// it is the mean of `angleArea`, and in between a blend. The most accurate, and the slowest.
+    /// No mean: the normal of a quadratic surface through the edges at the point. Where these look like noise or a
+    /// bevel it is the mean of `angleArea`, and in between a blend. The most accurate, and the slowest.
     best = 6,
 };
 
@@ -63,7 +63,8 @@ struct NormalReport {
 /// out       one per corner (count == mesh.cornerCount()); must not overlap the inputs
 /// Errors: those of validate(); countMismatch (out, smoothing_groups), invalidOption, outOfMemory.
 /// O(corners). Scratch memory: about 36 bytes per vertex for a mesh of triangles (no face_sizes) without hard edges, in
-/// which angles are good to 2e-7; else about 40 bytes per corner, with `best` 64. Thread-safe; same bits for any thread count.
+/// which angles are good to 2e-7; else about 40 bytes per corner, with `best` 64. Thread-safe; same bits for any thread
+/// count.
 Result<NormalReport> generateNormals(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out);
 
 }  // namespace tspace

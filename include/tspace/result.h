@@ -38,7 +38,7 @@ inline constexpr std::uint64_t kNoElement = ~std::uint64_t{0};
 /// What went wrong, in words for the person who has to mend it, and where.
 struct Error {
     ErrorCode code = ErrorCode::internal;
-    std::string message = {};                 ///< one sentence, no line break
+    std::string message = {};            ///< one sentence, no line break
     std::uint64_t element = kNoElement;  ///< index of the offending element, or kNoElement
     std::string place = {};              ///< asset layer: file and JSON pointer or line; else empty
 };

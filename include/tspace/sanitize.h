@@ -19,19 +19,19 @@ struct SanitizeOptions {
 
 /// Corners mended, by cause (the first that applies, in this order) and by cure.
 struct SanitizeReport {
-    std::uint64_t not_finite_count = 0;   ///< NaN or infinity in the tangent
-    std::uint64_t zero_count = 0;         ///< length 0 (or too small to be normalised)
-    std::uint64_t not_unit_count = 0;     ///< length off by more than 5e-4 (the glTF validator's tolerance)
-    std::uint64_t parallel_count = 0;     ///< within 1 degree of +N or -N: no frame can be built
-    std::uint64_t bad_sign_count = 0;     ///< sign not exactly +1 or -1
-    std::uint64_t mixed_sign_count = 0;   ///< sign changed because the face's corners disagreed
+    std::uint64_t not_finite_count = 0;      ///< NaN or infinity in the tangent
+    std::uint64_t zero_count = 0;            ///< length 0 (or too small to be normalised)
+    std::uint64_t not_unit_count = 0;        ///< length off by more than 5e-4 (the glTF validator's tolerance)
+    std::uint64_t parallel_count = 0;        ///< within 1 degree of +N or -N: no frame can be built
+    std::uint64_t bad_sign_count = 0;        ///< sign not exactly +1 or -1
+    std::uint64_t mixed_sign_count = 0;      ///< sign changed because the face's corners disagreed
     std::uint64_t orthogonalized_count = 0;  ///< sound ones changed by orthogonalize_all
 
     std::uint64_t normalized_count = 0;     ///< cure: own direction, made unit and orthogonal to N
     std::uint64_t from_neighbor_count = 0;  ///< cure: direction taken from a sound corner of the same face or position
     std::uint64_t from_basis_count = 0;     ///< cure: basis from N alone (Duff et al. 2017)
 
-    std::uint64_t bad_normal_count = 0;  ///< corners whose N is zero or not finite: a unit tangent is all that can be promised
+    std::uint64_t bad_normal_count = 0;  ///< corners whose N is zero or not finite: only a unit tangent is promised
 
     /// All corners that were written.
     [[nodiscard]] std::uint64_t mendedCount() const {

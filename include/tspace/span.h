@@ -26,12 +26,12 @@ struct StridedSpan {
     constexpr StridedSpan(std::span<T> s) : data(s.data()), count(s.size()) {}
     /// Any contiguous container of T (std::vector, std::array); implicit, as for std::span.
     template <class Container>
-        requires std::is_constructible_v<std::span<T>, Container&>
-    constexpr StridedSpan(Container& c) : StridedSpan(std::span<T>(c)) {}
+    requires std::is_constructible_v<std::span<T>, Container&> constexpr StridedSpan(Container& c)
+        : StridedSpan(std::span<T>(c)) {}
     /// A mutable span is usable where a const one is asked for.
     template <class U>
-        requires(std::is_same_v<const U, T> && !std::is_const_v<U>)
-    constexpr StridedSpan(const StridedSpan<U>& s) : data(s.data), count(s.count), stride_bytes(s.stride_bytes) {}
+    requires(std::is_same_v<const U, T> && !std::is_const_v<U>) constexpr StridedSpan(const StridedSpan<U>& s)
+        : data(s.data), count(s.count), stride_bytes(s.stride_bytes) {}
 
     [[nodiscard]] constexpr bool empty() const { return count == 0; }
 

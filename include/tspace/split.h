@@ -14,8 +14,8 @@ namespace tspace {
 /// One attribute given per corner, as `component_count` floats.
 struct CornerAttribute {
     const float* data = nullptr;
-    std::size_t stride_bytes = 0;      ///< from corner to corner; at least 4 * component_count
-    std::uint32_t component_count = 0; ///< 1..16
+    std::size_t stride_bytes = 0;       ///< from corner to corner; at least 4 * component_count
+    std::uint32_t component_count = 0;  ///< 1..16
     /// 0: corners are equal only when all bits are. Above 0: equal when every component differs by at most this
     /// from the first corner that got the vertex (so float noise does not split); NaN equals nothing but its own bits.
     float tolerance = 0.0f;

@@ -27,12 +27,15 @@ enum class Method : std::uint32_t {
     flat = 5,
     /// No UVs: an orthonormal basis from N alone (Duff et al. 2017). No such basis is continuous over a closed surface.
     basis = 6,
-    /// Two weighted sums of dP/du in the groups of `angle`: one that is accurate on smooth surfaces (Max 1999), one that
-    /// is robust on bevels and noise, mixed by the angle between them. More accurate than all weighted means, and hardly
+    /// Two weighted sums of dP/du in the groups of `angle`: one that is accurate on smooth surfaces (Max 1999), one
+    /// that
+    /// is robust on bevels and noise, mixed by the angle between them. More accurate than all weighted means, and
+    /// hardly
     /// dearer than `uniform`.
     fast = 7,
     /// A quadratic map from UVs to the tangent plane, fitted to the edges around each vertex (polynomial preserving
-    /// recovery, Zhang and Naga 2005), in the groups of `angle`; where the fit is doubtful it becomes a robust mean. The
+    /// recovery, Zhang and Naga 2005), in the groups of `angle`; where the fit is doubtful it becomes a robust mean.
+    /// The
     /// error of its tangents falls with the square of the edge length, not with the length as that of all others.
     best = 8,
 };
@@ -64,7 +67,8 @@ enum class OutputDomain : std::uint32_t {
 enum class FrameShape : std::uint32_t {
     /// T is the direction of dP/du, and the shader's `sign * cross(N, T)` is off from dP/dv by the shear.
     gramSchmidt = 0,
-    /// T is the bisector of dP/du and of the direction perpendicular to dP/dv (Löwdin 1950): both are off by half of the
+    /// T is the bisector of dP/du and of the direction perpendicular to dP/dv (Löwdin 1950): both are off by half of
+    /// the
     /// shear. Nearer to what the UVs say, but not what a baker or an engine with another tangent space expects.
     symmetric = 1,
 };
@@ -92,15 +96,16 @@ struct TangentReport {
     std::uint64_t mirrored_count = 0;             ///< triangles with negative UV area
     std::uint64_t skipped_face_count = 0;         ///< faces for which nothing was computed
     std::uint64_t group_count = 0;                ///< groups: sets of corners that share one tangent
-    std::uint64_t default_corner_count = 0;       ///< outputs that no face gives a tangent: they hold the method's default
+    std::uint64_t default_corner_count = 0;       ///< outputs that no face gives a tangent: the method's default
     std::uint64_t not_finite_count = 0;           ///< outputs whose tangent has a NaN or infinity
-    /// `mikktspace`: the input drives the reference itself into quadratic time, so its last step was left out. Either its
-    /// sort (with Pairing::reference): the corrected pairing was used for the last bucket; only crafted inputs do this.
-    /// Or its angular test: a group of more than 4096 faces whose tangents spread too far was not split.
+    /// `mikktspace`: the input drives the reference itself into quadratic time, so its last step was left out. Either
+    /// its sort (with Pairing::reference): the corrected pairing was used for the last bucket; only crafted inputs do
+    /// this. Or its angular test: a group of more than 4096 faces whose tangents spread too far was not split.
     bool reference_order_abandoned = false;
 };
 
-/// Where results go: one entry per corner (or vertex, see OutputDomain). Only `tangents` is required; empty spans are not written.
+/// Where results go: one entry per corner (or vertex, see OutputDomain). Only `tangents` is required; empty spans are
+/// not written.
 struct TangentOutput {
     /// xyz: unit tangent; w: sign (+1 or -1), `B = w * cross(N, T)` in the chosen convention.
     StridedSpan<Vec4> tangents = {};
@@ -150,29 +155,27 @@ class TangentPlan {
 ///           inputs or each other
 /// Corners of faces with fewer than 3 corners (and of n-gons with Ngons::skip) get 0 in every output.
 /// Errors: those of validate(); missingAttribute, countMismatch (outputs), nullData, invalidOption, outOfMemory;
-/// tooLarge also for more than 715,827,882 triangles (the methods that group: mikktspace, uniform, angle, area, fast, best).
-/// Linear in the number of corners whatever the input (fans, books, collapsed faces). Thread-safe.
-/// Same bits for any thread count and SIMD target.
-/// Scratch memory on a mesh of triangles: `lengyel` 16 bytes per vertex, or 8
-/// with OutputDomain::vertex (24 where the tangents' stride is not 16). `mikktspace`, `uniform`, `angle` and `area` about
-/// 36 bytes per vertex without equal vertices, 46 with some, 80 when more than tangents is asked for, and 32 per triangle
+/// tooLarge also for more than 715,827,882 triangles (the methods that group: mikktspace, uniform, angle, area, fast,
+/// best). Linear in the number of corners whatever the input (fans, books, collapsed faces). Thread-safe. Same bits for
+/// any thread count and SIMD target. Scratch memory on a mesh of triangles: `lengyel` 16 bytes per vertex, or 8 with
+/// OutputDomain::vertex (24 where the tangents' stride is not 16). `mikktspace`, `uniform`, `angle` and `area` about 36
+/// bytes per vertex without equal vertices, 46 with some, 80 when more than tangents is asked for, and 32 per triangle
 /// for unindexed corners (where the tangents' stride is not 16 some more: see docs/memory.md); up to about 130
-/// bytes per triangle for meshes that need the long way (thresholds, values that are not finite), and about 150 beside the
-/// first for each triangle around a vertex that needs a second look (several groups, doubtful splits, degenerate triangles).
-/// `fast` and `best` take about as much, and up to 2 MB per thread.
-/// FrameShape::symmetric adds 12 bytes per output unless bitangents are asked for. Until the call returns, and when it
-/// fails, the outputs hold anything.
+/// bytes per triangle for meshes that need the long way (thresholds, values that are not finite), and about 150 beside
+/// the first for each triangle around a vertex that needs a second look (several groups, doubtful splits, degenerate
+/// triangles). `fast` and `best` take about as much, and up to 2 MB per thread. FrameShape::symmetric adds 12 bytes per
+/// output unless bitangents are asked for. Until the call returns, and when it fails, the outputs hold anything.
 Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out);
 
 /// Makes the plan: welds equal vertices (position, normal and UV all equal), finds neighbours, groups and splits.
 /// Inputs, errors and complexity as generateTangents.
 Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& options);
 
-/// Computes frames for a pose with the plan's groups and splits. Each corner has the pose's position and normal of its own
-/// vertex, also where vertices that were equal on the mesh come apart. On the pose the plan was made from the result is
-/// bit for bit that of generateTangents. `execution` replaces the plan's. Scratch memory of the grouping methods: 12 bytes
-/// per group when only tangents are asked for, else 44.
-/// Errors: planMismatch when counts differ from the plan's, and those of span checks.
+/// Computes frames for a pose with the plan's groups and splits. Each corner has the pose's position and normal of its
+/// own vertex, also where vertices that were equal on the mesh come apart. On the pose the plan was made from the
+/// result is bit for bit that of generateTangents. `execution` replaces the plan's. Scratch memory of the grouping
+/// methods: 12 bytes per group when only tangents are asked for, else 44. Errors: planMismatch when counts differ from
+/// the plan's, and those of span checks.
 Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose, const TangentOutput& out,
                                        const Execution& execution = {});
 

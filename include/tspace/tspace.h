@@ -45,18 +45,18 @@ uint32_t tspace_version(void) TSPACE_NOEXCEPT;
 typedef uint32_t tspace_ErrorCode;
 enum {
     TSPACE_OK = 0,
-    TSPACE_ERROR_NULL_DATA = 1,      /* a pointer is null although it is needed, or its count is not zero */
-    TSPACE_ERROR_COUNT_MISMATCH = 2, /* two arrays that must have the same length do not */
+    TSPACE_ERROR_NULL_DATA = 1,          /* a pointer is null although it is needed, or its count is not zero */
+    TSPACE_ERROR_COUNT_MISMATCH = 2,     /* two arrays that must have the same length do not */
     TSPACE_ERROR_INDEX_OUT_OF_RANGE = 3, /* an index is not smaller than the number of vertices */
     TSPACE_ERROR_STRIDE_TOO_SMALL = 4,   /* elements of a span would overlap */
-    TSPACE_ERROR_MISALIGNED = 5, /* a pointer or stride is not a multiple of its element's alignment */
-    TSPACE_ERROR_TOO_LARGE = 6,  /* a size does not fit: the sum of face sizes, or more than 2^31-1 corners */
-    TSPACE_ERROR_MISSING_ATTRIBUTE = 7, /* the mesh does not have the normals or UVs that the method needs */
-    TSPACE_ERROR_INVALID_OPTION = 8,    /* a value outside its range, or a struct of an unknown size */
-    TSPACE_ERROR_OUT_OF_MEMORY = 9,     /* the allocator returned null */
-    TSPACE_ERROR_PLAN_MISMATCH = 10,    /* arrays do not fit the plan they are evaluated with */
-    TSPACE_ERROR_INTERNAL = 11,         /* a defect of tspace; please report it */
-    TSPACE_ERROR_INVALID_FILE = 100, /* 100 and up: model files; no function of this header returns these */
+    TSPACE_ERROR_MISALIGNED = 5,         /* a pointer or stride is not a multiple of its element's alignment */
+    TSPACE_ERROR_TOO_LARGE = 6,          /* a size does not fit: the sum of face sizes, or more than 2^31-1 corners */
+    TSPACE_ERROR_MISSING_ATTRIBUTE = 7,  /* the mesh does not have the normals or UVs that the method needs */
+    TSPACE_ERROR_INVALID_OPTION = 8,     /* a value outside its range, or a struct of an unknown size */
+    TSPACE_ERROR_OUT_OF_MEMORY = 9,      /* the allocator returned null */
+    TSPACE_ERROR_PLAN_MISMATCH = 10,     /* arrays do not fit the plan they are evaluated with */
+    TSPACE_ERROR_INTERNAL = 11,          /* a defect of tspace; please report it */
+    TSPACE_ERROR_INVALID_FILE = 100,     /* 100 and up: model files; no function of this header returns these */
     TSPACE_ERROR_UNSUPPORTED_FILE = 101,
     TSPACE_ERROR_FORBIDDEN_PATH = 102,
     TSPACE_ERROR_CANNOT_READ = 103,
@@ -164,7 +164,7 @@ typedef struct tspace_Execution {
     const tspace_Executor* executor;   /* null: threads started and joined within the call */
     const tspace_Allocator* allocator; /* null: operator new. For scratch memory and plans */
     uint32_t thread_count;             /* 0: as many as there are cores; 1: the calling thread only */
-    tspace_SimdTarget simd;            /* for tests and measurements; what the CPU lacks becomes the best of a lower number */
+    tspace_SimdTarget simd; /* for tests and measurements; what the CPU lacks becomes the best of a lower number */
 } tspace_Execution;
 
 /* Memory that is kept from call to call: from the second call on, no page is taken from the system. For one call at
@@ -229,8 +229,7 @@ typedef struct tspace_Convention {
  * name      0-ended, lower case, not null
  * out       not null; written after success only
  * Errors: NULL_DATA, INVALID_OPTION (no such preset). */
-tspace_ErrorCode tspace_findConvention(const char* name, tspace_Convention* out,
-                                       tspace_Error* error) TSPACE_NOEXCEPT;
+tspace_ErrorCode tspace_findConvention(const char* name, tspace_Convention* out, tspace_Error* error) TSPACE_NOEXCEPT;
 
 /* +1 or -1: what the sign of dP/dv over the UVs as given is multiplied with before it is stored. */
 float tspace_signFactor(tspace_Convention convention) TSPACE_NOEXCEPT;
@@ -286,9 +285,8 @@ typedef struct tspace_NormalReport {
  * Errors: those of tspace_validate; COUNT_MISMATCH, INVALID_OPTION, OUT_OF_MEMORY.
  * O(corners). Scratch memory: about 18 bytes per triangle for a mesh of triangles without hard edges, else
  * about 40 bytes per corner. */
-tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_NormalOptions* options,
-                                        tspace_Span out, tspace_NormalReport* report,
-                                        tspace_Error* error) TSPACE_NOEXCEPT;
+tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_NormalOptions* options, tspace_Span out,
+                                        tspace_NormalReport* report, tspace_Error* error) TSPACE_NOEXCEPT;
 
 /* How tangents are computed. */
 typedef uint32_t tspace_Method;
@@ -361,11 +359,12 @@ typedef struct tspace_TangentReport {
     uint64_t mirrored_count;            /* triangles with negative UV area */
     uint64_t skipped_face_count;        /* faces for which nothing was computed */
     uint64_t group_count;               /* sets of corners that share one tangent */
-    uint64_t default_corner_count; /* outputs that no face gives a tangent: they hold the method's default */
-    uint64_t not_finite_count;     /* outputs whose tangent has a NaN or infinity */
+    uint64_t default_corner_count;      /* outputs that no face gives a tangent: they hold the method's default */
+    uint64_t not_finite_count;          /* outputs whose tangent has a NaN or infinity */
 } tspace_TangentReport;
 
-/* Where results go: one entry per corner (or vertex, see tspace_OutputDomain). Only tangents is required; empty spans are not written. */
+/* Where results go: one entry per corner (or vertex, see tspace_OutputDomain). Only tangents is required; empty spans
+ * are not written. */
 typedef struct tspace_TangentOutput {
     uint32_t struct_size;
     uint32_t reserved;

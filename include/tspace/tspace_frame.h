@@ -46,8 +46,7 @@ typedef struct tspace_FaceFrame {
 /* Face frame from the edges P1-P0 and P2-P0. positions and uvs: 3 each, not null. */
 tspace_FaceFrame tspace_faceFrame(const tspace_Vec3* positions, const tspace_Vec2* uvs) TSPACE_NOEXCEPT;
 /* The same from the edges P1-P0 and P2-P1: equal up to rounding. positions and uvs: 3 each, not null. */
-tspace_FaceFrame tspace_faceFrameFromPath(const tspace_Vec3* positions,
-                                          const tspace_Vec2* uvs) TSPACE_NOEXCEPT;
+tspace_FaceFrame tspace_faceFrameFromPath(const tspace_Vec3* positions, const tspace_Vec2* uvs) TSPACE_NOEXCEPT;
 
 /* Determinant of the matrix with columns T, B, N. */
 float tspace_determinant(tspace_Frame frame) TSPACE_NOEXCEPT;
@@ -95,8 +94,7 @@ tspace_Vec2 tspace_tileUv(tspace_Vec2 uv, tspace_Vec2 tiling, tspace_Vec2 offset
 
 /* Lambert's cosine max(0, n.l) in tangent space, with the object-space direction towards the light taken
  * there by the orthonormalised frame. The CPU reference for shaders. */
-float tspace_lambert(tspace_Frame frame, tspace_Vec3 light_direction,
-                     tspace_Vec3 tangent_space_normal) TSPACE_NOEXCEPT;
+float tspace_lambert(tspace_Frame frame, tspace_Vec3 light_direction, tspace_Vec3 tangent_space_normal) TSPACE_NOEXCEPT;
 
 /* Object-space normal for a decoded texel: unit(T x + B y + N z) with the frame orthonormalised first. */
 tspace_Vec3 tspace_objectNormal(tspace_Frame frame, tspace_Vec3 tangent_space_normal) TSPACE_NOEXCEPT;

@@ -28,8 +28,8 @@ struct CloseFile {
     failFile(ErrorCode::cannotWrite, "cannot write " + pathInQuotes(target) + ": " + why);
 }
 
-/// A name beside `target` that no other run and no other thread uses; `kind` tells the temporary file from the set-aside
-/// old one. Two models that share an image may copy it at the same time.
+/// A name beside `target` that no other run and no other thread uses; `kind` tells the temporary file from the
+/// set-aside old one. Two models that share an image may copy it at the same time.
 fs::path besideName(const fs::path& target, const char* kind) {
     static std::atomic<unsigned> next_number = 0;
     fs::path name = target;
@@ -136,8 +136,7 @@ void AtomicOutput::add(const fs::path& requested, std::span<const OutputPiece> p
     std::unique_ptr<std::FILE, CloseFile> file(std::fopen(temporary.c_str(), "wb"));
     if (!file) failWrite(target, std::strerror(errno));
     files_.push_back({temporary, target});
-    const bool any_made =
-        std::any_of(pieces.begin(), pieces.end(), [](const OutputPiece& p) { return !p.isThere(); });
+    const bool any_made = std::any_of(pieces.begin(), pieces.end(), [](const OutputPiece& p) { return !p.isThere(); });
     Parallel parallel(any_made ? execution : Execution{.thread_count = 1});
     if (const int failure = writePieces(file.get(), pieces, parallel); failure != 0) {
         failWrite(target, std::strerror(failure));

@@ -53,8 +53,8 @@ struct UnsetAllocator {
 /// Bytes(n) and resize(n) leave new bytes unset; say Bytes(n, 0) for zeros.
 using Bytes = std::vector<std::uint8_t, UnsetAllocator<std::uint8_t>>;
 
-/// Reads a regular file, a large one with all threads. Fails with cannotRead; with invalidFile when `place` says where a
-/// model names it.
+/// Reads a regular file, a large one with all threads. Fails with cannotRead; with invalidFile when `place` says where
+/// a model names it.
 Bytes readFile(const std::filesystem::path& path, const std::string& place = {},
                const Execution& execution = {.thread_count = 1});
 

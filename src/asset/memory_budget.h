@@ -63,11 +63,9 @@ class MemoryBudget {
 
     /// What to say where the budget does not have so many bytes: "needs ...".
     [[nodiscard]] std::string whyNot(std::uint64_t bytes) const {
-        const std::string needed =
-            "needs about " + megabytes(granted_ - left_ + limited(bytes)) + " of memory, and ";
+        const std::string needed = "needs about " + megabytes(granted_ - left_ + limited(bytes)) + " of memory, and ";
         return is_users_ ? needed + "--memory-limit allows " + megabytes(granted_)
-                         : needed + "a file of its size gets " + megabytes(granted_) +
-                               " (--memory-limit allows more)";
+                         : needed + "a file of its size gets " + megabytes(granted_) + " (--memory-limit allows more)";
     }
 
   private:

@@ -44,7 +44,7 @@ struct SceneMorphTarget {
 };
 
 struct ScenePrimitive {
-    std::string place = {};          ///< JSON pointer (glTF), or "usemtl NAME" (OBJ)
+    std::string place = {};  ///< JSON pointer (glTF), or "usemtl NAME" (OBJ)
     std::uint32_t mesh = 0;
     std::uint32_t primitive = 0;     ///< in its mesh
     std::string mesh_name = {};      ///< may be empty
@@ -53,9 +53,9 @@ struct ScenePrimitive {
     /// Three vertices per triangle, every one smaller than positions.size(). Empty for points and lines.
     SharedArray<std::uint32_t> corners = {};
     SharedArray<Vec3> positions = {};
-    SharedArray<Vec3> normals = {};                ///< one per vertex, or empty: absent
-    SharedArray<Vec4> tangents = {};               ///< one per vertex, or empty: absent
-    std::vector<SharedArray<Vec2>> uv_sets = {};   ///< entry n: TEXCOORD_n, empty where absent; v runs down
+    SharedArray<Vec3> normals = {};               ///< one per vertex, or empty: absent
+    SharedArray<Vec4> tangents = {};              ///< one per vertex, or empty: absent
+    std::vector<SharedArray<Vec2>> uv_sets = {};  ///< entry n: TEXCOORD_n, empty where absent; v runs down
     std::vector<SceneMorphTarget> morph_targets = {};
     /// Everything in the primitive's materials (variants too) that needs tangents; the first decides which UV set the
     /// tangents follow.
@@ -68,23 +68,23 @@ inline std::uint64_t checkBytes(std::uint64_t corner_count, std::uint64_t vertex
 }
 
 struct SceneImage {
-    std::string name = {};           ///< may be empty
-    std::string uri = {};            ///< as the file says; empty when embedded
+    std::string name = {};  ///< may be empty
+    std::string uri = {};   ///< as the file says; empty when embedded
     /// The encoded image (PNG, JPEG, ...); empty when it was not asked for or cannot be read.
     std::vector<std::uint8_t> bytes = {};
 };
 
 struct Scene {
-    std::string format = {};     ///< "glb", "gltf", "obj"
-    std::string generator = {};  ///< may be empty
+    std::string format = {};                      ///< "glb", "gltf", "obj"
+    std::string generator = {};                   ///< may be empty
     std::vector<ScenePrimitive> primitives = {};  ///< in file order
     std::vector<SceneImage> images = {};          ///< TangentUse::image points here
     std::shared_ptr<MemoryBudget> memory = {};    ///< what looking at it may still take
 };
 
 /// Reads a model. `with_images`: also the bytes of images that a TangentUse names; an image that cannot be read is no
-/// error. Fails as generateFile does, also with tooLarge where a small file makes arrays that are far larger than itself.
-/// Throws FileError.
+/// error. Fails as generateFile does, also with tooLarge where a small file makes arrays that are far larger than
+/// itself. Throws FileError.
 Scene readScene(const std::string& input, const FileOptions& options, bool with_images);
 
 // One function per format behind readScene.

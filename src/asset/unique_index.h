@@ -65,8 +65,7 @@ class UniqueIndex {
 
     void grow() {
         slots_.assign(slots_.size() * 2, kEmpty);
-        for (std::size_t i = 0; i < keys_.size(); ++i)
-            slots_[findSlot(keys_[i])] = static_cast<std::uint32_t>(i);
+        for (std::size_t i = 0; i < keys_.size(); ++i) slots_[findSlot(keys_[i])] = static_cast<std::uint32_t>(i);
     }
 
     std::vector<Key> keys_ = {};

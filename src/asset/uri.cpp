@@ -29,8 +29,7 @@ bool isDigit(char c) { return c >= '0' && c <= '9'; }
 std::size_t schemeLength(std::string_view uri) {
     if (uri.empty() || !isLetter(uri[0])) return 0;
     std::size_t i = 1;
-    while (i < uri.size() &&
-           (isLetter(uri[i]) || isDigit(uri[i]) || uri[i] == '+' || uri[i] == '-' || uri[i] == '.'))
+    while (i < uri.size() && (isLetter(uri[i]) || isDigit(uri[i]) || uri[i] == '+' || uri[i] == '-' || uri[i] == '.'))
         ++i;
     return i < uri.size() && uri[i] == ':' ? i : 0;
 }
@@ -60,8 +59,7 @@ Bytes decodeBase64(std::string_view text, const std::string& place) {
     int bit_count = 0;
     for (const char c : text) {
         const int value = values[static_cast<unsigned char>(c)];
-        if (value < 0)
-            failFile(ErrorCode::invalidFile, "a data URI has a character that is not base64", place);
+        if (value < 0) failFile(ErrorCode::invalidFile, "a data URI has a character that is not base64", place);
         bits = bits << 6 | static_cast<std::uint32_t>(value);
         bit_count += 6;
         if (bit_count >= 8) {
@@ -108,8 +106,8 @@ DataUri decodeDataUri(std::string_view uri, const std::string& place) {
     std::string_view header = uri.substr(5, comma - 5);
     const std::string_view data = uri.substr(comma + 1);
     constexpr std::string_view kMark = ";base64";
-    const bool is_base64 = header.size() >= kMark.size() &&
-                           equalsIgnoringCase(header.substr(header.size() - kMark.size()), kMark);
+    const bool is_base64 =
+        header.size() >= kMark.size() && equalsIgnoringCase(header.substr(header.size() - kMark.size()), kMark);
     if (is_base64) header.remove_suffix(kMark.size());
     DataUri result;
     result.mime_type = std::string(header.substr(0, header.find(';')));
@@ -132,8 +130,7 @@ std::string percentDecode(std::string_view text) {
     std::string result;
     result.reserve(text.size());
     for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '%' && text.size() - i > 2 && hexDigit(text[i + 1]) >= 0 &&
-            hexDigit(text[i + 2]) >= 0) {
+        if (text[i] == '%' && text.size() - i > 2 && hexDigit(text[i + 1]) >= 0 && hexDigit(text[i + 2]) >= 0) {
             result += static_cast<char>(hexDigit(text[i + 1]) * 16 + hexDigit(text[i + 2]));
             i += 2;
         } else {
@@ -147,8 +144,7 @@ std::string percentEncode(std::string_view path) {
     constexpr std::string_view kHex = "0123456789ABCDEF";
     std::string result;
     for (const char c : path) {
-        if (isLetter(c) || isDigit(c) ||
-            std::string_view("-._~/!$&'()*+,;=@").find(c) != std::string_view::npos) {
+        if (isLetter(c) || isDigit(c) || std::string_view("-._~/!$&'()*+,;=@").find(c) != std::string_view::npos) {
             result += c;
         } else {
             const auto byte = static_cast<unsigned char>(c);
@@ -166,13 +162,13 @@ std::string pathOfUri(std::string_view uri) {
     return path;
 }
 
-fs::path resolveUri(const fs::path& folder, std::string_view uri, bool allow_external,
-                    const std::string& place) {
+fs::path resolveUri(const fs::path& folder, std::string_view uri, bool allow_external, const std::string& place) {
     const auto refuse = [&](const char* why) {
         failFile(ErrorCode::forbiddenPath, "the URI " + inQuotes(uri, 200) + " " + why, place);
     };
     if (uriKind(uri) != UriKind::path) refuse("has a scheme other than data, which is never loaded");
-    if (uri.starts_with(':')) failFile(ErrorCode::invalidFile, "the URI " + inQuotes(uri, 200) + " has no scheme before its colon", place);
+    if (uri.starts_with(':'))
+        failFile(ErrorCode::invalidFile, "the URI " + inQuotes(uri, 200) + " has no scheme before its colon", place);
     const std::string path = pathOfUri(uri);
     if (path.empty() || path.find('\0') != std::string::npos) {
         failFile(ErrorCode::invalidFile, "a URI names no file", place);

@@ -37,7 +37,7 @@ std::string pathOfUri(std::string_view uri);
 
 /// The file that `uri` names. Fails with forbiddenPath when it is absolute, has a scheme or a `..`, or when a symbolic
 /// link leads out of `folder`; `allow_external` lifts all of these but the scheme.
-std::filesystem::path resolveUri(const std::filesystem::path& folder, std::string_view uri,
-                                 bool allow_external, const std::string& place);
+std::filesystem::path resolveUri(const std::filesystem::path& folder, std::string_view uri, bool allow_external,
+                                 const std::string& place);
 
 }  // namespace tspace

@@ -63,8 +63,8 @@ Error checkStructSize(std::uint32_t size, std::size_t expected, const char* name
 
 Error checkChoice(std::uint32_t value, std::uint32_t largest, const char* name) {
     if (value <= largest) return {ErrorCode::ok};
-    return {ErrorCode::invalidOption, std::string(name) + " is " + std::to_string(value) +
-                                          ", the largest value is " + std::to_string(largest)};
+    return {ErrorCode::invalidOption,
+            std::string(name) + " is " + std::to_string(value) + ", the largest value is " + std::to_string(largest)};
 }
 
 IndexView toIndices(const tspace_Indices& indices) {

@@ -30,8 +30,7 @@ Error checkStructSize(std::uint32_t size, std::size_t expected, const char* name
 
 template <class Struct>
 Error checkSized(const Struct* sized, const char* name) {
-    return sized == nullptr ? Error{ErrorCode::ok}
-                            : checkStructSize(sized->struct_size, sizeof(Struct), name);
+    return sized == nullptr ? Error{ErrorCode::ok} : checkStructSize(sized->struct_size, sizeof(Struct), name);
 }
 
 /// The same for a struct that must be given.
@@ -64,13 +63,11 @@ Error firstError(Checks&&... checks) {
 /// A C span of floats as a span of T (float, Vec2, Vec3, Vec4); stride 0 becomes tight.
 template <class T>
 StridedSpan<const T> toSpan(const tspace_ConstSpan& span) {
-    return {reinterpret_cast<const T*>(span.data), span.count,
-            span.stride_bytes == 0 ? sizeof(T) : span.stride_bytes};
+    return {reinterpret_cast<const T*>(span.data), span.count, span.stride_bytes == 0 ? sizeof(T) : span.stride_bytes};
 }
 template <class T>
 StridedSpan<T> toSpan(const tspace_Span& span) {
-    return {reinterpret_cast<T*>(span.data), span.count,
-            span.stride_bytes == 0 ? sizeof(T) : span.stride_bytes};
+    return {reinterpret_cast<T*>(span.data), span.count, span.stride_bytes == 0 ? sizeof(T) : span.stride_bytes};
 }
 
 IndexView toIndices(const tspace_Indices& indices);

@@ -9,17 +9,13 @@ using namespace tspace::c_api;  // NOLINT
 
 uint32_t tspace_version() noexcept { return TSPACE_VERSION_NUMBER; }
 
-const char* tspace_errorName(tspace_ErrorCode code) noexcept {
-    return errorName(static_cast<ErrorCode>(code));
-}
+const char* tspace_errorName(tspace_ErrorCode code) noexcept { return errorName(static_cast<ErrorCode>(code)); }
 
 size_t tspace_cornerCount(const tspace_Mesh* mesh) noexcept {
     return mesh == nullptr ? 0 : toMesh(*mesh).cornerCount();
 }
 
-size_t tspace_faceCount(const tspace_Mesh* mesh) noexcept {
-    return mesh == nullptr ? 0 : toMesh(*mesh).faceCount();
-}
+size_t tspace_faceCount(const tspace_Mesh* mesh) noexcept { return mesh == nullptr ? 0 : toMesh(*mesh).faceCount(); }
 
 tspace_ErrorCode tspace_validate(const tspace_Mesh* mesh, tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
@@ -28,8 +24,7 @@ tspace_ErrorCode tspace_validate(const tspace_Mesh* mesh, tspace_Error* error) n
     });
 }
 
-tspace_ErrorCode tspace_findConvention(const char* name, tspace_Convention* out,
-                                       tspace_Error* error) noexcept {
+tspace_ErrorCode tspace_findConvention(const char* name, tspace_Convention* out, tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
         if (name == nullptr || out == nullptr) return Error{ErrorCode::nullData, "name or out is null"};
         const Convention* convention = findConvention(name);
@@ -42,10 +37,6 @@ tspace_ErrorCode tspace_findConvention(const char* name, tspace_Convention* out,
     });
 }
 
-float tspace_signFactor(tspace_Convention convention) noexcept {
-    return signFactor(toConvention(convention));
-}
+float tspace_signFactor(tspace_Convention convention) noexcept { return signFactor(toConvention(convention)); }
 
-float tspace_normalFactor(tspace_Convention convention) noexcept {
-    return normalFactor(toConvention(convention));
-}
+float tspace_normalFactor(tspace_Convention convention) noexcept { return normalFactor(toConvention(convention)); }

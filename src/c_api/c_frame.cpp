@@ -47,9 +47,7 @@ tspace_Vec3 tspace_rebuildBitangent(tspace_Vec3 normal, tspace_Vec4 tangent) noe
     return out(tspace::rebuildBitangent(in(normal), in(tangent)));
 }
 
-tspace_Frame tspace_orthonormalize(tspace_Frame frame) noexcept {
-    return out(tspace::orthonormalize(in(frame)));
-}
+tspace_Frame tspace_orthonormalize(tspace_Frame frame) noexcept { return out(tspace::orthonormalize(in(frame))); }
 
 tspace_Vec4 tspace_packTangent(tspace_Frame frame) noexcept { return out(tspace::packTangent(in(frame))); }
 
@@ -57,9 +55,7 @@ tspace_Frame tspace_basisFromNormal(tspace_Vec3 unit_normal) noexcept {
     return out(tspace::basisFromNormal(in(unit_normal)));
 }
 
-tspace_Mat3 tspace_tangentToObject(tspace_Frame frame) noexcept {
-    return out(tspace::tangentToObject(in(frame)));
-}
+tspace_Mat3 tspace_tangentToObject(tspace_Frame frame) noexcept { return out(tspace::tangentToObject(in(frame))); }
 
 tspace_Mat3 tspace_objectToTangentOrthonormal(tspace_Frame frame) noexcept {
     return out(tspace::objectToTangentOrthonormal(in(frame)));
@@ -72,9 +68,7 @@ int tspace_objectToTangent(tspace_Frame frame, tspace_Mat3* result) noexcept {
     return 1;
 }
 
-tspace_Vec3 tspace_transform(tspace_Mat3 m, tspace_Vec3 v) noexcept {
-    return out(tspace::transform(in(m), in(v)));
-}
+tspace_Vec3 tspace_transform(tspace_Mat3 m, tspace_Vec3 v) noexcept { return out(tspace::transform(in(m), in(v))); }
 
 tspace_Vec3 tspace_toTangentSpace(tspace_Frame frame, tspace_Vec3 direction) noexcept {
     return out(tspace::toTangentSpace(in(frame), in(direction)));
@@ -92,8 +86,7 @@ tspace_Vec2 tspace_tileUv(tspace_Vec2 uv, tspace_Vec2 tiling, tspace_Vec2 offset
     return out(tspace::tileUv(in(uv), in(tiling), in(offset)));
 }
 
-float tspace_lambert(tspace_Frame frame, tspace_Vec3 light_direction,
-                     tspace_Vec3 tangent_space_normal) noexcept {
+float tspace_lambert(tspace_Frame frame, tspace_Vec3 light_direction, tspace_Vec3 tangent_space_normal) noexcept {
     return tspace::lambert(in(frame), in(light_direction), in(tangent_space_normal));
 }
 
@@ -103,6 +96,6 @@ tspace_Vec3 tspace_objectNormal(tspace_Frame frame, tspace_Vec3 tangent_space_no
 
 tspace_Vec3 tspace_objectNormalMikktspace(tspace_Vec3 interpolated_normal, tspace_Vec4 interpolated_tangent,
                                           tspace_Vec3 tangent_space_normal) noexcept {
-    return out(tspace::objectNormalMikktspace(in(interpolated_normal), in(interpolated_tangent),
-                                              in(tangent_space_normal)));
+    return out(
+        tspace::objectNormalMikktspace(in(interpolated_normal), in(interpolated_tangent), in(tangent_space_normal)));
 }

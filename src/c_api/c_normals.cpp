@@ -22,18 +22,17 @@ static_assert(TSPACE_NORMAL_WEIGHTING_BEST == inC(NormalWeighting::best));
 Error checkOptions(const tspace_NormalOptions* given) {
     if (given == nullptr) return {ErrorCode::ok};
     const tspace_NormalOptions& options = *given;
-    return firstError(
-        [&] { return checkSized(given, "options"); },
-        [&] { return checkChoice(options.weighting, TSPACE_NORMAL_WEIGHTING_BEST, "weighting"); },
-        [&] { return checkChoice(options.smoothing_groups_are_masks, 1, "smoothing_groups_are_masks"); },
-        [&] { return checkChoice(options.keep_positions_apart, 1, "keep_positions_apart"); },
-        [&] { return checkConvention(options.convention); },
-        [&] { return checkExecution(options.execution); },
-        [&]() -> Error {
-            if (options.smoothing_groups != nullptr || options.smoothing_group_count == 0)
-                return {ErrorCode::ok};
-            return {ErrorCode::nullData, "smoothing_groups is null but smoothing_group_count is not 0"};
-        });
+    return firstError([&] { return checkSized(given, "options"); },
+                      [&] { return checkChoice(options.weighting, TSPACE_NORMAL_WEIGHTING_BEST, "weighting"); },
+                      [&] { return checkChoice(options.smoothing_groups_are_masks, 1, "smoothing_groups_are_masks"); },
+                      [&] { return checkChoice(options.keep_positions_apart, 1, "keep_positions_apart"); },
+                      [&] { return checkConvention(options.convention); },
+                      [&] { return checkExecution(options.execution); },
+                      [&]() -> Error {
+                          if (options.smoothing_groups != nullptr || options.smoothing_group_count == 0)
+                              return {ErrorCode::ok};
+                          return {ErrorCode::nullData, "smoothing_groups is null but smoothing_group_count is not 0"};
+                      });
 }
 
 /// All but the execution, whose hooks need a place that lives longer.
@@ -54,9 +53,8 @@ NormalOptions toOptions(const tspace_NormalOptions& options) {
 
 }  // namespace
 
-tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_NormalOptions* options,
-                                        tspace_Span out, tspace_NormalReport* report,
-                                        tspace_Error* error) noexcept {
+tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_NormalOptions* options, tspace_Span out,
+                                        tspace_NormalReport* report, tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
         Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkOptions(options); },
                              [&] { return checkSized(report, "report"); });

@@ -25,18 +25,16 @@ struct OwnedTriangulation : tspace_Triangulation {
     Triangulation result;
 };
 
-Result<std::vector<CornerAttribute>> toAttributes(const tspace_CornerAttribute* attributes,
-                                                  std::size_t count) {
+Result<std::vector<CornerAttribute>> toAttributes(const tspace_CornerAttribute* attributes, std::size_t count) {
     std::vector<CornerAttribute> result;
     if (count == 0) return result;
-    if (attributes == nullptr)
-        return Error{ErrorCode::nullData, "attributes is null but attribute_count is not 0"};
+    if (attributes == nullptr) return Error{ErrorCode::nullData, "attributes is null but attribute_count is not 0"};
     result.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         const tspace_CornerAttribute& given = attributes[i];
         const std::size_t tight = sizeof(float) * given.component_count;
-        result.push_back({given.data, given.stride_bytes == 0 ? tight : given.stride_bytes,
-                          given.component_count, given.tolerance});
+        result.push_back(
+            {given.data, given.stride_bytes == 0 ? tight : given.stride_bytes, given.component_count, given.tolerance});
     }
     return result;
 }
@@ -56,8 +54,7 @@ tspace_ErrorCode tspace_splitVertices(const tspace_Indices* indices, size_t vert
         if (Error e = checkExecution(given); e.code != ErrorCode::ok) return e;
         const Hooks hooks(given);
         const IndexView view = indices == nullptr ? IndexView() : toIndices(*indices);
-        Result<SplitResult> split =
-            splitVertices(view, vertex_count, corner_count, *converted, hooks.execution());
+        Result<SplitResult> split = splitVertices(view, vertex_count, corner_count, *converted, hooks.execution());
         if (!split) return split.error();
         auto owned = std::make_unique<OwnedSplit>();
         owned->result = std::move(*split);
@@ -71,9 +68,7 @@ tspace_ErrorCode tspace_splitVertices(const tspace_Indices* indices, size_t vert
     });
 }
 
-void tspace_destroySplitResult(tspace_SplitResult* result) noexcept {
-    delete static_cast<OwnedSplit*>(result);
-}
+void tspace_destroySplitResult(tspace_SplitResult* result) noexcept { delete static_cast<OwnedSplit*>(result); }
 
 tspace_ErrorCode tspace_triangulate(const tspace_Mesh* mesh, tspace_Triangulation** result,
                                     tspace_Error* error) noexcept {

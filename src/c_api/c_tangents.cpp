@@ -104,14 +104,12 @@ tspace_ErrorCode tspace_generateTangents(const tspace_Mesh* mesh, const tspace_T
                                          const tspace_TangentOutput* out, tspace_TangentReport* report,
                                          tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
-        Error e =
-            firstError([&] { return checkMesh(mesh); }, [&] { return checkOptions(options); },
-                       [&] { return checkNeeded(out, "out"); }, [&] { return checkSized(report, "report"); });
+        Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkOptions(options); },
+                             [&] { return checkNeeded(out, "out"); }, [&] { return checkSized(report, "report"); });
         if (e.code != ErrorCode::ok) return e;
         const tspace_TangentOptions given = orDefault(options);
         const Hooks hooks(given.execution);
-        const Result<TangentReport> result =
-            generateTangents(toMesh(*mesh), toOptions(given, hooks), toOutput(*out));
+        const Result<TangentReport> result = generateTangents(toMesh(*mesh), toOptions(given, hooks), toOutput(*out));
         if (!result) return result.error();
         writeReport(*result, report);
         return Done{};
@@ -141,9 +139,8 @@ tspace_ErrorCode tspace_evaluateTangents(const tspace_TangentPlan* plan, const t
     return atCBorder(error, [&]() -> Result<Done> {
         if (plan == nullptr) return Error{ErrorCode::nullData, "plan is null"};
         const tspace_Execution given = execution != nullptr ? *execution : tspace_Execution{};
-        Error e =
-            firstError([&] { return checkNeeded(pose, "pose"); }, [&] { return checkNeeded(out, "out"); },
-                       [&] { return checkExecution(given); }, [&] { return checkSized(report, "report"); });
+        Error e = firstError([&] { return checkNeeded(pose, "pose"); }, [&] { return checkNeeded(out, "out"); },
+                             [&] { return checkExecution(given); }, [&] { return checkSized(report, "report"); });
         if (e.code != ErrorCode::ok) return e;
         const Hooks hooks(given);
         const Pose converted{toSpan<Vec3>(pose->positions), toSpan<Vec3>(pose->normals)};
@@ -185,8 +182,7 @@ tspace_ErrorCode tspace_sanitizeTangents(const tspace_Mesh* mesh, const tspace_S
         if (e.code != ErrorCode::ok) return e;
         const Hooks hooks(given.execution);
         const SanitizeOptions converted{given.orthogonalize_all != 0, hooks.execution()};
-        const Result<SanitizeReport> result =
-            sanitizeTangents(toMesh(*mesh), toSpan<Vec4>(tangents), converted);
+        const Result<SanitizeReport> result = sanitizeTangents(toMesh(*mesh), toSpan<Vec4>(tangents), converted);
         if (!result) return result.error();
         writeReport(*result, report);
         return Done{};

@@ -23,8 +23,8 @@ struct Corners {
 bool isSupported(int vertex_count) { return vertex_count == 3 || vertex_count == 4; }
 
 bool hasGetters(const SMikkTSpaceInterface& calls) {
-    return calls.m_getNumVerticesOfFace != nullptr && calls.m_getPosition != nullptr &&
-           calls.m_getNormal != nullptr && calls.m_getTexCoord != nullptr;
+    return calls.m_getNumVerticesOfFace != nullptr && calls.m_getPosition != nullptr && calls.m_getNormal != nullptr &&
+           calls.m_getTexCoord != nullptr;
 }
 
 /// Calls body(face, corners) for every face that results depend on. Those are the supported ones, with all
@@ -68,8 +68,7 @@ bool listFaces(const SMikkTSpaceContext* context, int face_count, Corners& corne
 
 void readCorners(const SMikkTSpaceContext* context, Corners& corners) {
     const SMikkTSpaceInterface& calls = *context->m_pInterface;
-    const auto corner_count =
-        std::accumulate(corners.face_sizes.begin(), corners.face_sizes.end(), std::size_t{0});
+    const auto corner_count = std::accumulate(corners.face_sizes.begin(), corners.face_sizes.end(), std::size_t{0});
     corners.positions.resize(corner_count);
     corners.normals.resize(corner_count);
     corners.uvs.resize(corner_count);
@@ -86,8 +85,7 @@ void readCorners(const SMikkTSpaceContext* context, Corners& corners) {
     }
 }
 
-void writeCorners(const SMikkTSpaceContext* context, const Corners& corners,
-                  const tspace::TangentOutput& out) {
+void writeCorners(const SMikkTSpaceContext* context, const Corners& corners, const tspace::TangentOutput& out) {
     const SMikkTSpaceInterface& calls = *context->m_pInterface;
     std::size_t corner = 0;
     for (std::size_t i = 0; i < corners.face_sizes.size(); ++i) {
@@ -97,8 +95,7 @@ void writeCorners(const SMikkTSpaceContext* context, const Corners& corners,
             const tspace::Vec4& tangent = out.tangents[corner];
             if (calls.m_setTSpace != nullptr) {
                 calls.m_setTSpace(context, &tangent.x, &out.bitangents[corner].x, out.magnitudes_s[corner],
-                                  out.magnitudes_t[corner], tangent.w > 0.0f ? 1 : 0, corners.face_numbers[i],
-                                  local);
+                                  out.magnitudes_t[corner], tangent.w > 0.0f ? 1 : 0, corners.face_numbers[i], local);
             }
             if (calls.m_setTSpaceBasic != nullptr) {
                 calls.m_setTSpaceBasic(context, &tangent.x, tangent.w, corners.face_numbers[i], local);
@@ -145,8 +142,7 @@ bool generate(const SMikkTSpaceContext* context, float angular_threshold_deg) {
 
 // Exceptions of the caller's own callbacks, if it is C++, pass through; only running out of memory ends here.
 tbool genTangSpace(const SMikkTSpaceContext* pContext, const float fAngularThreshold) {
-    if (pContext == nullptr || pContext->m_pInterface == nullptr ||
-        pContext->m_pInterface->m_getNumFaces == nullptr) {
+    if (pContext == nullptr || pContext->m_pInterface == nullptr || pContext->m_pInterface->m_getNumFaces == nullptr) {
         return 0;
     }
     try {

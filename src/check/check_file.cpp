@@ -22,9 +22,7 @@ constexpr std::size_t kNone = ~std::size_t{0};
 /// Primitives with one key get the same findings. Arrays that a file shares have one address.
 std::string keyOf(const ScenePrimitive& primitive) {
     std::string key = primitive.mode;
-    const auto append = [&key](const auto& value) {
-        key.append(reinterpret_cast<const char*>(&value), sizeof(value));
-    };
+    const auto append = [&key](const auto& value) { key.append(reinterpret_cast<const char*>(&value), sizeof(value)); };
     append(primitive.corners.data());
     append(primitive.positions.data());
     append(primitive.normals.data());
@@ -81,8 +79,7 @@ std::vector<std::vector<Finding>> checkAll(const Scene& scene, const Work& work,
         parallel.forTasks(count, [&](std::size_t task) {
             const std::size_t i = begin + task;
             try {
-                results[i] =
-                    valueOrThrow(checkPrimitive(scene.primitives[work.primitives[i]], options, is_gltf));
+                results[i] = valueOrThrow(checkPrimitive(scene.primitives[work.primitives[i]], options, is_gltf));
             } catch (...) {
                 failures[i] = std::current_exception();
             }

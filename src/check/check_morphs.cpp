@@ -51,8 +51,7 @@ std::vector<float> frameErrors(const TangentView& mesh, std::vector<float> dista
         DVec3 normal = toDouble(mesh.normals[v]), tangent = toDouble(xyz(mesh.tangents[v]));
         if (!normalize(normal)) continue;
         const bool has_tangent = normalize(tangent);
-        const double lean =
-            has_tangent ? std::fabs(90 - angleBetween(normal, tangent) * 180 / kPi) : 90;
+        const double lean = has_tangent ? std::fabs(90 - angleBetween(normal, tangent) * 180 / kPi) : 90;
         errors[v] = std::max(errors[v], static_cast<float>(lean));
     }
     return errors;
@@ -65,8 +64,7 @@ std::vector<bool> goodVertices(const PrimitiveFacts& facts) {
     const std::vector<float> distances = directionDistances(facts.mesh, facts.surface, limit);
     const std::vector<float> errors = frameErrors(facts.mesh, distances);
     std::vector<bool> good(errors.size());
-    for (std::size_t v = 0; v < good.size(); ++v)
-        good[v] = distances[v] != kUnknownDirection && errors[v] <= limit;
+    for (std::size_t v = 0; v < good.size(); ++v) good[v] = distances[v] != kUnknownDirection && errors[v] <= limit;
     return good;
 }
 
@@ -74,9 +72,7 @@ std::vector<bool> goodVertices(const PrimitiveFacts& facts) {
 bool isThin(const TangentView& mesh, std::size_t face, float area) {
     constexpr double kThin = 1e-6;
     const auto square = [&](std::size_t k) {
-        const auto position = [&](std::size_t i) {
-            return toDouble(mesh.positions[mesh.corners[3 * face + i % 3]]);
-        };
+        const auto position = [&](std::size_t i) { return toDouble(mesh.positions[mesh.corners[3 * face + i % 3]]); };
         const DVec3 edge = position(k + 1) - position(k);
         return dot(edge, edge);
     };
@@ -104,8 +100,8 @@ void forgetCollapsed(const TangentView& mesh, const Surface& base, const Tangent
 
 /// Targets with the same fault.
 struct MorphFault {
-    Tally targets = {};      ///< vertices of the first; count and total in targets
-    double far_share = 0;    ///< largest share of the surface that is off by more than error_deg
+    Tally targets = {};    ///< vertices of the first; count and total in targets
+    double far_share = 0;  ///< largest share of the surface that is off by more than error_deg
     std::size_t first = 0;
 };
 
@@ -123,8 +119,7 @@ class MorphChecker {
         applyTarget(facts_.mesh, target, morphed);
         const Surface surface = describeSurface(morphed.view);
         const double limit = facts_.options.direction_deg;
-        const std::vector<float> errors =
-            frameErrors(morphed.view, directionDistances(morphed.view, surface, limit));
+        const std::vector<float> errors = frameErrors(morphed.view, directionDistances(morphed.view, surface, limit));
         std::vector<bool> good = good_on_base_;
         forgetCollapsed(facts_.mesh, facts_.surface, morphed.view, surface, equal_, good);
         Tally tally;

@@ -68,7 +68,8 @@ void checkWinding(PrimitiveFacts& facts) {
             DVec3 normal = toDouble(mesh.normals[mesh.corners[3 * f + k]]);
             if (normalize(normal)) mean = mean + normal;
         }
-        if (normalize(mean) && dot(mean, toDouble(face.normal)) < kLeastFacing) against.add(mesh.corners[3 * f], face.area);
+        if (normalize(mean) && dot(mean, toDouble(face.normal)) < kLeastFacing)
+            against.add(mesh.corners[3 * f], face.area);
     }
     against.finish(facts.surface.area);
     if (against.count == 0) return;
@@ -100,7 +101,7 @@ void checkNormals(PrimitiveFacts& facts) {
         Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
         facts.add(FindingCode::normalsMissing, Severity::note, all, "vertices",
                   facts.is_gltf ? "it has no normals, so it is shaded flat"
-                                          : "not all faces have normals, so new ones are made for those without");
+                                : "not all faces have normals, so new ones are made for those without");
         return;
     }
     checkNormalValues(facts);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether tangents are there when they are needed, and whether they are good along the UVs that they should follow; else,
-// whether they are along other ones.
+// Whether tangents are there when they are needed, and whether they are good along the UVs that they should follow;
+// else, whether they are along other ones.
 #include "check/findings.h"
 #include "check/primitive_checks.h"
 
@@ -65,8 +65,8 @@ void addExplanation(PrimitiveFacts& facts, const FrameHealth& health, const Expl
                       facts.primitive.uses.front().needed_by);
     } else {
         facts.add(FindingCode::uvSetWrong, Severity::error, wrong, "vertices",
-                  "the tangents follow TEXCOORD_" + std::to_string(other.reading.uv_set) + ", but the texture is read with " +
-                      set);
+                  "the tangents follow TEXCOORD_" + std::to_string(other.reading.uv_set) +
+                      ", but the texture is read with " + set);
     }
 }
 

@@ -23,9 +23,8 @@ void checkMissing(PrimitiveFacts& facts) {
         if (!plainReading(facts.primitive, use.uv_set).uvs.empty() || !reported.insert(use.uv_set).second) continue;
         Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
         facts.add(FindingCode::uvsMissing, Severity::error, all, "vertices",
-                  facts.is_gltf
-                      ? use.needed_by + " is read with " + setName(use.uv_set) + ", which is not there"
-                      : "the material has a normal map, but the faces have no texture coordinates");
+                  facts.is_gltf ? use.needed_by + " is read with " + setName(use.uv_set) + ", which is not there"
+                                : "the material has a normal map, but the faces have no texture coordinates");
     }
 }
 

@@ -22,44 +22,49 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
     {"uvsMissing", "Unwrap the mesh, or give the texture the number of a UV set that is there."},
     {"uvsNotFinite", "Find the tool that wrote NaN or infinity as a UV, and export again."},
     {"uvsDegenerate",
-     "Unwrap those triangles so that they cover some of the texture. If they show one plain colour on purpose, leave them: "
+     "Unwrap those triangles so that they cover some of the texture. If they show one plain colour on purpose, leave "
+     "them: "
      "their tangents do not matter."},
     {"normalsMissing",
      "Nothing needs to be done if flat shading is meant; else export normals, or let tspace generate make them."},
     {"normalsNotFinite", "Export the normals again, or remove them and let tspace generate make new ones."},
     {"normalsNotUnit", "Normalise the normals and compute the tangents anew."},
     {"normalsAgainstWinding",
-     "Turn the normals round, or the triangles (recalculate outside), whichever is wrong; then compute the tangents anew."},
+     "Turn the normals round, or the triangles (recalculate outside), whichever is wrong; then compute the tangents "
+     "anew."},
     {"tangentsMissing",
-     "Run tspace generate. Without it each renderer makes its own tangents, and they may differ from those of the bake."},
-    {"tangentsUnused", "Remove them, they make the file larger (tspace generate --strip); or give the material the normal map that was meant."},
+     "Run tspace generate. Without it each renderer makes its own tangents, and they may differ from those of the "
+     "bake."},
+    {"tangentsUnused",
+     "Remove them, they make the file larger (tspace generate --strip); or give the material the normal map that was "
+     "meant."},
     {"tangentsIgnored", "Export normals as well, or run tspace generate, which makes both."},
     {"tangentsNotFinite", kOverwrite},
     {"tangentsNotUnit", kOverwrite},
     {"tangentsNotOrthogonal", "Compute the tangents anew from the normals of the file: tspace generate --overwrite."},
     {"signsNotOne", "Store +1 or -1 in w. tspace generate --overwrite does."},
-    {"signsMixed",
-     "Split the vertices where mirrored and other triangles meet. tspace generate --overwrite does."},
+    {"signsMixed", "Split the vertices where mirrored and other triangles meet. tspace generate --overwrite does."},
     {"signsInverted",
-     "Negate every w, or run tspace generate --overwrite. The tool that wrote them fed MikkTSpace with v as glTF stores it "
+     "Negate every w, or run tspace generate --overwrite. The tool that wrote them fed MikkTSpace with v as glTF "
+     "stores it "
      "and forgot to negate the sign."},
     {"signsWrong", kOverwrite},
     {"mirroredSeamAveraged",
      "Split the vertices along the seam, so that each side has its own tangent. tspace generate --overwrite does."},
-    {"uvSeamAveraged",
-     "Average only over vertices whose UVs are equal too. tspace generate --overwrite does."},
+    {"uvSeamAveraged", "Average only over vertices whose UVs are equal too. tspace generate --overwrite does."},
     {"directionsWrong", kOverwrite},
-    {"uvSetWrong",
-     "Compute the tangents anew, along the UV set of the texture: tspace generate --overwrite."},
+    {"uvSetWrong", "Compute the tangents anew, along the UV set of the texture: tspace generate --overwrite."},
     {"textureTransformIgnored",
-     "Apply the transform to the UVs and remove it from the texture, so that no reader can get it wrong; or compute the "
+     "Apply the transform to the UVs and remove it from the texture, so that no reader can get it wrong; or compute "
+     "the "
      "tangents anew: tspace generate --overwrite."},
-    {"splitFramesDiffer",
-     "Weld equal vertices before tangents are computed. tspace generate --overwrite does."},
+    {"splitFramesDiffer", "Weld equal vertices before tangents are computed. tspace generate --overwrite does."},
     {"morphTangentsMissing", "Run tspace generate --overwrite, which writes tangents for morph targets too."},
-    {"morphTangentsWrong", "Compute the tangents of the base and of all targets together: tspace generate --overwrite."},
+    {"morphTangentsWrong",
+     "Compute the tangents of the base and of all targets together: tspace generate --overwrite."},
     {"texturesDisagree",
-     "Give both textures the same UV set and the same rotation and mirroring; a mesh can hold only one tangent per vertex."},
+     "Give both textures the same UV set and the same rotation and mirroring; a mesh can hold only one tangent per "
+     "vertex."},
     {"greenFlipped", "Look at the map: if it was baked for DirectX, invert its green channel."},
     {"normalMapUnreadable", "Convert the image to PNG or JPEG to have it looked at."},
 }};

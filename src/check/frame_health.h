@@ -15,23 +15,23 @@ namespace tspace {
 
 struct FrameHealth {
     // Values on their own. Counted: vertices that triangles use.
-    Tally not_finite;       ///< tangent or w
-    Tally not_unit;         ///< and finite
+    Tally not_finite;          ///< tangent or w
+    Tally not_unit;            ///< and finite
     double far_from_unit = 0;  ///< share of the surface with lengths below 0.9 or above 1.1
-    Tally not_orthogonal;   ///< finite, not zero, with a usable N
-    double parallel = 0;    ///< share of the surface with tangents nearly parallel to N
+    Tally not_orthogonal;      ///< finite, not zero, with a usable N
+    double parallel = 0;       ///< share of the surface with tangents nearly parallel to N
     Tally sign_not_one;
     bool sign_vanishes = false;  ///< some |w| is below 0.5
-    Tally signs_mixed;      ///< triangles
+    Tally signs_mixed;           ///< triangles
 
     // Against the UVs. All zero where there are none.
-    Tally signs_wrong;      ///< vertices whose triangles agree with each other, but not with w
+    Tally signs_wrong;             ///< vertices whose triangles agree with each other, but not with w
     bool all_signs_wrong = false;  ///< on nearly all of the surface
-    Tally mirrored_seams;   ///< vertices where mirrored and other triangles share a tangent
-    Tally uv_seams;         ///< vertices with the mean tangent of both sides of a UV seam
-    Tally directions_wrong; ///< the other vertices whose tangents are off by more than direction_deg
-    double far_directions = 0;  ///< share of the surface where a direction is off by more than error_deg
-    Tally frames_differ;    ///< vertices equal to another but for the tangent, which MikkTSpace would give the same
+    Tally mirrored_seams;          ///< vertices where mirrored and other triangles share a tangent
+    Tally uv_seams;                ///< vertices with the mean tangent of both sides of a UV seam
+    Tally directions_wrong;        ///< the other vertices whose tangents are off by more than direction_deg
+    double far_directions = 0;     ///< share of the surface where a direction is off by more than error_deg
+    Tally frames_differ;  ///< vertices equal to another but for the tangent, which MikkTSpace would give the same
 };
 
 /// Looks at tangents that follow mesh.uvs. Without normals or UVs nothing is looked at but values.

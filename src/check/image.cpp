@@ -37,7 +37,8 @@ bool isTooLarge(std::uint64_t pixels, std::size_t byte_count, std::uint64_t most
     return true;
 }
 
-/// What stb_image holds: planes of each component, the coefficients of progressive files, and pixels; at the end pixels twice.
+/// What stb_image holds: planes of each component, the coefficients of progressive files, and pixels; at the end pixels
+/// twice.
 std::uint64_t jpegWorkBytes(std::span<const std::uint8_t> bytes) {
     constexpr std::size_t kHeadBytes = 4, kFrameBytes = 8;
     for (std::size_t at = 2; at + kHeadBytes + kFrameBytes < bytes.size();) {
@@ -53,7 +54,8 @@ std::uint64_t jpegWorkBytes(std::span<const std::uint8_t> bytes) {
             continue;
         }
         const std::uint8_t* frame = bytes.data() + at + kHeadBytes;
-        const std::uint64_t height = std::uint64_t{frame[1]} << 8 | frame[2], width = std::uint64_t{frame[3]} << 8 | frame[4];
+        const std::uint64_t height = std::uint64_t{frame[1]} << 8 | frame[2],
+                            width = std::uint64_t{frame[3]} << 8 | frame[4];
         const std::uint64_t components = frame[5], is_progressive = marker == 0xc2;
         const std::uint64_t planes = width * height * std::min<std::uint64_t>(components, 4);
         return std::max(planes * (1 + 2 * is_progressive) + 3 * width * height, 6 * width * height);

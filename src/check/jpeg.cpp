@@ -28,9 +28,8 @@ bool fits(std::span<const std::uint8_t> bytes) {
 
 bool readJpegSize(std::span<const std::uint8_t> bytes, std::uint32_t& width, std::uint32_t& height) {
     int x = 0, y = 0, channels = 0;
-    if (!fits(bytes) ||
-        stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &x, &y, &channels) == 0 || x <= 0 ||
-        y <= 0) {
+    if (!fits(bytes) || stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &x, &y, &channels) == 0 ||
+        x <= 0 || y <= 0) {
         return false;
     }
     width = static_cast<std::uint32_t>(x);

@@ -10,8 +10,8 @@ enum class GreenVerdict { unknown, up, down };
 
 struct GreenTest {
     GreenVerdict verdict = GreenVerdict::unknown;
-    /// Correlation of the two mixed derivatives over the whole image: -1 for a perfect height field with green up, +1 with
-    /// green down.
+    /// Correlation of the two mixed derivatives over the whole image: -1 for a perfect height field with green up, +1
+    /// with green down.
     double correlation = 0;
     std::uint64_t block_count = 0;       ///< blocks that have enough relief to say something
     std::uint64_t down_block_count = 0;  ///< those that say "down"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The checks of one primitive, a family of findings each. They know arrays and uses, but no file format; findings get the
-// place and the names of the primitive afterwards, where they leave them empty.
+// The checks of one primitive, a family of findings each. They know arrays and uses, but no file format; findings get
+// the place and the names of the primitive afterwards, where they leave them empty.
 #pragma once
 
 #include <vector>
@@ -15,9 +15,9 @@ namespace tspace {
 /// UVs that tangents may follow.
 struct UvReading {
     std::size_t uv_set = 0;
-    bool transformed = false;         ///< by the use's texture transform, which changes frames
-    std::vector<Vec2> own = {};       ///< the transformed ones
-    std::span<const Vec2> uvs = {};   ///< empty: the primitive has no such set
+    bool transformed = false;        ///< by the use's texture transform, which changes frames
+    std::vector<Vec2> own = {};      ///< the transformed ones
+    std::span<const Vec2> uvs = {};  ///< empty: the primitive has no such set
 };
 
 /// The UVs that a texture of this use is read with.
@@ -29,18 +29,17 @@ UvReading plainReading(const ScenePrimitive& primitive, std::size_t uv_set);
 struct PrimitiveFacts {
     const ScenePrimitive& primitive;
     const CheckOptions& options;
-    bool is_gltf = true;         ///< others are seldom expected to hold tangents, and many cannot
-    UvReading reading = {};         ///< what the tangents should follow
-    TangentView mesh = {};          ///< over `reading`
-    Surface surface = {};           ///< of `mesh`
+    bool is_gltf = true;     ///< others are seldom expected to hold tangents, and many cannot
+    UvReading reading = {};  ///< what the tangents should follow
+    TangentView mesh = {};   ///< over `reading`
+    Surface surface = {};    ///< of `mesh`
     std::vector<Finding> findings = {};
 
     void add(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message);
 };
 
 /// Everything there is to say about a primitive, but for its images. Fails for lack of memory only.
-Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, const CheckOptions& options,
-                                            bool is_gltf);
+Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf);
 
 // The families, in the order in which they run. checkTangents may find that tangents follow other UVs: `facts` then
 // has those.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vertices that are equal but for their tangents. Some must differ: MikkTSpace separates triangles that do not touch in a
-// fan, or whose orientations differ. So its result decides which should be equal.
+// Vertices that are equal but for their tangents. Some must differ: MikkTSpace separates triangles that do not touch in
+// a fan, or whose orientations differ. So its result decides which should be equal.
 #include <array>
 #include <bit>
 
@@ -15,8 +15,7 @@ namespace tspace {
 namespace {
 
 bool areFar(const Vec4& a, const Vec4& b, double tolerance_deg) {
-    return (a.w > 0) != (b.w > 0) ||
-           angleBetween(toDouble(xyz(a)), toDouble(xyz(b))) * 180 / kPi > tolerance_deg;
+    return (a.w > 0) != (b.w > 0) || angleBetween(toDouble(xyz(a)), toDouble(xyz(b))) * 180 / kPi > tolerance_deg;
 }
 
 bool isUsable(const Vec4& tangent) { return isFinite(xyz(tangent)) && tangent.w == tangent.w; }

@@ -21,8 +21,8 @@ bool isReliable(double determinant, const Vec2& a, const Vec2& b, const Vec2& c)
     constexpr double kStep = 1.0 / (1 << 23);
     const double s1 = std::fabs(double{b.x} - double{a.x}), t1 = std::fabs(double{b.y} - double{a.y});
     const double s2 = std::fabs(double{c.x} - double{a.x}), t2 = std::fabs(double{c.y} - double{a.y});
-    const double size = std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(b.x), std::fabs(b.y), std::fabs(c.x),
-                                  std::fabs(c.y)});
+    const double size =
+        std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(b.x), std::fabs(b.y), std::fabs(c.x), std::fabs(c.y)});
     const double stored = kStep * size * (s1 + t1 + s2 + t2);
     const double computed = 4 * kStep * (s1 * t2 + s2 * t1);
     return std::fabs(determinant) > stored + computed;

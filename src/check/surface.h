@@ -10,8 +10,8 @@
 namespace tspace {
 
 struct FaceFrame {
-    Vec3 normal = {};      ///< unit, by the right-hand rule; zero where the triangle has no area
-    Vec3 tangent = {};     ///< unit dP/du; zero where the UVs have no area
+    Vec3 normal = {};   ///< unit, by the right-hand rule; zero where the triangle has no area
+    Vec3 tangent = {};  ///< unit dP/du; zero where the UVs have no area
     float area = 0;
     /// Sign of the UV determinant; 0 where the UVs have no area, or so little that rounding decides. In that last case
     /// `tangent` may as well point the other way.
@@ -19,8 +19,8 @@ struct FaceFrame {
 };
 
 struct Surface {
-    std::vector<FaceFrame> faces = {};         ///< one per triangle
-    std::vector<double> vertex_areas = {};     ///< a third of each triangle around the vertex
+    std::vector<FaceFrame> faces = {};      ///< one per triangle
+    std::vector<double> vertex_areas = {};  ///< a third of each triangle around the vertex
     double area = 0;
 };
 

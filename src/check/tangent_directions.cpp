@@ -20,8 +20,8 @@ constexpr std::size_t kMostCompared = 64;
 
 enum class Cause { unknown, uvSeam, mirroredSeam };
 
-/// Finds out why tangents are outside their cones: whether they are the mean of all triangles at the point, of which some
-/// lie on the other side of a seam.
+/// Finds out why tangents are outside their cones: whether they are the mean of all triangles at the point, of which
+/// some lie on the other side of a seam.
 class SeamFinder {
   public:
     SeamFinder(const TangentView& mesh, const Surface& surface, std::span<const std::uint32_t> far)
@@ -35,9 +35,8 @@ class SeamFinder {
             members_.push_back(v);
         }
         cones_ = conesOfClasses(mesh, surface, classes, points_.class_count);
-        std::stable_sort(members_.begin(), members_.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return points_.class_of[a] < points_.class_of[b];
-        });
+        std::stable_sort(members_.begin(), members_.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return points_.class_of[a] < points_.class_of[b]; });
     }
 
     [[nodiscard]] Cause causeOf(std::uint32_t vertex) const {

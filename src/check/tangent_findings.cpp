@@ -18,8 +18,8 @@ class FindingList {
 
     void add(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message) {
         if (tally.count == 0) return;
-        findings.push_back(makeFinding(code, onShare(severity, tally.surface_share, options_), tally, unit,
-                                       std::move(message)));
+        findings.push_back(
+            makeFinding(code, onShare(severity, tally.surface_share, options_), tally, unit, std::move(message)));
     }
 
     std::vector<Finding> findings = {};

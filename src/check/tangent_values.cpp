@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What tangents must be whatever the UVs are: finite, unit, in the plane of the surface, with a sign of +1 or -1 that all
-// corners of a triangle share.
+// What tangents must be whatever the UVs are: finite, unit, in the plane of the surface, with a sign of +1 or -1 that
+// all corners of a triangle share.
 #include <cmath>
 
 #include "check/frame_health.h"

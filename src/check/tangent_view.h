@@ -12,9 +12,9 @@ namespace tspace {
 /// All arrays but `corners` have one entry per vertex.
 struct TangentView {
     std::span<const Vec3> positions = {};
-    std::span<const Vec3> normals = {};   ///< may be empty only where a function says so
-    std::span<const Vec4> tangents = {};  ///< w: the sign
-    std::span<const Vec2> uvs = {};       ///< those that the texture is read with (after its transform)
+    std::span<const Vec3> normals = {};           ///< may be empty only where a function says so
+    std::span<const Vec4> tangents = {};          ///< w: the sign
+    std::span<const Vec2> uvs = {};               ///< those that the texture is read with (after its transform)
     std::span<const std::uint32_t> corners = {};  ///< three per triangle, all smaller than positions.size()
 };
 

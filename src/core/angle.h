@@ -53,17 +53,19 @@ inline SineCosine sineCosine(double angle) {
     for (int n = 16; n >= 2; n -= 2) cosine = 1 - q / (n * (n - 1)) * cosine;
     sine *= x;
     switch (static_cast<int>(std::fmod(quarters, 4)) & 3) {
-        case 0: return {sine, cosine};
-        case 1: return {cosine, -sine};
-        case 2: return {-sine, -cosine};
-        default: return {-cosine, sine};
+        case 0:
+            return {sine, cosine};
+        case 1:
+            return {cosine, -sine};
+        case 2:
+            return {-sine, -cosine};
+        default:
+            return {-cosine, sine};
     }
 }
 
 /// The angle between two vectors, in [0, pi]; accurate also near 0 and pi, where acos of the dot product is
 /// not. 0 when either is zero.
-inline double angleBetween(const DVec3& a, const DVec3& b) {
-    return polarAngle(dot(a, b), length(cross(a, b)));
-}
+inline double angleBetween(const DVec3& a, const DVec3& b) { return polarAngle(dot(a, b), length(cross(a, b))); }
 
 }  // namespace tspace

@@ -71,7 +71,8 @@ void endSpace(std::byte* space, std::size_t) { ::operator delete(space, std::ali
 class Region {
   public:
     /// Room for `least_bytes` or more; isValid() tells whether there was any.
-    explicit Region(std::size_t least_bytes) : space_bytes_(roundUp(least_bytes, kStep)), space_(reserveSpace(space_bytes_)) {
+    explicit Region(std::size_t least_bytes)
+        : space_bytes_(roundUp(least_bytes, kStep)), space_(reserveSpace(space_bytes_)) {
         // Huge pages lie at multiples of their size.
         begin_ = space_ + -reinterpret_cast<std::uintptr_t>(space_) % kStep;
     }
@@ -82,9 +83,7 @@ class Region {
     }
 
     [[nodiscard]] bool isValid() const { return space_ != nullptr; }
-    [[nodiscard]] bool contains(const void* memory) const {
-        return memory >= begin_ && memory < begin_ + space_bytes_;
-    }
+    [[nodiscard]] bool contains(const void* memory) const { return memory >= begin_ && memory < begin_ + space_bytes_; }
     [[nodiscard]] std::size_t heldBytes() const { return held_; }
 
     /// Null when the region is full, or the system out of memory.

@@ -20,9 +20,8 @@
 namespace tspace {
 
 using Float4 = float __attribute__((vector_size(16)));
-using Mask4 =
-    std::int32_t __attribute__((vector_size(16)));        ///< per lane all bits or none, from a comparison
-using Double2 = double __attribute__((vector_size(16)));  ///< here a carrier of two pairs of floats
+using Mask4 = std::int32_t __attribute__((vector_size(16)));  ///< per lane all bits or none, from a comparison
+using Double2 = double __attribute__((vector_size(16)));      ///< here a carrier of two pairs of floats
 
 // As they lie in arrays: at any multiple of 4 bytes, and over any type.
 using Float4InMemory = float __attribute__((vector_size(16), aligned(4), may_alias));

@@ -24,9 +24,7 @@ inline std::uint64_t foldHash(std::uint64_t hash, std::uint64_t value) {
 
 /// Equal for positions that compare equal: -0 and +0 are one number.
 inline std::uint64_t hashPosition(const Vec3& p) {
-    const auto bits = [](float f) {
-        return std::uint64_t{std::bit_cast<std::uint32_t>(f == 0.0f ? 0.0f : f)};
-    };
+    const auto bits = [](float f) { return std::uint64_t{std::bit_cast<std::uint32_t>(f == 0.0f ? 0.0f : f)}; };
     return foldHash(mixBits(bits(p.x) | bits(p.y) << 32), bits(p.z));
 }
 

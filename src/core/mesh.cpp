@@ -21,8 +21,7 @@ Error checkFaces(const MeshView& mesh) {
     if (mesh.face_sizes.empty()) {
         if (mesh.face_size == 0) return {ErrorCode::invalidOption, "face_size is 0"};
         if (corners % mesh.face_size != 0) {
-            return {ErrorCode::countMismatch, std::to_string(corners) +
-                                                  " corners are not a whole number of faces of " +
+            return {ErrorCode::countMismatch, std::to_string(corners) + " corners are not a whole number of faces of " +
                                                   std::to_string(mesh.face_size)};
         }
         return fine();
@@ -38,8 +37,8 @@ Error checkFaces(const MeshView& mesh) {
         }
     }
     if (sum != corners) {
-        return {ErrorCode::countMismatch, "face sizes add up to " + std::to_string(sum) +
-                                              " corners, but there are " + std::to_string(corners)};
+        return {ErrorCode::countMismatch,
+                "face sizes add up to " + std::to_string(sum) + " corners, but there are " + std::to_string(corners)};
     }
     return fine();
 }
@@ -133,17 +132,13 @@ Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, s
                                               std::to_string(expected_count) + " are needed"};
     }
     if (count == 0) return fine();
-    if (data == nullptr)
-        return {ErrorCode::nullData, what() + " is null but has a count of " + std::to_string(count)};
+    if (data == nullptr) return {ErrorCode::nullData, what() + " is null but has a count of " + std::to_string(count)};
     if (count > 1 && stride_bytes < element_bytes) {
         return {ErrorCode::strideTooSmall, what() + " has a stride of " + std::to_string(stride_bytes) +
-                                               " bytes, but its elements take " +
-                                               std::to_string(element_bytes)};
+                                               " bytes, but its elements take " + std::to_string(element_bytes)};
     }
-    const std::size_t alignment =
-        element_bytes % 4 == 0 ? 4 : element_bytes;  // floats, u32; or u16, u8 indices
-    if (reinterpret_cast<std::uintptr_t>(data) % alignment != 0 ||
-        (count > 1 && stride_bytes % alignment != 0)) {
+    const std::size_t alignment = element_bytes % 4 == 0 ? 4 : element_bytes;  // floats, u32; or u16, u8 indices
+    if (reinterpret_cast<std::uintptr_t>(data) % alignment != 0 || (count > 1 && stride_bytes % alignment != 0)) {
         return {ErrorCode::misaligned, what() + " is not aligned to " + std::to_string(alignment) + " bytes"};
     }
     if (count > 1 && (count - 1) > (std::numeric_limits<std::size_t>::max() - element_bytes) / stride_bytes) {

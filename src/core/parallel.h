@@ -12,8 +12,8 @@
 namespace tspace {
 
 /// Runs loops for the duration of one public call. Threads are started by the first loop of several tasks, never more
-/// than a loop has tasks, and joined when this object goes. Starting and joining one takes about 20 us, so a task should
-/// take longer. Not thread-safe itself: one owner, loops one after the other.
+/// than a loop has tasks, and joined when this object goes. Starting and joining one takes about 20 us, so a task
+/// should take longer. Not thread-safe itself: one owner, loops one after the other.
 class Parallel {
   public:
     explicit Parallel(const Execution& execution);
@@ -31,9 +31,7 @@ class Parallel {
         if (count == 0) return;
         const std::size_t most = std::max<std::size_t>(1, count / std::max<std::size_t>(1, grain));
         const std::size_t tasks = width_ == 1 ? 1 : std::min<std::size_t>(most, std::size_t{width_} * 8);
-        forTasks(tasks, [&](std::size_t task) {
-            body(count * task / tasks, count * (task + 1) / tasks);
-        });
+        forTasks(tasks, [&](std::size_t task) { body(count * task / tasks, count * (task + 1) / tasks); });
     }
 
     /// body(task) once for each task in [0, count). The body must not throw.
@@ -44,7 +42,8 @@ class Parallel {
             return;
         }
         using Type = std::remove_reference_t<Body>;
-        run(count, [](void* context, std::size_t task) { (*static_cast<Type*>(context))(task); },
+        run(
+            count, [](void* context, std::size_t task) { (*static_cast<Type*>(context))(task); },
             const_cast<void*>(static_cast<const void*>(&body)));
     }
 

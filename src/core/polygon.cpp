@@ -50,15 +50,12 @@ int compare(float a, float b) {
 }
 
 /// A NaN or infinite length is longer than any other.
-double orderedLength(double length2) {
-    return length2 < std::numeric_limits<double>::infinity() ? length2 : HUGE_VAL;
-}
+double orderedLength(double length2) { return length2 < std::numeric_limits<double>::infinity() ? length2 : HUGE_VAL; }
 
 /// What lies to the left of the line a -> b, or no further from it than a distance to the right of it.
 class LeftSide {
   public:
-    LeftSide(PlanePoint a, PlanePoint b)
-        : a_(a), x_(b.x - a.x), y_(b.y - a.y), longest_(std::abs(x_) + std::abs(y_)) {}
+    LeftSide(PlanePoint a, PlanePoint b) : a_(a), x_(b.x - a.x), y_(b.y - a.y), longest_(std::abs(x_) + std::abs(y_)) {}
 
     /// Distance of c from the line, times `length()`; positive to its left. Twice the area of the triangle.
     [[nodiscard]] double across(PlanePoint c) const { return x_ * (c.y - a_.y) - y_ * (c.x - a_.x); }
@@ -274,16 +271,15 @@ class Cutter {
         return std::any_of(reflex_, reflex_ + reflex_count_, [&](std::uint32_t r) {
             if (r == before || r == after) return false;
             const PlanePoint p = points_[r];
-            return ab.isNear(p, on_line_) && bc.isNear(p, on_line_) && ca.isNear(p, on_line_) &&
-                   !isAt(p, a) && !isAt(p, b) && !isAt(p, c);
+            return ab.isNear(p, on_line_) && bc.isNear(p, on_line_) && ca.isNear(p, on_line_) && !isAt(p, a) &&
+                   !isAt(p, b) && !isAt(p, c);
         });
     }
 
     /// See PolygonEar. `is_blocked`: v is no ear.
     [[nodiscard]] std::uint64_t orderOf(std::uint32_t v, bool is_blocked) const {
         const DVec3 diagonal = positions_[next_[v]] - positions_[previous_[v]];
-        return std::bit_cast<std::uint64_t>(orderedLength(dot(diagonal, diagonal))) |
-               std::uint64_t{is_blocked} << 63;
+        return std::bit_cast<std::uint64_t>(orderedLength(dot(diagonal, diagonal))) | std::uint64_t{is_blocked} << 63;
     }
 
     /// `is_reflex_` must be there for v.
@@ -362,8 +358,7 @@ class Cutter {
             const std::uint32_t first = lowestBit(vertices);
             vertices &= vertices - 1;
             // Of the two ears of one diagonal the first: so it is whenever four vertices are left.
-            if ((vertices & (vertices - 1)) == 0 && cutter_.haveOneDiagonal(first, lowestBit(vertices)))
-                return first;
+            if ((vertices & (vertices - 1)) == 0 && cutter_.haveOneDiagonal(first, lowestBit(vertices))) return first;
             PolygonEar best, ear;
             cutter_.setEar(best, first);
             for (; vertices != 0; vertices &= vertices - 1) {

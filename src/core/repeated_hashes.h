@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds the few vertices that can be equal to others, without a look at most of them: each hash counts in a small table.
+// Finds the few vertices that can be equal to others, without a look at most of them: each hash counts in a small
+// table.
 #pragma once
 
 #include <algorithm>
@@ -66,8 +67,8 @@ class RepeatedHashes {
         return taken;
     }
 
-    /// Writes the vertices of [0, count) whose hash another one may have to `list`, ascending, and returns how many they
-    /// are. `list` has room for all and may be `hashes` itself.
+    /// Writes the vertices of [0, count) whose hash another one may have to `list`, ascending, and returns how many
+    /// they are. `list` has room for all and may be `hashes` itself.
     std::size_t collect(const std::uint32_t* hashes, std::size_t count, std::size_t ranges, std::uint32_t* list,
                         Parallel& parallel) const {
         std::size_t found[kMostRanges] = {};
@@ -86,12 +87,10 @@ class RepeatedHashes {
   private:
     /// Writes those of the vertices [begin, end) to `list` whose hash another vertex may have. Returns how
     /// many.
-    std::size_t repeated(const std::uint32_t* hashes, std::size_t begin, std::size_t end,
-                         std::uint32_t* list) const {
+    std::size_t repeated(const std::uint32_t* hashes, std::size_t begin, std::size_t end, std::uint32_t* list) const {
         const std::uint8_t* table = table_.data();
         const unsigned shift = 32 - log2_;
-        std::size_t count =
-            0;  // list[count] is written in any case, and stays when the next one is written behind it
+        std::size_t count = 0;  // list[count] is written in any case, and stays when the next one is written behind it
         for (std::size_t v = begin; v < end; ++v) {
             const std::uint32_t place = hashes[v] >> shift;
             list[count] = static_cast<std::uint32_t>(v);

@@ -26,8 +26,7 @@ inline UvFrame uvFrame(const DVec3& e1, const DVec3& e2, double s1, double t1, d
 inline UvFrame uvFrame(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec2& uv0, const Vec2& uv1,
                        const Vec2& uv2) {
     return uvFrame(toDouble(p1) - toDouble(p0), toDouble(p2) - toDouble(p0), double{uv1.x} - double{uv0.x},
-                   double{uv1.y} - double{uv0.y}, double{uv2.x} - double{uv0.x},
-                   double{uv2.y} - double{uv0.y});
+                   double{uv1.y} - double{uv0.y}, double{uv2.x} - double{uv0.x}, double{uv2.y} - double{uv0.y});
 }
 
 /// True when the determinant can be divided by.

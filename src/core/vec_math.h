@@ -26,7 +26,9 @@ struct DVec3 {
     double x = 0, y = 0, z = 0;
 };
 inline DVec3 toDouble(const Vec3& v) { return {v.x, v.y, v.z}; }
-inline Vec3 toFloat(const DVec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+inline Vec3 toFloat(const DVec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
 inline DVec3 operator+(const DVec3& a, const DVec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline DVec3 operator-(const DVec3& a, const DVec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline DVec3 operator*(double k, const DVec3& v) { return {k * v.x, k * v.y, k * v.z}; }

@@ -19,8 +19,8 @@ struct VertexRange {
     [[nodiscard]] bool has(std::uint32_t vertex) const { return vertex - begin < end - begin; }
 };
 
-/// Kernels read whole groups of triangles, so the last one is filled up. The triangles' vertices: `vertices`, or `buffer`,
-/// which may be the same.
+/// Kernels read whole groups of triangles, so the last one is filled up. The triangles' vertices: `vertices`, or
+/// `buffer`, which may be the same.
 inline const std::uint32_t* fillGroup(const std::uint32_t* vertices, std::size_t count, std::size_t group,
                                       std::uint32_t* buffer) {
     const std::size_t end = (count + group - 1) / group * group;
@@ -31,8 +31,8 @@ inline const std::uint32_t* fillGroup(const std::uint32_t* vertices, std::size_t
 }
 
 /// Vertices of some triangles as 32-bit numbers: in `buffer`, of 3 * count, where they are not that already.
-inline const std::uint32_t* blockVertices(const IndexView& vertices, std::size_t first_triangle,
-                                          std::size_t count, std::uint32_t* buffer) {
+inline const std::uint32_t* blockVertices(const IndexView& vertices, std::size_t first_triangle, std::size_t count,
+                                          std::uint32_t* buffer) {
     const std::size_t first = 3 * first_triangle;
     if (vertices.type == IndexType::u32) return static_cast<const std::uint32_t*>(vertices.data) + first;
     for (std::size_t i = 0; i < 3 * count; ++i) buffer[i] = vertices[first + i];
@@ -50,8 +50,8 @@ class VertexRanges {
     /// Cuts into about `wanted` ranges. vertices(first_triangle, count, buffer) gives the vertices of a
     /// block: 3 * count numbers, in `buffer` or anywhere else.
     template <class Vertices>
-    void cut(unsigned wanted, std::size_t triangle_count, const Vertices& vertices,
-             const Allocator* allocator, Parallel& parallel) {
+    void cut(unsigned wanted, std::size_t triangle_count, const Vertices& vertices, const Allocator* allocator,
+             Parallel& parallel) {
         const std::size_t most = std::clamp(wanted, 1u, kMostRanges);
         shift_ = 0;
         while (((vertex_count_ - 1) >> shift_) >= most) ++shift_;

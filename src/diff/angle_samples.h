@@ -10,8 +10,8 @@ namespace tspace {
 
 class AngleSamples {
   public:
-    /// Degrees between two directions of any length. Pairs of unusable directions (zero, or not finite) are counted, unless
-    /// both are. Returns the angle, or 0.
+    /// Degrees between two directions of any length. Pairs of unusable directions (zero, or not finite) are counted,
+    /// unless both are. Returns the angle, or 0.
     double add(const Vec3& a, const Vec3& b);
     void append(const AngleSamples& other);
 

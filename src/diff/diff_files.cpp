@@ -113,8 +113,7 @@ class Comparison {
         for (const TrianglePair& triangles : pair.triangles) {
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const std::uint32_t vertex_a = a.corners[std::size_t{3} * triangles.a + k];
-                const std::uint32_t vertex_b =
-                    b.corners[std::size_t{3} * triangles.b + (k + triangles.rotation) % 3];
+                const std::uint32_t vertex_b = b.corners[std::size_t{3} * triangles.b + (k + triangles.rotation) % 3];
                 compareFrames(a, b, vertex_a, vertex_b, diff, samples);
             }
         }

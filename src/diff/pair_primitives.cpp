@@ -71,7 +71,7 @@ class Pairer {
     const Scene& b_;
     std::vector<std::size_t> partner_;  ///< one per primitive of A
     std::vector<std::string> how_;
-    std::vector<bool> taken_ = {};      ///< one per primitive of B; also those without triangles
+    std::vector<bool> taken_ = {};  ///< one per primitive of B; also those without triangles
 };
 
 /// Looked up several times.
@@ -104,7 +104,8 @@ std::vector<PrimitivePair> pairPrimitives(const Scene& a, const Scene& b) {
     pairer.pairBy("geometry", keyed(placeKey));
     pairer.pairBy("geometry", keyed([](const ScenePrimitive&) { return std::string(); }));
     pairer.pairBy("name", nameKey);
-    pairer.pairBy("order", [](const ScenePrimitive& p) { return placeKey(p) + ' ' + std::to_string(p.corners.size()); });
+    pairer.pairBy("order",
+                  [](const ScenePrimitive& p) { return placeKey(p) + ' ' + std::to_string(p.corners.size()); });
     return pairer.result();
 }
 

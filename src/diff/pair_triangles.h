@@ -23,9 +23,9 @@ std::uint64_t geometryHash(const ScenePrimitive& primitive);
 /// as numbers. Triangles that are there several times are paired in their order. Expected linear.
 std::vector<TrianglePair> pairByCorners(const ScenePrimitive& a, const ScenePrimitive& b);
 
-/// Pairs triangles whose corners lie at the same place but for 1/1000 of the size of the mesh, after both meshes were moved
-/// and scaled to the same box: quantised, and written with fewer digits. Expected linear; where hundreds of triangles
-/// share a place, some may stay without a partner.
+/// Pairs triangles whose corners lie at the same place but for 1/1000 of the size of the mesh, after both meshes were
+/// moved and scaled to the same box: quantised, and written with fewer digits. Expected linear; where hundreds of
+/// triangles share a place, some may stay without a partner.
 std::vector<TrianglePair> pairByPlace(const ScenePrimitive& a, const ScenePrimitive& b);
 
 }  // namespace tspace

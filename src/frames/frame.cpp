@@ -56,9 +56,7 @@ DFrame orthonormal(const Frame& frame) {
     return f;
 }
 
-DVec3 combine(const DFrame& f, const DVec3& v) {
-    return v.x * f.tangent + v.y * f.bitangent + v.z * f.normal;
-}
+DVec3 combine(const DFrame& f, const DVec3& v) { return v.x * f.tangent + v.y * f.bitangent + v.z * f.normal; }
 
 FaceFrame divided(const UvFrame& sums) {
     FaceFrame out;
@@ -94,9 +92,7 @@ float determinant(const Frame& frame) { return static_cast<float>(determinant(to
 
 float frameSign(const Frame& frame) { return determinant(toDouble(frame)) < 0 ? -1.0f : 1.0f; }
 
-Vec3 rebuildBitangent(const Vec3& normal, const Vec4& tangent) {
-    return tangent.w * cross(normal, xyz(tangent));
-}
+Vec3 rebuildBitangent(const Vec3& normal, const Vec4& tangent) { return tangent.w * cross(normal, xyz(tangent)); }
 
 Frame orthonormalize(const Frame& frame) {
     const DFrame f = orthonormal(frame);
@@ -119,17 +115,14 @@ Mat3 tangentToObject(const Frame& f) {
              {f.tangent.z, f.bitangent.z, f.normal.z}}};
 }
 
-Mat3 objectToTangentOrthonormal(const Frame& frame) {
-    return {{frame.tangent, frame.bitangent, frame.normal}};
-}
+Mat3 objectToTangentOrthonormal(const Frame& frame) { return {{frame.tangent, frame.bitangent, frame.normal}}; }
 
 bool objectToTangent(const Frame& frame, Mat3& out) {
     const DFrame f = toDouble(frame);
     const double d = determinant(f);
     if (d == 0 || !std::isfinite(d)) return false;
     // Cramer's rule: the rows of the inverse are the cross products of the other two columns.
-    const Mat3 inverse{{toFloat((1 / d) * cross(f.bitangent, f.normal)),
-                        toFloat((1 / d) * cross(f.normal, f.tangent)),
+    const Mat3 inverse{{toFloat((1 / d) * cross(f.bitangent, f.normal)), toFloat((1 / d) * cross(f.normal, f.tangent)),
                         toFloat((1 / d) * cross(f.tangent, f.bitangent))}};
     for (const Vec3& row : inverse.rows) {
         if (!isFinite(row)) return false;
@@ -140,8 +133,7 @@ bool objectToTangent(const Frame& frame, Mat3& out) {
 
 Vec3 transform(const Mat3& m, const Vec3& v) {
     const DVec3 d = toDouble(v);
-    return toFloat(
-        DVec3{dot(toDouble(m.rows[0]), d), dot(toDouble(m.rows[1]), d), dot(toDouble(m.rows[2]), d)});
+    return toFloat(DVec3{dot(toDouble(m.rows[0]), d), dot(toDouble(m.rows[1]), d), dot(toDouble(m.rows[2]), d)});
 }
 
 Vec3 toTangentSpace(const Frame& frame, const Vec3& direction) {
@@ -156,8 +148,7 @@ Vec3 toObjectSpace(const Frame& frame, const Vec3& direction) {
 Vec3 decodeNormal(const Vec3& texel, const TexelDecode& options) {
     const DVec3 c = toDouble(texel);
     const double y_sign = options.green == Green::down ? -1.0 : 1.0;
-    return unitOr({(2 * c.x - 1) * options.scale, (2 * c.y - 1) * options.scale * y_sign, 2 * c.z - 1},
-                  {0, 0, 1});
+    return unitOr({(2 * c.x - 1) * options.scale, (2 * c.y - 1) * options.scale * y_sign, 2 * c.z - 1}, {0, 0, 1});
 }
 
 Vec2 tileUv(const Vec2& uv, const Vec2& tiling, const Vec2& offset) {

@@ -39,16 +39,7 @@ constexpr std::size_t kFacesPerBlock = 4;
 constexpr std::size_t kBlocksPerTask = 1024;
 constexpr std::uint32_t kNone = 0xffffffffu;
 
-enum class Cause : std::uint8_t {
-    sound,
-    notFinite,
-    zero,
-    notUnit,
-    parallel,
-    badSign,
-    mixedSign,
-    notOrthogonal
-};
+enum class Cause : std::uint8_t { sound, notFinite, zero, notUnit, parallel, badSign, mixedSign, notOrthogonal };
 constexpr std::size_t kCauseCount = 8;
 enum class Cure : std::uint8_t { own, neighbor, basis };
 
@@ -239,13 +230,11 @@ class Sanitizer {
         const Allocator* allocator = options_.execution.allocator;
         causes_ = Buffer<Cause>(allocator, mesh_.cornerCount(), Cause::sound);
         seeks_ = Buffer<std::uint8_t>(allocator, mesh_.cornerCount(), std::uint8_t{0});
-        forEachSuspect(
-            [this](std::size_t first, std::uint32_t size, Counts& counts) { detect(first, size, counts); });
+        forEachSuspect([this](std::size_t first, std::uint32_t size, Counts& counts) { detect(first, size, counts); });
         SoundPositions positions(allocator, counts_.seekers());
         if (counts_.seekers() != 0) lookAtPositions(positions);
-        forEachSuspect([&](std::size_t first, std::uint32_t size, Counts& counts) {
-            mend(first, size, positions, counts);
-        });
+        forEachSuspect(
+            [&](std::size_t first, std::uint32_t size, Counts& counts) { mend(first, size, positions, counts); });
         return counts_.report();
     }
 
@@ -341,12 +330,8 @@ class Sanitizer {
         });
     }
 
-    [[nodiscard]] DVec3 normalAt(std::size_t corner) const {
-        return unitNormal(mesh_.normals[mesh_.indices[corner]]);
-    }
-    [[nodiscard]] const Vec3& positionAt(std::size_t corner) const {
-        return mesh_.positions[mesh_.indices[corner]];
-    }
+    [[nodiscard]] DVec3 normalAt(std::size_t corner) const { return unitNormal(mesh_.normals[mesh_.indices[corner]]); }
+    [[nodiscard]] const Vec3& positionAt(std::size_t corner) const { return mesh_.positions[mesh_.indices[corner]]; }
 
     /// The face's first sound corner, or `first + size`.
     [[nodiscard]] std::size_t firstSound(std::size_t first, std::uint32_t size) const {
@@ -461,8 +446,7 @@ class Sanitizer {
         if (isUsable(xyz(tangents_[corner]), n)) return {orthonormal(xyz(tangents_[corner]), n), Cure::own};
         if (isUsable(xyz(neighbor), n)) return {orthonormal(xyz(neighbor), n), Cure::neighbor};
         const Vec4* sound = seeks_[corner] != 0 ? positions.find(positionAt(corner)) : nullptr;
-        if (sound != nullptr && isUsable(xyz(*sound), n))
-            return {orthonormal(xyz(*sound), n), Cure::neighbor};
+        if (sound != nullptr && isUsable(xyz(*sound), n)) return {orthonormal(xyz(*sound), n), Cure::neighbor};
         return {fromBasis(n), Cure::basis};
     }
 

@@ -228,8 +228,7 @@ Error checkAttributes(std::span<const CornerAttribute> attributes, std::size_t c
         const std::string name = "attribute " + std::to_string(i);
         if (attribute.component_count < 1 || attribute.component_count > 16) {
             return {ErrorCode::invalidOption,
-                    name + " has " + std::to_string(attribute.component_count) + " components, not 1 to 16",
-                    i};
+                    name + " has " + std::to_string(attribute.component_count) + " components, not 1 to 16", i};
         }
         if (!(attribute.tolerance >= 0.0f) || !std::isfinite(attribute.tolerance)) {
             return {ErrorCode::invalidOption, name + " has a tolerance that is negative or not finite", i};
@@ -249,8 +248,8 @@ Error check(const IndexView& indices, std::size_t vertex_count, std::size_t corn
     if (Error e = checkIndices(indices, vertex_count); e.code != ErrorCode::ok) return e;
     if (indices.type == IndexType::none && corner_count > vertex_count) {
         return {ErrorCode::indexOutOfRange,
-                "corner " + std::to_string(vertex_count) + " has no vertex: there are " +
-                    std::to_string(vertex_count) + " vertices and no indices",
+                "corner " + std::to_string(vertex_count) + " has no vertex: there are " + std::to_string(vertex_count) +
+                    " vertices and no indices",
                 vertex_count};
     }
     if (indices.type != IndexType::none && corner_count != indices.count) {
@@ -262,12 +261,10 @@ Error check(const IndexView& indices, std::size_t vertex_count, std::size_t corn
 
 }  // namespace
 
-Result<SplitResult> splitVertices(const IndexView& indices, std::size_t vertex_count,
-                                  std::size_t corner_count, std::span<const CornerAttribute> attributes,
-                                  const Execution& execution) {
+Result<SplitResult> splitVertices(const IndexView& indices, std::size_t vertex_count, std::size_t corner_count,
+                                  std::span<const CornerAttribute> attributes, const Execution& execution) {
     return atBorder([&]() -> Result<SplitResult> {
-        if (Error e = check(indices, vertex_count, corner_count, attributes); e.code != ErrorCode::ok)
-            return e;
+        if (Error e = check(indices, vertex_count, corner_count, attributes); e.code != ErrorCode::ok) return e;
         return Splitter(attributes, vertex_count, corner_count, execution).split(indices);
     });
 }

@@ -169,8 +169,7 @@ std::uint32_t Variants::findIndexed(std::uint32_t corner, std::uint32_t vertex) 
     std::uint32_t earliest = kNone;
     for (std::uint32_t variant : reached_) {
         for (; variant != kNone; variant = next_[variant]) {
-            if (variant < earliest && equalCorners(attributes_, corner, corners_[variant]))
-                earliest = variant;
+            if (variant < earliest && equalCorners(attributes_, corner, corners_[variant])) earliest = variant;
         }
     }
     return earliest;

@@ -53,10 +53,7 @@ class Variants {
     /// `result` needs the first corner of each vertex in source_corners before prepare(). It gets the copies; its
     /// source_vertices serve as links between variants and are to be written when all corners are done.
     Variants(std::span<const CornerAttribute> attributes, SplitResult& result, const Allocator* allocator)
-        : attributes_(attributes),
-          corners_(result.source_corners),
-          next_(result.source_vertices),
-          edges_(allocator) {}
+        : attributes_(attributes), corners_(result.source_corners), next_(result.source_vertices), edges_(allocator) {}
 
     void prepare();
 

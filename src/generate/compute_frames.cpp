@@ -38,8 +38,8 @@ std::size_t cornersOfTriangles(const PrimitiveGeometry& primitive) {
 
 class FrameComputer {
   public:
-    FrameComputer(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
-                  const GenerateOptions& options, std::span<PrimitiveReport> reports)
+    FrameComputer(const PoolView& pool, std::span<const PrimitiveGeometry> primitives, const GenerateOptions& options,
+                  std::span<PrimitiveReport> reports)
         : pool_(pool),
           primitives_(primitives),
           options_(options),
@@ -57,8 +57,7 @@ class FrameComputer {
             corner_count += cornersOfTriangles(primitive);
         }
         if (corner_count > kMaxCorners) {
-            return Error{ErrorCode::tooLarge,
-                         "the primitives that share these vertices have more than 2^31-1 corners"};
+            return Error{ErrorCode::tooLarge, "the primitives that share these vertices have more than 2^31-1 corners"};
         }
         const Allocator* allocator = options_.tangents.execution.allocator;
         if (generates_tangents_) tangents_ = Buffer<Vec4>(allocator, corner_count);
@@ -110,8 +109,8 @@ class FrameComputer {
 
     /// Normals per corner, and in the mesh one per vertex: vertices with several normals are split first, so
     /// that a method that works per vertex sees the mesh that will be written.
-    Result<Done> computeNormals(const PrimitiveGeometry& primitive, LocalMesh& mesh,
-                                std::vector<Vec3>& normals, PrimitiveReport& report) const {
+    Result<Done> computeNormals(const PrimitiveGeometry& primitive, LocalMesh& mesh, std::vector<Vec3>& normals,
+                                PrimitiveReport& report) const {
         NormalOptions options = options_.normals;
         options.smoothing_groups = primitive.smoothing_groups;
         normals.resize(mesh.indices.size());
@@ -122,9 +121,8 @@ class FrameComputer {
         report.normals_generated = true;
 
         const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec3>(normals));
-        Result<SplitResult> split =
-            splitVertices(mesh.view().indices, mesh.positions.count, mesh.indices.size(), {&attribute, 1},
-                          options_.normals.execution);
+        Result<SplitResult> split = splitVertices(mesh.view().indices, mesh.positions.count, mesh.indices.size(),
+                                                  {&attribute, 1}, options_.normals.execution);
         if (!split) return std::move(split).error();
         mesh.own_positions = gather(mesh.positions, split->source_vertices);
         mesh.own_uvs = gather(mesh.uvs, split->source_vertices);
@@ -297,8 +295,8 @@ Error checkPool(const PoolView& pool, std::span<const PrimitiveGeometry> primiti
     const std::size_t count = pool.positions.count;
     if (count > kMaxCorners) return {ErrorCode::tooLarge, "more than 2^31-1 vertices"};
     if (reports.size() != primitives.size()) {
-        return {ErrorCode::countMismatch, std::to_string(primitives.size()) + " primitives but " +
-                                              std::to_string(reports.size()) + " reports"};
+        return {ErrorCode::countMismatch,
+                std::to_string(primitives.size()) + " primitives but " + std::to_string(reports.size()) + " reports"};
     }
     if (!pool.normals.empty() && pool.normals.count != count) {
         return {ErrorCode::countMismatch, "the pool's normals and positions differ in number"};

@@ -23,7 +23,8 @@ std::string whyForbidden(const FrameHealth& health) {
 }  // namespace
 
 Result<std::string> whyTangentsCannotStay(const VertexPool& pool, std::span<const Vec4> tangents,
-                                          std::span<const PrimitiveGeometry> primitives, const GenerateOptions& options) {
+                                          std::span<const PrimitiveGeometry> primitives,
+                                          const GenerateOptions& options) {
     std::vector<std::uint32_t> corners;
     for (const PrimitiveGeometry& primitive : primitives)
         corners.insert(corners.end(), primitive.indices.begin(), primitive.indices.end());

@@ -18,6 +18,7 @@ namespace tspace {
 ///
 /// Near-linear time; the memory that `check` needs. Fails where generateTangents does.
 Result<std::string> whyTangentsCannotStay(const VertexPool& pool, std::span<const Vec4> tangents,
-                                          std::span<const PrimitiveGeometry> primitives, const GenerateOptions& options);
+                                          std::span<const PrimitiveGeometry> primitives,
+                                          const GenerateOptions& options);
 
 }  // namespace tspace

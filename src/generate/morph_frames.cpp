@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Each target is evaluated on the plan of the base, mended as the base was, and compared with the base corner by corner.
-// Where nothing near a corner moves the evaluation has the base's bits, so the offset is exactly zero. Where a target
-// makes faces collapse (an eye that closes), the corner has no tangent of its own and keeps that of the base.
+// Each target is evaluated on the plan of the base, mended as the base was, and compared with the base corner by
+// corner. Where nothing near a corner moves the evaluation has the base's bits, so the offset is exactly zero. Where a
+// target makes faces collapse (an eye that closes), the corner has no tangent of its own and keeps that of the base.
 //
 // A group of the base goes on over equal vertices. Where a target gives those different normals, as flat shading does
 // where it bends a plane, one tangent for all would lean out of every face; so there the moved shape is grouped anew.
@@ -108,8 +108,8 @@ Result<Done> MorphTangents::add(LocalMesh&& mesh, PrimitiveReport& report) {
     if (!plan) return std::move(plan).error();
     const MeshView view = mesh.view();
     tangents_.resize(mesh.indices.size());
-    const Result<TangentReport> made = evaluateTangents(*plan, {view.positions, view.normals}, {.tangents = tangents_},
-                                                        options_.tangents.execution);
+    const Result<TangentReport> made =
+        evaluateTangents(*plan, {view.positions, view.normals}, {.tangents = tangents_}, options_.tangents.execution);
     if (!made) return made.error();
     std::vector<bool> has_direction(tangents_.size());
     for (std::size_t c = 0; c < tangents_.size(); ++c) has_direction[c] = hasDirection(tangents_[c]);
@@ -162,8 +162,8 @@ Result<Done> MorphTangents::evaluate(const Piece& piece, std::span<const Vec4> b
     return Done{};
 }
 
-/// Where equal vertices came apart. Where the corner's own triangles give it nothing (a default leans out of the plane), or
-/// the other sign, which no target can bring about, the tangent of the base's group is laid into the plane.
+/// Where equal vertices came apart. Where the corner's own triangles give it nothing (a default leans out of the
+/// plane), or the other sign, which no target can bring about, the tangent of the base's group is laid into the plane.
 Result<Done> MorphTangents::regroup(const Piece& piece, const MeshView& posed) {
     regrouped_.resize(tangents_.size());
     const Result<TangentReport> made = generateTangents(posed, options_.tangents, {.tangents = regrouped_});
@@ -186,8 +186,7 @@ void MorphTangents::carryOver(const Piece& piece, std::span<const Vec4> base) {
     for (std::size_t c = 0; c < base.size(); ++c) {
         const std::uint32_t v = piece.mesh.indices[c];
         const Vec3 &from = piece.mesh.normals[v], &to = pose_.normals()[v];
-        const bool is_lost =
-            !hasDirection(tangents_[c]) || (leansOut(tangents_[c], to) && liesAcross(base[c], from));
+        const bool is_lost = !hasDirection(tangents_[c]) || (leansOut(tangents_[c], to) && liesAcross(base[c], from));
         if (piece.has_direction[c] && is_lost) tangents_[c] = carried(base[c], from, to);
     }
 }

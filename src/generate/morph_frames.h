@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What morph targets add to the tangents of a pool: tangents of the moved shape with the groups of the base, minus those
-// of the base. Where a target takes vertices apart that are equal on the base, groups are those of the moved shape.
+// What morph targets add to the tangents of a pool: tangents of the moved shape with the groups of the base, minus
+// those of the base. Where a target takes vertices apart that are equal on the base, groups are those of the moved
+// shape.
 #pragma once
 
 #include <optional>

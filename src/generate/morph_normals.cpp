@@ -78,8 +78,8 @@ class PoolNormals {
         for (std::size_t p = 0; p < meshes_.size(); first += primitives_[p++].indices.size()) {
             if (!pose_.take(meshes_[p], *moved)) continue;
             const std::span<Vec3> own = std::span(offsets).subspan(first, primitives_[p].indices.size());
-            const Result<NormalReport> made = generatePoseNormals(
-                meshes_[p].view(), StridedSpan<const Vec3>(pose_.positions()), optionsOf(p), own);
+            const Result<NormalReport> made =
+                generatePoseNormals(meshes_[p].view(), StridedSpan<const Vec3>(pose_.positions()), optionsOf(p), own);
             if (!made) return made.error();
             for (std::size_t c = 0; c < own.size(); ++c) own[c] = offsetBetween(normals_[first + c], own[c]);
         }
@@ -101,7 +101,9 @@ class PoolNormals {
             result.primitives.push_back({.indices = {begin, end}, .face_sizes = primitive.face_sizes});
         }
         result.pool.targets.count = pool_.targets.count;
-        result.pool.targets.read = [&old = pool_, &result](std::size_t target) { return readSplit(old, result, target); };
+        result.pool.targets.read = [&old = pool_, &result](std::size_t target) {
+            return readSplit(old, result, target);
+        };
     }
 
     /// A target of the old pool, for the new vertices, with the normals that were computed.
@@ -124,7 +126,7 @@ class PoolNormals {
     std::vector<LocalMesh> meshes_ = {};
     std::vector<std::uint32_t> indices_ = {};  ///< corners of all primitives
     std::vector<Vec3> normals_ = {};           ///< of the base, one per corner
-    std::vector<Vec3> written_ = {};           ///< the same as the file will have them; where nothing moves, offsets are 0
+    std::vector<Vec3> written_ = {};           ///< the same as in the file; where nothing moves, offsets are 0
     MorphPose pose_ = {};
 };
 

@@ -17,8 +17,8 @@ namespace tspace {
 
 /// One drawable piece over a pool of vertices: its corners, and per-face data.
 struct PrimitiveGeometry {
-    std::vector<std::uint32_t> indices = {};           ///< one per corner, into the pool; never empty for a used primitive
-    std::vector<std::uint32_t> face_sizes = {};        ///< empty: triangles
+    std::vector<std::uint32_t> indices = {};     ///< one per corner, into the pool; not empty for a used primitive
+    std::vector<std::uint32_t> face_sizes = {};  ///< empty: triangles
     std::vector<std::uint32_t> smoothing_groups = {};  ///< one per face, or empty
 };
 
@@ -54,11 +54,11 @@ struct PoolView {
 
 /// Frames for all primitives of one pool after splitting it.
 struct PoolFrames {
-    bool normals_generated = false;  ///< they are rounded to GenerateOptions::format; tangents belong to the rounded ones
+    bool normals_generated = false;  ///< rounded to GenerateOptions::format; tangents belong to the rounded ones
     /// New vertex -> old vertex, identity first (SplitResult::source_vertices).
     std::vector<std::uint32_t> source_vertices = {};
-    std::vector<Vec3> normals = {};   ///< one per new vertex when normals_generated, else empty
-    std::vector<Vec4> tangents = {};  ///< one per new vertex; empty when no tangents were asked for or possible
+    std::vector<Vec3> normals = {};     ///< one per new vertex when normals_generated, else empty
+    std::vector<Vec4> tangents = {};    ///< one per new vertex; empty when no tangents were asked for or possible
     std::vector<Vec3> bitangents = {};  ///< the same where GenerateOptions::bitangents asks for them, else empty
     /// Per primitive: triangles after cutting n-gons, three new vertices each, in face order.
     std::vector<std::vector<std::uint32_t>> indices = {};
@@ -67,18 +67,20 @@ struct PoolFrames {
     /// With kept tangents: corners whose tangent is another than would be computed (by sign, or by over 5 degrees).
     std::uint64_t differing_count = 0;
 
-    [[nodiscard]] bool wasSplit(std::size_t old_vertex_count) const { return source_vertices.size() != old_vertex_count; }
+    [[nodiscard]] bool wasSplit(std::size_t old_vertex_count) const {
+        return source_vertices.size() != old_vertex_count;
+    }
 };
 
 /// Runs normals (if missing), tangents per primitive, sanitize, and one split over all primitives of the pool.
-/// Vertices that no corner uses get a frame from their normal, so that every tangent written is unit. With sanitize every
-/// bitangent is unit as well (mend_bitangents.h).
-/// `reports` has one entry per primitive; its normals, tangents, sanitize and count fields are filled (vertices are
-/// those of the pool).
-/// Morph targets: base + offset is the frame of the moved shape, computed with the base's hard edges and groups. There is
-/// one split for the base and all targets. Where faces collapse in a target the base's tangent stays. A vertex whose frame no target changes has the offset (0, 0, 0).
-/// Polygons are cut before tangents are computed. Run again on its own output it gives the same bits and splits nothing.
-/// Exception: `lengyel` where sanitize made corners of one vertex differ, because that method sums over vertex indices.
+/// Vertices that no corner uses get a frame from their normal, so that every tangent written is unit. With sanitize
+/// every bitangent is unit as well (mend_bitangents.h). `reports` has one entry per primitive; its normals, tangents,
+/// sanitize and count fields are filled (vertices are those of the pool). Morph targets: base + offset is the frame of
+/// the moved shape, computed with the base's hard edges and groups. There is one split for the base and all targets.
+/// Where faces collapse in a target the base's tangent stays. A vertex whose frame no target changes has the offset (0,
+/// 0, 0). Polygons are cut before tangents are computed. Run again on its own output it gives the same bits and splits
+/// nothing. Exception: `lengyel` where sanitize made corners of one vertex differ, because that method sums over vertex
+/// indices.
 Result<PoolFrames> computeFrames(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
                                  const GenerateOptions& options, std::span<PrimitiveReport> reports);
 

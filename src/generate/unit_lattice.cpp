@@ -23,7 +23,9 @@ LatticePoint cornerOf(const Vec3& vector, std::int32_t steps, unsigned corner) {
         const double at = static_cast<double>(value) * steps;
         // What lies on the lattice but for the rounding of a division has one bound only.
         const double nearest = std::round(at);
-        const double bound = std::abs(at - nearest) < 1e-3 ? nearest : (corner & bit) != 0 ? std::ceil(at) : std::floor(at);
+        const double bound = std::abs(at - nearest) < 1e-3 ? nearest
+                             : (corner & bit) != 0         ? std::ceil(at)
+                                                           : std::floor(at);
         return static_cast<std::int32_t>(std::clamp(bound, -1.0 * steps, 1.0 * steps));
     };
     return {component(vector.x, 1), component(vector.y, 2), component(vector.z, 4)};
@@ -61,16 +63,19 @@ std::int32_t latticeSteps(VectorFormat format) {
 }
 
 LatticePoint nearestUnit(const Vec3& vector, std::int32_t steps) {
-    const double length = std::sqrt(double{vector.x} * vector.x + double{vector.y} * vector.y + double{vector.z} * vector.z);
+    const double length =
+        std::sqrt(double{vector.x} * vector.x + double{vector.y} * vector.y + double{vector.z} * vector.z);
     if (!(std::abs(length - 1) < 0.1))
         return {clampedRound(vector.x, steps), clampedRound(vector.y, steps), clampedRound(vector.z, steps)};
     LatticePoint best;
     double best_cosine = 0, best_error = 0;
     for (unsigned corner = 0; corner < 8; ++corner) {
         const LatticePoint point = cornerOf(vector, steps, corner);
-        const double reach = std::sqrt(double(point.x) * point.x + double(point.y) * point.y + double(point.z) * point.z);
+        const double reach =
+            std::sqrt(double(point.x) * point.x + double(point.y) * point.y + double(point.z) * point.z);
         if (reach == 0) continue;
-        const double cosine = (point.x * double{vector.x} + point.y * double{vector.y} + point.z * double{vector.z}) / reach;
+        const double cosine =
+            (point.x * double{vector.x} + point.y * double{vector.y} + point.z * double{vector.z}) / reach;
         const double error = std::max(std::abs(reach / steps - 1), kLengthTolerance);
         if (best_error == 0 || error < best_error || (error == best_error && cosine > best_cosine)) {
             best = point;

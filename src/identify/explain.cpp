@@ -26,7 +26,7 @@ std::size_t texturesSet(const ScenePrimitive& primitive) {
 struct Reading {
     std::size_t uv_set = 0;
     bool is_transformed = false;
-    std::vector<Vec2> own = {};      ///< the transformed ones
+    std::vector<Vec2> own = {};  ///< the transformed ones
     std::span<const Vec2> uvs = {};
 };
 
@@ -94,8 +94,8 @@ void compare(const ScenePrimitive& primitive, const std::vector<Vec4>& computed,
 }  // namespace
 
 std::vector<Method> knownMethods() {
-    return {Method::mikktspace, Method::angle, Method::area, Method::uniform, Method::lengyel, Method::flat,
-            Method::fast,       Method::best};
+    return {Method::mikktspace, Method::angle, Method::area, Method::uniform,
+            Method::lengyel,    Method::flat,  Method::fast, Method::best};
 }
 
 Result<std::vector<Explanation>> explainTangents(const ScenePrimitive& primitive, const IdentifyOptions& options) {

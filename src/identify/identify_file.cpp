@@ -52,8 +52,8 @@ const Explanation* bestReading(const PrimitiveIdentity& primitive, bool is_trans
     return found == primitive.explanations.end() ? nullptr : &*found;
 }
 
-/// Whether the texture's transform explains more corners than the UVs as they are. Signs count: a transform may mirror, and
-/// leave every direction in place.
+/// Whether the texture's transform explains more corners than the UVs as they are. Signs count: a transform may mirror,
+/// and leave every direction in place.
 bool followsTransform(const PrimitiveIdentity& primitive) {
     const Explanation *turned = bestReading(primitive, true), *plain = bestReading(primitive, false);
     if (turned == nullptr || plain == nullptr) return turned != nullptr;
@@ -88,7 +88,8 @@ std::string signSentence(const Explanation& best) {
         case SignReading::gltf:
             return " The signs are as glTF wants them.";
         case SignReading::inverted:
-            return " Every sign is inverted: the method was fed raw glTF UVs (v not flipped) and its sign was stored as it "
+            return " Every sign is inverted: the method was fed raw glTF UVs (v not flipped) and its sign was stored "
+                   "as it "
                    "came, so B points the wrong way.";
         case SignReading::mixed:
             return " The signs fit neither reading: " +
@@ -126,17 +127,18 @@ std::string transformSentence(const std::vector<PrimitiveIdentity>& primitives) 
     }
     const auto sentence = [](std::size_t count, const char* words) {
         if (count == 0) return std::string();
-        return " In " + std::to_string(count) + (count == 1 ? " primitive" : " primitives") + " the tangents follow the UVs " + words +
-               " KHR_texture_transform.";
+        return " In " + std::to_string(count) + (count == 1 ? " primitive" : " primitives") +
+               " the tangents follow the UVs " + words + " KHR_texture_transform.";
     };
     return sentence(after, "after") + sentence(before, "as they are stored, before");
 }
 
 std::string verdictOf(const Identification& result) {
     if (result.explanations.empty()) {
-        const bool none = std::all_of(result.primitives.begin(), result.primitives.end(), [](const PrimitiveIdentity& p) {
-            return p.skipped == "it has no tangents" || p.skipped == "it has no triangles";
-        });
+        const bool none =
+            std::all_of(result.primitives.begin(), result.primitives.end(), [](const PrimitiveIdentity& p) {
+                return p.skipped == "it has no tangents" || p.skipped == "it has no triangles";
+            });
         return none ? "There are no tangents in this file." : "No primitive has all that is needed to tell.";
     }
     const Explanation& best = result.explanations.front();
@@ -145,9 +147,9 @@ std::string verdictOf(const Identification& result) {
     if (best.nearShare() >= kSureShare) {
         text = "Made by " + name + ": it explains " + percent(best.nearShare()) + " of the corners";
     } else if (best.nearAnyShare() >= kSureShare) {
-        text = "Made by " + name + ", but one tangent per vertex was kept where corners differ: " +
-               percent(best.nearShare()) + " of the corners fit, " + percent(best.nearAnyShare()) +
-               " at some corner of their vertex";
+        text = "Made by " + name +
+               ", but one tangent per vertex was kept where corners differ: " + percent(best.nearShare()) +
+               " of the corners fit, " + percent(best.nearAnyShare()) + " at some corner of their vertex";
     } else if (best.nearShare() >= kLikelyShare) {
         text = "Probably made by " + name + ", with something changed or averaged afterwards: it explains " +
                percent(best.nearShare()) + " of the corners";
@@ -176,9 +178,10 @@ PrimitiveIdentity identify(const ScenePrimitive& primitive, const IdentifyOption
     sortExplanations(identity.explanations);
     identity.has_two_readings = hasTwoReadings(identity);
     // Of two readings with as many near corners the one whose signs fit stands first.
-    const auto follows = std::find_if(identity.explanations.begin(), identity.explanations.end(), [&](const Explanation& entry) {
-        return entry.is_textures_set && entry.is_transformed == followsTransform(identity);
-    });
+    const auto follows =
+        std::find_if(identity.explanations.begin(), identity.explanations.end(), [&](const Explanation& entry) {
+            return entry.is_textures_set && entry.is_transformed == followsTransform(identity);
+        });
     if (follows != identity.explanations.end() && follows->near_count == identity.explanations.front().near_count)
         std::rotate(identity.explanations.begin(), follows, follows + 1);
     return identity;

@@ -64,9 +64,8 @@ bool hasTriangleData(const Document& document, const Primitive& primitive, const
     std::vector<std::size_t> needed = {*primitive.find("POSITION")};
     if (primitive.indices) needed.push_back(*primitive.indices);
     if (info.uv_set >= 0) needed.push_back(*primitive.find("TEXCOORD_" + std::to_string(info.uv_set)));
-    return std::all_of(needed.begin(), needed.end(), [&](std::size_t accessor) {
-        return hasData(document, readAccessor(document, accessor));
-    });
+    return std::all_of(needed.begin(), needed.end(),
+                       [&](std::size_t accessor) { return hasData(document, readAccessor(document, accessor)); });
 }
 
 /// Counts over the triangles; nothing where there is no data.
@@ -135,8 +134,8 @@ std::uint64_t instanceCount(const Document& document, const Json& node, const st
     if (attributes == nullptr || !attributes->is_object() || attributes->empty()) return 1;
     const std::string attribute_place = place + "/extensions/EXT_mesh_gpu_instancing/attributes";
     const auto first = attributes->begin();
-    const std::size_t accessor = toIndex(first.value(), join(attribute_place, first.key()),
-                                         rootArray(document, "accessors").size(), "accessor");
+    const std::size_t accessor =
+        toIndex(first.value(), join(attribute_place, first.key()), rootArray(document, "accessors").size(), "accessor");
     return readAccessor(document, accessor).count;
 }
 

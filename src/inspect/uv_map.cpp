@@ -17,8 +17,8 @@ std::vector<std::uint32_t> weldVertices(std::span<const Vec3> positions, std::sp
     UniqueIndex<std::array<std::uint32_t, 5>> points(positions.size());
     std::vector<std::uint32_t> welded(positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {
-        welded[i] = points.indexOf({weldBits(positions[i].x), weldBits(positions[i].y),
-                                    weldBits(positions[i].z), weldBits(uvs[i].x), weldBits(uvs[i].y)});
+        welded[i] = points.indexOf({weldBits(positions[i].x), weldBits(positions[i].y), weldBits(positions[i].z),
+                                    weldBits(uvs[i].x), weldBits(uvs[i].y)});
     }
     return welded;
 }
@@ -81,8 +81,8 @@ TriangleSets joinIslands(std::span<const std::uint32_t> corners, const std::vect
 
 }  // namespace
 
-void describeUvMap(std::span<const std::uint32_t> corners, std::span<const Vec3> positions,
-                   std::span<const Vec2> uvs, bool v_runs_down, PrimitiveInfo& info) {
+void describeUvMap(std::span<const std::uint32_t> corners, std::span<const Vec3> positions, std::span<const Vec2> uvs,
+                   bool v_runs_down, PrimitiveInfo& info) {
     const std::size_t triangle_count = corners.size() / 3;
     for (std::size_t i = 0; i < triangle_count; ++i) {
         const Vec3& a = positions[corners[3 * i]];

@@ -20,7 +20,7 @@ namespace tspace {
 /// Two triangles belong to one island when they share an edge whose ends are equal in position and in UV,
 /// however the vertices are indexed. An island is mirrored when the sum of its signed areas is negative with
 /// v upwards. Expected linear time; about 60 bytes per corner.
-void describeUvMap(std::span<const std::uint32_t> corners, std::span<const Vec3> positions,
-                   std::span<const Vec2> uvs, bool v_runs_down, PrimitiveInfo& info);
+void describeUvMap(std::span<const std::uint32_t> corners, std::span<const Vec3> positions, std::span<const Vec2> uvs,
+                   bool v_runs_down, PrimitiveInfo& info);
 
 }  // namespace tspace

@@ -4,12 +4,12 @@
 
 namespace tspace::smooth {
 
-// Where each doubt is even (the blend half and half), found by trying values on analytic surfaces with and without noise
-// and on bevels (docs/accuracy.md).
+// Where each doubt is even (the blend half and half), found by trying values on analytic surfaces with and without
+// noise and on bevels (docs/accuracy.md).
 inline constexpr double kNoise = 0.45;   // of the bend of the edges, what no normal explains
 inline constexpr double kKink = 1.5;     // misfit of the sharp normals, in that of the robust ones
-inline constexpr double kJump = 2.5;     // turn over the longest edge if all of it bent like the most bent one, in radians,
-                                         // times the sine between the two means
+inline constexpr double kJump = 2.5;     // turn over the longest edge if all of it bent like the most bent one, in
+                                         // radians, times the sine between the two means
 inline constexpr double kTurn = 0.8;     // twice the sine of half the angle between the sharp normals at an edge's ends
 inline constexpr double kSpread = 0.42;  // sine between fit and robust mean
 

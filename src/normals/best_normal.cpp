@@ -8,7 +8,8 @@
 // The same from sums, for the common case, is in best_sums_kernel.h.
 //
 // A fit follows noise, and across a bevel it bends what is flat. What tells these from a smooth surface is an edge e
-// between normals m and n: on a circle, and nearly on everything that is smooth at the mesh's scale, dot(e, m + n) is 0.
+// between normals m and n: on a circle, and nearly on everything that is smooth at the mesh's scale, dot(e, m + n) is
+// 0.
 #include "normals/best_normal.h"
 
 #include <algorithm>
@@ -99,8 +100,9 @@ class Doubt {
     double sharp_misfit_ = 0, robust_misfit_ = 0, largest_curvature_ = 0, longest_ = 0;
 };
 
-/// Fits the height of the edges' other ends above a plane: linear plus quadratic, through the point itself. An edge counts
-/// by the inverse of its squared length, so its slope counts once, and the unknowns are found whatever the scale.
+/// Fits the height of the edges' other ends above a plane: linear plus quadratic, through the point itself. An edge
+/// counts by the inverse of its squared length, so its slope counts once, and the unknowns are found whatever the
+/// scale.
 class HeightFit {
   public:
     explicit HeightFit(const DVec3& normal) : normal_(normal), axes_(planeAxes(normal)) {}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The kernel behind best_sums.h: best_normal.cpp, which says what all this means, in single precision and from sums, so
-// that no list of the corners around a point is needed. Included once per CPU, after lanes_*.h and with TSPACE_LANES set
-// to its namespace. Each lane is one triangle, or one point.
+// that no list of the corners around a point is needed. Included once per CPU, after lanes_*.h and with TSPACE_LANES
+// set to its namespace. Each lane is one triangle, or one point.
 #pragma once
 
 #include "normals/best_constants.h"
@@ -36,7 +36,8 @@ struct Edges {
             square[k] = dot(edge[k], edge[k]);
             sound = sound & isFinite(square[k]);
         }
-        if (all(sound)) [[likely]] return;
+        if (all(sound)) [[likely]]
+            return;
         turn = keep(sound, turn);
         for (std::size_t k = 0; k < 3; ++k) {
             edge[k] = keep(sound, edge[k]);
@@ -80,7 +81,8 @@ struct EdgeDoubt {
               const Vectors (&robust)[2]) {
         counts = (dot(sharp[0], sharp[0]) > zero()) & (dot(sharp[1], sharp[1]) > zero()) & (length_square > zero());
         misfit = keep(counts, inverse * dot(e, sharp[0] + sharp[1]));
-        const Floats turned = inverse * dot(e, sharp[1] - sharp[0]), robust_one = inverse * dot(e, robust[0] + robust[1]);
+        const Floats turned = inverse * dot(e, sharp[1] - sharp[0]),
+                     robust_one = inverse * dot(e, robust[0] + robust[1]);
         bend = keep(counts, turned * turned);
         count = keep(counts, broadcast(1.0f));
         sharp_misfit = area_square * (misfit * misfit);
@@ -93,8 +95,8 @@ struct EdgeDoubt {
 struct Seen {
     Floats x, y, slope, b0, b1, b2, misfit, curvature;
 
-    Seen(const estimators::TSPACE_LANES::Plane& plane, Vectors robust, Vectors e, Floats inverse, Floats size, Floats facing,
-         const EdgeDoubt& doubt) {
+    Seen(const estimators::TSPACE_LANES::Plane& plane, Vectors robust, Vectors e, Floats inverse, Floats size,
+         Floats facing, const EdgeDoubt& doubt) {
         const Floats scale = facing * inverse, half = broadcast(0.5f);
         x = scale * dot(plane.x, e);
         y = scale * dot(plane.y, e);
@@ -124,7 +126,8 @@ inline void storeSeen(float* at, const Seen& a, const Seen& b, const EdgeDoubt& 
     storeRows<kFitStep>(at + 24, larger(a.curvature, b.curvature), larger(i.square, o.square), zero(), zero());
 }
 
-inline void addFitOf(const BestSource& source, const std::uint32_t* vertices, const std::uint32_t* points, float* rows) {
+inline void addFitOf(const BestSource& source, const std::uint32_t* vertices, const std::uint32_t* points,
+                     float* rows) {
     const Edges t(source, vertices);
     const Floats area_square = dot(t.turn, t.turn), one = broadcast(1.0f);
     Vectors robust[3], sharp[3];
@@ -202,8 +205,7 @@ struct Slopes {
 /// The three second derivatives, with the ridge, by Cholesky's way (L D L^T).
 inline void solveCurvature(const PointSums& s, const Slopes& slopes, Floats (&q)[3]) {
     const Floats one = broadcast(1.0f), half = broadcast(0.5f);
-    const Floats ridge =
-        broadcast(static_cast<float>(kFitRidge * kFitRidgeShare)) * (s.bb[0] + s.bb[3] + s.bb[5]);
+    const Floats ridge = broadcast(static_cast<float>(kFitRidge * kFitRidgeShare)) * (s.bb[0] + s.bb[3] + s.bb[5]);
     Floats m[6], p[3];
     for (std::size_t i = 0, n = 0; i < 3; ++i) {
         const Flat along = slopes.solve(s.xb[i], s.yb[i]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Two rounds over the triangles, each range by range of points: zero the sums, add the triangles that are listed, finish.
+// Two rounds over the triangles, each range by range of points: zero the sums, add the triangles that are listed,
+// finish.
 #include "normals/best_triangles.h"
 
 #include <algorithm>
@@ -147,7 +148,8 @@ class RangeWork {
 };
 
 template <std::size_t kRows>
-void runRound(const Setting& setting, const RangeLists& lists, Buffer<float>& sums, std::size_t tasks, Parallel& parallel) {
+void runRound(const Setting& setting, const RangeLists& lists, Buffer<float>& sums, std::size_t tasks,
+              Parallel& parallel) {
     const std::size_t room = sums.size() / tasks;
     parallel.forTasks(tasks, [&](std::size_t task) {
         RangeWork<kRows> work(setting, sums.data() + task * room);
@@ -171,8 +173,9 @@ BestSource sourceOf(const TriangleGroups& triangles, const StridedSpan<const Vec
 
 }  // namespace
 
-void refineTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positions, const Buffer<std::uint32_t>& points,
-                     const NormalOptions& options, float* normals, Parallel& parallel) {
+void refineTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positions,
+                     const Buffer<std::uint32_t>& points, const NormalOptions& options, float* normals,
+                     Parallel& parallel) {
     const Allocator* const allocator = options.execution.allocator;
     const std::size_t count = mesh.vertexCount();
     Buffer<float> sharp(allocator, 4 * count), results(allocator, 4 * count);
@@ -181,10 +184,13 @@ void refineTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positi
     const std::size_t tasks =
         parallel.width() == 1 ? 1 : std::min(lists.count(), std::size_t{kTasksPerThread} * parallel.width());
     Buffer<float> sums(allocator, tasks * 4 * kFitRows * std::min(kRangePoints, wholeGroups(count)));
-    const Setting setting{triangles,    bestKernelFor(options.execution.simd),
+    const Setting setting{triangles,
+                          bestKernelFor(options.execution.simd),
                           sourceOf(triangles, positions, options, normals, sharp.data()),
-                          normals,      sharp.data(),
-                          results.data(), count};
+                          normals,
+                          sharp.data(),
+                          results.data(),
+                          count};
     runRound<1>(setting, lists, sums, tasks, parallel);
     runRound<kFitRows>(setting, lists, sums, tasks, parallel);
     parallel.forRanges(count, kGrain, [&](std::size_t begin, std::size_t end) {

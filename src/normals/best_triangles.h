@@ -16,7 +16,8 @@ namespace tspace::smooth {
 ///            such points, and those whose mean by `max` vanishes, stay as they are
 ///
 /// Scratch memory: 32 bytes per vertex, up to 1 MB per task, and what RangeLists takes. Linear. Throws OutOfMemory.
-void refineTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positions, const Buffer<std::uint32_t>& points,
-                     const NormalOptions& options, float* normals, Parallel& parallel);
+void refineTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positions,
+                     const Buffer<std::uint32_t>& points, const NormalOptions& options, float* normals,
+                     Parallel& parallel);
 
 }  // namespace tspace::smooth

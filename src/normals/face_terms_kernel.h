@@ -16,7 +16,7 @@ namespace {
 /// interpolated at the Chebyshev points of [0, 1]; it is good to 2e-9. Three at a time, step by step, because each step
 /// waits for the one before it.
 inline void anglesOfCotangents(Floats (&c)[3]) {
-    constexpr float kPolynomial[] = {1.350777142e-02f, -3.587153898e-02f, 6.250169444e-02f,  -8.656880430e-02f,
+    constexpr float kPolynomial[] = {1.350777142e-02f, -3.587153898e-02f, 6.250169444e-02f, -8.656880430e-02f,
                                      1.103376412e-01f, -1.427856875e-01f, 1.999973933e-01f, -3.333333173e-01f};
     const Floats one = broadcast(1.0f), half_pi = broadcast(1.57079632679489662f);
     Floats size[3], t[3], q[3], p[3];
@@ -45,13 +45,15 @@ inline Doubles dot(DoubleVectors a, DoubleVectors b) { return a.x * b.x + a.y * 
 inline DoubleVectors cross(DoubleVectors a, DoubleVectors b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline DoubleVectors part(Vectors v, std::size_t which) { return {part(v.x, which), part(v.y, which), part(v.z, which)}; }
+inline DoubleVectors part(Vectors v, std::size_t which) {
+    return {part(v.x, which), part(v.y, which), part(v.z, which)};
+}
 
 /// Writes normals and gives cotangents, and the bits of those that have a normal. In double: differences of floats are
 /// exact or nearly so, and nothing overflows or vanishes.
 template <bool kByArea>
 inline unsigned faceNormals(DoubleVectors o, DoubleVectors p1, DoubleVectors p2, double factor, double* rows,
-                        Doubles (&cotangents)[3]) {
+                            Doubles (&cotangents)[3]) {
     const DoubleVectors a = p1 - o, b = p2 - o, n = cross(a, b);
     const Doubles length = squareRoot(dot(n, n)), one = broadcastDouble(1.0);
     const DoubleMask sound = (length > broadcastDouble(0.0)) & (broadcastDouble(1e300) > length);
@@ -126,7 +128,8 @@ inline void addWanted(const FaceTerms& terms, const std::uint32_t* points, std::
     for (std::size_t t = 0; t < count; ++t, points += 3) {
         const DoubleRow normal = loadDoubleRow(terms.normal[t]);
         for (std::size_t k = 0; k < 3; ++k) {
-            if (isWanted(points[k])) addDoubleRow(sums + std::size_t{4} * (points[k] - begin), terms.angle[k][t], normal);
+            if (isWanted(points[k]))
+                addDoubleRow(sums + std::size_t{4} * (points[k] - begin), terms.angle[k][t], normal);
         }
     }
 }

@@ -36,8 +36,7 @@ Error checkOptions(const MeshView& mesh, const NormalOptions& options, const Str
     }
     if (!options.smoothing_groups.empty()) {
         const StridedSpan<const std::uint32_t> groups = options.smoothing_groups;
-        if (Error e = checkSpan(groups, mesh.faceCount(), "smoothing_groups"); e.code != ErrorCode::ok)
-            return e;
+        if (Error e = checkSpan(groups, mesh.faceCount(), "smoothing_groups"); e.code != ErrorCode::ok) return e;
     }
     return checkSpan(out, mesh.cornerCount(), "out");
 }
@@ -88,8 +87,7 @@ class Averager {
     /// The result of `flat`, and what other weightings fall back to.
     void writeFaceNormals() {
         parallel_.forRanges(mesh_.cornerCount(), kGrain, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t c = begin; c < end; ++c)
-                out_[c] = toFloat(faces_.normals[faces_.corner_faces[c]].unit);
+            for (std::size_t c = begin; c < end; ++c) out_[c] = toFloat(faces_.normals[faces_.corner_faces[c]].unit);
         });
     }
 
@@ -101,15 +99,13 @@ class Averager {
             parents_ = Buffer<std::uint32_t>(allocator_, points_.corners.size());
         }
         if (is_best_) sharp_ = Buffer<Vec3>(allocator_, mesh_.cornerCount(), Vec3{});
-        fallback_count_ =
-            sumRanges(parallel_, mesh_.vertexCount(), kGrain, [&](std::size_t begin, std::size_t end) {
-                std::uint64_t count = 0;
-                for (std::size_t p = begin; p < end; ++p) {
-                    if (points_.begins[p] != points_.begins[p + 1])
-                        count += averagePoint(static_cast<std::uint32_t>(p));
-                }
-                return count;
-            });
+        fallback_count_ = sumRanges(parallel_, mesh_.vertexCount(), kGrain, [&](std::size_t begin, std::size_t end) {
+            std::uint64_t count = 0;
+            for (std::size_t p = begin; p < end; ++p) {
+                if (points_.begins[p] != points_.begins[p + 1]) count += averagePoint(static_cast<std::uint32_t>(p));
+            }
+            return count;
+        });
         if (is_best_) refine();
     }
 
@@ -171,8 +167,7 @@ class Averager {
         for (std::uint32_t first = 0; first < end - begin;) {
             std::uint32_t past = first;
             Mean component;
-            for (; past < end - begin && links[past].key == links[first].key; ++past)
-                add(component, links[past].slot);
+            for (; past < end - begin && links[past].key == links[first].key; ++past) add(component, links[past].slot);
             fallbacks += write(component, first, past, slotOf, meanOfAll);
             first = past;
         }
@@ -193,8 +188,7 @@ class Averager {
         bool has_substitute = false;
         for (std::uint32_t i = first; i < past; ++i) {
             const std::uint32_t corner = points_.corners[slotOf(i)];
-            if (!faces_.normals[faces_.corner_faces[corner]].isDegenerate())
-                continue;  // keeps the face normal
+            if (!faces_.normals[faces_.corner_faces[corner]].isDegenerate()) continue;  // keeps the face normal
             if (!has_substitute && !meanOfAll().write(normal)) normal = {0, 0, 1};
             has_substitute = true;
             out_[corner] = normal;
@@ -270,8 +264,7 @@ Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& pose
 
 }  // namespace
 
-Result<NormalReport> generateNormals(const MeshView& mesh, const NormalOptions& options,
-                                     StridedSpan<Vec3> out) {
+Result<NormalReport> generateNormals(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out) {
     return atBorder([&] { return checkAndGenerate(mesh, mesh, options, out); });
 }
 

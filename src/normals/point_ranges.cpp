@@ -110,9 +110,8 @@ void PointRanges::list(const Allocator* allocator) {
     std::size_t total = 0;
     for (std::size_t& place : begins_) total += std::exchange(place, total);
     blocks_ = Buffer<std::uint32_t>(allocator, total);
-    forEach([&](std::size_t block, std::size_t range) {
-        blocks_[begins_[range]++] = static_cast<std::uint32_t>(block);
-    });
+    forEach(
+        [&](std::size_t block, std::size_t range) { blocks_[begins_[range]++] = static_cast<std::uint32_t>(block); });
     for (std::size_t range = kMost; range > 0; --range) begins_[range] = begins_[range - 1];
     begins_[0] = 0;
 }

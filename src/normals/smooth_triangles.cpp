@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Sums of weighted face normals per point, in blocks of triangles whose arithmetic is SIMD. No list of the
-// corners around a point is needed: where its mean vanishes, a corner's substitute depends on its own face. Where blocks
-// of triangles lie close together, ranges of points are summed, finished and written one after the other.
-// Based on: Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998.
+// corners around a point is needed: where its mean vanishes, a corner's substitute depends on its own face. Where
+// blocks of triangles lie close together, ranges of points are summed, finished and written one after the other. Based
+// on: Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998.
 #include "normals/smooth_triangles.h"
 
 #include <algorithm>
@@ -95,10 +95,10 @@ class TriangleSmoother {
           positions_(positions),
           options_(options),
           is_best_(options.weighting == NormalWeighting::best),
-          by_angle_(options.weighting == NormalWeighting::angle ||
-                    options.weighting == NormalWeighting::angleArea || is_best_),
-          by_area_(options.weighting == NormalWeighting::area ||
-                   options.weighting == NormalWeighting::angleArea || is_best_),
+          by_angle_(options.weighting == NormalWeighting::angle || options.weighting == NormalWeighting::angleArea ||
+                    is_best_),
+          by_area_(options.weighting == NormalWeighting::area || options.weighting == NormalWeighting::angleArea ||
+                   is_best_),
           factor_(normalFactor(options.convention)),
           kernel_(smooth::faceKernelFor(options.execution.simd)),
           out_(out),
@@ -133,8 +133,7 @@ class TriangleSmoother {
     /// Range by range, with memory for the sums of one range per task, which stays in the cache.
     void sumNear(NormalReport& report) {
         const std::size_t ranges = ranges_.count(), size = ranges_.range(0).end;
-        const std::size_t tasks =
-            parallel_.width() == 1 ? 1 : std::min(ranges, kRangesPerThread * parallel_.width());
+        const std::size_t tasks = parallel_.width() == 1 ? 1 : std::min(ranges, kRangesPerThread * parallel_.width());
         Buffer<PointSum> sums(allocator_, tasks * size);
         Buffer<std::uint64_t> doubtful(allocator_, tasks * wordsFor(size));
         std::array<NormalReport, kRangesPerThread * PointRanges::kMost> reports{};
@@ -173,8 +172,7 @@ class TriangleSmoother {
     }
 
     /// The points of the corners of `count` triangles: `vertices` itself or `buffer`, which may be the same.
-    const std::uint32_t* pointsOf(const std::uint32_t* vertices, std::size_t count,
-                                  std::uint32_t* buffer) const {
+    const std::uint32_t* pointsOf(const std::uint32_t* vertices, std::size_t count, std::uint32_t* buffer) const {
         for (std::size_t i = 0; i < 3 * count; ++i) buffer[i] = points_[vertices[i]];
         return buffer;
     }
@@ -198,7 +196,8 @@ class TriangleSmoother {
             const std::uint32_t* v = blockVertices(mesh_.indices, b * kBlock, count, block.vertices);
             const std::uint32_t* points = blockPoints(b, v, count, block.points);
             if (ranges_.isWithinOne(b)) {
-                degenerate += kernel_.compute(source, fillGroup(v, count, kTermGroup, block.vertices), count, block.terms);
+                degenerate +=
+                    kernel_.compute(source, fillGroup(v, count, kTermGroup, block.vertices), count, block.terms);
                 kernel_.add(block.terms, points, count, sums, place.range.begin);
             } else {
                 count = select(v, points, count, place, block);
@@ -208,7 +207,8 @@ class TriangleSmoother {
                 kernel_.add_some(block.terms, block.points, count, sums, place.range.begin, place.range.end);
             }
         });
-        if (finish(place) != 0) [[unlikely]] sumDoubtful(index, place);
+        if (finish(place) != 0) [[unlikely]]
+            sumDoubtful(index, place);
         return degenerate;
     }
 
@@ -427,8 +427,8 @@ bool canSmoothTriangles(const MeshView& mesh, const NormalOptions& options) {
            options.weighting != NormalWeighting::flat && options.weighting != NormalWeighting::max;
 }
 
-Result<NormalReport> smoothTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positions, const NormalOptions& options,
-                             StridedSpan<Vec3> out, Parallel& parallel) {
+Result<NormalReport> smoothTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positions,
+                                     const NormalOptions& options, StridedSpan<Vec3> out, Parallel& parallel) {
     return TriangleSmoother(mesh, positions, options, out, parallel).run();
 }
 

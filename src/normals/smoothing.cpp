@@ -43,8 +43,8 @@ class Turn {
 
 class PointComponents {
   public:
-    PointComponents(const MeshView& mesh, const FaceTable& faces, const PointTable& points,
-                    const SmoothingRule& rule, std::uint32_t point, Link* links, std::uint32_t* parents)
+    PointComponents(const MeshView& mesh, const FaceTable& faces, const PointTable& points, const SmoothingRule& rule,
+                    std::uint32_t point, Link* links, std::uint32_t* parents)
         : mesh_(mesh),
           faces_(faces),
           points_(points),
@@ -97,9 +97,8 @@ class PointComponents {
     }
 
     static void sortLinks(Link* begin, Link* end) {
-        std::sort(begin, end, [](const Link& a, const Link& b) {
-            return std::tie(a.key, a.slot) < std::tie(b.key, b.slot);
-        });
+        std::sort(begin, end,
+                  [](const Link& a, const Link& b) { return std::tie(a.key, a.slot) < std::tie(b.key, b.slot); });
     }
 
     void joinByGroup() {
@@ -228,8 +227,8 @@ SmoothingRule makeSmoothingRule(const NormalOptions& options) {
     return rule;
 }
 
-void findComponents(const MeshView& mesh, const FaceTable& faces, const PointTable& points,
-                    const SmoothingRule& rule, std::uint32_t point, Link* links, std::uint32_t* parents) {
+void findComponents(const MeshView& mesh, const FaceTable& faces, const PointTable& points, const SmoothingRule& rule,
+                    std::uint32_t point, Link* links, std::uint32_t* parents) {
     PointComponents(mesh, faces, points, rule, point, links, parents).find();
 }
 

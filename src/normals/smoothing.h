@@ -12,8 +12,8 @@ namespace tspace {
 
 /// What keeps faces from being smoothed together.
 struct SmoothingRule {
-    bool any_angle = true;  ///< no crease: every pair of faces at a point may be connected
-    double crease_rad = 0;  ///< else only over edges that turn by no more than this
+    bool any_angle = true;                       ///< no crease: every pair of faces at a point may be connected
+    double crease_rad = 0;                       ///< else only over edges that turn by no more than this
     std::span<const std::uint32_t> groups = {};  ///< one per face, or empty
     bool groups_are_masks = false;
 
@@ -35,7 +35,7 @@ struct Link {
 /// Below 180 degrees two faces are connected over a shared edge. Where more than two faces meet in an edge,
 /// each is held against the next one of its smoothing group as they turn about it, which for flat faces
 /// connects the same faces as holding each against each.
-void findComponents(const MeshView& mesh, const FaceTable& faces, const PointTable& points,
-                    const SmoothingRule& rule, std::uint32_t point, Link* links, std::uint32_t* parents);
+void findComponents(const MeshView& mesh, const FaceTable& faces, const PointTable& points, const SmoothingRule& rule,
+                    std::uint32_t point, Link* links, std::uint32_t* parents);
 
 }  // namespace tspace

@@ -60,8 +60,8 @@ FaceTable makeFaceTable(const MeshView& mesh, double factor, const Allocator* al
     return table;
 }
 
-PointTable makePointTable(const MeshView& mesh, const FaceTable& faces, bool weld_positions,
-                          const Allocator* allocator, Parallel& parallel) {
+PointTable makePointTable(const MeshView& mesh, const FaceTable& faces, bool weld_positions, const Allocator* allocator,
+                          Parallel& parallel) {
     const std::size_t corner_count = mesh.cornerCount();
     const std::size_t vertex_count = mesh.vertexCount();
     PointTable table;

@@ -26,9 +26,7 @@ struct FaceTable {
     std::uint64_t used_count = 0;         ///< faces of 3 corners or more; the others are ignored everywhere
     std::uint64_t degenerate_count = 0;   ///< of the used ones
 
-    [[nodiscard]] std::uint32_t size(std::uint32_t face) const {
-        return first_corners[face + 1] - first_corners[face];
-    }
+    [[nodiscard]] std::uint32_t size(std::uint32_t face) const { return first_corners[face + 1] - first_corners[face]; }
     [[nodiscard]] bool isUsed(std::uint32_t face) const { return size(face) >= 3; }
     /// The corner after and before a corner on the border of its face.
     [[nodiscard]] std::uint32_t next(std::uint32_t corner) const {
@@ -51,7 +49,7 @@ struct PointTable {
 /// `factor` is normalFactor(convention).
 FaceTable makeFaceTable(const MeshView& mesh, double factor, const Allocator* allocator, Parallel& parallel);
 
-PointTable makePointTable(const MeshView& mesh, const FaceTable& faces, bool weld_positions,
-                          const Allocator* allocator, Parallel& parallel);
+PointTable makePointTable(const MeshView& mesh, const FaceTable& faces, bool weld_positions, const Allocator* allocator,
+                          Parallel& parallel);
 
 }  // namespace tspace

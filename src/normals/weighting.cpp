@@ -25,8 +25,8 @@ double maxWeight(const DVec3& e1, const DVec3& e2) {
 
 }  // namespace
 
-double cornerWeight(const MeshView& mesh, const FaceTable& faces, const PointTable& points,
-                    NormalWeighting weighting, double factor, std::uint32_t corner) {
+double cornerWeight(const MeshView& mesh, const FaceTable& faces, const PointTable& points, NormalWeighting weighting,
+                    double factor, std::uint32_t corner) {
     const std::uint32_t point = points.corner_points[corner];
     const std::uint32_t previous = faces.previous(corner);
     if (points.corner_points[previous] == point) return 0;

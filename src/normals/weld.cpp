@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Welding by a hash table of vertices; and, for input that defeats the hash, by sorting. Few vertices of an indexed mesh
-// share a position with another one: there only those are looked up whose hash occurs more than once.
+// Welding by a hash table of vertices; and, for input that defeats the hash, by sorting. Few vertices of an indexed
+// mesh share a position with another one: there only those are looked up whose hash occurs more than once.
 #include "normals/weld.h"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ constexpr std::uint32_t kFree = ~std::uint32_t{0};
 constexpr std::size_t kBatch = 32;  ///< vertices whose places are fetched into the cache together
 // In vertices. An estimate, from some 50 us for a thread to start; not yet measured on idle cores.
 constexpr std::size_t kWorthThreads = 32768;
-constexpr std::size_t kFew = 4096;    ///< vertices; so few are all looked up
-constexpr std::size_t kBlock = 256;   ///< vertices; their hashes stay in the first cache
+constexpr std::size_t kFew = 4096;           ///< vertices; so few are all looked up
+constexpr std::size_t kBlock = 256;          ///< vertices; their hashes stay in the first cache
 constexpr std::size_t kPlacesPerVertex = 4;  ///< of a counting table: leaves 1 vertex of 5 or fewer to be looked up
 
 struct Key {
@@ -161,7 +161,8 @@ std::size_t lookAgain(StridedSpan<const Vec3> positions, std::uint32_t* candidat
     parallel.forTasks(ranges, [&](std::size_t range) {
         repeated.clear(range);
         const std::size_t begin = count * range / ranges, end = count * (range + 1) / ranges;
-        for (std::size_t i = begin; i < end; ++i) hashes[i] = static_cast<std::uint32_t>(hashOf(positions[candidates[i]]));
+        for (std::size_t i = begin; i < end; ++i)
+            hashes[i] = static_cast<std::uint32_t>(hashOf(positions[candidates[i]]));
         repeated.add(range, hashes.data() + begin, end - begin);
     });
     if (ranges > 1) repeated.sum(ranges, parallel);
@@ -180,8 +181,7 @@ Buffer<std::uint32_t> weldPositions(const MeshView& mesh, const Allocator* alloc
         candidates = findCandidates(positions, lowest.data(), count, allocator, parallel);
     if (!candidates.empty()) count = lookAgain(positions, candidates.data(), count, allocator, parallel);
     const bool shared = parallel.width() > 1 && count >= kWorthThreads;
-    const unsigned part_bits =
-        shared ? std::min(6u, static_cast<unsigned>(std::bit_width(parallel.width() - 1))) : 0;
+    const unsigned part_bits = shared ? std::min(6u, static_cast<unsigned>(std::bit_width(parallel.width() - 1))) : 0;
     std::atomic<bool> crowded{false};
     {
         WeldTable table(positions, candidates.data(), count, part_bits, allocator);
@@ -191,8 +191,8 @@ Buffer<std::uint32_t> weldPositions(const MeshView& mesh, const Allocator* alloc
     }
     if (crowded) weldBySorting(positions, allocator, lowest.data());
     const auto isRepeated = [&](std::uint32_t v) { return lowest[v] != v; };
-    const bool none = !candidates.empty() && !crowded &&
-                      std::none_of(candidates.begin(), candidates.begin() + count, isRepeated);
+    const bool none =
+        !candidates.empty() && !crowded && std::none_of(candidates.begin(), candidates.begin() + count, isRepeated);
     return none ? Buffer<std::uint32_t>() : std::move(lowest);
 }
 

@@ -32,9 +32,7 @@ inline Floats operator/(Floats a, Floats b) { return {_mm256_div_ps(a.v, b.v)}; 
 inline Floats smaller(Floats a, Floats b) { return {_mm256_min_ps(a.v, b.v)}; }
 inline Floats larger(Floats a, Floats b) { return {_mm256_max_ps(a.v, b.v)}; }
 inline Floats squareRoot(Floats a) { return {_mm256_sqrt_ps(a.v)}; }
-inline Floats absolute(Floats a) {
-    return {_mm256_and_ps(a.v, _mm256_castsi256_ps(_mm256_set1_epi32(0x7fffffff)))};
-}
+inline Floats absolute(Floats a) { return {_mm256_and_ps(a.v, _mm256_castsi256_ps(_mm256_set1_epi32(0x7fffffff)))}; }
 inline Mask operator>(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_GT_OQ)}; }
 inline Mask operator<(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
 inline Mask operator==(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_EQ_OQ)}; }
@@ -43,9 +41,7 @@ inline Floats select(Mask m, Floats yes, Floats no) { return {_mm256_blendv_ps(n
 struct Bits {
     __m256 v;
 };
-inline Bits broadcastBits(std::uint32_t x) {
-    return {_mm256_castsi256_ps(_mm256_set1_epi32(static_cast<int>(x)))};
-}
+inline Bits broadcastBits(std::uint32_t x) { return {_mm256_castsi256_ps(_mm256_set1_epi32(static_cast<int>(x)))}; }
 inline Bits operator&(Bits a, Bits b) { return {_mm256_and_ps(a.v, b.v)}; }
 inline Bits operator|(Bits a, Bits b) { return {_mm256_or_ps(a.v, b.v)}; }
 inline Bits orWhere(Bits a, Mask m, std::uint32_t bit) {
@@ -64,8 +60,7 @@ inline Doubles part(Floats a, std::size_t which) {
     return {_mm256_cvtps_pd(which == 0 ? _mm256_castps256_ps128(a.v) : _mm256_extractf128_ps(a.v, 1))};
 }
 inline Floats join(const Doubles* parts) {
-    return {_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(parts[0].v)),
-                                 _mm256_cvtpd_ps(parts[1].v), 1)};
+    return {_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(parts[0].v)), _mm256_cvtpd_ps(parts[1].v), 1)};
 }
 inline Doubles operator+(Doubles a, Doubles b) { return {_mm256_add_pd(a.v, b.v)}; }
 inline Doubles operator-(Doubles a, Doubles b) { return {_mm256_sub_pd(a.v, b.v)}; }
@@ -99,10 +94,8 @@ inline void storeDoubleRows(double* rows, Doubles x, Doubles y, Doubles z, Doubl
 inline void loadDoubleRows(const double* rows, Doubles& x, Doubles& y, Doubles& z, Doubles& w) {
     __m256d r[4];
     for (std::size_t i = 0; i < 4; ++i) r[i] = _mm256_load_pd(rows + 4 * i);
-    const __m256d xy_even = _mm256_permute2f128_pd(r[0], r[2], 0x20),
-                  xy_odd = _mm256_permute2f128_pd(r[1], r[3], 0x20);
-    const __m256d zw_even = _mm256_permute2f128_pd(r[0], r[2], 0x31),
-                  zw_odd = _mm256_permute2f128_pd(r[1], r[3], 0x31);
+    const __m256d xy_even = _mm256_permute2f128_pd(r[0], r[2], 0x20), xy_odd = _mm256_permute2f128_pd(r[1], r[3], 0x20);
+    const __m256d zw_even = _mm256_permute2f128_pd(r[0], r[2], 0x31), zw_odd = _mm256_permute2f128_pd(r[1], r[3], 0x31);
     x = {_mm256_unpacklo_pd(xy_even, xy_odd)};
     y = {_mm256_unpackhi_pd(xy_even, xy_odd)};
     z = {_mm256_unpacklo_pd(zw_even, zw_odd)};
@@ -118,12 +111,10 @@ inline void addDoubleRow(double* to, double k, DoubleRow row) {
 }
 
 #include "simd/loads_x86.h"
-inline __m256 combine(__m128 low, __m128 high) {
-    return _mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1);
-}
+inline __m256 combine(__m128 low, __m128 high) { return _mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1); }
 
-inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact,
-                    Floats& x, Floats& y, Floats& z) {
+inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact, Floats& x,
+                    Floats& y, Floats& z) {
     __m256 r[4];
     for (std::size_t j = 0; j < 4; ++j) {
         r[j] = combine(loadVector(base + stride * index[3 * j], exact),
@@ -134,8 +125,7 @@ inline void gather3(const std::byte* base, std::size_t stride, const std::uint32
     y = {_mm256_shuffle_ps(ab, cd, 0xee)};
     z = {_mm256_shuffle_ps(_mm256_unpackhi_ps(r[0], r[1]), _mm256_unpackhi_ps(r[2], r[3]), 0x44)};
 }
-inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index, Floats& x,
-                    Floats& y) {
+inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index, Floats& x, Floats& y) {
     // A pair is loaded to all places and blended, which takes none of the few shuffle units.
     const auto at = [&](std::size_t i) {
         return _mm256_broadcast_sd(reinterpret_cast<const double*>(base + stride * index[3 * i]));
@@ -155,8 +145,7 @@ inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     const __m256 xy_low = _mm256_unpacklo_ps(x.v, y.v), xy_high = _mm256_unpackhi_ps(x.v, y.v);
     const __m256 zw_low = _mm256_unpacklo_ps(z.v, w.v), zw_high = _mm256_unpackhi_ps(z.v, w.v);
     const __m256 r[4] = {_mm256_shuffle_ps(xy_low, zw_low, 0x44), _mm256_shuffle_ps(xy_low, zw_low, 0xee),
-                         _mm256_shuffle_ps(xy_high, zw_high, 0x44),
-                         _mm256_shuffle_ps(xy_high, zw_high, 0xee)};
+                         _mm256_shuffle_ps(xy_high, zw_high, 0x44), _mm256_shuffle_ps(xy_high, zw_high, 0xee)};
     for (std::size_t j = 0; j < 4; ++j) {
         _mm_storeu_ps(rows + kStep * j, _mm256_castps256_ps128(r[j]));
         _mm_storeu_ps(rows + kStep * (j + 4), _mm256_extractf128_ps(r[j], 1));

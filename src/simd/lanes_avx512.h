@@ -32,9 +32,7 @@ inline Floats operator/(Floats a, Floats b) { return {_mm512_div_ps(a.v, b.v)}; 
 inline Floats smaller(Floats a, Floats b) { return {_mm512_min_ps(a.v, b.v)}; }
 inline Floats larger(Floats a, Floats b) { return {_mm512_max_ps(a.v, b.v)}; }
 inline Floats squareRoot(Floats a) { return {_mm512_sqrt_ps(a.v)}; }
-inline Floats absolute(Floats a) {
-    return {_mm512_and_ps(a.v, _mm512_castsi512_ps(_mm512_set1_epi32(0x7fffffff)))};
-}
+inline Floats absolute(Floats a) { return {_mm512_and_ps(a.v, _mm512_castsi512_ps(_mm512_set1_epi32(0x7fffffff)))}; }
 inline Mask operator>(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_GT_OQ)}; }
 inline Mask operator<(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ)}; }
 inline Mask operator==(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_EQ_OQ)}; }
@@ -62,8 +60,7 @@ inline Doubles part(Floats a, std::size_t which) {
     return {_mm512_cvtps_pd(which == 0 ? _mm512_castps512_ps256(a.v) : _mm512_extractf32x8_ps(a.v, 1))};
 }
 inline Floats join(const Doubles* parts) {
-    return {_mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(parts[0].v)),
-                               _mm512_cvtpd_ps(parts[1].v), 1)};
+    return {_mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(parts[0].v)), _mm512_cvtpd_ps(parts[1].v), 1)};
 }
 inline Doubles operator+(Doubles a, Doubles b) { return {_mm512_add_pd(a.v, b.v)}; }
 inline Doubles operator-(Doubles a, Doubles b) { return {_mm512_sub_pd(a.v, b.v)}; }
@@ -89,7 +86,8 @@ inline void storeDoubles(double* to, Doubles a) { _mm512_store_pd(to, a.v); }
 inline void storeDoubleRows(double* rows, Doubles x, Doubles y, Doubles z, Doubles w) {
     const __m512d xy[2] = {_mm512_unpacklo_pd(x.v, y.v), _mm512_unpackhi_pd(x.v, y.v)};
     const __m512d zw[2] = {_mm512_unpacklo_pd(z.v, w.v), _mm512_unpackhi_pd(z.v, w.v)};
-    const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), high = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
+    const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11),
+                  high = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
     for (std::size_t odd = 0; odd < 2; ++odd) {  // even or odd rows: 0 and 2, 4 and 6 and so on
         const __m512d r02 = _mm512_permutex2var_pd(xy[odd], low, zw[odd]);
         const __m512d r46 = _mm512_permutex2var_pd(xy[odd], high, zw[odd]);
@@ -128,8 +126,8 @@ inline __m512 combine(__m128 a, __m128 b, __m128 c, __m128 d) {
     return _mm512_insertf32x8(_mm512_castps256_ps512(ab), cd, 1);
 }
 
-inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact,
-                    Floats& x, Floats& y, Floats& z) {
+inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact, Floats& x,
+                    Floats& y, Floats& z) {
     const auto at = [&](std::size_t i) { return loadVector(base + stride * index[3 * i], exact); };
     __m512 r[4];
     for (std::size_t j = 0; j < 4; ++j) r[j] = combine(at(j), at(j + 4), at(j + 8), at(j + 12));
@@ -138,13 +136,11 @@ inline void gather3(const std::byte* base, std::size_t stride, const std::uint32
     y = {_mm512_shuffle_ps(ab, cd, 0xee)};
     z = {_mm512_shuffle_ps(_mm512_unpackhi_ps(r[0], r[1]), _mm512_unpackhi_ps(r[2], r[3]), 0x44)};
 }
-inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index, Floats& x,
-                    Floats& y) {
+inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index, Floats& x, Floats& y) {
     const auto pair = [&](std::size_t i) {
         return loadPair(base + stride * index[3 * i], base + stride * index[3 * i + 3]);
     };
-    const __m512 ab = combine(pair(0), pair(4), pair(8), pair(12)),
-                 cd = combine(pair(2), pair(6), pair(10), pair(14));
+    const __m512 ab = combine(pair(0), pair(4), pair(8), pair(12)), cd = combine(pair(2), pair(6), pair(10), pair(14));
     x = {_mm512_shuffle_ps(ab, cd, 0x88)};
     y = {_mm512_shuffle_ps(ab, cd, 0xdd)};
 }
@@ -156,8 +152,7 @@ inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     const __m512 xy_low = _mm512_unpacklo_ps(x.v, y.v), xy_high = _mm512_unpackhi_ps(x.v, y.v);
     const __m512 zw_low = _mm512_unpacklo_ps(z.v, w.v), zw_high = _mm512_unpackhi_ps(z.v, w.v);
     const __m512 r[4] = {_mm512_shuffle_ps(xy_low, zw_low, 0x44), _mm512_shuffle_ps(xy_low, zw_low, 0xee),
-                         _mm512_shuffle_ps(xy_high, zw_high, 0x44),
-                         _mm512_shuffle_ps(xy_high, zw_high, 0xee)};
+                         _mm512_shuffle_ps(xy_high, zw_high, 0x44), _mm512_shuffle_ps(xy_high, zw_high, 0xee)};
     for (std::size_t j = 0; j < 4; ++j) {
         _mm_storeu_ps(rows + kStep * j, _mm512_castps512_ps128(r[j]));
         _mm_storeu_ps(rows + kStep * (j + 4), _mm512_extractf32x4_ps(r[j], 1));

@@ -51,9 +51,7 @@ struct Bits {
 inline Bits broadcastBits(std::uint32_t x) { return {vdupq_n_u32(x)}; }
 inline Bits operator&(Bits a, Bits b) { return {vandq_u32(a.v, b.v)}; }
 inline Bits operator|(Bits a, Bits b) { return {vorrq_u32(a.v, b.v)}; }
-inline Bits orWhere(Bits a, Mask m, std::uint32_t bit) {
-    return {vorrq_u32(a.v, vandq_u32(m.v, vdupq_n_u32(bit)))};
-}
+inline Bits orWhere(Bits a, Mask m, std::uint32_t bit) { return {vorrq_u32(a.v, vandq_u32(m.v, vdupq_n_u32(bit)))}; }
 inline Floats asFloats(Bits b) { return {vreinterpretq_f32_u32(b.v)}; }
 
 /// The instructions of vld1 and vst1, but at any address, and over numbers of other types.
@@ -124,9 +122,7 @@ inline void loadDoubleRows(const double* rows, Doubles& x, Doubles& y, Doubles& 
 struct DoubleRow {
     float64x2_t low, high;
 };
-inline DoubleRow loadDoubleRow(const double* p) {
-    return {fromMemory<float64x2_t>(p), fromMemory<float64x2_t>(p + 2)};
-}
+inline DoubleRow loadDoubleRow(const double* p) { return {fromMemory<float64x2_t>(p), fromMemory<float64x2_t>(p + 2)}; }
 inline void addDoubleRow(double* to, double k, DoubleRow row) {
     const float64x2_t factor = vdupq_n_f64(k);
     toMemory(to, vaddq_f64(fromMemory<float64x2_t>(to), vmulq_f64(factor, row.low)));
@@ -155,8 +151,8 @@ inline void transpose(float32x4_t (&r)[4]) {
     r[3] = upperHalves(ab_odd, cd_odd);
 }
 
-inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact,
-                    Floats& x, Floats& y, Floats& z) {
+inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact, Floats& x,
+                    Floats& y, Floats& z) {
     float32x4_t r[4];
     for (std::size_t i = 0; i < 4; ++i) r[i] = loadVector(base + stride * index[3 * i], exact);
     transpose(r);
@@ -164,8 +160,7 @@ inline void gather3(const std::byte* base, std::size_t stride, const std::uint32
     y = {r[1]};
     z = {r[2]};
 }
-inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index, Floats& x,
-                    Floats& y) {
+inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index, Floats& x, Floats& y) {
     const auto at = [&](std::size_t i) { return fromMemory<float32x2_t>(base + stride * index[3 * i]); };
     const float32x4_t ab = vcombine_f32(at(0), at(1)), cd = vcombine_f32(at(2), at(3));
     x = {vuzp1q_f32(ab, cd)};

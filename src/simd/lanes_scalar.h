@@ -120,16 +120,15 @@ inline void addDoubleRow(double* to, double k, DoubleRow row) {
 
 /// Reads the elements numbered index[0], index[3], index[6], ... (one corner of consecutive triangles) of an
 /// array of vectors. `exact` reads their 12 bytes and no more; otherwise the 4 bytes after them are read too.
-inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool, Floats& x,
-                    Floats& y, Floats& z) {
+inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool, Floats& x, Floats& y,
+                    Floats& z) {
     float v[3];
     std::memcpy(v, base + stride * index[0], 12);
     x = {v[0]};
     y = {v[1]};
     z = {v[2]};
 }
-inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index, Floats& x,
-                    Floats& y) {
+inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index, Floats& x, Floats& y) {
     float v[2];
     std::memcpy(v, base + stride * index[0], 8);
     x = {v[0]};

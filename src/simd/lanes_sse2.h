@@ -62,12 +62,8 @@ inline void storeAsFloats(float* to, Doubles a) {
     _mm_store_sd(reinterpret_cast<double*>(to), _mm_castps_pd(_mm_cvtpd_ps(a.v)));
 }
 inline Doubles broadcastDouble(double x) { return {_mm_set1_pd(x)}; }
-inline Doubles part(Floats a, std::size_t which) {
-    return {_mm_cvtps_pd(which == 0 ? a.v : _mm_movehl_ps(a.v, a.v))};
-}
-inline Floats join(const Doubles* parts) {
-    return {_mm_movelh_ps(_mm_cvtpd_ps(parts[0].v), _mm_cvtpd_ps(parts[1].v))};
-}
+inline Doubles part(Floats a, std::size_t which) { return {_mm_cvtps_pd(which == 0 ? a.v : _mm_movehl_ps(a.v, a.v))}; }
+inline Floats join(const Doubles* parts) { return {_mm_movelh_ps(_mm_cvtpd_ps(parts[0].v), _mm_cvtpd_ps(parts[1].v))}; }
 inline Doubles operator+(Doubles a, Doubles b) { return {_mm_add_pd(a.v, b.v)}; }
 inline Doubles operator-(Doubles a, Doubles b) { return {_mm_sub_pd(a.v, b.v)}; }
 inline Doubles operator*(Doubles a, Doubles b) { return {_mm_mul_pd(a.v, b.v)}; }
@@ -81,9 +77,7 @@ struct DoubleMask {
 inline DoubleMask operator>(Doubles a, Doubles b) { return {_mm_cmpgt_pd(a.v, b.v)}; }
 inline DoubleMask operator&(DoubleMask a, DoubleMask b) { return {_mm_and_pd(a.v, b.v)}; }
 inline unsigned bitsOf(DoubleMask m) { return static_cast<unsigned>(_mm_movemask_pd(m.v)); }
-inline Doubles withSignOf(Doubles a, Doubles b) {
-    return {_mm_xor_pd(a.v, _mm_and_pd(b.v, _mm_set1_pd(-0.0)))};
-}
+inline Doubles withSignOf(Doubles a, Doubles b) { return {_mm_xor_pd(a.v, _mm_and_pd(b.v, _mm_set1_pd(-0.0)))}; }
 inline Doubles keepWhere(DoubleMask m, Doubles a) { return {_mm_and_pd(m.v, a.v)}; }
 inline Doubles negateUnless(DoubleMask m, Doubles a) {
     return {_mm_xor_pd(a.v, _mm_andnot_pd(m.v, _mm_set1_pd(-0.0)))};
@@ -116,19 +110,16 @@ inline void addDoubleRow(double* to, double k, DoubleRow row) {
 
 #include "simd/loads_x86.h"
 
-inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact,
-                    Floats& x, Floats& y, Floats& z) {
-    const __m128 a = loadVector(base + stride * index[0], exact),
-                 b = loadVector(base + stride * index[3], exact);
-    const __m128 c = loadVector(base + stride * index[6], exact),
-                 d = loadVector(base + stride * index[9], exact);
+inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact, Floats& x,
+                    Floats& y, Floats& z) {
+    const __m128 a = loadVector(base + stride * index[0], exact), b = loadVector(base + stride * index[3], exact);
+    const __m128 c = loadVector(base + stride * index[6], exact), d = loadVector(base + stride * index[9], exact);
     const __m128 ab = _mm_unpacklo_ps(a, b), cd = _mm_unpacklo_ps(c, d);
     x = {_mm_movelh_ps(ab, cd)};
     y = {_mm_movehl_ps(cd, ab)};
     z = {_mm_movelh_ps(_mm_unpackhi_ps(a, b), _mm_unpackhi_ps(c, d))};
 }
-inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index, Floats& x,
-                    Floats& y) {
+inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index, Floats& x, Floats& y) {
     const __m128 ab = loadPair(base + stride * index[0], base + stride * index[3]);
     const __m128 cd = loadPair(base + stride * index[6], base + stride * index[9]);
     x = {_mm_shuffle_ps(ab, cd, 0x88)};

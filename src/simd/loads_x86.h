@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reading and writing two or three floats at any address. Included inside the namespace of each lanes_*.h for x86, so that
-// each CPU has functions of its own: see the rules in lanes_scalar.h. Without a guard, for the same reason.
+// Reading and writing two or three floats at any address. Included inside the namespace of each lanes_*.h for x86, so
+// that each CPU has functions of its own: see the rules in lanes_scalar.h. Without a guard, for the same reason.
 
 /// Two floats as one double.
 inline double loadTwo(const std::byte* p) {

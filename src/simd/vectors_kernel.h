@@ -17,8 +17,7 @@ inline Vectors cross(Vectors a, Vectors b) {
 }
 
 /// With strides that are known, addresses need no multiplication.
-inline Vectors gatherVectors(const std::byte* base, std::size_t stride, const std::uint32_t* index,
-                             bool exact) {
+inline Vectors gatherVectors(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact) {
     Vectors v;
     if (stride == 12 && !exact) {
         gather3(base, 12, index, false, v.x, v.y, v.z);

@@ -33,8 +33,8 @@ Buffer<std::uint8_t> findUsedVertices(const IndexedPlan& plan, const Allocator* 
 
 }  // namespace
 
-void evaluateBasis(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out,
-                   const Allocator* allocator, Parallel& parallel, TangentReport& report) {
+void evaluateBasis(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out, const Allocator* allocator,
+                   Parallel& parallel, TangentReport& report) {
     const bool per_vertex = plan.domain == OutputDomain::vertex;
     const Buffer<std::uint8_t> used = findUsedVertices(plan, allocator);
     report.group_count = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), std::uint8_t{1}));
@@ -44,8 +44,7 @@ void evaluateBasis(const IndexedPlan& plan, const Pose& pose, const TangentOutpu
             for (std::size_t i = begin; i < end; ++i) {
                 const bool is_used = per_vertex ? used[i] != 0 : plan.isUsed(i);
                 const std::size_t vertex = per_vertex ? i : plan.corner_vertices[i];
-                const CornerFrame frame =
-                    is_used ? basisFrame(pose.normals[vertex], plan.sign_factor) : CornerFrame{};
+                const CornerFrame frame = is_used ? basisFrame(pose.normals[vertex], plan.sign_factor) : CornerFrame{};
                 writeFrame(out, i, frame);
                 count += frame.is_default ? 1 : 0;
             }

@@ -23,10 +23,9 @@ inline constexpr std::size_t kTermGroup = 16;      ///< triangles and vertices a
 
 /// Six floats per triangle and vertex, in two arrays for vertices.
 struct DerivativeTerms {
-    alignas(64) float rows[kTermTriangles]
-                          [8];   ///< s.x s.y s.z t.x t.y t.z, s = dP/du, t = dP/dv; s.x is never -0
-    std::uint64_t safe = 0;      ///< bits of the triangles for which all this holds
-    std::uint64_t mirrored = 0;  ///< of the safe ones those with negative UV area
+    alignas(64) float rows[kTermTriangles][8];  ///< s.x s.y s.z t.x t.y t.z, s = dP/du, t = dP/dv; s.x is never -0
+    std::uint64_t safe = 0;                     ///< bits of the triangles for which all this holds
+    std::uint64_t mirrored = 0;                 ///< of the safe ones those with negative UV area
 };
 
 /// Where sums are: s.x s.y s.z t.x of each vertex, and t.y t.z.
@@ -42,11 +41,11 @@ struct DerivativeKernel {
     void (*compute)(const TriangleSource& source, const std::uint32_t* vertices, std::size_t count,
                     DerivativeTerms& terms);
     /// Adds the rows of triangles `begin` to before `end` to the sums of their vertices.
-    void (*add)(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin,
-                std::size_t end, SumArrays sums);
+    void (*add)(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin, std::size_t end,
+                SumArrays sums);
     /// The same for vertices from `first` to before `past` only.
-    void (*add_some)(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin,
-                     std::size_t end, SumArrays sums, std::uint32_t first, std::uint32_t past);
+    void (*add_some)(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin, std::size_t end,
+                     SumArrays sums, std::uint32_t first, std::uint32_t past);
     /// Of `count` vertices, a multiple of kTermGroup and at most 64: turns heads into tangents with the sign
     /// times `sign_factor` where single precision is enough, and returns the bits of these. Reads the four
     /// bytes after each normal, too.

@@ -31,8 +31,7 @@ struct Group {
 /// With strides that are known, addresses need no multiplication.
 template <bool kTight, bool kExact>
 inline Group load(const TriangleSource& source, const std::uint32_t* vertices) {
-    const std::size_t position_stride = kTight ? 12 : source.position_stride,
-                      uv_stride = kTight ? 8 : source.uv_stride;
+    const std::size_t position_stride = kTight ? 12 : source.position_stride, uv_stride = kTight ? 8 : source.uv_stride;
     Group g;
     for (std::size_t k = 0; k < 3; ++k) {
         gather3(source.positions, position_stride, vertices + k, kExact, g.p[k].x, g.p[k].y, g.p[k].z);
@@ -51,8 +50,8 @@ inline GroupBits writeRows(const Group& g, float* rows) {
     const Floats s1 = g.u[1] - g.u[0], t1 = g.v[1] - g.v[0], s2 = g.u[2] - g.u[0], t2 = g.v[2] - g.v[0];
     const Floats plus = s1 * t2, minus = s2 * t1, determinant = plus - minus;
     const Floats r = broadcast(1.0f) / determinant, size = absolute(determinant);
-    Mask safe = (size > broadcast(kLeastShare) * (absolute(plus) + absolute(minus))) &
-                (size > broadcast(kLeast)) & (size < broadcast(kGreatest));
+    Mask safe = (size > broadcast(kLeastShare) * (absolute(plus) + absolute(minus))) & (size > broadcast(kLeast)) &
+                (size < broadcast(kGreatest));
 
     const Vectors e1 = g.p[1] - g.p[0], e2 = g.p[2] - g.p[0];
     // Two corners at one position have one x, which is rarely so.
@@ -89,8 +88,7 @@ inline bool namesLastVertex(const std::uint32_t* vertices, std::size_t count, st
     return others == 0;
 }
 
-void compute(const TriangleSource& source, const std::uint32_t* vertices, std::size_t count,
-             DerivativeTerms& terms) {
+void compute(const TriangleSource& source, const std::uint32_t* vertices, std::size_t count, DerivativeTerms& terms) {
     const bool tight = source.position_stride == 12 && source.uv_stride == 8;
     if (namesLastVertex(vertices, (count + kWidth - 1) / kWidth * kWidth, source.last_vertex)) {
         computeBlock<false, true>(source, vertices, count, terms);
@@ -197,8 +195,8 @@ inline unsigned finishGroup(float* heads, const float* tails, Vectors n, float s
 }
 
 template <bool kTight>
-inline std::uint64_t finishVertices(SumArrays sums, const std::byte* normals, std::size_t stride,
-                                    float sign_factor, std::size_t count) {
+inline std::uint64_t finishVertices(SumArrays sums, const std::byte* normals, std::size_t stride, float sign_factor,
+                                    std::size_t count) {
     constexpr Consecutive kNext;
     std::uint64_t safe = 0;
     for (std::size_t v = 0; v < count; v += kWidth) {

@@ -47,12 +47,7 @@ TriangleCounts& TriangleCounts::operator+=(const TriangleCounts& other) {
 
 FaceSums::FaceSums(const IndexedPlan& plan, StridedSpan<const Vec3> positions,
                    const derivatives::DerivativeKernel& kernel, VertexSums sums, float* visits)
-    : plan_(plan),
-      positions_(positions),
-      kernel_(kernel),
-      sums_(sums),
-      visits_(visits),
-      ranges_(plan.vertex_count) {}
+    : plan_(plan), positions_(positions), kernel_(kernel), sums_(sums), visits_(visits), ranges_(plan.vertex_count) {}
 
 void FaceSums::cutIntoRanges(unsigned wanted, const Allocator* allocator, Parallel& parallel) {
     const auto vertices = [&](std::size_t first, std::size_t count, std::uint32_t* buffer) {
@@ -66,10 +61,9 @@ TriangleCounts FaceSums::sum(unsigned index) const {
     sums_.clear(range);
     if (visits_ != nullptr) std::fill(visits_ + range.begin, visits_ + range.end, 0.0f);
 
-    const derivatives::TriangleSource source{reinterpret_cast<const std::byte*>(positions_.data),
-                                             reinterpret_cast<const std::byte*>(plan_.uvs.data),
-                                             positions_.stride_bytes, plan_.uvs.stride_bytes,
-                                             static_cast<std::uint32_t>(positions_.count - 1)};
+    const derivatives::TriangleSource source{
+        reinterpret_cast<const std::byte*>(positions_.data), reinterpret_cast<const std::byte*>(plan_.uvs.data),
+        positions_.stride_bytes, plan_.uvs.stride_bytes, static_cast<std::uint32_t>(positions_.count - 1)};
     TriangleCounts counts;
     Block block;
     const std::size_t triangle_count = plan_.triangleCount();

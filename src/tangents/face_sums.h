@@ -49,8 +49,8 @@ struct TriangleCounts {
 class FaceSums {
   public:
     /// `visits`, one per vertex, counts the triangles that were added; it may be null.
-    FaceSums(const IndexedPlan& plan, StridedSpan<const Vec3> positions,
-             const derivatives::DerivativeKernel& kernel, VertexSums sums, float* visits);
+    FaceSums(const IndexedPlan& plan, StridedSpan<const Vec3> positions, const derivatives::DerivativeKernel& kernel,
+             VertexSums sums, float* visits);
 
     /// Without this call there is one range.
     void cutIntoRanges(unsigned wanted, const Allocator* allocator, Parallel& parallel);

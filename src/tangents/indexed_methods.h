@@ -35,11 +35,11 @@ void writeFrame(const TangentOutput& out, std::size_t entry, const CornerFrame& 
 void writeExtras(const TangentOutput& out, std::size_t entry, const CornerFrame& frame);
 
 /// Each writes the used outputs and sets the counts of `report` that it knows and the plan does not.
-void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out,
-                     const Execution& execution, Parallel& parallel, TangentReport& report);
+void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out, const Execution& execution,
+                     Parallel& parallel, TangentReport& report);
 void evaluateFlat(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out, Parallel& parallel,
                   TangentReport& report);
-void evaluateBasis(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out,
-                   const Allocator* allocator, Parallel& parallel, TangentReport& report);
+void evaluateBasis(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out, const Allocator* allocator,
+                   Parallel& parallel, TangentReport& report);
 
 }  // namespace tspace

@@ -57,8 +57,7 @@ class FaceCutter {
 
 bool hasOnlyTriangles(const MeshView& mesh) {
     if (mesh.face_sizes.empty()) return mesh.face_size == 3;
-    return std::all_of(mesh.face_sizes.begin(), mesh.face_sizes.end(),
-                       [](std::uint32_t s) { return s == 3; });
+    return std::all_of(mesh.face_sizes.begin(), mesh.face_sizes.end(), [](std::uint32_t s) { return s == 3; });
 }
 
 void cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator, IndexedPlan& plan) {
@@ -71,8 +70,7 @@ void cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator, Ind
     });
     const std::size_t corner_count = mesh.cornerCount();
     plan.cut_triangles = Buffer<std::uint32_t>(allocator, 3 * triangle_count);
-    if (plan.report.skipped_face_count != 0)
-        plan.corner_used = Buffer<std::uint8_t>(allocator, corner_count, 0);
+    if (plan.report.skipped_face_count != 0) plan.corner_used = Buffer<std::uint8_t>(allocator, corner_count, 0);
     plan.face_begins = Buffer<std::uint32_t>(allocator, mesh.faceCount() + 1);
 
     FaceCutter cutter(mesh);
@@ -80,8 +78,7 @@ void cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator, Ind
     forEachFace(mesh, [&](std::size_t face, std::size_t first_corner, std::uint32_t size) {
         plan.face_begins[face] = static_cast<std::uint32_t>(first_corner);
         if (!isUsed(size, ngons)) return;
-        if (!plan.corner_used.empty())
-            std::fill_n(plan.corner_used.data() + first_corner, size, std::uint8_t{1});
+        if (!plan.corner_used.empty()) std::fill_n(plan.corner_used.data() + first_corner, size, std::uint8_t{1});
         end = cutter.cut(first_corner, size, end);
     });
     plan.face_begins[mesh.faceCount()] = static_cast<std::uint32_t>(corner_count);
@@ -151,8 +148,7 @@ std::size_t IndexedPlan::memoryBytes() const {
            sizeof(Vec2) * kept_uvs.size();
 }
 
-IndexedPlan planIndexed(const MeshView& mesh, const TangentOptions& options, Parallel& parallel,
-                        PlanUse use) {
+IndexedPlan planIndexed(const MeshView& mesh, const TangentOptions& options, Parallel& parallel, PlanUse use) {
     const Allocator* const allocator = options.execution.allocator;
     IndexedPlan plan;
     plan.method = options.method;
@@ -214,11 +210,8 @@ CornerFrame makeCornerFrame(const Derivatives& d, const Vec3& normal, float sign
         if (!normalize(b)) b = {0, 1, 0};
     }
     const Vec3 tangent = toFloat(t);
-    return {{tangent.x, tangent.y, tangent.z, sign},
-            toFloat(b_sign * b),
-            meanLength(d.s, 1),
-            meanLength(d.t, 1),
-            false};
+    return {
+        {tangent.x, tangent.y, tangent.z, sign}, toFloat(b_sign * b), meanLength(d.s, 1), meanLength(d.t, 1), false};
 }
 
 void writeFrame(const TangentOutput& out, std::size_t entry, const CornerFrame& frame) {

@@ -17,15 +17,12 @@ struct IndexedPlan {
     float sign_factor = 1.0f;  ///< signFactor(convention)
     std::size_t vertex_count = 0;
     std::size_t face_count = 0;
-    IndexView corner_vertices;    ///< one per corner of the mesh
-    IndexView triangle_vertices;  ///< three per triangle, after cutting faces; face order
-    StridedSpan<const Vec2> uvs;  ///< one per vertex; empty for basis
-    Buffer<std::uint32_t>
-        face_begins;  ///< first corner of each face and one past the last; empty: all are triangles
-    Buffer<std::uint8_t>
-        corner_used;  ///< one per corner: 1 when its face is used, else outputs are 0; empty: all are
-    Buffer<std::uint32_t>
-        cut_triangles;  ///< behind triangle_vertices when there are other faces than triangles
+    IndexView corner_vertices;          ///< one per corner of the mesh
+    IndexView triangle_vertices;        ///< three per triangle, after cutting faces; face order
+    StridedSpan<const Vec2> uvs;        ///< one per vertex; empty for basis
+    Buffer<std::uint32_t> face_begins;  ///< first corner of each face and one past the last; empty: all are triangles
+    Buffer<std::uint8_t> corner_used;   ///< one per corner: 1 when its face is used, else outputs are 0; empty: all are
+    Buffer<std::uint32_t> cut_triangles;  ///< behind triangle_vertices when there are other faces than triangles
     Buffer<std::uint32_t> kept_vertices;  ///< behind corner_vertices when the plan is kept
     Buffer<Vec2> kept_uvs;                ///< behind uvs when the plan is kept
     TangentReport report;                 ///< what can be counted without a pose
@@ -36,9 +33,7 @@ struct IndexedPlan {
     [[nodiscard]] std::size_t outputCount() const {
         return domain == OutputDomain::vertex ? vertex_count : cornerCount();
     }
-    [[nodiscard]] bool isUsed(std::size_t corner) const {
-        return corner_used.empty() || corner_used[corner] != 0;
-    }
+    [[nodiscard]] bool isUsed(std::size_t corner) const { return corner_used.empty() || corner_used[corner] != 0; }
     [[nodiscard]] std::uint32_t faceBegin(std::size_t face) const {
         return face_begins.empty() ? static_cast<std::uint32_t>(3 * face) : face_begins[face];
     }

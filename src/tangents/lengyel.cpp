@@ -30,8 +30,7 @@ class VertexFrames {
   public:
     /// `is_default`, zeros, one per vertex, gets 1 where the tangent is a default; it may be null.
     VertexFrames(const derivatives::DerivativeKernel& kernel, const VertexSums& sums, const float* visits,
-                 StridedSpan<const Vec3> normals, float sign_factor, const TangentOutput& out,
-                 std::uint8_t* is_default)
+                 StridedSpan<const Vec3> normals, float sign_factor, const TangentOutput& out, std::uint8_t* is_default)
         : kernel_(kernel),
           sums_(sums),
           visits_(visits),
@@ -73,8 +72,8 @@ class VertexFrames {
 
     void finishInPlace(std::uint32_t first, std::uint32_t count, VertexCounts& counts) const {
         const auto* normals = reinterpret_cast<const std::byte*>(&normals_[first]);
-        const std::uint64_t safe = kernel_.finish({sums_.head(first), sums_.tail(first)}, normals,
-                                                  normals_.stride_bytes, sign_factor_, count);
+        const std::uint64_t safe =
+            kernel_.finish({sums_.head(first), sums_.tail(first)}, normals, normals_.stride_bytes, sign_factor_, count);
         counts.used += static_cast<unsigned>(std::popcount(safe));
         for (std::uint64_t rest = ~safe & lowBits(count); rest != 0; rest &= rest - 1) {
             const std::uint32_t v = first + static_cast<std::uint32_t>(std::countr_zero(rest));
@@ -90,9 +89,8 @@ class VertexFrames {
         std::copy_n(sums_.tail(first), 2 * count, tails);
         for (std::uint32_t i = 0; i < count; ++i) normals[i] = normals_[first + i];
         const std::uint32_t whole_groups = (count + derivatives::kTermGroup - 1) / derivatives::kTermGroup;
-        const std::uint64_t safe =
-            kernel_.finish({heads, tails}, reinterpret_cast<const std::byte*>(normals), sizeof(Vec3),
-                           sign_factor_, whole_groups * derivatives::kTermGroup);
+        const std::uint64_t safe = kernel_.finish({heads, tails}, reinterpret_cast<const std::byte*>(normals),
+                                                  sizeof(Vec3), sign_factor_, whole_groups * derivatives::kTermGroup);
         for (std::uint32_t i = 0; i < count; ++i) {
             const std::uint32_t v = first + i;
             const bool is_safe = (safe >> i & 1) != 0;
@@ -176,8 +174,7 @@ void copyToCorners(const IndexedPlan& plan, const T* from, const StridedSpan<T>&
 /// one per vertex; null: none. vertexOf(c): the vertex of a corner.
 template <class VertexOf>
 std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std::uint8_t* is_default,
-                           const StridedSpan<Vec4>& out, std::size_t begin, std::size_t end,
-                           const VertexOf& vertexOf) {
+                           const StridedSpan<Vec4>& out, std::size_t begin, std::size_t end, const VertexOf& vertexOf) {
     const std::uint8_t* const used = plan.corner_used.data();
     const std::size_t stride = out.stride_bytes;
     constexpr std::size_t kAhead = 2048;  // bytes
@@ -225,8 +222,8 @@ struct SumPlaces {
 
 }  // namespace
 
-void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out,
-                     const Execution& execution, Parallel& parallel, TangentReport& report) {
+void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out, const Execution& execution,
+                     Parallel& parallel, TangentReport& report) {
     if (plan.vertex_count == 0) return;
     const Allocator* const allocator = execution.allocator;
     const derivatives::DerivativeKernel kernel = derivatives::derivativeKernelFor(execution.simd);

@@ -12,15 +12,15 @@ namespace tspace {
 /// to the bitangent. So cross(N, T) and T are each off by half of the UVs' shear, where T alone was exact
 /// before. normalOf(i): the normal of entry i. An entry without tangent, bitangent or normal stays as it is.
 template <class NormalOf>
-void makeSymmetric(const StridedSpan<Vec4>& tangents, const StridedSpan<Vec3>& bitangents,
-                   const NormalOf& normalOf, Parallel& parallel);
+void makeSymmetric(const StridedSpan<Vec4>& tangents, const StridedSpan<Vec3>& bitangents, const NormalOf& normalOf,
+                   Parallel& parallel);
 
 /// The bisector that takes the place of the tangent, or the tangent itself.
 Vec3 symmetricTangent(const Vec3& tangent, const Vec3& bitangent, const Vec3& normal);
 
 template <class NormalOf>
-void makeSymmetric(const StridedSpan<Vec4>& tangents, const StridedSpan<Vec3>& bitangents,
-                   const NormalOf& normalOf, Parallel& parallel) {
+void makeSymmetric(const StridedSpan<Vec4>& tangents, const StridedSpan<Vec3>& bitangents, const NormalOf& normalOf,
+                   Parallel& parallel) {
     constexpr std::size_t kGrain = 8192;
     parallel.forRanges(tangents.count, kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {

@@ -41,8 +41,7 @@ bool isGrouped(Method method) {
 
 Error checkOptions(const TangentOptions& options) {
     if (options.method > Method::best) {
-        return {ErrorCode::invalidOption,
-                "unknown method " + std::to_string(static_cast<unsigned>(options.method))};
+        return {ErrorCode::invalidOption, "unknown method " + std::to_string(static_cast<unsigned>(options.method))};
     }
     if (options.pairing > Pairing::corrected) return {ErrorCode::invalidOption, "unknown pairing"};
     if (options.ngons > Ngons::skip) return {ErrorCode::invalidOption, "unknown treatment of n-gons"};
@@ -63,8 +62,7 @@ Error checkInput(const MeshView& mesh, const TangentOptions& options, Parallel& 
     if (Error e = checkOptions(options); e.code != ErrorCode::ok) return e;
     if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
     if (mesh.vertexCount() == 0) return {ErrorCode::ok, {}};
-    if (mesh.normals.empty())
-        return {ErrorCode::missingAttribute, "tangents need normals, and the mesh has none"};
+    if (mesh.normals.empty()) return {ErrorCode::missingAttribute, "tangents need normals, and the mesh has none"};
     if (mesh.uvs.empty() && options.method != Method::basis) {
         return {ErrorCode::missingAttribute, "this method needs UVs, and the mesh has none"};
     }
@@ -97,9 +95,9 @@ TangentReport generateFrames(const MeshView& mesh, const TangentOptions& options
 
 Error checkPose(const Pose& pose, std::size_t vertex_count) {
     if (pose.positions.count != vertex_count || pose.normals.count != vertex_count) {
-        return {ErrorCode::planMismatch, "the pose has " + std::to_string(pose.positions.count) +
-                                             " positions and " + std::to_string(pose.normals.count) +
-                                             " normals, the plan needs " + std::to_string(vertex_count)};
+        return {ErrorCode::planMismatch, "the pose has " + std::to_string(pose.positions.count) + " positions and " +
+                                             std::to_string(pose.normals.count) + " normals, the plan needs " +
+                                             std::to_string(vertex_count)};
     }
     if (Error e = checkSpan(pose.positions, vertex_count, "positions"); e.code != ErrorCode::ok) return e;
     return checkSpan(pose.normals, vertex_count, "normals");
@@ -121,8 +119,7 @@ std::size_t TangentPlan::memoryBytes() const {
            state_->corner_vertices.size() * sizeof(std::uint32_t);
 }
 
-Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options,
-                                       const TangentOutput& out) {
+Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out) {
     return atBorder([&]() -> Result<TangentReport> {
         Parallel parallel(options.execution);
         if (Error e = checkInput(mesh, options, parallel); e.code != ErrorCode::ok) return e;

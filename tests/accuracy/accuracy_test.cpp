@@ -48,8 +48,7 @@ TEST(Surfaces, HaveTheDerivativesThatDifferencesShow) {
                 const ExactFrame after = exactFrame(*surface, s + ds, t + dt, side);
                 const ExactFrame before = exactFrame(*surface, s - ds, t - dt, side);
                 const DVec3 step = after.position - before.position;
-                const DVec3 predicted =
-                    (after.u - before.u) * frame.tangent + (after.v - before.v) * frame.bitangent;
+                const DVec3 predicted = (after.u - before.u) * frame.tangent + (after.v - before.v) * frame.bitangent;
                 EXPECT_LT(length(step - predicted), 1e-6 * length(step)) << surface->name;
                 EXPECT_NEAR(dot(unit(step), frame.normal), 0, 1e-6) << surface->name;
             }

@@ -78,8 +78,7 @@ class Maker {
         for (std::uint32_t y = 0; y <= rows; ++y) {
             for (std::uint32_t x = 0; x <= columns; ++x) {
                 const std::uint32_t along = x % (2 * band);
-                mesh.positions.push_back(
-                    {static_cast<float>(x) + noise(), static_cast<float>(y) + noise(), noise()});
+                mesh.positions.push_back({static_cast<float>(x) + noise(), static_cast<float>(y) + noise(), noise()});
                 mesh.normals.push_back({noise(), noise(), 1 + noise()});
                 mesh.uvs.push_back({0.1f * static_cast<float>(std::min(along, 2 * band - along)),
                                     0.1f * static_cast<float>(y) + 0.1f * noise()});
@@ -108,8 +107,7 @@ class Maker {
                                      1e-30f,
                                      -0.0f};
         for (std::size_t v = 0; v < mesh.positions.size(); v += 1 + below(40)) {
-            float* const numbers[] = {&mesh.positions[v].x, &mesh.positions[v].z, &mesh.normals[v].y,
-                                      &mesh.uvs[v].x};
+            float* const numbers[] = {&mesh.positions[v].x, &mesh.positions[v].z, &mesh.normals[v].y, &mesh.uvs[v].x};
             *numbers[below(4)] = kBroken[below(6)];
         }
     }
@@ -166,8 +164,7 @@ void addTangents(const Mesh& mesh, Method method, const Execution& execution, Re
 
 void addNormals(const Mesh& mesh, NormalWeighting weighting, const Execution& execution, Results& results) {
     std::vector<Vec3> normals(mesh.indices.size());
-    results.all_worked &=
-        generateNormals(mesh.view(), {.weighting = weighting, .execution = execution}, normals).ok();
+    results.all_worked &= generateNormals(mesh.view(), {.weighting = weighting, .execution = execution}, normals).ok();
     results.hashes["normals " + std::to_string(static_cast<unsigned>(weighting))].add(normals);
 }
 
@@ -177,8 +174,8 @@ bool print(SimdTarget target) {
     execution.thread_count = 1;
     execution.simd = target;
     for (const Mesh& mesh : meshes()) {
-        for (auto m = static_cast<std::uint32_t>(Method::mikktspace);
-             m <= static_cast<std::uint32_t>(Method::best); ++m)
+        for (auto m = static_cast<std::uint32_t>(Method::mikktspace); m <= static_cast<std::uint32_t>(Method::best);
+             ++m)
             addTangents(mesh, Method{m}, execution, results);
         for (auto w = static_cast<std::uint32_t>(NormalWeighting::flat);
              w <= static_cast<std::uint32_t>(NormalWeighting::best); ++w)

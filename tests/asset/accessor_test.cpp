@@ -27,17 +27,9 @@ struct TypeCase {
 
 std::vector<TypeCase> typeCases() {
     return {
-        {5120,
-         bytesOfValues<std::int8_t>({-128, 127, -64}),
-         {-128, 127, -64},
-         {-1, 1, -64 / 127.0f},
-         "snorm8x3"},
+        {5120, bytesOfValues<std::int8_t>({-128, 127, -64}), {-128, 127, -64}, {-1, 1, -64 / 127.0f}, "snorm8x3"},
         {5121, bytesOfValues<std::uint8_t>({0, 255, 51}), {0, 255, 51}, {0, 1, 0.2f}, "unorm8x3"},
-        {5122,
-         bytesOfValues<std::int16_t>({-32768, 32767, 1}),
-         {-32768, 32767, 1},
-         {-1, 1, 1 / 32767.0f},
-         "snorm16x3"},
+        {5122, bytesOfValues<std::int16_t>({-32768, 32767, 1}), {-32768, 32767, 1}, {-1, 1, 1 / 32767.0f}, "snorm16x3"},
         {5123, bytesOfValues<std::uint16_t>({0, 65535, 13107}), {0, 65535, 13107}, {0, 1, 0.2f}, "unorm16x3"},
         {5126, bytesOfValues<float>({-1.5f, 1e30f, 0}), {-1.5f, 1e30f, 0}, {-1.5f, 1e30f, 0}, "float3"},
     };
@@ -70,13 +62,11 @@ TEST(Accessor, ReadsInterleavedElements) {
     GltfBuilder builder;
     builder.addView(bytesOfValues<float>({0, 1, 10, 2, 3, 11, 4, 5, 12}));
     builder.json()["bufferViews"][0]["byteStride"] = 12;
-    builder.json()["accessors"].push_back(
-        {{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC2"}});
+    builder.json()["accessors"].push_back({{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC2"}});
     builder.json()["accessors"].push_back(
         {{"bufferView", 0}, {"byteOffset", 8}, {"componentType", 5126}, {"count", 3}, {"type", "SCALAR"}});
     const Document document = parse(builder);
-    EXPECT_EQ(decodeVec2(document, readAccessor(document, 0), ""),
-              (std::vector<Vec2>{{0, 1}, {2, 3}, {4, 5}}));
+    EXPECT_EQ(decodeVec2(document, readAccessor(document, 0), ""), (std::vector<Vec2>{{0, 1}, {2, 3}, {4, 5}}));
     EXPECT_EQ(copyElements(document, readAccessor(document, 1)), bytesOfValues<float>({10, 11, 12}));
 }
 
@@ -85,8 +75,7 @@ TEST(Accessor, PadsColumnsOfSmallMatrices) {
         const char* type;
         int component_type;
         std::size_t bytes;
-    } cases[] = {
-        {"MAT2", 5121, 8}, {"MAT3", 5121, 12}, {"MAT3", 5123, 24}, {"MAT4", 5126, 64}, {"MAT2", 5123, 8}};
+    } cases[] = {{"MAT2", 5121, 8}, {"MAT3", 5121, 12}, {"MAT3", 5123, 24}, {"MAT4", 5126, 64}, {"MAT2", 5123, 8}};
     for (const auto& test : cases) {
         GltfBuilder builder;
         builder.addView(Bytes(test.bytes, 0));
@@ -110,10 +99,8 @@ GltfBuilder sparseBuilder(bool with_view) {
 
 TEST(Accessor, AppliesSparseValues) {
     const Document plain = parse(sparseBuilder(false)), based = parse(sparseBuilder(true));
-    EXPECT_EQ(decodeVec2(plain, readAccessor(plain, 0), ""),
-              (std::vector<Vec2>{{0, 0}, {7, 8}, {0, 0}, {9, 10}}));
-    EXPECT_EQ(decodeVec2(based, readAccessor(based, 0), ""),
-              (std::vector<Vec2>{{0, 1}, {7, 8}, {4, 5}, {9, 10}}));
+    EXPECT_EQ(decodeVec2(plain, readAccessor(plain, 0), ""), (std::vector<Vec2>{{0, 0}, {7, 8}, {0, 0}, {9, 10}}));
+    EXPECT_EQ(decodeVec2(based, readAccessor(based, 0), ""), (std::vector<Vec2>{{0, 1}, {7, 8}, {4, 5}, {9, 10}}));
 }
 
 TEST(Accessor, RefusesSparseDefects) {
@@ -133,8 +120,7 @@ TEST(Accessor, RefusesSparseDefects) {
     EXPECT_EQ(place([](Json& sparse) { sparse["indices"]["componentType"] = 5122; }),
               "/accessors/0/sparse/indices/componentType");
     EXPECT_EQ(place([](Json& sparse) { sparse["values"]["byteOffset"] = 4; }), "/accessors/0/sparse/values");
-    EXPECT_EQ(place([](Json& sparse) { sparse["indices"]["bufferView"] = 1; }),
-              "/accessors/0/sparse/indices");
+    EXPECT_EQ(place([](Json& sparse) { sparse["indices"]["bufferView"] = 1; }), "/accessors/0/sparse/indices");
     EXPECT_EQ(place([](Json& sparse) { sparse.erase("values"); }), "/accessors/0/sparse");
     EXPECT_EQ(place([](Json& sparse) { sparse = 3; }), "/accessors/0/sparse");
 }
@@ -144,11 +130,8 @@ TEST(Accessor, StaysInsideItsView) {
         GltfBuilder builder;
         builder.addView(Bytes(48));
         if (stride != 0) builder.json()["bufferViews"][0]["byteStride"] = stride;
-        builder.json()["accessors"].push_back({{"bufferView", 0},
-                                               {"byteOffset", offset},
-                                               {"componentType", 5126},
-                                               {"count", count},
-                                               {"type", "VEC3"}});
+        builder.json()["accessors"].push_back(
+            {{"bufferView", 0}, {"byteOffset", offset}, {"componentType", 5126}, {"count", count}, {"type", "VEC3"}});
         return errorOf([&] { parse(builder); }).code;
     };
     EXPECT_EQ(code(0, 4, 0), ErrorCode::ok);
@@ -165,13 +148,11 @@ TEST(Accessor, StaysInsideItsView) {
 
 TEST(Accessor, RefusesFourBillionVerticesBeforeAllocating) {
     GltfBuilder builder;
-    builder.json()["accessors"].push_back(
-        {{"componentType", 5126}, {"count", 4000000000u}, {"type", "VEC3"}});
+    builder.json()["accessors"].push_back({{"componentType", 5126}, {"count", 4000000000u}, {"type", "VEC3"}});
     EXPECT_EQ(errorOf([&] { parse(builder); }).code, ErrorCode::unsupportedFile);
     builder.json()["accessors"][0]["count"] = 2000000000u;
     const Document document = parse(builder);
-    EXPECT_EQ(errorOf([&] { copyElements(document, readAccessor(document, 0)); }).code,
-              ErrorCode::unsupportedFile);
+    EXPECT_EQ(errorOf([&] { copyElements(document, readAccessor(document, 0)); }).code, ErrorCode::unsupportedFile);
 }
 
 TEST(Accessor, ChecksEveryIndex) {

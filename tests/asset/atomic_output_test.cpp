@@ -64,7 +64,9 @@ TEST(AtomicOutput, TakesBackWhatWasRenamedWhenALaterRenameFails) {
 TEST(AtomicOutput, SaysThatThereIsNoRoomForPiecesThatAreMade) {
     struct Zeros final : ByteMaker {
         [[nodiscard]] std::size_t size() const override { return 10'000'000; }
-        void make(std::size_t, std::span<std::uint8_t> to) const override { std::fill(to.begin(), to.end(), std::uint8_t{0}); }
+        void make(std::size_t, std::span<std::uint8_t> to) const override {
+            std::fill(to.begin(), to.end(), std::uint8_t{0});
+        }
     };
     const TempFolder folder;
     rlimit old{};

@@ -25,8 +25,8 @@ std::vector<Vec3> bitangentsOf(const Outcome& outcome) {
     return readVec3(outcome.after, outcome.primitives.at(0), "_BITANGENT");
 }
 
-/// Rows of a grid whose UVs are sheared: u = x - shear(row) * (y - middle), v = -y. So dP/du is (1, 0, 0) everywhere, and
-/// -dP/dv is (-shear, 1, 0) above and below the middle row.
+/// Rows of a grid whose UVs are sheared: u = x - shear(row) * (y - middle), v = -y. So dP/du is (1, 0, 0) everywhere,
+/// and -dP/dv is (-shear, 1, 0) above and below the middle row.
 GltfBuilder shearedModel(float below, float above) {
     Grid grid(4, false);
     for (std::size_t i = 0; i < grid.vertexCount(); ++i) {
@@ -76,7 +76,8 @@ TEST(BitangentsGltf, HaveTheNumberFormatOfTangents) {
         options.format = format;
         const bool is_short = format == VectorFormat::snorm16;
         const TempFolder folder;
-        const std::string input = folder.write("in.glb", shearedModel(0.75f, 0.75f).glb()), output = folder.path("out.glb").string();
+        const std::string input = folder.write("in.glb", shearedModel(0.75f, 0.75f).glb()),
+                          output = folder.path("out.glb").string();
         ASSERT_TRUE(generateFile(input, output, options));
         const gltf::Document after = gltf::loadDocument(output, {});
         const std::vector<Primitive> primitives = readPrimitives(after);
@@ -124,7 +125,8 @@ TEST(BitangentsGltf, HaveNoMorphDeltas) {
 
 TEST(BitangentsGltf, AreMissingWhereTangentsAreKeptAndANoteSaysSo) {
     const TempFolder folder;
-    const std::string input = folder.write("in.glb", withTangents(Grid(4)).glb()), output = folder.path("out.glb").string();
+    const std::string input = folder.write("in.glb", withTangents(Grid(4)).glb()),
+                      output = folder.path("out.glb").string();
     const auto report = generateFile(input, output, withBitangents(Method::best));
     ASSERT_TRUE(report);
     EXPECT_FALSE(report->changed);

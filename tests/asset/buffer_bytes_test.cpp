@@ -70,12 +70,11 @@ RC_GTEST_PROP(BufferBytes, HoldsWhatAnArrayWouldHold, ()) {
     RC_ASSERT(flat(bytes.pieces()) == expected);
     for (std::size_t i = 0; i < begins.size(); ++i) {
         const auto range = bytes.range(begins[i], counts[i]);
-        RC_ASSERT(std::equal(range.begin(), range.end(),
-                             expected.begin() + static_cast<std::ptrdiff_t>(begins[i])));
+        RC_ASSERT(std::equal(range.begin(), range.end(), expected.begin() + static_cast<std::ptrdiff_t>(begins[i])));
     }
 
-    auto ends = *rc::gen::container<std::vector<std::size_t>>(
-        2 * *rc::gen::inRange<std::size_t>(0, 5), rc::gen::inRange<std::size_t>(0, expected.size() + 1));
+    auto ends = *rc::gen::container<std::vector<std::size_t>>(2 * *rc::gen::inRange<std::size_t>(0, 5),
+                                                              rc::gen::inRange<std::size_t>(0, expected.size() + 1));
     std::sort(ends.begin(), ends.end());
     std::vector<ByteCut> cuts;
     for (std::size_t i = 0; i < ends.size(); i += 2) cuts.push_back({ends[i], ends[i + 1]});

@@ -83,17 +83,16 @@ TEST(ComputePools, CallsTheCallersAllocatorFromTheCallingThreadOnly) {
         std::thread::id caller = std::this_thread::get_id();
         std::atomic<int> own = 0, foreign = 0;
     } calls;
-    const Allocator allocator{.allocate =
-                                  [](void* user, std::size_t bytes, std::size_t alignment) {
-                                      auto& self = *static_cast<Calls*>(user);
-                                      ++(std::this_thread::get_id() == self.caller ? self.own : self.foreign);
-                                      return ::operator new(bytes, std::align_val_t(alignment));
-                                  },
-                              .release =
-                                  [](void*, void* memory, std::size_t, std::size_t alignment) {
-                                      ::operator delete(memory, std::align_val_t(alignment));
-                                  },
-                              .user = &calls};
+    const Allocator allocator{
+        .allocate =
+            [](void* user, std::size_t bytes, std::size_t alignment) {
+                auto& self = *static_cast<Calls*>(user);
+                ++(std::this_thread::get_id() == self.caller ? self.own : self.foreign);
+                return ::operator new(bytes, std::align_val_t(alignment));
+            },
+        .release = [](void*, void* memory, std::size_t,
+                      std::size_t alignment) { ::operator delete(memory, std::align_val_t(alignment)); },
+        .user = &calls};
     const Bytes model = manyPools().glb();
     EXPECT_EQ(generated(model, {.thread_count = 4, .allocator = &allocator}), generated(model, {.thread_count = 1}));
     EXPECT_GT(calls.own, 0);

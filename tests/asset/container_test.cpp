@@ -112,9 +112,7 @@ TEST(JsonText, ReadsWideObjectsInLinearTime) {
 }
 
 TEST(JsonText, SaysWhatIsWrong) {
-    const auto message = [](const std::string& text) {
-        return errorOf([&] { parseJson(toBytes(text)); }).message;
-    };
+    const auto message = [](const std::string& text) { return errorOf([&] { parseJson(toBytes(text)); }).message; };
     EXPECT_EQ(message("{\"a\":1e400}"), "the JSON has a number that is too large");
     EXPECT_EQ(message("{\"a\":NaN}"), "the JSON has a syntax error");
     EXPECT_EQ(message("{\"a\":1,\"a\":2}"), "the JSON has the member 'a' twice in one object");
@@ -135,10 +133,8 @@ TEST(Document, RefusesWrongTypesAtTheirPlace) {
         {R"({"asset":{"version":"2.0"},"accessors":[1]})", "/accessors/0"},
         {R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":-1}]})", "/buffers/0/byteLength"},
         {R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":7}]})", "/buffers/0/uri"},
-        {R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"data:,abc"}]})",
-         "/buffers/0/byteLength"},
-        {R"({"asset":{"version":"2.0"},"bufferViews":[{"buffer":0,"byteLength":4}]})",
-         "/bufferViews/0/buffer"},
+        {R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"data:,abc"}]})", "/buffers/0/byteLength"},
+        {R"({"asset":{"version":"2.0"},"bufferViews":[{"buffer":0,"byteLength":4}]})", "/bufferViews/0/buffer"},
         {R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":3,"uri":"data:,abc"}],
              "bufferViews":[{"buffer":0,"byteOffset":18446744073709551615,"byteLength":2}]})",
          "/bufferViews/0"},
@@ -146,8 +142,7 @@ TEST(Document, RefusesWrongTypesAtTheirPlace) {
          "/accessors/0/count"},
         {R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5124,"type":"VEC3","count":1}]})",
          "/accessors/0/componentType"},
-        {R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5126,"count":1}]})",
-         "/accessors/0/type"},
+        {R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5126,"count":1}]})", "/accessors/0/type"},
     };
     for (const auto& test : cases) {
         const Error error = errorOf([&] { parseDocument(toBytes(test.text), "model.gltf", {}); });
@@ -235,12 +230,12 @@ TEST(Glb, MayHaveMoreBytesInBinThanItsBuffer) {
 
 TEST(Document, NamesRequiredExtensions) {
     const auto check = [](const char* name) {
-        const std::string text =
-            std::string(R"({"asset":{"version":"2.0"},"extensionsRequired":[")") + name + "\"]}";
+        const std::string text = std::string(R"({"asset":{"version":"2.0"},"extensionsRequired":[")") + name + "\"]}";
         return checkRequiredExtensions(parseDocument(toBytes(text), "model.gltf", {}));
     };
-    for (const auto& [name, missing] : {std::pair{kDraco, dracoMissing()}, std::pair{kExtMeshopt, meshoptMissing(false)},
-                                        std::pair{kKhrMeshopt, meshoptMissing(true)}}) {
+    for (const auto& [name, missing] :
+         {std::pair{kDraco, dracoMissing()}, std::pair{kExtMeshopt, meshoptMissing(false)},
+          std::pair{kKhrMeshopt, meshoptMissing(true)}}) {
         const Error error = errorOf([&, name = name] { EXPECT_TRUE(check(name).empty()); });
         EXPECT_EQ(error.code, missing.empty() ? ErrorCode::ok : ErrorCode::unsupportedFile) << name;
         // The library and what it lacks are named.

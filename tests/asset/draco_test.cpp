@@ -64,16 +64,18 @@ GltfBuilder model(const DracoMesh& of) {
     builder.addView(data);
     Json& json = builder.json();
     for (const DracoAttribute& attribute : mesh.attributes) {
-        json["accessors"].push_back({{"componentType", kFloat}, {"count", mesh.point_count},
+        json["accessors"].push_back({{"componentType", kFloat},
+                                     {"count", mesh.point_count},
                                      {"type", "VEC" + std::to_string(attribute.component_count)}});
     }
     json["accessors"].push_back({{"componentType", kU16}, {"count", mesh.corners.size()}, {"type", "SCALAR"}});
     Json& primitive = builder.addPrimitive({{"POSITION", 0}, {"NORMAL", 1}, {"TEXCOORD_0", 2}});
     primitive["indices"] = 3;
-    primitive["extensions"][kDraco] = {
-        {"bufferView", 0},
-        {"attributes",
-         {{"POSITION", mesh.attributes[0].id}, {"NORMAL", mesh.attributes[1].id}, {"TEXCOORD_0", mesh.attributes[2].id}}}};
+    primitive["extensions"][kDraco] = {{"bufferView", 0},
+                                       {"attributes",
+                                        {{"POSITION", mesh.attributes[0].id},
+                                         {"NORMAL", mesh.attributes[1].id},
+                                         {"TEXCOORD_0", mesh.attributes[2].id}}}};
     json["extensionsUsed"] = json["extensionsRequired"] = {kDraco};
     return builder;
 }
@@ -110,8 +112,8 @@ TEST(Draco, ReadsWhatTheLibraryReads) {
             }
             EXPECT_TRUE(ours == theirs) << name;
         }
-        const std::vector<std::uint32_t> corners =
-            decodeIndices(document, readAccessor(document, primitive["indices"].get<std::size_t>()), mesh->num_points(), "");
+        const std::vector<std::uint32_t> corners = decodeIndices(
+            document, readAccessor(document, primitive["indices"].get<std::size_t>()), mesh->num_points(), "");
         ASSERT_EQ(corners.size(), std::size_t{mesh->num_faces()} * 3);
         for (std::size_t i = 0; i < corners.size(); ++i)
             ASSERT_EQ(corners[i], mesh->face(draco::FaceIndex(static_cast<std::uint32_t>(i / 3)))[i % 3].value());
@@ -238,7 +240,8 @@ TEST(DracoKeep, GivesEachPrimitiveItsOwnAccessorsWhereOneStandsForSeveralData) {
     builder.json()["meshes"][0]["primitives"].push_back(second);
     const Document document = load(builder);
     const std::vector<Primitive> primitives = readPrimitives(document);
-    const std::vector<Vec3> a = readVec3(document, primitives[0], "POSITION"), b = readVec3(document, primitives[1], "POSITION");
+    const std::vector<Vec3> a = readVec3(document, primitives[0], "POSITION"),
+                            b = readVec3(document, primitives[1], "POSITION");
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i].x + 1, b[i].x, 0.01);
 }
 
@@ -264,9 +267,12 @@ TEST(DracoKeep, UsesAndRenewsPlainDataBesideTheCompressedOnes) {
     decoded.attributes.push_back({.id = packed["attributes"]["TANGENT"].get<std::uint32_t>(), .component_count = 4});
     decoded.attributes.push_back({.id = packed["attributes"]["POSITION"].get<std::uint32_t>()});
     const DracoLimits limits{.corner_count = 1000, .point_count = 100, .bytes = 100000};
-    ASSERT_EQ(decodeDraco(outcome.after.buffers[data.buffer].bytes.range(data.begin, data.byte_count), limits, decoded), "");
-    EXPECT_EQ(decoded.attributes[0].values, elementsOf(outcome.after, primitive["attributes"]["TANGENT"].get<std::size_t>()));
-    EXPECT_EQ(decoded.attributes[1].values, elementsOf(outcome.after, primitive["attributes"]["POSITION"].get<std::size_t>()));
+    ASSERT_EQ(decodeDraco(outcome.after.buffers[data.buffer].bytes.range(data.begin, data.byte_count), limits, decoded),
+              "");
+    EXPECT_EQ(decoded.attributes[0].values,
+              elementsOf(outcome.after, primitive["attributes"]["TANGENT"].get<std::size_t>()));
+    EXPECT_EQ(decoded.attributes[1].values,
+              elementsOf(outcome.after, primitive["attributes"]["POSITION"].get<std::size_t>()));
 }
 
 Error loadError(const GltfBuilder& builder) {
@@ -306,9 +312,7 @@ TEST(DracoHostile, RefusesDataThatAreCutShort) {
     }
 }
 
-TEST(DracoHostile, SurvivesEveryFlippedByte) {
-    expectOrderWhateverByteIsChanged(model(grid()));
-}
+TEST(DracoHostile, SurvivesEveryFlippedByte) { expectOrderWhateverByteIsChanged(model(grid())); }
 
 TEST(DracoHostile, RefusesCountsInTheDataBeforeAnyMemoryIsAskedFor) {
     // Header, then the numbers of faces and points, as the library writes them; nothing follows.

@@ -16,10 +16,12 @@ TEST(ReadFile, GivesTheSameBytesWithAnyThreadCount) {
     for (const std::size_t size : {std::size_t{0}, std::size_t{1}, 4 * kMega - 1, 4 * kMega, 9 * kMega + 5}) {
         Bytes written(size);
         std::uint32_t state = 1;
-        for (std::uint8_t& byte : written) byte = static_cast<std::uint8_t>((state = state * 1664525 + 1013904223) >> 24);
+        for (std::uint8_t& byte : written)
+            byte = static_cast<std::uint8_t>((state = state * 1664525 + 1013904223) >> 24);
         const std::string path = folder.write("a", written);
         for (const unsigned threads : {1u, 2u, 5u}) {
-            EXPECT_TRUE(readFile(path, {}, {.thread_count = threads}) == written) << size << " bytes, " << threads << " threads";
+            EXPECT_TRUE(readFile(path, {}, {.thread_count = threads}) == written)
+                << size << " bytes, " << threads << " threads";
         }
     }
 }

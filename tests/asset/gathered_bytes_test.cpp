@@ -44,7 +44,8 @@ Document threeAccessors() {
     GltfBuilder builder;
     for (int accessor = 0; accessor < 3; ++accessor) {
         std::vector<float> values(3000);
-        for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i) + 0.25f * static_cast<float>(accessor);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] = static_cast<float>(i) + 0.25f * static_cast<float>(accessor);
         builder.addFloats(values, 3);
     }
     builder.addPrimitive({{"POSITION", 0}, {"NORMAL", 1}, {"_OTHER", 2}});
@@ -54,7 +55,8 @@ Document threeAccessors() {
 }
 
 SplitSources someCopies() {
-    return {.kept = 1000, .copies = std::make_shared<const std::vector<std::uint32_t>>(std::vector<std::uint32_t>(500, 3))};
+    return {.kept = 1000,
+            .copies = std::make_shared<const std::vector<std::uint32_t>>(std::vector<std::uint32_t>(500, 3))};
 }
 
 TEST(GatherSplit, CopiesLaterWhatACopyAtOnceWouldHave) {
@@ -88,7 +90,8 @@ TEST(GatherSplit, IsWrittenAsItWouldBeRead) {
         Editor editor(document, "new.bin");
         // More than is made at one time, between pieces that are there.
         for (int i = 0; i < 60; ++i)
-            editor.store(gatherSplit(document, readAccessor(document, static_cast<std::size_t>(i) % 3), someCopies()), {});
+            editor.store(gatherSplit(document, readAccessor(document, static_cast<std::size_t>(i) % 3), someCopies()),
+                         {});
         const TempFolder folder;
         AtomicOutput output;
         output.add(folder.path("out"), document.buffers[0].bytes.pieces(), {.thread_count = threads});

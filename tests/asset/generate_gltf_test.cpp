@@ -44,10 +44,9 @@ TEST(GenerateGltf, SplitsAndCarriesEveryAttributeAlong) {
     builder.addView(test::bytesOfValues<float>({1, 2, 3, 4, 5, 6}));
     const std::size_t views = builder.json()["bufferViews"].size();
     builder.json()["accessors"].push_back({{"componentType", 5126}, {"count", count}, {"type", "VEC3"}});
-    builder.json()["accessors"].back()["sparse"] = {
-        {"count", 2},
-        {"indices", {{"bufferView", views - 2}, {"componentType", kU16}}},
-        {"values", {{"bufferView", views - 1}}}};
+    builder.json()["accessors"].back()["sparse"] = {{"count", 2},
+                                                    {"indices", {{"bufferView", views - 2}, {"componentType", kU16}}},
+                                                    {"values", {{"bufferView", views - 1}}}};
     Json& primitive = builder.json()["meshes"][0]["primitives"][0];
     primitive["attributes"]["JOINTS_0"] = joint;
     primitive["attributes"]["WEIGHTS_0"] = weight;
@@ -160,8 +159,7 @@ TEST(GenerateGltf, OverwritesTangentsWhereTheyAre) {
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::replaced);
     EXPECT_EQ(outcome.after.json["bufferViews"], outcome.before.json["bufferViews"]);
     EXPECT_EQ(outcome.after.buffers[0].bytes.size(), outcome.before.buffers[0].bytes.size());
-    EXPECT_EQ(outcome.after.json["accessors"][4]["max"], Json::array({1.0, 0.0, 0.0, 1.0}))
-        << "bounds follow";
+    EXPECT_EQ(outcome.after.json["accessors"][4]["max"], Json::array({1.0, 0.0, 0.0, 1.0})) << "bounds follow";
 }
 
 TEST(GenerateGltf, LeavesOtherReadersOfOldTangentsAlone) {
@@ -265,8 +263,7 @@ void writeWithFiles(const TempFolder& folder, const std::string& name, GltfBuild
                     const char* image_uri = "tex/image.png") {
     folder.write("in/geo metry.bin", builder.bytes());
     folder.write("in/tex/image.png", std::string("\x89PNG\r\n\x1a\nrest"));
-    builder.json()["buffers"] =
-        Json::array({Json{{"byteLength", builder.bytes().size()}, {"uri", "geo%20metry.bin"}}});
+    builder.json()["buffers"] = Json::array({Json{{"byteLength", builder.bytes().size()}, {"uri", "geo%20metry.bin"}}});
     builder.json()["images"] = Json::array({Json{{"uri", image_uri}, {"name", "i"}}});
     folder.write("in/" + name, builder.json().dump(2));
 }
@@ -274,8 +271,7 @@ void writeWithFiles(const TempFolder& folder, const std::string& name, GltfBuild
 TEST(GenerateGltf, NeverChangesBufferFilesOfTheInput) {
     const TempFolder folder;
     writeWithFiles(folder, "a.gltf", withTangents(Grid(4, false)));
-    const Bytes model = readFile(folder.path("in/a.gltf")),
-                buffer = readFile(folder.path("in/geo metry.bin"));
+    const Bytes model = readFile(folder.path("in/a.gltf")), buffer = readFile(folder.path("in/geo metry.bin"));
     const std::string input = folder.path("in/a.gltf").string();
     const auto same_folder =
         generateFile(input, folder.path("in/b.gltf").string(), {.existing = ExistingTangents::replace});

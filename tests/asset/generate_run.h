@@ -26,8 +26,8 @@ class Grid {
                 const auto u = static_cast<float>(mirrored && x > size / 2 ? size / 2 * 2 - x : x);
                 positions.insert(positions.end(), {static_cast<float>(x), static_cast<float>(y), 0});
                 normals.insert(normals.end(), {0, 0, 1});
-                uvs.insert(uvs.end(), {u / static_cast<float>(size),
-                                       1 - static_cast<float>(y) / static_cast<float>(size)});
+                uvs.insert(uvs.end(),
+                           {u / static_cast<float>(size), 1 - static_cast<float>(y) / static_cast<float>(size)});
             }
         }
     }
@@ -37,8 +37,7 @@ class Grid {
         for (std::size_t y = 0; y < size_; ++y) {
             for (std::size_t x = 0; x < size_; ++x) {
                 const std::size_t a = y * (size_ + 1) + x, b = a + size_ + 1;
-                for (const std::size_t i : {a, a + 1, b + 1, a, b + 1, b})
-                    list.push_back(static_cast<Index>(i));
+                for (const std::size_t i : {a, a + 1, b + 1, a, b + 1, b}) list.push_back(static_cast<Index>(i));
             }
         }
         return list;
@@ -75,8 +74,7 @@ inline GltfBuilder gridModel(const Grid& grid, int index_type = kU16) {
 inline GltfBuilder withTangents(const Grid& grid) {
     GltfBuilder builder = gridModel(grid);
     const std::size_t tangent = builder.addFloats(std::vector<float>(grid.vertexCount() * 4, 0.5f), 4);
-    builder.json()["accessors"][tangent]["min"] =
-        builder.json()["accessors"][tangent]["max"] = {0.5, 0.5, 0.5, 0.5};
+    builder.json()["accessors"][tangent]["min"] = builder.json()["accessors"][tangent]["max"] = {0.5, 0.5, 0.5, 0.5};
     builder.json()["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] = tangent;
     return builder;
 }
@@ -94,17 +92,12 @@ struct Outcome {
 inline Outcome run(const GltfBuilder& builder, GenerateOptions options = {},
                    const std::vector<gltf::ExtraChunk>& chunks = {}) {
     const TempFolder folder;
-    const std::string input = folder.write("in.glb", builder.glb(chunks)),
-                      output = folder.path("out.glb").string();
+    const std::string input = folder.write("in.glb", builder.glb(chunks)), output = folder.path("out.glb").string();
     auto report = generateFile(input, output, options);
     Outcome outcome;
     EXPECT_TRUE(report) << report.error().message << " at " << report.error().place;
     if (!report) return outcome;
-    outcome = {*std::move(report),
-               gltf::loadDocument(input, {}),
-               gltf::loadDocument(output, {}),
-               {},
-               readFile(output)};
+    outcome = {*std::move(report), gltf::loadDocument(input, {}), gltf::loadDocument(output, {}), {}, readFile(output)};
     outcome.primitives = readPrimitives(outcome.after);
     for (const std::string& difference : differences(outcome.before, outcome.after, outcome.report)) {
         ADD_FAILURE() << difference;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The many ways in which glTF stores and shares geometry. `run` compares every attribute at every corner, and runs again.
+// The many ways in which glTF stores and shares geometry. `run` compares every attribute at every corner, and runs
+// again.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -84,8 +85,8 @@ TEST(GeometryStorage, PrimitiveRestartIsRefusedInOneSentence) {
     firstPrimitive(builder)["indices"] =
         builder.addAccessor<std::uint16_t>({0, 1, 2, 3, 65535, 4, 5, 6}, kU16, "SCALAR", 8);
     const TempFolder folder;
-    const auto report = generateFile(folder.write("in.glb", builder.glb()), folder.path("out.glb").string(),
-                                     {.all = true});
+    const auto report =
+        generateFile(folder.write("in.glb", builder.glb()), folder.path("out.glb").string(), {.all = true});
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().code, ErrorCode::invalidFile);
     EXPECT_EQ(report.error().place, "/meshes/0/primitives/0/indices");
@@ -96,7 +97,8 @@ TEST(GeometryStorage, PrimitiveRestartIsRefusedInOneSentence) {
 }
 
 TEST(GeometryStorage, TheLargestIndexIsAVertexWhereThereIsOne) {
-    // glTF forbids it, some viewers restart there, others draw it: tspace reads what stands there, and mends it in a split.
+    // glTF forbids it, some viewers restart there, others draw it: tspace reads what stands there, and mends it in a
+    // split.
     const Outcome outcome = run(gridModel(Grid(15), kU8));
     EXPECT_EQ(outcome.report.primitives.at(0).vertices_before, 256u);
     EXPECT_EQ(readAccessor(outcome.after, *outcome.primitives[0].indices).component, gltf::ComponentType::u16);
@@ -124,7 +126,8 @@ TEST(GeometryStorage, PiecesOfOneVertexArrayShareItsSplit) {
     const std::vector<std::uint16_t> all = grid.indices<std::uint16_t>();
     for (std::size_t i = 0; i < all.size(); i += 6) {
         std::vector<std::uint16_t>& half = halves[i / 6 % 4 / 2];
-        half.insert(half.end(), all.begin() + static_cast<std::ptrdiff_t>(i), all.begin() + static_cast<std::ptrdiff_t>(i) + 6);
+        half.insert(half.end(), all.begin() + static_cast<std::ptrdiff_t>(i),
+                    all.begin() + static_cast<std::ptrdiff_t>(i) + 6);
     }
     Json& primitives = builder.json()["meshes"][0]["primitives"];
     primitives.push_back(Json(primitives[0]));
@@ -194,8 +197,8 @@ TEST(GeometryStorage, InstancesKeepTheirPlacesEvenIfTheyAreThoseOfVertices) {
     // One instance at each vertex of the mesh itself: the same accessor, and a split must not move the instances.
     GltfBuilder builder = gridModel(Grid(4));
     builder.json()["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
-    builder.json()["nodes"] = Json::parse(
-        R"([{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}}])");
+    builder.json()["nodes"] =
+        Json::parse(R"([{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}}])");
     const Outcome outcome = run(builder);
     EXPECT_EQ(outcome.after.json["nodes"], outcome.before.json["nodes"]);
     EXPECT_NE(outcome.primitives.at(0).find("POSITION"), 0u);
@@ -234,7 +237,8 @@ TEST(GeometryStorage, SparsePositionsAndUvsCountWithTheirReplacements) {
         swapped.insert(swapped.end(), {grid.uvs[i + 1], grid.uvs[i]});
         places.push_back(static_cast<std::uint8_t>(i / 2));
     }
-    const std::size_t indices = builder.addView(bytesOfValues(places)), values = builder.addView(bytesOfValues(swapped));
+    const std::size_t indices = builder.addView(bytesOfValues(places)),
+                      values = builder.addView(bytesOfValues(swapped));
     builder.json()["accessors"][2]["sparse"] = {{"count", places.size()},
                                                 {"indices", {{"bufferView", indices}, {"componentType", kU8}}},
                                                 {"values", {{"bufferView", values}}}};

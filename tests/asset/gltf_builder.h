@@ -32,8 +32,7 @@ class GltfBuilder {
 
     std::size_t addView(const Bytes& bytes) {
         while (bytes_.size() % 4 != 0) bytes_.push_back(0);
-        json_["bufferViews"].push_back(
-            {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}});
+        json_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}});
         bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
         return json_["bufferViews"].size() - 1;
     }
@@ -58,8 +57,8 @@ class GltfBuilder {
     [[nodiscard]] std::string gltfText(int indent = -1) const {
         Json json = json_;
         if (!bytes_.empty()) {
-            json["buffers"] = Json::array({Json{{"byteLength", bytes_.size()},
-                                                {"uri", encodeDataUri("application/octet-stream", bytes_)}}});
+            json["buffers"] = Json::array(
+                {Json{{"byteLength", bytes_.size()}, {"uri", encodeDataUri("application/octet-stream", bytes_)}}});
         }
         return json.dump(indent);
     }

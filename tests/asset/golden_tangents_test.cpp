@@ -56,8 +56,7 @@ TEST_P(ShippedTangents, AgreeWithOursOnEveryCorner) {
     std::size_t corner_count = 0, direction_count = 0, sign_count = 0;
     for (std::size_t i = 0; i < old_list.size(); ++i) {
         if (!old_list[i].find("TANGENT")) continue;
-        const auto old_tangents = readTangents(before, old_list[i]),
-                   new_tangents = readTangents(after, new_list[i]);
+        const auto old_tangents = readTangents(before, old_list[i]), new_tangents = readTangents(after, new_list[i]);
         const auto old_corners = readTriangleCorners(before, old_list[i]),
                    new_corners = readTriangleCorners(after, new_list[i]);
         ASSERT_EQ(old_corners.size(), new_corners.size());

@@ -49,7 +49,8 @@ TEST(InspectNeeds, CountsMirroredTrianglesAsTheTransformShowsThem) {
 
 TEST(InspectNeeds, NamesVariantsAndCountsTheirMaterials) {
     GltfBuilder builder = gridModel(Grid(2));
-    builder.json()["extensions"]["KHR_materials_variants"]["variants"] = Json::parse(R"([{"name":"red"},{"name":"old"}])");
+    builder.json()["extensions"]["KHR_materials_variants"]["variants"] =
+        Json::parse(R"([{"name":"red"},{"name":"old"}])");
     firstPrimitive(builder)["material"] = 1;
     firstPrimitive(builder)["extensions"]["KHR_materials_variants"]["mappings"] =
         Json::parse(R"([{"material":0,"variants":[0]},{"material":1,"variants":[1]}])");

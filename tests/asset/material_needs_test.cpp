@@ -40,17 +40,17 @@ TEST(TangentUses, FollowTheTextureThatAsks) {
         {R"({})", "", 0, ""},
         {R"({"normalTexture":{"index":0}})", "normalTexture", 0, "/materials/0/normalTexture"},
         {R"({"normalTexture":{"index":0,"texCoord":2}})", "normalTexture", 2, "/materials/0/normalTexture"},
-        {R"({"normalTexture":{"texCoord":2,"extensions":{"KHR_texture_transform":{"texCoord":1}}}})",
-         "normalTexture", 1, "/materials/0/normalTexture"},
-        {R"({"normalTexture":{"texCoord":2,"extensions":{"KHR_texture_transform":{"scale":[2,2]}}}})",
-         "normalTexture", 2, "/materials/0/normalTexture"},
+        {R"({"normalTexture":{"texCoord":2,"extensions":{"KHR_texture_transform":{"texCoord":1}}}})", "normalTexture",
+         1, "/materials/0/normalTexture"},
+        {R"({"normalTexture":{"texCoord":2,"extensions":{"KHR_texture_transform":{"scale":[2,2]}}}})", "normalTexture",
+         2, "/materials/0/normalTexture"},
         {R"({"extensions":{"KHR_materials_clearcoat":{"clearcoatNormalTexture":{"index":0,"texCoord":1}}}})",
          "clearcoatNormalTexture", 1, "/materials/0/extensions/KHR_materials_clearcoat/clearcoatNormalTexture"},
         {R"({"extensions":{"KHR_materials_clearcoat":{"clearcoatTexture":{"index":0}}}})", "", 0, ""},
         {R"({"extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":0.5}}})", "anisotropy", 0,
          "/materials/0/extensions/KHR_materials_anisotropy"},
-        {R"({"extensions":{"KHR_materials_anisotropy":{"anisotropyTexture":{"index":0,"texCoord":1}}}})",
-         "anisotropy", 1, "/materials/0/extensions/KHR_materials_anisotropy/anisotropyTexture"},
+        {R"({"extensions":{"KHR_materials_anisotropy":{"anisotropyTexture":{"index":0,"texCoord":1}}}})", "anisotropy",
+         1, "/materials/0/extensions/KHR_materials_anisotropy/anisotropyTexture"},
         {R"({"extensions":{"KHR_materials_anisotropy":{}}})", "", 0, ""},
     };
     for (const auto& test : cases) {
@@ -101,8 +101,8 @@ TEST(TangentUses, HaveTheTextureTransform) {
     EXPECT_EQ(transform.scale[1], 3);
     EXPECT_TRUE(transform.changesFrames());
     EXPECT_TRUE(transform.mirrors());
-    const auto plain = usesOf(withMaterial(
-        R"({"normalTexture":{"extensions":{"KHR_texture_transform":{"offset":[0.5,0.5]}}}})"));
+    const auto plain =
+        usesOf(withMaterial(R"({"normalTexture":{"extensions":{"KHR_texture_transform":{"offset":[0.5,0.5]}}}})"));
     EXPECT_FALSE(plain.at(0).transform.changesFrames());
 }
 
@@ -145,7 +145,8 @@ TEST(TangentUses, AreThoseOfEveryVariantToo) {
 }
 
 TEST(TangentUses, IgnoreVariantsWithoutTheirMaterial) {
-    EXPECT_TRUE(usesOf(withMaterial("{}", "", R"({"KHR_materials_variants":{"mappings":[{"material":1},{}]}})")).empty());
+    EXPECT_TRUE(
+        usesOf(withMaterial("{}", "", R"({"KHR_materials_variants":{"mappings":[{"material":1},{}]}})")).empty());
 }
 
 TEST(TangentUses, RefuseWrongTypesAtTheirPlace) {

@@ -29,8 +29,7 @@ TEST(MemoryBudget, WithoutLimitTakesWhatIsThere) {
 TEST(MemoryBudget, NamesWhatIsNeededAndWhatThereIs) {
     MemoryBudget budget(100 * kMegabyte);
     budget.take(26 * kMegabyte, {});
-    EXPECT_EQ(budget.whyNot(60 * kMegabyte),
-              "needs about 110 MB of memory, and --memory-limit allows 100 MB");
+    EXPECT_EQ(budget.whyNot(60 * kMegabyte), "needs about 110 MB of memory, and --memory-limit allows 100 MB");
     EXPECT_EQ(MemoryBudget().whyNot(60 * kMegabyte),
               "needs about 84 MB of memory, and a file of its size gets 64 MB (--memory-limit allows more)");
 }
@@ -38,8 +37,7 @@ TEST(MemoryBudget, NamesWhatIsNeededAndWhatThereIs) {
 TEST(MemoryBudget, LetsThingsBeWorkedOnTogetherThatFit) {
     const MemoryBudget budget;
     const auto together = [&](std::vector<std::uint64_t> megabytes) {
-        return budget.countTogether(megabytes.size(),
-                                    [&](std::size_t i) { return megabytes[i] * kMegabyte; });
+        return budget.countTogether(megabytes.size(), [&](std::size_t i) { return megabytes[i] * kMegabyte; });
     };
     EXPECT_EQ(together({}), 0u);
     EXPECT_EQ(together({1, 2, 3}), 3u);

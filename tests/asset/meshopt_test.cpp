@@ -64,7 +64,8 @@ class PackedModel {
         fallback_bytes_ += (rows.size() + 3) / 4 * 4;
         return view;
     }
-    std::size_t addAccessor(std::size_t view, int component, const char* type, std::size_t count, bool normalized = false) {
+    std::size_t addAccessor(std::size_t view, int component, const char* type, std::size_t count,
+                            bool normalized = false) {
         Json accessor = {{"bufferView", view}, {"componentType", component}, {"count", count}, {"type", type}};
         if (normalized) accessor["normalized"] = true;
         builder_.json()["accessors"].push_back(accessor);
@@ -77,9 +78,9 @@ class PackedModel {
 
     [[nodiscard]] Bytes glb() const {
         Json json = GltfBuilder(builder_).json();
-        json["buffers"] = Json::array({Json{{"byteLength", GltfBuilder(builder_).bytes().size()}},
-                                       Json{{"byteLength", fallback_bytes_},
-                                            {"extensions", {{extension_, {{"fallback", true}}}}}}});
+        json["buffers"] =
+            Json::array({Json{{"byteLength", GltfBuilder(builder_).bytes().size()}},
+                         Json{{"byteLength", fallback_bytes_}, {"extensions", {{extension_, {{"fallback", true}}}}}}});
         const Bytes bin = GltfBuilder(builder_).bytes();
         const GlbFrame frame = frameGlb(json.dump(), bin.size(), {});
         Bytes file = frame.head;
@@ -121,8 +122,7 @@ RC_GTEST_PROP(Meshopt, ReadsRowsOfIndicesAsTheyWereEncoded, (std::vector<std::ui
     RC_PRE(!indices.empty());
     PackedModel model;
     const Bytes rows = bytesOfValues(indices);
-    const std::size_t view =
-        model.addView({.mode = MeshoptMode::indices, .count = indices.size()}, rows, "INDICES");
+    const std::size_t view = model.addView({.mode = MeshoptMode::indices, .count = indices.size()}, rows, "INDICES");
     RC_ASSERT(viewBytes(model.load(), view) == rows);
 }
 
@@ -216,20 +216,22 @@ TEST(Meshopt, AppliesTheExponentialFilter) {
     for (std::size_t i = 0; i < kCount; ++i) EXPECT_NEAR(decoded[i].y, expected[i * 3 + 1], 0.001);
 }
 
-/// A grid of 4 x 4 quads with a UV map that is mirrored at the middle column, so that its 5 vertices are split. Normals have
-/// the octahedral filter, positions the exponential one. POSITION 0, NORMAL 1, TEXCOORD_0 2, indices 3.
+/// A grid of 4 x 4 quads with a UV map that is mirrored at the middle column, so that its 5 vertices are split. Normals
+/// have the octahedral filter, positions the exponential one. POSITION 0, NORMAL 1, TEXCOORD_0 2, indices 3.
 PackedModel packedGrid(const char* extension = kExtMeshopt) {
     constexpr std::size_t kCount = 25;
     std::vector<float> positions, normals, uvs;
     std::vector<std::uint16_t> indices;
     for (std::size_t y = 0; y < 5; ++y) {
         for (std::size_t x = 0; x < 5; ++x) {
-            positions.insert(positions.end(), {static_cast<float>(x), static_cast<float>(y), 0.1f * static_cast<float>(x * y)});
+            positions.insert(positions.end(),
+                             {static_cast<float>(x), static_cast<float>(y), 0.1f * static_cast<float>(x * y)});
             normals.insert(normals.end(), {0, 0, 1, 0});
             uvs.insert(uvs.end(), {static_cast<float>(x > 2 ? 4 - x : x), static_cast<float>(4 - y)});
             const std::size_t a = y * 5 + x;
             if (x == 4 || y == 4) continue;
-            for (const std::size_t i : {a, a + 1, a + 6, a, a + 6, a + 5}) indices.push_back(static_cast<std::uint16_t>(i));
+            for (const std::size_t i : {a, a + 1, a + 6, a, a + 6, a + 5})
+                indices.push_back(static_cast<std::uint16_t>(i));
         }
     }
     PackedModel model(extension);
@@ -240,10 +242,11 @@ PackedModel packedGrid(const char* extension = kExtMeshopt) {
     meshopt_encodeFilterOct(rows.data(), kCount, 4, 8, normals.data());
     model.addAccessor(model.addView({.count = kCount}, rows, "ATTRIBUTES", "OCTAHEDRAL"), kI8, "VEC3", kCount, true);
     model.addAccessor(model.addView({.count = kCount}, bytesOfValues(uvs), "ATTRIBUTES"), kFloat, "VEC2", kCount);
-    model.addAccessor(model.addView({.mode = MeshoptMode::indices, .count = indices.size()}, bytesOfValues(indices), "INDICES"),
-                      kU16, "SCALAR", indices.size());
-    model.json()["meshes"] = Json::parse(
-        R"([{"primitives":[{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"indices":3}]}])");
+    model.addAccessor(
+        model.addView({.mode = MeshoptMode::indices, .count = indices.size()}, bytesOfValues(indices), "INDICES"), kU16,
+        "SCALAR", indices.size());
+    model.json()["meshes"] =
+        Json::parse(R"([{"primitives":[{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"indices":3}]}])");
     return model;
 }
 
@@ -290,7 +293,8 @@ TEST(MeshoptKeep, LeavesCompressedBytesOfUntouchedViewsAsTheyWere) {
     PackedModel model = packedGrid();
     // UVs that are not mirrored: nothing is split, and only tangents are new.
     std::vector<float> uvs;
-    for (std::size_t i = 0; i < 25; ++i) uvs.insert(uvs.end(), {static_cast<float>(i % 5), static_cast<float>(4 - i / 5)});
+    for (std::size_t i = 0; i < 25; ++i)
+        uvs.insert(uvs.end(), {static_cast<float>(i % 5), static_cast<float>(4 - i / 5)});
     model.json()["accessors"][2]["bufferView"] = model.addView({.count = 25}, bytesOfValues(uvs), "ATTRIBUTES");
     const Outcome outcome = generateAll(model.glb());
     ASSERT_EQ(outcome.report.primitives.at(0).vertices_after, 25u);
@@ -330,7 +334,8 @@ TEST(MeshoptKeep, RenewsPlainDataAndCompressedOnesWhereThereAreBoth) {
         ASSERT_EQ(readBufferView(outcome.after, view).buffer, 0u) << "plain data are still there";
         const MeshoptView again = *readMeshoptView(outcome.after, view);
         Bytes decoded(again.coding.byteCount());
-        ASSERT_TRUE(decodeMeshopt(again.coding, outcome.after.buffers[0].bytes.range(again.begin, again.byte_count), decoded));
+        ASSERT_TRUE(
+            decodeMeshopt(again.coding, outcome.after.buffers[0].bytes.range(again.begin, again.byte_count), decoded));
         EXPECT_EQ(decoded, viewBytes(outcome.after, view)) << name;
     }
 }
@@ -382,7 +387,8 @@ TEST(MeshoptKhr, IsRefusedWithTheVersionsThatAreThereAndNeeded) {
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().code, ErrorCode::unsupportedFile);
     EXPECT_NE(report.error().message.find(kKhrMeshopt), std::string::npos) << report.error().message;
-    EXPECT_NE(report.error().message.find("too old for it (1.0 is needed)"), std::string::npos) << report.error().message;
+    EXPECT_NE(report.error().message.find("too old for it (1.0 is needed)"), std::string::npos)
+        << report.error().message;
 }
 
 #endif
@@ -448,9 +454,7 @@ TEST(MeshoptHostile, RefusesDataThatAreCutShort) {
     }
 }
 
-TEST(MeshoptHostile, SurvivesEveryFlippedByte) {
-    expectOrderWhateverByteIsChanged(packedGrid());
-}
+TEST(MeshoptHostile, SurvivesEveryFlippedByte) { expectOrderWhateverByteIsChanged(packedGrid()); }
 
 }  // namespace
 }  // namespace tspace::gltf

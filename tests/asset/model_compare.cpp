@@ -88,10 +88,8 @@ class Comparison {
                                    "normalized", "sparse"});
         compareArray("bufferViews", {"buffer", "byteOffset", "byteLength", "byteStride", "target"});
         compareArray("meshes", {"primitives"});
-        for (std::size_t i = 0; i < before_.extra_chunks.size() && before_.container == after_.container;
-             ++i) {
-            expect(i < after_.extra_chunks.size() &&
-                       before_.extra_chunks[i].bytes == after_.extra_chunks[i].bytes,
+        for (std::size_t i = 0; i < before_.extra_chunks.size() && before_.container == after_.container; ++i) {
+            expect(i < after_.extra_chunks.size() && before_.extra_chunks[i].bytes == after_.extra_chunks[i].bytes,
                    "a GLB chunk changed");
         }
     }
@@ -127,8 +125,7 @@ class Comparison {
                 continue;
             }
             const std::vector<std::string> edited = {"attributes", "targets", "indices", "mode"};
-            expect(without(old_json, edited) == without(new_json, edited),
-                   a.place() + " lost or changed a member");
+            expect(without(old_json, edited) == without(new_json, edited), a.place() + " lost or changed a member");
             compareComputed(a, b, report_.primitives[i]);
         }
     }
@@ -136,10 +133,8 @@ class Comparison {
     void compareComputed(const Primitive& a, const Primitive& b, const PrimitiveReport& report) {
         expect(b.find("TANGENT").has_value() && b.find("NORMAL").has_value(), a.place() + " has no frame");
         expect(a.triangleCount() == b.triangleCount(), a.place() + " has another number of triangles");
-        expect(b.vertex_count == report.vertices_after,
-               a.place() + " has another number of vertices than reported");
-        const auto old_corners = readTriangleCorners(before_, a),
-                   new_corners = readTriangleCorners(after_, b);
+        expect(b.vertex_count == report.vertices_after, a.place() + " has another number of vertices than reported");
+        const auto old_corners = readTriangleCorners(before_, a), new_corners = readTriangleCorners(after_, b);
         if (old_corners.size() != new_corners.size()) return;
         if (a.vertex_count == b.vertex_count)
             expect(a.mode == b.mode && a.indices == b.indices, a.place() + " was cut without need");
@@ -148,10 +143,8 @@ class Comparison {
             expect(i < b.attributes.size() && b.attributes[i].first == name,
                    a.place() + " has attributes in another order");
             if (name == "_BITANGENT" && report.bitangents_generated) continue;
-            if (name == "TANGENT" || (name == "NORMAL" && report.normals_generated) || !b.find(name))
-                continue;
-            compareCorners(accessor, old_corners, *b.find(name), new_corners,
-                           a.place() + "/attributes/" + name);
+            if (name == "TANGENT" || (name == "NORMAL" && report.normals_generated) || !b.find(name)) continue;
+            compareCorners(accessor, old_corners, *b.find(name), new_corners, a.place() + "/attributes/" + name);
         }
         expect(a.targets.size() == b.targets.size(), a.place() + " lost a morph target");
         for (std::size_t t = 0; t < std::min(a.targets.size(), b.targets.size()); ++t) {
@@ -173,7 +166,8 @@ class Comparison {
                 compareCorners(a[k].second, old_corners, b[k].second, new_corners, place);
         }
         for (std::size_t k = a.size(); k < b.size(); ++k) expect(isNew(b[k].first), place + " got another attribute");
-        expect(!gltf::movesFrames(a) || gltf::findAttribute(b, "TANGENT").has_value(), place + " has no tangent deltas");
+        expect(!gltf::movesFrames(a) || gltf::findAttribute(b, "TANGENT").has_value(),
+               place + " has no tangent deltas");
     }
 
     void compareCorners(std::size_t old_accessor, const std::vector<std::uint32_t>& old_corners,
@@ -240,9 +234,9 @@ class Comparison {
         for (std::size_t i = 0; i < std::min(old_list.size(), new_list.size()); ++i) {
             const std::vector<std::string> stored = {"uri", "bufferView", "mimeType"};
             const bool converted = before_.container != after_.container;
-            expect(converted ? without(old_list[i], stored) == without(new_list[i], stored)
-                             : old_list[i] == new_list[i],
-                   gltf::join("/images", i) + " changed");
+            expect(
+                converted ? without(old_list[i], stored) == without(new_list[i], stored) : old_list[i] == new_list[i],
+                gltf::join("/images", i) + " changed");
             expect(imageBytes(before_, old_list[i]) == imageBytes(after_, new_list[i]),
                    gltf::join("/images", i) + " has other bytes");
         }
@@ -258,8 +252,8 @@ class Comparison {
 
 }  // namespace
 
-std::vector<std::string> differences(const Document& before, const Document& after,
-                                     const GenerateReport& report, bool is_repacked) {
+std::vector<std::string> differences(const Document& before, const Document& after, const GenerateReport& report,
+                                     bool is_repacked) {
     return Comparison(before, after, report, is_repacked).run();
 }
 

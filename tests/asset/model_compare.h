@@ -10,10 +10,10 @@
 
 namespace tspace::test {
 
-/// What differs and should not; empty when all is well. `report` says which primitives were computed. `is_repacked`: the lists of
-/// extensions may differ too.
-/// Compares the JSON with its order of members, every accessor of an untouched primitive by its bytes, every
-/// attribute and morph target of a changed primitive corner by corner, and every image by its bytes.
+/// What differs and should not; empty when all is well. `report` says which primitives were computed. `is_repacked`:
+/// the lists of extensions may differ too. Compares the JSON with its order of members, every accessor of an untouched
+/// primitive by its bytes, every attribute and morph target of a changed primitive corner by corner, and every image by
+/// its bytes.
 std::vector<std::string> differences(const gltf::Document& before, const gltf::Document& after,
                                      const GenerateReport& report, bool is_repacked = false);
 

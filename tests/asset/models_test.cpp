@@ -47,8 +47,7 @@ class Models : public testing::TestWithParam<std::string> {
             EXPECT_EQ(readFile(input_), readFile(output));
         }
         const auto before = gltf::loadDocument(input_, {}), after = gltf::loadDocument(output, {});
-        for (const std::string& difference : test::differences(before, after, *report))
-            ADD_FAILURE() << difference;
+        for (const std::string& difference : test::differences(before, after, *report)) ADD_FAILURE() << difference;
 
         const std::string again = folder.path("again/" + output_name).string();
         const auto second = generateFile(output, again, everything(method));
@@ -100,8 +99,7 @@ TEST_P(Models, StayAsTheyAreWithoutOverwriteWhereNothingIsMissing) {
     const auto report = generateFile(input_.string(), output, {});
     if (!report) GTEST_SKIP() << report.error().message;
     const auto before = gltf::loadDocument(input_, {}), after = gltf::loadDocument(output, {});
-    for (const std::string& difference : test::differences(before, after, *report))
-        ADD_FAILURE() << difference;
+    for (const std::string& difference : test::differences(before, after, *report)) ADD_FAILURE() << difference;
     for (const PrimitiveReport& primitive : report->primitives) {
         EXPECT_NE(primitive.action, PrimitiveAction::replaced);
         EXPECT_FALSE(primitive.reason.empty());
@@ -167,15 +165,16 @@ TEST_P(EveryPacking, ChangesOnlyWhatItSaysAndNothingTheSecondTime) {
     EXPECT_GT(count, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Small, EveryPacking,
-    testing::Values(Packing{Compression::none}, Packing{Compression::meshopt}, Packing{Compression::draco},
-                    Packing{Compression::none, VectorFormat::float32, "out.gltf"},
-                    Packing{Compression::meshopt, VectorFormat::float32, "out.gltf"},
-                    Packing{Compression::draco, VectorFormat::float32, "out.gltf"},
-                    Packing{Compression::keep, VectorFormat::snorm8}, Packing{Compression::keep, VectorFormat::snorm16},
-                    Packing{Compression::meshopt, VectorFormat::snorm8},
-                    Packing{Compression::draco, VectorFormat::snorm16}));
+INSTANTIATE_TEST_SUITE_P(Small, EveryPacking,
+                         testing::Values(Packing{Compression::none}, Packing{Compression::meshopt},
+                                         Packing{Compression::draco},
+                                         Packing{Compression::none, VectorFormat::float32, "out.gltf"},
+                                         Packing{Compression::meshopt, VectorFormat::float32, "out.gltf"},
+                                         Packing{Compression::draco, VectorFormat::float32, "out.gltf"},
+                                         Packing{Compression::keep, VectorFormat::snorm8},
+                                         Packing{Compression::keep, VectorFormat::snorm16},
+                                         Packing{Compression::meshopt, VectorFormat::snorm8},
+                                         Packing{Compression::draco, VectorFormat::snorm16}));
 
 /// Every method keeps its own output as it is. Small models are enough, and quick.
 class EveryMethod : public testing::TestWithParam<Method> {};
@@ -199,7 +198,8 @@ TEST_P(EveryMethod, ChangesNothingTheSecondTime) {
     RecordProperty("models", count);
 }
 
-INSTANTIATE_TEST_SUITE_P(Small, EveryMethod, testing::Values(Method::uniform, Method::angle, Method::area, Method::fast, Method::best));
+INSTANTIATE_TEST_SUITE_P(Small, EveryMethod,
+                         testing::Values(Method::uniform, Method::angle, Method::area, Method::fast, Method::best));
 
 INSTANTIATE_TEST_SUITE_P(Shared, Models, testing::ValuesIn(test::modelFiles("models")),
                          [](const auto& file) { return test::testName(file.param); });

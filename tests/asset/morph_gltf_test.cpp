@@ -158,16 +158,15 @@ TEST(MorphGltf, KeepsSparseTargetsSparseThroughASplit) {
     GltfBuilder builder = gridModel(grid);
     const std::size_t indices = builder.addView(bytesOfValues<std::uint16_t>({7, 10, 12}));
     const std::size_t values = builder.addView(bytesOfValues<float>({1, 2, 3, 4, 5, 6, 7, 8, 9}));
-    builder.json()["accessors"].push_back(
-        {{"componentType", 5126},
-         {"count", grid.vertexCount()},
-         {"type", "VEC3"},
-         {"min", {0, 0, 0}},
-         {"max", {7, 8, 9}},
-         {"sparse",
-          {{"count", 3},
-           {"indices", {{"bufferView", indices}, {"componentType", kU16}}},
-           {"values", {{"bufferView", values}}}}}});
+    builder.json()["accessors"].push_back({{"componentType", 5126},
+                                           {"count", grid.vertexCount()},
+                                           {"type", "VEC3"},
+                                           {"min", {0, 0, 0}},
+                                           {"max", {7, 8, 9}},
+                                           {"sparse",
+                                            {{"count", 3},
+                                             {"indices", {{"bufferView", indices}, {"componentType", kU16}}},
+                                             {"values", {{"bufferView", values}}}}}});
     firstPrimitive(builder)["targets"] = Json::array({Json{{"POSITION", 4}}});
     const Outcome outcome = run(builder);
     EXPECT_GT(outcome.report.primitives[0].vertices_after, grid.vertexCount());
@@ -273,8 +272,7 @@ TEST(MorphGltf, NamesThePlaceOfOffsetsThatAreNoVectors) {
     const Grid grid(4);
     GltfBuilder builder = gridModel(grid);
     firstPrimitive(builder)["targets"] = Json::array({Json{{"POSITION", 2}}});
-    const auto report =
-        generateFile(folder.write("in.glb", builder.glb()), folder.path("out.glb").string(), {});
+    const auto report = generateFile(folder.write("in.glb", builder.glb()), folder.path("out.glb").string(), {});
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().code, ErrorCode::invalidFile);
     EXPECT_EQ(report.error().place, "/meshes/0/primitives/0/targets/0/POSITION");

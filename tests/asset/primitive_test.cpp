@@ -57,8 +57,7 @@ GltfBuilder interleaved(std::size_t shift) {
     const Bytes floats = test::bytesOfValues(values);
     bytes.insert(bytes.end(), floats.begin(), floats.end());
     builder.addView(bytes);
-    builder.json()["bufferViews"][0] = {
-        {"buffer", 0}, {"byteOffset", shift}, {"byteLength", 40}, {"byteStride", 20}};
+    builder.json()["bufferViews"][0] = {{"buffer", 0}, {"byteOffset", shift}, {"byteLength", 40}, {"byteStride", 20}};
     for (const int components : {3, 2}) {
         builder.json()["accessors"].push_back({{"bufferView", 0},
                                                {"byteOffset", components == 3 ? 0 : 12},

@@ -95,14 +95,13 @@ TEST(ReadScene, RefusesArraysFarLargerThanTheFile) {
 
 TEST(ReadScene, RefusesWhatGenerateRefuses) {
     const TempFolder folder;
-    const auto code = [](const std::string& file) {
-        return errorOf([&] { (void)readScene(file, {}, false); }).code;
-    };
+    const auto code = [](const std::string& file) { return errorOf([&] { (void)readScene(file, {}, false); }).code; };
     EXPECT_EQ(code("no such file.glb"), ErrorCode::cannotRead);
     EXPECT_EQ(code("no such file.obj"), ErrorCode::cannotRead);
     EXPECT_EQ(code(folder.write("a.gltf", "hello")), ErrorCode::invalidFile);
     GltfBuilder builder = oneTriangle();
-    builder.json()["meshes"][0]["primitives"][0]["indices"] = builder.addAccessor<std::uint8_t>({0, 1, 3}, 5121, "SCALAR", 3);
+    builder.json()["meshes"][0]["primitives"][0]["indices"] =
+        builder.addAccessor<std::uint8_t>({0, 1, 3}, 5121, "SCALAR", 3);
     EXPECT_EQ(code(folder.write("b.gltf", builder.gltfText())), ErrorCode::invalidFile);
 }
 
@@ -141,9 +140,10 @@ TEST(ReadScene, CutsTheFacesOfAnObjAndTurnsItsUvs) {
     const TempFolder folder;
     folder.write("m.mtl", "newmtl a\nnorm n.png\n");
     folder.write("n.png", "image");
-    const std::string file = folder.write("a.obj",
-                                          "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 0.75\n"
-                                          "vt 0 1\no one\nusemtl a\nf 1/1 2/2 3/3 4/4\n");
+    const std::string file =
+        folder.write("a.obj",
+                     "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 0.75\n"
+                     "vt 0 1\no one\nusemtl a\nf 1/1 2/2 3/3 4/4\n");
     const Scene scene = readScene(file, {}, true);
     EXPECT_EQ(scene.format, "obj");
     ASSERT_EQ(scene.primitives.size(), 1u);

@@ -30,8 +30,8 @@ TEST(Overlaps, TellsInterleavedElementsApart) {
 RC_GTEST_PROP(Overlaps, AgreesWithMarkingEveryByte, ()) {
     const auto stride = *rc::gen::inRange<std::size_t>(1, 20);
     const auto make = [&] {
-        return strided(*rc::gen::inRange<std::size_t>(0, 60), stride,
-                       *rc::gen::inRange<std::size_t>(1, stride + 1), *rc::gen::inRange<std::size_t>(1, 6));
+        return strided(*rc::gen::inRange<std::size_t>(0, 60), stride, *rc::gen::inRange<std::size_t>(1, stride + 1),
+                       *rc::gen::inRange<std::size_t>(1, 6));
     };
     const Extent a = make(), b = make();
     const auto reads = [](const Extent& extent, std::size_t byte) {

@@ -101,7 +101,8 @@ TEST(Repair, ReplacesWhatNoFileMayHaveEvenAtOneVertex) {
 TEST(Repair, ReplacesTangentsThatAreSharedAcrossAMirroredSeam) {
     GltfBuilder builder = gridModel(Grid(6));
     std::vector<float> tangents;
-    for (std::size_t i = 0; i < 49; ++i) tangents.insert(tangents.end(), {i % 7 > 3 ? -1.0f : 1.0f, 0, 0, i % 7 > 3 ? -1.0f : 1.0f});
+    for (std::size_t i = 0; i < 49; ++i)
+        tangents.insert(tangents.end(), {i % 7 > 3 ? -1.0f : 1.0f, 0, 0, i % 7 > 3 ? -1.0f : 1.0f});
     firstPrimitive(builder)["attributes"]["TANGENT"] = builder.addFloats(tangents, 4);
     const Outcome outcome = run(builder, kRepair);
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::replaced);

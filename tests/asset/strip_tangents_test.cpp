@@ -44,7 +44,8 @@ TEST(StripTangents, LeavesThoseThatAMaterialOrAVariantNeeds) {
         Json::parse(R"([{"material":0,"variants":[0]}])");
     const Outcome variant = run(builder, {.strip = true, .existing = ExistingTangents::replace});
     EXPECT_EQ(variant.report.primitives.at(0).action, PrimitiveAction::replaced);
-    EXPECT_EQ(variant.report.primitives.at(0).reason, "a material variant needs tangents for normalTexture, and overwriting was asked for");
+    EXPECT_EQ(variant.report.primitives.at(0).reason,
+              "a material variant needs tangents for normalTexture, and overwriting was asked for");
 }
 
 TEST(StripTangents, LeavesDataThatSomethingElseUses) {
@@ -74,8 +75,8 @@ TEST(StripTangents, LeavesInterleavedNeighboursAsTheyAre) {
     const std::size_t view = builder.addView(bytesOfValues(mixed));
     builder.json()["bufferViews"][view]["byteStride"] = 28;
     for (const auto& [offset, type] : {std::pair{0, "VEC3"}, std::pair{12, "VEC4"}}) {
-        builder.json()["accessors"].push_back({{"bufferView", view}, {"byteOffset", offset},
-                                               {"componentType", 5126}, {"count", 3}, {"type", type}});
+        builder.json()["accessors"].push_back(
+            {{"bufferView", view}, {"byteOffset", offset}, {"componentType", 5126}, {"count", 3}, {"type", type}});
     }
     builder.addPrimitive({{"POSITION", 0}, {"TANGENT", 1}});
     const Outcome outcome = run(builder, {.strip = true});

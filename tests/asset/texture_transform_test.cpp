@@ -70,9 +70,10 @@ TEST(TextureTransform, ChangesNoBitWhereItOnlyShiftsOrStretches) {
 
 TEST(TextureTransform, GivesSoundTangentsHoweverAbsurdItIs) {
     for (const double number : {0.0, -0.0, 1e-320, 1e-30, -1e30, 1e308, -1.7e308, 12345.678}) {
-        for (const Json& transform : {Json{{"rotation", number}}, Json{{"scale", {number, 1}}},
-                                      Json{{"scale", {number, -number}}, {"rotation", 0.3}},
-                                      Json{{"scale", {1, number}}, {"rotation", number}}, Json{{"offset", {number, 0}}}}) {
+        for (const Json& transform :
+             {Json{{"rotation", number}}, Json{{"scale", {number, 1}}},
+              Json{{"scale", {number, -number}}, {"rotation", 0.3}}, Json{{"scale", {1, number}}, {"rotation", number}},
+              Json{{"offset", {number, 0}}}}) {
             for (const Vec4& t : tangentsOf(transformed(transform, true))) {
                 EXPECT_NEAR(t.x * t.x + t.y * t.y + t.z * t.z, 1, 1e-5) << transform;
                 EXPECT_EQ(std::fabs(t.w), 1) << transform;
@@ -145,10 +146,11 @@ TEST(TextureTransform, ThatIsAnimatedIsNoted) {
         const std::string pointer = "/materials/0/normalTexture/extensions/KHR_texture_transform/" + member;
         builder.json()["animations"] = Json::array({Json{
             {"samplers", Json::array()},
-            {"channels", Json::array({Json{{"sampler", 0},
-                                           {"target",
-                                            {{"path", "pointer"},
-                                             {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}}})}}});
+            {"channels",
+             Json::array({Json{
+                 {"sampler", 0},
+                 {"target",
+                  {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}}})}}});
         return run(builder).report.primitives.at(0).notes;
     };
     EXPECT_EQ(notes("rotation").size(), 1u);

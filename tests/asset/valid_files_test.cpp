@@ -37,8 +37,7 @@ TEST(ValidFiles, Load) {
         const auto inspection = inspectFile(path.string());
         const auto refused = kRefused.find(name);
         if (refused == kRefused.end()) {
-            EXPECT_TRUE(inspection) << name << ": " << inspection.error().message << " at "
-                                    << inspection.error().place;
+            EXPECT_TRUE(inspection) << name << ": " << inspection.error().message << " at " << inspection.error().place;
         } else {
             EXPECT_TRUE(!inspection && inspection.error().code == refused->second) << name;
         }

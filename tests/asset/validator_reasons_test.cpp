@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where tspace refuses a file of the Khronos validator's own tests, it gives one of the reasons that the validator's report
-// has, at the same place.
+// Where tspace refuses a file of the Khronos validator's own tests, it gives one of the reasons that the validator's
+// report has, at the same place.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -60,11 +60,12 @@ const std::map<std::string, std::string> kRefusedBeyond = {
     {"base/asset/min_version_valid.gltf", "needs glTF version '2.1'"},  // newer than what tspace reads
     {"base/root/named_objects.gltf", "in a buffer without data"},       // geometry that is not in the file
     {"base/root/unused_objects.gltf", "in a buffer without data"},
-    {"base/buffer/non_relative_uri.gltf", "never loaded"},              // a web address
+    {"base/buffer/non_relative_uri.gltf", "never loaded"},  // a web address
 };
 
 bool hasWords(const std::string& message, const Words& words) {
-    return std::any_of(words.begin(), words.end(), [&](const std::string& part) { return message.find(part) != std::string::npos; });
+    return std::any_of(words.begin(), words.end(),
+                       [&](const std::string& part) { return message.find(part) != std::string::npos; });
 }
 
 /// One is the place of the other, or lies in it. Byte offsets count differently (before or behind the head) and are not

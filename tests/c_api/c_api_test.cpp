@@ -102,8 +102,7 @@ TEST(CApi, GivesTangentsPerVertexAsTheCppApi) {
     pose.normals = c_mesh.normals;
     for (const Method method : {Method::lengyel, Method::basis}) {
         Outputs cpp(vertex_count), c(vertex_count);
-        ASSERT_TRUE(
-            generateTangents(mesh.view(), {.method = method, .domain = OutputDomain::vertex}, cpp.view()));
+        ASSERT_TRUE(generateTangents(mesh.view(), {.method = method, .domain = OutputDomain::vertex}, cpp.view()));
         tspace_TangentOptions options;
         TSPACE_INIT(options);
         options.method = static_cast<tspace_Method>(method);
@@ -148,13 +147,7 @@ TEST(CApi, GivesTheNormalsOfTheCppApi) {
         tspace_NormalOptions c_options;
         TSPACE_INIT(c_options);
         if (weighting != TSPACE_NORMAL_WEIGHTING_DEFAULT) {
-            options = {static_cast<NormalWeighting>(weighting - 1),
-                       50.0f,
-                       groups,
-                       true,
-                       false,
-                       conventions::unity,
-                       {}};
+            options = {static_cast<NormalWeighting>(weighting - 1), 50.0f, groups, true, false, conventions::unity, {}};
             c_options.weighting = weighting;
             c_options.crease_angle_deg = 50.0f;
             c_options.smoothing_groups = groups.data();
@@ -168,8 +161,7 @@ TEST(CApi, GivesTheNormalsOfTheCppApi) {
         const tspace_Mesh c_mesh = mesh.c();
         tspace_NormalReport report;
         TSPACE_INIT(report);
-        ASSERT_EQ(TSPACE_OK,
-                  tspace_generateNormals(&c_mesh, &c_options, {&c[0].x, c.size(), 0}, &report, nullptr));
+        ASSERT_EQ(TSPACE_OK, tspace_generateNormals(&c_mesh, &c_options, {&c[0].x, c.size(), 0}, &report, nullptr));
         EXPECT_TRUE(sameBits(cpp, c)) << weighting;
         EXPECT_EQ(expected->face_count, report.face_count);
         EXPECT_EQ(expected->degenerate_face_count, report.degenerate_face_count);
@@ -183,8 +175,7 @@ TEST(CApi, MendsAsTheCppApi) {
         std::vector<Vec4> cpp(mesh.cornerCount());
         std::mt19937 random(9);
         std::uniform_real_distribution<float> value(-2.0f, 2.0f);
-        for (Vec4& t : cpp)
-            t = {value(random), value(random), value(random), value(random) < 0 ? -1.0f : 1.0f};
+        for (Vec4& t : cpp) t = {value(random), value(random), value(random), value(random) < 0 ? -1.0f : 1.0f};
         std::vector<Vec4> c = cpp;
         SanitizeOptions options;
         options.orthogonalize_all = all != 0;
@@ -196,8 +187,7 @@ TEST(CApi, MendsAsTheCppApi) {
         const tspace_Mesh c_mesh = mesh.c();
         tspace_SanitizeReport report;
         TSPACE_INIT(report);
-        ASSERT_EQ(TSPACE_OK,
-                  tspace_sanitizeTangents(&c_mesh, &c_options, {&c[0].x, c.size(), 0}, &report, nullptr));
+        ASSERT_EQ(TSPACE_OK, tspace_sanitizeTangents(&c_mesh, &c_options, {&c[0].x, c.size(), 0}, &report, nullptr));
         EXPECT_TRUE(sameBits(cpp, c));
         EXPECT_EQ(expected->mendedCount(), report.mended_count);
         EXPECT_EQ(expected->not_unit_count, report.not_unit_count);
@@ -220,8 +210,8 @@ TEST(CApi, SplitsAndTriangulatesAsTheCppApi) {
     const tspace_Mesh c_mesh = mesh.c();
     const tspace_CornerAttribute c_attribute = {attribute.data, 0, 4, 1e-5f};
     tspace_SplitResult* split = nullptr;
-    ASSERT_EQ(TSPACE_OK, tspace_splitVertices(&c_mesh.indices, mesh.positions.size(), mesh.cornerCount(),
-                                              &c_attribute, 1, nullptr, &split, nullptr));
+    ASSERT_EQ(TSPACE_OK, tspace_splitVertices(&c_mesh.indices, mesh.positions.size(), mesh.cornerCount(), &c_attribute,
+                                              1, nullptr, &split, nullptr));
     EXPECT_EQ(expected->indices, std::vector(split->indices, split->indices + split->corner_count));
     EXPECT_EQ(expected->source_vertices,
               std::vector(split->source_vertices, split->source_vertices + split->vertex_count));
@@ -364,8 +354,7 @@ TEST(CApi, APlanOutlivesTheStructsItWasMadeWith) {
     EXPECT_GT(memory.live, 0u);
 
     pose.positions.count -= 1;
-    EXPECT_EQ(TSPACE_ERROR_PLAN_MISMATCH,
-              tspace_evaluateTangents(plan, &pose, &out, nullptr, nullptr, nullptr));
+    EXPECT_EQ(TSPACE_ERROR_PLAN_MISMATCH, tspace_evaluateTangents(plan, &pose, &out, nullptr, nullptr, nullptr));
     tspace_destroyTangentPlan(plan);
     EXPECT_EQ(memory.live, 0u);
 }

@@ -96,8 +96,8 @@ TEST_F(CErrors, RefuseSizesOfStructsThatThisVersionDoesNotKnow) {
     TSPACE_INIT(normal_report);
     std::vector<float> normals(3 * mesh.cornerCount());
     const auto normals_all = [&] {
-        return tspace_generateNormals(&c_mesh, &normal_options, {normals.data(), mesh.cornerCount(), 0},
-                                      &normal_report, nullptr);
+        return tspace_generateNormals(&c_mesh, &normal_options, {normals.data(), mesh.cornerCount(), 0}, &normal_report,
+                                      nullptr);
     };
     expectSizeChecked("normal options", normal_options, normals_all);
     expectSizeChecked("normal report", normal_report, normals_all);
@@ -114,9 +114,8 @@ TEST_F(CErrors, RefuseSizesOfStructsThatThisVersionDoesNotKnow) {
 
     tspace_TangentPlan* plan = nullptr;
     ASSERT_EQ(TSPACE_OK, tspace_planTangents(&c_mesh, nullptr, &plan, nullptr));
-    expectSizeChecked("pose", pose, [&] {
-        return tspace_evaluateTangents(plan, &pose, &out, nullptr, &tangent_report, nullptr);
-    });
+    expectSizeChecked("pose", pose,
+                      [&] { return tspace_evaluateTangents(plan, &pose, &out, nullptr, &tangent_report, nullptr); });
     tspace_TangentPlanInfo info;
     TSPACE_INIT(info);
     expectSizeChecked("info", info, [&] { return tspace_describeTangentPlan(plan, &info, nullptr); });
@@ -131,8 +130,7 @@ TEST_F(CErrors, RefuseNullWhereSomethingIsNeeded) {
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_generateTangents(&c_mesh, nullptr, nullptr, nullptr, nullptr));
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_sanitizeTangents(nullptr, nullptr, span(4), nullptr, nullptr));
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_planTangents(&c_mesh, nullptr, nullptr, nullptr));
-    EXPECT_EQ(TSPACE_ERROR_NULL_DATA,
-              tspace_evaluateTangents(nullptr, &pose, &out, nullptr, nullptr, nullptr));
+    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_evaluateTangents(nullptr, &pose, &out, nullptr, nullptr, nullptr));
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_splitVertices(nullptr, 3, 3, nullptr, 1, nullptr, nullptr, nullptr));
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_triangulate(&c_mesh, nullptr, nullptr));
     tspace_Convention convention;
@@ -187,8 +185,7 @@ TEST_F(CErrors, RefuseChoicesThatDoNotExist) {
     TSPACE_INIT(options);
     c_mesh = mesh.c();
     options.weighting = TSPACE_NORMAL_WEIGHTING_BEST + 1;
-    EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION,
-              tspace_generateNormals(&c_mesh, &options, span(3), nullptr, &error));
+    EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_generateNormals(&c_mesh, &options, span(3), nullptr, &error));
     EXPECT_NE(nullptr, std::strstr(error.message, "weighting")) << error.message;
 }
 

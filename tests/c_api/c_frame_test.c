@@ -12,8 +12,7 @@ static void checkFaceFrames(void) {
     /* u runs along y with 2 units per uv, v along x: mirrored. */
     const tspace_Vec3 positions[3] = {{0, 0, 0}, {0, 2, 0}, {3, 0, 0}};
     const tspace_Vec2 uvs[3] = {{0, 0}, {1, 0}, {0, 1}};
-    const tspace_FaceFrame both[2] = {tspace_faceFrame(positions, uvs),
-                                      tspace_faceFrameFromPath(positions, uvs)};
+    const tspace_FaceFrame both[2] = {tspace_faceFrame(positions, uvs), tspace_faceFrameFromPath(positions, uvs)};
     for (int i = 0; i < 2; ++i) {
         CHECK(isVec3(both[i].tangent, 0, 2, 0));
         CHECK(isVec3(both[i].bitangent, 3, 0, 0));
@@ -43,8 +42,7 @@ static void checkMatrices(void) {
 static void checkOrthonormal(void) {
     const tspace_Frame skewed = {{2, 0, 0}, {1, -1, 0}, {0, 0, 4}};
     const tspace_Frame frame = tspace_orthonormalize(skewed);
-    CHECK(isVec3(frame.tangent, 1, 0, 0) && isVec3(frame.bitangent, 0, -1, 0) &&
-          isVec3(frame.normal, 0, 0, 1));
+    CHECK(isVec3(frame.tangent, 1, 0, 0) && isVec3(frame.bitangent, 0, -1, 0) && isVec3(frame.normal, 0, 0, 1));
     const tspace_Vec4 packed = tspace_packTangent(skewed);
     CHECK(packed.x == 1 && packed.y == 0 && packed.z == 0 && packed.w == -1);
     CHECK(isVec3(tspace_rebuildBitangent(frame.normal, packed), 0, -1, 0));
@@ -69,8 +67,7 @@ static void checkShading(void) {
     const tspace_Vec3 light = {0, 0, 1};
     CHECK(distance(tspace_lambert(frame, light, normal), 0.8f) < 1e-6f);
     CHECK(distance(tspace_objectNormal(frame, normal).x, 0.6f) < 1e-6f);
-    const tspace_Vec4 tangent = {2, 0, 0,
-                                 1}; /* longer than unit, as between vertices it is shorter: not mended */
+    const tspace_Vec4 tangent = {2, 0, 0, 1}; /* longer than unit, as between vertices it is shorter: not mended */
     const tspace_Vec3 diagonal = {1, 0, 2};
     const tspace_Vec3 result = tspace_objectNormalMikktspace(light, tangent, diagonal);
     CHECK(distance(result.x, result.z) < 1e-6f && result.y == 0);

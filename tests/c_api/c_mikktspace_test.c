@@ -38,8 +38,8 @@ static void texCoord(const SMikkTSpaceContext* context, float out[], const int f
     out[1] = positions[vertex][1];
 }
 
-static void setBasic(const SMikkTSpaceContext* context, const float tangent[], const float sign,
-                     const int face, const int vertex) {
+static void setBasic(const SMikkTSpaceContext* context, const float tangent[], const float sign, const int face,
+                     const int vertex) {
     CHECK(face == 0 && vertex >= 0 && vertex < 4);
     CHECK(tangent[0] == -1 && tangent[1] == 0 && tangent[2] == 0 && sign == -1);
     ++*(int*)context->m_pUserData;

@@ -49,8 +49,8 @@ int numVertices(const SMikkTSpaceContext* context, const int face) {
     return static_cast<int>(of(context).face_sizes[static_cast<std::size_t>(face)]);
 }
 
-void setFull(const SMikkTSpaceContext* context, const float tangent[], const float bitangent[],
-             const float mag_s, const float mag_t, const tbool preserving, const int face, const int vertex) {
+void setFull(const SMikkTSpaceContext* context, const float tangent[], const float bitangent[], const float mag_s,
+             const float mag_t, const tbool preserving, const int face, const int vertex) {
     Golden& golden = of(context);
     std::uint32_t* words = &golden.computed[golden.corner(face, vertex) * Golden::kResultWords];
     for (std::size_t k = 0; k < 3; ++k) words[k] = std::bit_cast<std::uint32_t>(tangent[k]);

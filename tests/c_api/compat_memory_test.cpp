@@ -11,8 +11,7 @@
 namespace {
 
 constexpr long kNoLimit = -1;
-long allowed =
-    kNoLimit;  ///< allocations until one fails; the library is called with faces too few for threads
+long allowed = kNoLimit;  ///< allocations until one fails; the library is called with faces too few for threads
 
 void* allocateOrNull(std::size_t bytes, std::size_t alignment) {
     if (allowed == 0) return nullptr;
@@ -68,8 +67,7 @@ void setBasic(const SMikkTSpaceContext* context, const float[], const float, con
 }
 
 TEST(CompatMemory, EachAllocationThatFailsMakesTheCallFalse) {
-    SMikkTSpaceInterface calls = {numFaces,    numVertices, getPosition, getNormal,
-                                  getTexCoord, setBasic,    nullptr};
+    SMikkTSpaceInterface calls = {numFaces, numVertices, getPosition, getNormal, getTexCoord, setBasic, nullptr};
     int written = 0;
     const SMikkTSpaceContext context = {&calls, &written};
     tbool done = 0;

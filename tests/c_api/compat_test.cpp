@@ -60,9 +60,8 @@ struct Strip {
         EXPECT_EQ(tangent[0], 1.0f);
         EXPECT_EQ(sign, 1.0f);
     }
-    static void full(const SMikkTSpaceContext* c, const float tangent[], const float bitangent[],
-                     const float mag_s, const float mag_t, const tbool preserving, const int face,
-                     const int vertex) {
+    static void full(const SMikkTSpaceContext* c, const float tangent[], const float bitangent[], const float mag_s,
+                     const float mag_t, const tbool preserving, const int face, const int vertex) {
         of(c).note("f", face, vertex);
         EXPECT_EQ(tangent[0], 1.0f);
         EXPECT_EQ(bitangent[1], 1.0f);
@@ -91,8 +90,8 @@ TEST(Compat, ReadsEverythingThenWritesFaceByFaceFullBeforeBasic) {
     const std::vector<std::string> written = {"f0.0", "b0.0", "f0.1", "b0.1", "f0.2", "b0.2", "f0.3",
                                               "b0.3", "f2.0", "b2.0", "f2.1", "b2.1", "f2.2", "b2.2"};
     ASSERT_GE(strip.calls.size(), written.size());
-    EXPECT_EQ(written, std::vector<std::string>(strip.calls.end() - static_cast<long>(written.size()),
-                                                strip.calls.end()));
+    EXPECT_EQ(written,
+              std::vector<std::string>(strip.calls.end() - static_cast<long>(written.size()), strip.calls.end()));
     EXPECT_EQ(strip.count('p'), 7u);
     EXPECT_EQ(strip.count('n'), 7u);
     EXPECT_EQ(strip.count('t'), 7u);
@@ -135,8 +134,7 @@ TEST(Compat, IsFalseWithoutAnyGetter) {
 }
 
 TEST(Compat, IsFalseWithoutAFaceOfThreeOrFourVertices) {
-    for (const std::vector<int>& sizes :
-         {std::vector<int>{}, {0}, {2, 5}, {-1, -3, INT_MIN}, {1, INT_MAX, 100}}) {
+    for (const std::vector<int>& sizes : {std::vector<int>{}, {0}, {2, 5}, {-1, -3, INT_MIN}, {1, INT_MAX, 100}}) {
         Strip strip(sizes);
         EXPECT_FALSE(strip.run());
         EXPECT_EQ(strip.count('b') + strip.count('f'), 0u);

@@ -79,9 +79,9 @@ TEST(CheckFile, DoesNotLookAtNodesThatMoveScaleOrMirror) {
     const std::size_t times = moved.builder.addAccessor(std::vector<float>{0, 1}, 5126, "SCALAR", 2);
     const std::size_t scales = moved.builder.addFloats({1, 1, 1, -2, 0, 3}, 3);
     moved.builder.json()["nodes"] = Json::parse(R"([{"mesh":0,"scale":[-1,2,0.5]}])");
-    moved.builder.json()["animations"] = Json::array({Json{
-        {"samplers", Json::array({Json{{"input", times}, {"output", scales}}})},
-        {"channels", Json::array({Json{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}})}}});
+    moved.builder.json()["animations"] = Json::array(
+        {Json{{"samplers", Json::array({Json{{"input", times}, {"output", scales}}})},
+              {"channels", Json::array({Json{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}})}}});
     const CheckReport a = still.check(), b = moved.check();
     ASSERT_EQ(a.findings.size(), b.findings.size());
     for (std::size_t i = 0; i < a.findings.size(); ++i) EXPECT_EQ(a.findings[i].message, b.findings[i].message);
@@ -128,7 +128,8 @@ TEST(CheckFile, KnowsThatInvertedSignsAndGreenDownCancelOut) {
     }
     TestModel mixed(true, true);
     addPatch(mixed.builder, goodPatch());
-    EXPECT_EQ(codes(mixed.check()), (Codes{"warning signsInverted", "warning greenFlipped"})) << "not in the other patch";
+    EXPECT_EQ(codes(mixed.check()), (Codes{"warning signsInverted", "warning greenFlipped"}))
+        << "not in the other patch";
 }
 
 TEST(CheckFile, SaysThatAnImageWasNotLookedAt) {
@@ -149,15 +150,14 @@ TEST(CheckFile, GivesEachPrimitiveItsOwnFindings) {
     primitives.push_back(primitives[0]);
     primitives[3].erase("material");
     const CheckReport report = model.check();
-    EXPECT_EQ(codes(report), (Codes{"error signsInverted", "error signsInverted", "warning signsInverted",
-                                    "note tangentsUnused"}));
+    EXPECT_EQ(codes(report),
+              (Codes{"error signsInverted", "error signsInverted", "warning signsInverted", "note tangentsUnused"}));
     EXPECT_EQ(report.findings[0].place, "/meshes/0/primitives/0");
     EXPECT_EQ(report.findings[1].place, "/meshes/0/primitives/1");
     EXPECT_EQ(report.findings[1].primitive, 1u);
     EXPECT_EQ(report.findings[2].place, "/meshes/0/primitives/3");
-    EXPECT_TRUE(std::is_sorted(report.findings.begin(), report.findings.end(), [](const Finding& a, const Finding& b) {
-        return a.severity > b.severity;
-    }));
+    EXPECT_TRUE(std::is_sorted(report.findings.begin(), report.findings.end(),
+                               [](const Finding& a, const Finding& b) { return a.severity > b.severity; }));
 }
 
 TEST(CheckFile, IsTheSameForAnyNumberOfThreads) {

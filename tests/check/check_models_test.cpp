@@ -62,10 +62,11 @@ TEST(CheckModels, FindsTheInvertedSignsOfChessBoard) {
 }
 
 TEST(CheckModels, HasNoErrorWhereExportersDidWell) {
-    for (const char* model : {"khronos/Lantern.glb", "khronos/FlightHelmet/FlightHelmet.gltf", "khronos/ClearCoatTest.glb",
-                              "khronos/BoomBoxWithAxes.glb", "khronos/SheenCloth.glb", "khronos/MultiUVTest/MultiUVTest.gltf",
-                              "khronos/AnisotropyStrengthTest.glb", "blender/01_sphere/01_sphere.gltf",
-                              "blender/01_morphed_cube/01_morphed_cube.gltf", "derived/Lantern_quantized.glb"}) {
+    for (const char* model :
+         {"khronos/Lantern.glb", "khronos/FlightHelmet/FlightHelmet.gltf", "khronos/ClearCoatTest.glb",
+          "khronos/BoomBoxWithAxes.glb", "khronos/SheenCloth.glb", "khronos/MultiUVTest/MultiUVTest.gltf",
+          "khronos/AnisotropyStrengthTest.glb", "blender/01_sphere/01_sphere.gltf",
+          "blender/01_morphed_cube/01_morphed_cube.gltf", "derived/Lantern_quantized.glb"}) {
         TSPACE_NEEDS_SHARED("models/" + std::string(model));
         EXPECT_EQ(errorsOf(check(model)), "") << model;
     }

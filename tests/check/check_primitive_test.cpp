@@ -269,7 +269,8 @@ TEST(Check, FindsDirectionsThatAreOff) {
     const auto off = [](double degrees) {
         ScenePrimitive patch = goodPatch(Seam::turned);
         edit(patch.tangents, [&](auto& tangents) {
-            for (std::size_t v = 0; v < tangents.size(); ++v) tangents[v] = turned(tangents[v], patch.normals[v], degrees);
+            for (std::size_t v = 0; v < tangents.size(); ++v)
+                tangents[v] = turned(tangents[v], patch.normals[v], degrees);
         });
         return patch;
     };
@@ -324,7 +325,8 @@ SceneMorphTarget bend(const ScenePrimitive& patch, double most) {
     std::vector<Vec3> positions, normals, tangents;
     const auto delta = [](const Vec3& v, double angle) {
         const DVec3 d = toDouble(v);
-        const DVec3 to{d.x, std::cos(angle) * d.y - std::sin(angle) * d.z, std::sin(angle) * d.y + std::cos(angle) * d.z};
+        const DVec3 to{d.x, std::cos(angle) * d.y - std::sin(angle) * d.z,
+                       std::sin(angle) * d.y + std::cos(angle) * d.z};
         return toFloat(to - d);
     };
     for (std::size_t v = 0; v < patch.positions.size(); ++v) {

@@ -68,7 +68,8 @@ TEST(DirectionDistances, SaysNothingWhereNothingIsKnown) {
         for (Vec2& uv : uvs) uv = {0.5f, 0.5f};
     });
     const TangentView mesh = viewOf(patch);
-    for (const float distance : directionDistances(mesh, describeSurface(mesh), 10)) EXPECT_EQ(distance, kUnknownDirection);
+    for (const float distance : directionDistances(mesh, describeSurface(mesh), 10))
+        EXPECT_EQ(distance, kUnknownDirection);
 }
 
 TEST(DescribeSurface, SumsAreasToTheWhole) {

@@ -14,8 +14,7 @@ namespace {
 
 /// `count` vectors of small whole numbers, now and then next to them.
 std::vector<float> anyVectors(std::size_t count, std::size_t components) {
-    const auto vectors =
-        *rc::gen::container<std::vector<int>>(count * components, rc::gen::inRange(-100, 101));
+    const auto vectors = *rc::gen::container<std::vector<int>>(count * components, rc::gen::inRange(-100, 101));
     std::vector<float> numbers;
     for (const int n : vectors) {
         const float near = n % 10 == 0 ? 1e-6f * static_cast<float>(n) : 0;
@@ -52,8 +51,7 @@ GltfBuilder anyMorphModel() {
     Json targets = Json::array();
     for (int left = *rc::gen::inRange(1, 4); left > 0; --left) {
         Json target = {{"POSITION", builder.addFloats(anyVectors(count, 3), 3)}};
-        if (has_normals && *rc::gen::arbitrary<bool>())
-            target["NORMAL"] = builder.addFloats(anyVectors(count, 3), 3);
+        if (has_normals && *rc::gen::arbitrary<bool>()) target["NORMAL"] = builder.addFloats(anyVectors(count, 3), 3);
         targets.push_back(target);
     }
     Json& primitive = builder.addPrimitive(attributes);

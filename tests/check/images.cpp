@@ -38,7 +38,8 @@ RgbImage normalMapOf(std::uint32_t size, const std::function<double(double, doub
 }
 
 double bumps(double x, double y) {
-    return 0.02 * std::sin(20 * x + 3) * std::cos(17 * y) + 0.01 * std::sin(31 * (x + y)) + 0.01 * std::cos(29 * (x - 2 * y));
+    return 0.02 * std::sin(20 * x + 3) * std::cos(17 * y) + 0.01 * std::sin(31 * (x + y)) +
+           0.01 * std::cos(29 * (x - 2 * y));
 }
 
 std::string pngFile(const RgbImage& image) {

@@ -23,8 +23,8 @@ enum class Seam {
     turned     ///< an island of its own, a quarter turn off
 };
 
-inline constexpr std::size_t kSide = 9;               ///< vertices along each side of a half
-inline constexpr std::size_t kHalf = kSide * kSide;   ///< vertices of a half
+inline constexpr std::size_t kSide = 9;              ///< vertices along each side of a half
+inline constexpr std::size_t kHalf = kSide * kSide;  ///< vertices of a half
 
 /// Vertex in row `row` (0 to kSide - 1) of the seam; `half` 0 or 1. Both have the same position and normal.
 inline std::uint32_t seamVertex(std::size_t half, std::size_t row) {
@@ -69,7 +69,7 @@ inline ScenePrimitive goodPatch(Seam seam = Seam::none) {
                 normals.push_back(toFloat(n));
                 const auto u = static_cast<float>(a), v = static_cast<float>(-b);
                 const bool second = half == 1;
-                uvs.push_back(seam == Seam::mirrored ? Vec2{-std::fabs(u), v}
+                uvs.push_back(seam == Seam::mirrored           ? Vec2{-std::fabs(u), v}
                               : seam == Seam::turned && second ? Vec2{v + 4, -u}
                                                                : Vec2{u, v});
             }

@@ -131,11 +131,11 @@ struct Torus {
         for (std::uint32_t y = 0; y < side; ++y) {
             for (std::uint32_t x = 0; x < side; ++x) {
                 const double a = 6.283185307 * x / side, b = 6.283185307 * y / side;
-                const Vec3 n{static_cast<float>(std::cos(b) * std::cos(a)), static_cast<float>(std::cos(b) * std::sin(a)),
-                             static_cast<float>(std::sin(b))};
+                const Vec3 n{static_cast<float>(std::cos(b) * std::cos(a)),
+                             static_cast<float>(std::cos(b) * std::sin(a)), static_cast<float>(std::sin(b))};
                 normals.push_back(n);
-                positions.push_back({n.x + 3 * static_cast<float>(std::cos(a)),
-                                     n.y + 3 * static_cast<float>(std::sin(a)), n.z});
+                positions.push_back(
+                    {n.x + 3 * static_cast<float>(std::cos(a)), n.y + 3 * static_cast<float>(std::sin(a)), n.z});
                 uvs.push_back({static_cast<float>(x), static_cast<float>(y)});
                 const std::uint32_t right = (x + 1) % side, up = (y + 1) % side;
                 for (const std::uint32_t v : {y * side + x, y * side + right, up * side + right, y * side + x,
@@ -173,9 +173,8 @@ struct PeakAllocator {
                         .user = this};
 };
 
-const std::vector<Method> kMethods{Method::mikktspace, Method::lengyel, Method::uniform, Method::angle,
-                                   Method::area,       Method::flat,    Method::basis,   Method::fast,
-                                   Method::best};
+const std::vector<Method> kMethods{Method::mikktspace, Method::lengyel, Method::uniform, Method::angle, Method::area,
+                                   Method::flat,       Method::basis,   Method::fast,    Method::best};
 
 /// Everything of this library that takes an allocator.
 void computeAll(const Torus& torus, Method method, const Allocator* allocator) {
@@ -183,8 +182,7 @@ void computeAll(const Torus& torus, Method method, const Allocator* allocator) {
     std::vector<Vec3> normals(torus.indices.size());
     ASSERT_TRUE(generateNormals(torus.view(), {.crease_angle_deg = 30, .execution = execution}, normals));
     std::vector<Vec4> tangents(torus.indices.size());
-    ASSERT_TRUE(
-        generateTangents(torus.view(), {.method = method, .execution = execution}, {.tangents = tangents}));
+    ASSERT_TRUE(generateTangents(torus.view(), {.method = method, .execution = execution}, {.tangents = tangents}));
     tangents[5] = {};
     ASSERT_TRUE(sanitizeTangents(torus.view(), tangents, {.execution = execution}));
 }

@@ -57,8 +57,7 @@ TEST_F(MeshBorder, FindsTheOneBadIndexOfEveryWidthAtEveryPlace) {
         }
     };
     for (const std::uint8_t bad : {std::uint8_t{4}, std::uint8_t{255}}) expectFound(std::uint8_t{3}, bad);
-    for (const std::uint16_t bad : {std::uint16_t{4}, std::uint16_t{0xffff}})
-        expectFound(std::uint16_t{3}, bad);
+    for (const std::uint16_t bad : {std::uint16_t{4}, std::uint16_t{0xffff}}) expectFound(std::uint16_t{3}, bad);
     for (const std::uint32_t bad : {4u, 0x7fffffffu, 0x80000000u, 0x80000003u, 0xffffffffu}) {
         expectFound(std::uint32_t{3}, bad);
     }

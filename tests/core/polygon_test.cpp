@@ -20,8 +20,8 @@ Triangles cut(const std::vector<Vec3>& positions, const std::vector<Vec2>& uvs =
               std::uint32_t few = kFewPolygonCorners) {
     PolygonScratch scratch;
     Triangles triangles(positions.size() - 2);
-    cutPolygon(positions.data(), uvs.empty() ? nullptr : uvs.data(),
-               static_cast<std::uint32_t>(positions.size()), triangles.front().data(), scratch, few);
+    cutPolygon(positions.data(), uvs.empty() ? nullptr : uvs.data(), static_cast<std::uint32_t>(positions.size()),
+               triangles.front().data(), scratch, few);
     return triangles;
 }
 
@@ -41,10 +41,9 @@ double areaAlongZ(const std::vector<Vec3>& polygon) {
 std::vector<Vec3> star(const std::vector<int>& radii) {
     std::vector<Vec3> polygon;
     for (std::size_t i = 0; i < radii.size(); ++i) {
-        const double angle =
-            2 * 3.14159265358979 * static_cast<double>(i) / static_cast<double>(radii.size());
-        polygon.push_back({static_cast<float>(radii[i] * std::cos(angle)),
-                           static_cast<float>(radii[i] * std::sin(angle)), 0});
+        const double angle = 2 * 3.14159265358979 * static_cast<double>(i) / static_cast<double>(radii.size());
+        polygon.push_back(
+            {static_cast<float>(radii[i] * std::cos(angle)), static_cast<float>(radii[i] * std::sin(angle)), 0});
     }
     return polygon;
 }
@@ -52,8 +51,8 @@ std::vector<Vec3> star(const std::vector<int>& radii) {
 rc::Gen<std::vector<Vec3>> anyStar() {
     return rc::gen::map(rc::gen::mapcat(rc::gen::inRange(5, 40),
                                         [](int n) {
-                                            return rc::gen::container<std::vector<int>>(
-                                                static_cast<std::size_t>(n), rc::gen::inRange(1, 30));
+                                            return rc::gen::container<std::vector<int>>(static_cast<std::size_t>(n),
+                                                                                        rc::gen::inRange(1, 30));
                                         }),
                         star);
 }
@@ -69,9 +68,7 @@ std::vector<std::array<float, 9>> geometry(const std::vector<Vec3>& positions, c
     return result;
 }
 
-TEST(Polygon, LeavesATriangleAlone) {
-    EXPECT_EQ(cut({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), (Triangles{{0, 1, 2}}));
-}
+TEST(Polygon, LeavesATriangleAlone) { EXPECT_EQ(cut({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), (Triangles{{0, 1, 2}})); }
 
 TEST(Polygon, CutsAQuadAlongItsShorterDiagonalInUvSpace) {
     const std::vector<Vec3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -186,8 +183,7 @@ RC_GTEST_PROP(Polygon, GivesAConvexPolygonTheSameTrianglesWhetherVerticesAreTest
 
 TEST(Polygon, MakesNoFlatTriangleOfVerticesOnALine) {
     const std::vector<Vec3> polygon{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}};
-    for (const auto& t : cut(polygon))
-        EXPECT_GT(areaAlongZ(polygon[t[0]], polygon[t[1]], polygon[t[2]]), 0.1);
+    for (const auto& t : cut(polygon)) EXPECT_GT(areaAlongZ(polygon[t[0]], polygon[t[1]], polygon[t[2]]), 0.1);
 }
 
 TEST(Polygon, CutsAPolygonWithABridgeToItsHole) {

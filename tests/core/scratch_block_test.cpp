@@ -31,8 +31,8 @@ TEST(ScratchBlock, GivesAlignedBuffersThatDoNotOverlapFromOneAllocation) {
     Source source;
     {
         ScratchBlock scratch(&source.allocator, 4096);
-        Buffer<std::uint8_t> a(scratch.allocator(), 65, std::uint8_t{1}),
-            b(scratch.allocator(), 1, std::uint8_t{2}), c(scratch.allocator(), 200, std::uint8_t{3});
+        Buffer<std::uint8_t> a(scratch.allocator(), 65, std::uint8_t{1}), b(scratch.allocator(), 1, std::uint8_t{2}),
+            c(scratch.allocator(), 200, std::uint8_t{3});
         EXPECT_EQ(source.calls, 1);
         for (const auto* buffer : {&a, &b, &c})
             EXPECT_EQ(reinterpret_cast<std::uintptr_t>(buffer->data()) % kMemoryAlignment, 0u);

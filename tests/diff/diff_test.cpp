@@ -17,8 +17,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 FrameDiff diffOf(const std::vector<ModelData>& a, const std::vector<ModelData>& b, const DiffOptions& options = {}) {
     const TempFolder folder;
-    const Result<FrameDiff> diff =
-        diffFiles(writeModel(folder, "a.glb", a), writeModel(folder, "b.glb", b), options);
+    const Result<FrameDiff> diff = diffFiles(writeModel(folder, "a.glb", a), writeModel(folder, "b.glb", b), options);
     EXPECT_TRUE(diff.ok()) << (diff ? "" : diff.error().message);
     return diff ? *diff : FrameDiff{};
 }

@@ -152,8 +152,7 @@ RC_GTEST_PROP(ShadingProperty, TangentSpaceLambertIsObjectSpaceLambert, ()) {
 RC_GTEST_PROP(ShadingProperty, BothConventionsAgreeOnUnitOrthogonalInterpolants, ()) {
     const Frame o = orthonormalize(randomSoundFrame());
     const Vec3 texel = decodeNormal(randomVec3(0, 1));
-    RC_ASSERT(distance(objectNormal(o, texel), objectNormalMikktspace(o.normal, packTangent(o), texel)) <
-              2e-6);
+    RC_ASSERT(distance(objectNormal(o, texel), objectNormalMikktspace(o.normal, packTangent(o), texel)) < 2e-6);
 }
 
 RC_GTEST_PROP(ShadingProperty, DecodedTexelsAreUnit, ()) {

@@ -22,8 +22,7 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 
 bool sameBits(const Vec4& a, const Vec4& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 bool sameBits(const std::vector<Vec4>& a, const std::vector<Vec4>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec4)) == 0);
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec4)) == 0);
 }
 
 struct Scene {
@@ -60,9 +59,7 @@ double unitDot(const Vec3& n, const Vec4& t) {
     return (double{n.x} * t.x + double{n.y} * t.y + double{n.z} * t.z) / size;
 }
 
-double lengthOf(const Vec4& t) {
-    return std::sqrt(double{t.x} * t.x + double{t.y} * t.y + double{t.z} * t.z);
-}
+double lengthOf(const Vec4& t) { return std::sqrt(double{t.x} * t.x + double{t.y} * t.y + double{t.z} * t.z); }
 
 void expectMended(const Vec4& t, const Vec3& n) {
     EXPECT_NEAR(lengthOf(t), 1, 1e-6);
@@ -126,8 +123,7 @@ TEST(Sanitize, TakesTheFirstSoundTangentAtThePositionWhenTheFaceHasNone) {
     scene.positions.push_back({0, 1, 0});  // the same point under another index and another zero
     scene.normals.push_back({0, 0, 1});
     scene.indices[3] = 4;
-    scene.tangents = {{1, 0, 0, -1},   {1, 0, 0, -1}, {0, -1, 0, -1},
-                      {0, 0, 0, kNan}, {0, 0, 0, 5},  {0, 0, 0, 0}};
+    scene.tangents = {{1, 0, 0, -1}, {1, 0, 0, -1}, {0, -1, 0, -1}, {0, 0, 0, kNan}, {0, 0, 0, 5}, {0, 0, 0, 0}};
     const SanitizeReport report = scene.sanitize();
     EXPECT_EQ(report.from_neighbor_count, 2u);
     EXPECT_EQ(report.from_basis_count, 1u);
@@ -252,8 +248,7 @@ Scene anyScene() {
     scene.face_sizes = *rc::gen::container<Indices>(rc::gen::inRange<std::uint32_t>(0, 6));
     for (const std::uint32_t size : scene.face_sizes) {
         for (std::uint32_t k = 0; k < size; ++k) {
-            scene.indices.push_back(
-                *rc::gen::inRange<std::uint32_t>(0, static_cast<std::uint32_t>(vertices)));
+            scene.indices.push_back(*rc::gen::inRange<std::uint32_t>(0, static_cast<std::uint32_t>(vertices)));
             const float sign = *rc::gen::element(1.0f, 1.0f, -1.0f, 0.0f, kNan);
             scene.tangents.push_back(*rc::gen::inRange(0, 2) == 0
                                          ? Vec4{anyValue(), anyValue(), anyValue(), sign}
@@ -289,8 +284,7 @@ RC_GTEST_PROP(Sanitize, KeepsItsPromisesOnGarbage, ()) {
         first += size;
     }
     RC_ASSERT(changed <= report.mendedCount());
-    RC_ASSERT(report.mendedCount() ==
-              report.normalized_count + report.from_neighbor_count + report.from_basis_count);
+    RC_ASSERT(report.mendedCount() == report.normalized_count + report.from_neighbor_count + report.from_basis_count);
 }
 
 RC_GTEST_PROP(Sanitize, ChangesNothingTheSecondTime, ()) {
@@ -353,22 +347,20 @@ TEST(Sanitize, ReportsThatMemoryRanOutAndGivesAllOfItBack) {
     scene.tangents[0] = scene.tangents[1] = scene.tangents[2] = {};
     for (int allowed = 0;; ++allowed) {
         Memory memory{.left = allowed};
-        const Allocator allocator{
-            .allocate = [](void* user, std::size_t bytes, std::size_t alignment) -> void* {
-                auto* m = static_cast<Memory*>(user);
-                if (m->left-- == 0) return nullptr;
-                ++m->held;
-                return ::operator new(bytes, std::align_val_t(alignment));
-            },
-            .release =
-                [](void* user, void* data, std::size_t, std::size_t alignment) {
-                    --static_cast<Memory*>(user)->held;
-                    ::operator delete(data, std::align_val_t(alignment));
-                },
-            .user = &memory};
+        const Allocator allocator{.allocate = [](void* user, std::size_t bytes, std::size_t alignment) -> void* {
+                                      auto* m = static_cast<Memory*>(user);
+                                      if (m->left-- == 0) return nullptr;
+                                      ++m->held;
+                                      return ::operator new(bytes, std::align_val_t(alignment));
+                                  },
+                                  .release =
+                                      [](void* user, void* data, std::size_t, std::size_t alignment) {
+                                          --static_cast<Memory*>(user)->held;
+                                          ::operator delete(data, std::align_val_t(alignment));
+                                      },
+                                  .user = &memory};
         std::vector<Vec4> tangents = scene.tangents;
-        const auto result =
-            sanitizeTangents(scene.view(), tangents, {.execution = {.allocator = &allocator}});
+        const auto result = sanitizeTangents(scene.view(), tangents, {.execution = {.allocator = &allocator}});
         EXPECT_EQ(memory.held, 0);
         if (result.ok()) {
             EXPECT_GT(allowed, 2);

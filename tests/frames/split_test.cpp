@@ -15,15 +15,14 @@ namespace {
 
 using Indices = std::vector<std::uint32_t>;
 
-CornerAttribute floats(const std::vector<float>& values, float tolerance = 0.0f,
-                       std::uint32_t components = 1) {
+CornerAttribute floats(const std::vector<float>& values, float tolerance = 0.0f, std::uint32_t components = 1) {
     return {values.data(), components * sizeof(float), components, tolerance};
 }
 
 SplitResult split(const Indices& indices, std::size_t vertex_count, std::vector<CornerAttribute> attributes,
                   const Execution& execution = {}) {
-    Result<SplitResult> result = splitVertices(IndexView(std::span<const std::uint32_t>(indices)),
-                                               vertex_count, indices.size(), attributes, execution);
+    Result<SplitResult> result = splitVertices(IndexView(std::span<const std::uint32_t>(indices)), vertex_count,
+                                               indices.size(), attributes, execution);
     EXPECT_TRUE(result.ok());
     return *std::move(result);
 }
@@ -31,8 +30,7 @@ SplitResult split(const Indices& indices, std::size_t vertex_count, std::vector<
 bool sameBits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 /// The rule of split.h, word for word, in quadratic time.
-SplitResult splitSlowly(const Indices& indices, std::size_t vertex_count,
-                        std::span<const CornerAttribute> attributes) {
+SplitResult splitSlowly(const Indices& indices, std::size_t vertex_count, std::span<const CornerAttribute> attributes) {
     const auto equal = [&](std::size_t a, std::size_t b) {
         for (const CornerAttribute& attribute : attributes) {
             for (std::uint32_t k = 0; k < attribute.component_count; ++k) {
@@ -66,8 +64,7 @@ SplitResult splitSlowly(const Indices& indices, std::size_t vertex_count,
 }
 
 bool equalResults(const SplitResult& a, const SplitResult& b) {
-    return a.indices == b.indices && a.source_vertices == b.source_vertices &&
-           a.source_corners == b.source_corners;
+    return a.indices == b.indices && a.source_vertices == b.source_vertices && a.source_corners == b.source_corners;
 }
 
 TEST(Split, KeepsTheFirstCornerAtTheOldVertexAndAppendsCopies) {
@@ -101,13 +98,11 @@ TEST(Split, TellsZerosAndNansApartByTheirBits) {
 
 TEST(Split, MergesNoiseWithinTheToleranceOnly) {
     const std::vector<float> values{1.0f, 1.0f + 1e-6f, 1.0f - 1e-6f, 1.001f, -0.0f, 0.0f, 1.0005f};
-    EXPECT_EQ(split({0, 0, 0, 0, 0, 0, 0}, 1, {floats(values, 1e-5f)}).indices,
-              (Indices{0, 0, 0, 1, 2, 2, 3}));
+    EXPECT_EQ(split({0, 0, 0, 0, 0, 0, 0}, 1, {floats(values, 1e-5f)}).indices, (Indices{0, 0, 0, 1, 2, 2, 3}));
 }
 
 TEST(Split, ComparesWithTheCornerThatGotTheVertexSoThatChainsDoNotCreep) {
-    EXPECT_EQ(split({0, 0, 0, 0}, 1, {floats({0.0f, 0.75f, 1.5f, 0.8f}, 1.0f)}).indices,
-              (Indices{0, 0, 1, 0}));
+    EXPECT_EQ(split({0, 0, 0, 0}, 1, {floats({0.0f, 0.75f, 1.5f, 0.8f}, 1.0f)}).indices, (Indices{0, 0, 1, 0}));
 }
 
 TEST(Split, SplitsWhereAnyOfSeveralAttributesDisagrees) {
@@ -140,8 +135,7 @@ TEST(Split, FindsTheEarliestOfManyVariantsFarFromZeroToo) {
     const float tolerance = 1e-3f;
     std::vector<float> values;
     for (int k = 0; k < 40; ++k) values.push_back((k % 2 == 0 ? 1.0f : -1.0f) * std::ldexp(1.0f, k));
-    for (int k = 0; k < 40; ++k)
-        values.push_back(values[static_cast<std::size_t>(k)] * (k < 10 ? 1.0f + 1e-7f : 1.0f));
+    for (int k = 0; k < 40; ++k) values.push_back(values[static_cast<std::size_t>(k)] * (k < 10 ? 1.0f + 1e-7f : 1.0f));
     const Indices indices(80, 0);
     const SplitResult result = split(indices, 1, {floats(values, tolerance)});
     EXPECT_EQ(result.vertexCount(), 40u);
@@ -235,11 +229,11 @@ RC_GTEST_PROP(Split, GivesTheSameResultForAnyThreadCount, ()) {
 
 TEST(Split, StartsNoThreadForASmallMesh) {
     int runs = 0;
-    const Executor executor{.run = [](void* user, std::size_t count, void (*task)(void*, std::size_t),
-                                      void* context) {
-                                ++*static_cast<int*>(user);
-                                for (std::size_t i = 0; i < count; ++i) task(context, i);
-                            },
+    const Executor executor{.run =
+                                [](void* user, std::size_t count, void (*task)(void*, std::size_t), void* context) {
+                                    ++*static_cast<int*>(user);
+                                    for (std::size_t i = 0; i < count; ++i) task(context, i);
+                                },
                             .user = &runs,
                             .concurrency = 8};
     std::vector<float> values(3 * 5000);

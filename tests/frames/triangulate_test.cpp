@@ -62,8 +62,7 @@ RC_GTEST_PROP(Triangulate, CoversEachFaceOfAMixedMesh, ()) {
     for (const std::uint32_t size : sizes) {
         for (std::uint32_t k = 0; k < size; ++k) {
             const double angle = 2 * 3.14159265358979 * k / size;
-            positions.push_back(
-                {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0});
+            positions.push_back({static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0});
         }
     }
     MeshView mesh;

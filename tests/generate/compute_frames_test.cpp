@@ -63,8 +63,7 @@ RC_GTEST_PROP(ComputeFrames, KeepsEveryCornerAtItsVertexAndCopiesBehind, ()) {
     for (std::size_t v = 0; v < pool.positions.size(); ++v) RC_ASSERT(result.frames.source_vertices[v] == v);
     for (std::size_t p = 0; p < primitives.size(); ++p) {
         Indices sources;
-        for (const std::uint32_t v : result.frames.indices[p])
-            sources.push_back(result.frames.source_vertices[v]);
+        for (const std::uint32_t v : result.frames.indices[p]) sources.push_back(result.frames.source_vertices[v]);
         RC_ASSERT(sources == primitives[p].indices);
         RC_ASSERT(result.reports[p].triangle_count == primitives[p].indices.size() / 3);
         RC_ASSERT(result.reports[p].vertices_before == pool.positions.size());
@@ -166,8 +165,7 @@ TEST(ComputeFrames, CutsPolygonsAndLeavesFacesWithoutAreaOut) {
         pool.positions.push_back({x, y, 0});
         pool.uvs.push_back({x, y});
     }
-    const PrimitiveGeometry primitive{.indices = {5, 4, 0, 1, 2, 3, 4, 5, 0, 2, 1, 3},
-                                      .face_sizes = {2, 6, 1, 3}};
+    const PrimitiveGeometry primitive{.indices = {5, 4, 0, 1, 2, 3, 4, 5, 0, 2, 1, 3}, .face_sizes = {2, 6, 1, 3}};
     const Outcome result = compute(pool, {primitive}, {});
     const Indices& corners = result.frames.indices[0];
     ASSERT_EQ(corners.size(), 15u);
@@ -177,8 +175,7 @@ TEST(ComputeFrames, CutsPolygonsAndLeavesFacesWithoutAreaOut) {
     EXPECT_EQ(last, (Indices{2, 1, 3}));
     for (const Vec4& t : result.frames.tangents) EXPECT_NEAR(std::hypot(t.x, t.y, t.z), 1.0f, 5e-4f);
     // The hexagon faces up and the triangle, which runs the other way round, down; they share no corner.
-    for (std::size_t c = 0; c < 15; ++c)
-        EXPECT_EQ(result.frames.normals[corners[c]].z, c < 12 ? 1.0f : -1.0f);
+    for (std::size_t c = 0; c < 15; ++c) EXPECT_EQ(result.frames.normals[corners[c]].z, c < 12 ? 1.0f : -1.0f);
 }
 
 TEST(ComputeFrames, AcceptsPoolsAndPrimitivesWithNothingInThem) {

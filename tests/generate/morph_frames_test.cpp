@@ -103,9 +103,9 @@ std::vector<bool> takenApart(const VertexPool& base, const VertexPool& moved, co
     for (const std::uint32_t v : corners) {
         result.push_back(std::any_of(corners.begin(), corners.end(), [&](std::uint32_t other) {
             return areTwins(v, other) && std::any_of(corners.begin(), corners.end(), [&](std::uint32_t third) {
-                return areTwins(v, third) && !(isOne(moved.positions[other], moved.positions[third]) &&
-                                               isOne(moved.normals[other], moved.normals[third]));
-            });
+                       return areTwins(v, third) && !(isOne(moved.positions[other], moved.positions[third]) &&
+                                                      isOne(moved.normals[other], moved.normals[third]));
+                   });
         }));
     }
     return result;
@@ -156,8 +156,7 @@ std::vector<Vec4> evaluated(VertexPool pool, const PrimitiveGeometry& primitive,
     for (std::size_t c = 0; c < tangents.size(); ++c) {
         if (!apart[c]) continue;
         const Vec3& n = pool.normals[primitive.indices[c]];
-        const bool in_plane =
-            std::fabs(sineOf(xyz(regrouped[c]), n)) <= std::sin(std::numbers::pi / 1800) || isZero(n);
+        const bool in_plane = std::fabs(sineOf(xyz(regrouped[c]), n)) <= std::sin(std::numbers::pi / 1800) || isZero(n);
         if (hasDirection(regrouped[c]) && in_plane && regrouped[c].w == tangents[c].w) {
             tangents[c] = regrouped[c];
         } else if (hasDirection(tangents[c])) {
@@ -170,8 +169,7 @@ std::vector<Vec4> evaluated(VertexPool pool, const PrimitiveGeometry& primitive,
         const std::uint32_t v = primitive.indices[c];
         const Vec3 &from = at_rest.normals[v], &to = pool.normals[v];
         const bool is_unit = std::fabs(lengthOf(to) * lengthOf(to) - 1) < 1e-3;
-        const bool leans =
-            is_unit && std::fabs(sineOf(xyz(tangents[c]), to)) > std::sin(std::numbers::pi / 36);
+        const bool leans = is_unit && std::fabs(sineOf(xyz(tangents[c]), to)) > std::sin(std::numbers::pi / 36);
         const bool leant = std::fabs(sineOf(xyz(base[v]), from)) > std::sin(std::numbers::pi / 1800);
         return !hasDirection(tangents[c]) || (leans && !leant);
     };
@@ -198,8 +196,8 @@ RC_GTEST_PROP(MorphFrames, AreThoseOfTheMovedShapeWithTheGroupsOfTheBase, ()) {
     for (std::size_t t = 0; t < targets.size(); ++t) {
         const std::vector<Vec3> offsets = dense(result.frames.morphs[t].tangents, written.positions.size());
         for (const Indices& corners : result.frames.indices) {
-            const std::vector<Vec4> wanted = evaluated(written, {.indices = corners}, moved[t],
-                                                        result.frames.tangents, options);
+            const std::vector<Vec4> wanted =
+                evaluated(written, {.indices = corners}, moved[t], result.frames.tangents, options);
             for (std::size_t c = 0; c < corners.size(); ++c) {
                 const Vec3 got = sum(xyz(result.frames.tangents[corners[c]]), offsets[corners[c]]);
                 if (wanted[c].x == kAnyDirection) {
@@ -329,7 +327,8 @@ TEST(MorphFrames, AddNothingWhereNothingMoves) {
         Targets targets(2);
         targets[0].positions.resize(2 * Sheets::kPerSheet);
         targets[1].positions.resize(2 * Sheets::kPerSheet);
-        for (std::uint32_t v = 0; v < Sheets::kPerSheet; ++v) targets[1].positions[v] = {0, 0, 0.1f * static_cast<float>(v)};
+        for (std::uint32_t v = 0; v < Sheets::kPerSheet; ++v)
+            targets[1].positions[v] = {0, 0, 0.1f * static_cast<float>(v)};
         sheets.pool.targets = reading(targets);
         const Outcome result = compute(sheets.pool, {sheets.primitive}, {});
         EXPECT_TRUE(result.frames.morphs[0].tangents.vertices.empty());
@@ -373,7 +372,8 @@ TEST(MorphFrames, LieInTheirFacesWhereATargetBendsAFlatShadedPlane) {
     pool.targets = reading(targets);
     for (const Method method : {Method::mikktspace, Method::angle, Method::best}) {
         const PoolFrames frames = compute(pool, {{.indices = {0, 1, 2, 2, 1, 3}}}, withMethod(method)).frames;
-        const std::vector<Vec3> normals = dense(frames.morphs[0].normals, 6), tangents = dense(frames.morphs[0].tangents, 6);
+        const std::vector<Vec3> normals = dense(frames.morphs[0].normals, 6),
+                                tangents = dense(frames.morphs[0].tangents, 6);
         for (std::size_t v = 0; v < 6; ++v) {
             const Vec3 n = sum(frames.normals[v], normals[v]), t = sum(xyz(frames.tangents[v]), tangents[v]);
             EXPECT_NEAR(n.x * t.x + n.y * t.y + n.z * t.z, 0, 1e-6) << "vertex " << v;
@@ -426,8 +426,7 @@ TEST(MorphFrames, CountCornersWhoseSignCannotBeMorphed) {
     sheets.pool.targets = reading(targets);
     EXPECT_EQ(compute(sheets.pool, {sheets.primitive}, withMethod(Method::flat)).reports[0].morph_sign_flip_count,
               sheets.primitive.indices.size());
-    EXPECT_EQ(compute(sheets.pool, {sheets.primitive}, {}).reports[0].morph_sign_flip_count, 0u)
-        << "by UVs alone";
+    EXPECT_EQ(compute(sheets.pool, {sheets.primitive}, {}).reports[0].morph_sign_flip_count, 0u) << "by UVs alone";
 }
 
 TEST(MorphFrames, AreAddedToKeptTangentsThatAgree) {

@@ -27,7 +27,7 @@ struct Outcome {
 };
 
 inline Outcome compute(const VertexPool& pool, const std::vector<PrimitiveGeometry>& primitives,
-                const GenerateOptions& options) {
+                       const GenerateOptions& options) {
     std::vector<PrimitiveReport> reports(primitives.size());
     Result<PoolFrames> frames = computeFrames(pool, primitives, options, reports);
     EXPECT_TRUE(frames.ok()) << (frames.ok() ? "" : frames.error().message);
@@ -66,8 +66,7 @@ inline VertexPool square() {
 }
 
 inline float anyNumber() {
-    return *rc::gen::element(0.0f, -0.0f, 1.0f, -1.0f, 0.5f, 2.0f, 0.25f, -0.75f, 3.0f, 1e20f, 1e-30f,
-                             std::nanf(""));
+    return *rc::gen::element(0.0f, -0.0f, 1.0f, -1.0f, 0.5f, 2.0f, 0.25f, -0.75f, 3.0f, 1e20f, 1e-30f, std::nanf(""));
 }
 
 /// Small numbers nearly always, so that neighbours, mirrored UVs, degenerate faces and collapsed UVs all
@@ -93,8 +92,7 @@ inline std::vector<PrimitiveGeometry> anyTriangles(const VertexPool& pool) {
     const auto vertices = static_cast<std::uint32_t>(pool.positions.size());
     for (PrimitiveGeometry& primitive : primitives) {
         const auto faces = *rc::gen::inRange<std::size_t>(0, 20);
-        primitive.indices =
-            *rc::gen::container<Indices>(3 * faces, rc::gen::inRange<std::uint32_t>(0, vertices));
+        primitive.indices = *rc::gen::container<Indices>(3 * faces, rc::gen::inRange<std::uint32_t>(0, vertices));
     }
     return primitives;
 }
@@ -113,9 +111,9 @@ inline std::vector<PrimitiveGeometry> anyFaces(const VertexPool& pool) {
 }
 
 inline GenerateOptions anyOptions() {
-    GenerateOptions options = withMethod(*rc::gen::element(Method::mikktspace, Method::uniform, Method::angle,
-                                                           Method::area, Method::flat, Method::basis, Method::fast,
-                                                           Method::best));
+    GenerateOptions options =
+        withMethod(*rc::gen::element(Method::mikktspace, Method::uniform, Method::angle, Method::area, Method::flat,
+                                     Method::basis, Method::fast, Method::best));
     options.normals.weighting =
         *rc::gen::element(NormalWeighting::flat, NormalWeighting::angle, NormalWeighting::area, NormalWeighting::best);
     options.normals.crease_angle_deg = *rc::gen::element(180.0f, 30.0f);

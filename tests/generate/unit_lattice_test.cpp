@@ -41,11 +41,14 @@ TEST(UnitLattice, KeepsLengthAllOverTheSphere) {
     for (int i = 0; i <= 700; ++i) {
         for (int k = 0; k <= 700; ++k) {
             const double z = i / 700.0, a = k / 700.0 * 1.5707963267948966, r = std::sqrt(1 - z * z);
-            const Vec3 unit{static_cast<float>(r * std::cos(a)), static_cast<float>(r * std::sin(a)), static_cast<float>(z)};
+            const Vec3 unit{static_cast<float>(r * std::cos(a)), static_cast<float>(r * std::sin(a)),
+                            static_cast<float>(z)};
             Vec3 rounded = unit;
             roundUnits({&rounded, 1}, VectorFormat::snorm8);
             worst = std::max(worst, std::abs(length(rounded) - 1));
-            const double cosine = (double{unit.x} * rounded.x + double{unit.y} * rounded.y + double{unit.z} * rounded.z) / length(rounded);
+            const double cosine =
+                (double{unit.x} * rounded.x + double{unit.y} * rounded.y + double{unit.z} * rounded.z) /
+                length(rounded);
             worst_degrees = std::max(worst_degrees, std::acos(std::min(1.0, cosine)) * 57.29577951308232);
         }
     }

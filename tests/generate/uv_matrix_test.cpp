@@ -51,9 +51,8 @@ RC_GTEST_PROP(UvMatrix, GivesTheFrameThatTheTransformedUvsHaveByTheChainRule, ()
     const double angle = number(-700, 700);
     const double scale_u = number(10, 400) * (*rc::gen::arbitrary<bool>() ? 1 : -1);
     const double scale_v = number(10, 400) * (*rc::gen::arbitrary<bool>() ? 1 : -1);
-    const VertexPool plain = {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
-                              .normals = {3, Vec3{0, 0, 1}},
-                              .uvs = {{0, 0}, {1, 0}, {0, 1}}};
+    const VertexPool plain = {
+        .positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .normals = {3, Vec3{0, 0, 1}}, .uvs = {{0, 0}, {1, 0}, {0, 1}}};
     VertexPool pool = plain;
     pool.uv_matrix = uvMatrix(angle, scale_u, scale_v);
     GenerateOptions options;
@@ -77,7 +76,8 @@ RC_GTEST_PROP(UvMatrix, MakesNoDifferenceToAPoolThatIsUsedInParts, ()) {
     PrimitiveGeometry whole;
     for (int y = 0; y <= size; ++y) {
         for (int x = 0; x <= size; ++x) {
-            const auto u = static_cast<float>(*rc::gen::inRange(-3, 4)), v = static_cast<float>(*rc::gen::inRange(-3, 4));
+            const auto u = static_cast<float>(*rc::gen::inRange(-3, 4)),
+                       v = static_cast<float>(*rc::gen::inRange(-3, 4));
             pool.positions.push_back({static_cast<float>(x), static_cast<float>(y), 0});
             pool.normals.push_back({0, 0, 1});
             pool.uvs.push_back({u, v});
@@ -91,7 +91,8 @@ RC_GTEST_PROP(UvMatrix, MakesNoDifferenceToAPoolThatIsUsedInParts, ()) {
     turned.uvs = transformUvs(pool.uvs, pool.uv_matrix);
     turned.uv_matrix = {};
     const PrimitiveGeometry part = {.indices = {whole.indices.begin(), whole.indices.begin() + 3}};
-    for (const std::vector<PrimitiveGeometry>& geometries : {std::vector{whole}, std::vector{part}, std::vector{whole, part}}) {
+    for (const std::vector<PrimitiveGeometry>& geometries :
+         {std::vector{whole}, std::vector{part}, std::vector{whole, part}}) {
         std::vector<PrimitiveReport> reports(geometries.size());
         const auto a = computeFrames(pool, geometries, {}, reports), b = computeFrames(turned, geometries, {}, reports);
         RC_ASSERT(a.ok() && b.ok());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The measured table of shipped tangents against the reference implementation: `identify` finds each row, and `diff` against
-// what `generate` writes does too.
+// The measured table of shipped tangents against the reference implementation: `identify` finds each row, and `diff`
+// against what `generate` writes does too.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -34,16 +34,19 @@ std::vector<Row> readTable() {
             if (first != std::string::npos) cells.push_back(cell.substr(first, cell.find_last_not_of(' ') - first + 1));
         }
         if (cells.size() != 6 || cells[0].find('/') == std::string::npos) continue;
-        rows.push_back({cells[0], std::stoull(cells[1]), std::stod(cells[2]), std::stod(cells[3]), std::stod(cells[4]), std::stod(cells[5])});
+        rows.push_back({cells[0], std::stoull(cells[1]), std::stod(cells[2]), std::stod(cells[3]), std::stod(cells[4]),
+                        std::stod(cells[5])});
     }
     return rows;
 }
 
-/// The table has one digit behind the point. Its angles are those of float arithmetic, in which one degree is a cosine of a
-/// few last digits: up to 0.46 % of the corners fall on the other side of a limit.
+/// The table has one digit behind the point. Its angles are those of float arithmetic, in which one degree is a cosine
+/// of a few last digits: up to 0.46 % of the corners fall on the other side of a limit.
 constexpr double kSignSlack = 0.15, kAngleSlack = 0.5;
 
-double percentOf(std::uint64_t count, std::uint64_t total) { return 100.0 * static_cast<double>(count) / static_cast<double>(total); }
+double percentOf(std::uint64_t count, std::uint64_t total) {
+    return 100.0 * static_cast<double>(count) / static_cast<double>(total);
+}
 
 TEST(GoldenTable, IsWhatIdentifyFinds) {
     TSPACE_NEEDS_SHARED("models/GOLDEN.md");
@@ -81,7 +84,10 @@ TEST(GoldenTable, IsWhatDiffFinds) {
     TSPACE_NEEDS_SHARED("models/GOLDEN.md");
     const TempFolder folder;
     for (const Row& row : readTable()) {
-        GenerateOptions options{.all = true, .existing = ExistingTangents::replace, .texture_transform = TextureTransform::ignore, .sanitize = false};
+        GenerateOptions options{.all = true,
+                                .existing = ExistingTangents::replace,
+                                .texture_transform = TextureTransform::ignore,
+                                .sanitize = false};
         const std::string input = shared("models/" + row.file).string(), output = folder.path("out.glb").string();
         const auto report = generateFile(input, output, options);
         ASSERT_TRUE(report) << row.file << ": " << report.error().message;
@@ -95,9 +101,10 @@ TEST(GoldenTable, IsWhatDiffFinds) {
         std::uint64_t corners = 0, within_1 = 0, within_10 = 0, changes = 0;
         for (const PrimitiveDiff& primitive : diff->primitives) {
             // Those without UVs keep what they have, and are not in the table.
-            const bool is_computed = std::any_of(report->primitives.begin(), report->primitives.end(), [&](const PrimitiveReport& made) {
-                return made.mesh == primitive.mesh_a && made.primitive == primitive.primitive_a && made.uv_set == 0;
-            });
+            const bool is_computed =
+                std::any_of(report->primitives.begin(), report->primitives.end(), [&](const PrimitiveReport& made) {
+                    return made.mesh == primitive.mesh_a && made.primitive == primitive.primitive_a && made.uv_set == 0;
+                });
             if (!primitive.has_tangents_a || !is_computed) continue;
             corners += 3 * primitive.paired_triangle_count;
             within_1 += countUpTo(primitive.tangents, 1);

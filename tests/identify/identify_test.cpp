@@ -18,8 +18,8 @@ Identification identityOf(const std::vector<ModelData>& models, const IdentifyOp
 }
 
 TEST(Identify, FindsTheMethodThatMadeTheTangents) {
-    // Far from isometric, so that the methods differ by more than the tolerance. flat is not among them: on vertices that
-    // no triangles share it is what lengyel gives.
+    // Far from isometric, so that the methods differ by more than the tolerance. flat is not among them: on vertices
+    // that no triangles share it is what lengyel gives.
     for (const Method method : {Method::mikktspace, Method::area, Method::uniform, Method::lengyel}) {
         ModelData data = bentSheet(5);
         for (Vec2& uv : data.uvs) uv = {uv.x * uv.x + 2 * uv.y, uv.y * uv.y - uv.x};
@@ -43,7 +43,8 @@ TEST(Identify, TellsTheSignsOfGltfFromInvertedOnes) {
 TEST(Identify, SeesThatOneCornerServesAWholeVertex) {
     // A mirrored seam through the middle, welded after computing: the last corner wins.
     ModelData data = bentSheet(8);
-    for (std::size_t i = 0; i < data.uvs.size(); ++i) data.uvs[i] = {std::fabs(data.positions[i].x - 0.5f), data.positions[i].y};
+    for (std::size_t i = 0; i < data.uvs.size(); ++i)
+        data.uvs[i] = {std::fabs(data.positions[i].x - 0.5f), data.positions[i].y};
     const ModelData corners = withTangents(data, Method::mikktspace);
     data.tangents.resize(data.positions.size());
     for (std::size_t c = 0; c < corners.tangents.size(); ++c) data.tangents[data.indices[c]] = corners.tangents[c];
@@ -58,8 +59,8 @@ Identification identityWithTransform(const ModelData& data, const Json& transfor
     GltfBuilder builder;
     builder.json()["images"] = Json::array({Json{{"uri", "none.png"}}});
     builder.json()["textures"] = Json::array({Json{{"source", 0}}});
-    builder.json()["materials"] = Json::array(
-        {Json{{"normalTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}}}});
+    builder.json()["materials"] =
+        Json::array({Json{{"normalTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}}}});
     Json& primitive = builder.addPrimitive({{"POSITION", builder.addFloats(floatsOf(data.positions), 3)},
                                             {"NORMAL", builder.addFloats(floatsOf(data.normals), 3)},
                                             {"TEXCOORD_0", builder.addFloats(floatsOf(data.uvs), 2)},
@@ -73,7 +74,8 @@ Identification identityWithTransform(const ModelData& data, const Json& transfor
 }
 
 TEST(Identify, FollowsTheTextureTransformAndSaysSo) {
-    const Json turn = {{"rotation", 1.5707963267948966}}, mirror = {{"scale", {1, -1}}}, squeeze = {{"rotation", 0.5}, {"scale", {1, 3}}};
+    const Json turn = {{"rotation", 1.5707963267948966}}, mirror = {{"scale", {1, -1}}},
+               squeeze = {{"rotation", 0.5}, {"scale", {1, 3}}};
     const double c = std::cos(0.5), s = std::sin(0.5);
     struct Case {
         Json transform;
@@ -97,7 +99,8 @@ TEST(Identify, FollowsTheTextureTransformAndSaysSo) {
             ASSERT_FALSE(result.primitives[0].explanations.empty());
             EXPECT_EQ(result.primitives[0].explanations[0].is_transformed, after);
             EXPECT_TRUE(result.primitives[0].has_two_readings);
-            EXPECT_NE(result.verdict.find(after ? "after KHR_texture_transform" : "before KHR_texture_transform"), std::string::npos)
+            EXPECT_NE(result.verdict.find(after ? "after KHR_texture_transform" : "before KHR_texture_transform"),
+                      std::string::npos)
                 << result.verdict;
         }
     }
@@ -163,8 +166,8 @@ struct Known {
     SignReading signs;
 };
 
-/// The shares of mikktspace are those that the reference implementation reached on these files; the others were measured
-/// once, far above what chance gives.
+/// The shares of mikktspace are those that the reference implementation reached on these files; the others were
+/// measured once, far above what chance gives.
 TEST(Identify, AgreesWithTheReferenceOnPublicModels) {
     const Known known[] = {
         {"khronos/TwoSidedPlane.glb", Method::mikktspace, 100, 100, SignReading::inverted},

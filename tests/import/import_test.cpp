@@ -106,10 +106,11 @@ TEST(Import, VerticesAreJoinedOnlyWhereAllBitsAgree) {
 TEST(Import, PolygonsAreCutByTheRuleOfTspace) {
     const TempFolder folder;
     // The diagonal 0-2 is the shorter one.
-    const std::string path = folder.write("quad.ply",
-                                          "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-                                          "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-                                          "end_header\n0 0 0\n3 0 0\n1 1 0\n0 3 0\n4 0 1 2 3\n");
+    const std::string path =
+        folder.write("quad.ply",
+                     "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                     "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                     "end_header\n0 0 0\n3 0 0\n1 1 0\n0 3 0\n4 0 1 2 3\n");
     const Scene scene = sceneOf(path);
     EXPECT_EQ(std::vector<std::uint32_t>(scene.primitives[0].corners.begin(), scene.primitives[0].corners.end()),
               (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
@@ -127,8 +128,7 @@ TEST(Import, NormalMapsUvSetsAndImagesGoAlong) {
     primitive["indices"] = builder.addAccessor(sheet.indices, 5125, "SCALAR", sheet.indices.size());
     builder.json()["images"] = Json::array({Json{{"uri", "bump.png"}}});
     builder.json()["textures"] = Json::array({Json{{"source", 0}}});
-    builder.json()["materials"] =
-        Json::array({Json{{"name", "skin"}, {"normalTexture", {{"index", 0}}}}});
+    builder.json()["materials"] = Json::array({Json{{"name", "skin"}, {"normalTexture", {{"index", 0}}}}});
     builder.json()["nodes"] = Json::array({Json{{"mesh", 0}}});
     builder.json()["scenes"] = Json::array({Json{{"nodes", {0}}}});
     builder.json()["scene"] = 0;
@@ -147,10 +147,11 @@ TEST(Import, SkinsMorphsAndAnimationsGoAlong) {
         const char* file;
         const char* what;  ///< a name in the JSON
     };
-    for (const auto& [file, what] : {Case{"models/features/box-morph.gltf", "\"targets\""},
-                                     Case{"models/asset-generator/Animation_SkinType/Animation_SkinType_02.gltf", "\"skins\""},
-                                     Case{"models/asset-generator/Animation_SkinType/Animation_SkinType_02.gltf", "\"WEIGHTS_0\""},
-                                     Case{"models/asset-generator/Animation_SkinType/Animation_SkinType_02.gltf", "\"animations\""}}) {
+    for (const auto& [file, what] :
+         {Case{"models/features/box-morph.gltf", "\"targets\""},
+          Case{"models/asset-generator/Animation_SkinType/Animation_SkinType_02.gltf", "\"skins\""},
+          Case{"models/asset-generator/Animation_SkinType/Animation_SkinType_02.gltf", "\"WEIGHTS_0\""},
+          Case{"models/asset-generator/Animation_SkinType/Animation_SkinType_02.gltf", "\"animations\""}}) {
         TSPACE_NEEDS_SHARED(file);
         const TempFolder folder;
         const std::string path = exported(folder, shared(file).string(), "fbxa", "fbx");
@@ -162,10 +163,11 @@ TEST(Import, SkinsMorphsAndAnimationsGoAlong) {
 
 TEST(Import, WhatIsNotFiniteIsMendedAndReported) {
     const TempFolder folder;
-    const std::string path = folder.write("nan.ply",
-                                          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-                                          "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-                                          "end_header\n0 0 0\n3 0 nan\n1 inf 0\n3 0 1 2\n");
+    const std::string path =
+        folder.write("nan.ply",
+                     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                     "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                     "end_header\n0 0 0\n3 0 nan\n1 inf 0\n3 0 1 2\n");
     const gltf::Document document = readable([&] { return importDocument(path, kWithImporter); });
     EXPECT_EQ(document.json.dump().find("null"), std::string::npos) << "JSON has no word for NaN";
     EXPECT_EQ(document.warnings,
@@ -192,8 +194,10 @@ std::string daeTriangle(const char* normals, const char* diffuse) {
            "<library_geometries><geometry id='g'><mesh>" +
            source("p", "0 0 0 1 0 0 0 1 0") + source("n", normals) +
            "<vertices id='v'><input semantic='POSITION' source='#p'/></vertices><triangles count='1' material='s'>"
-           "<input semantic='VERTEX' source='#v' offset='0'/><input semantic='NORMAL' source='#n' offset='0'/><p>0 1 2</p>"
-           "</triangles></mesh></geometry></library_geometries><library_visual_scenes><visual_scene id='w'><node id='o'>"
+           "<input semantic='VERTEX' source='#v' offset='0'/><input semantic='NORMAL' source='#n' offset='0'/><p>0 1 "
+           "2</p>"
+           "</triangles></mesh></geometry></library_geometries><library_visual_scenes><visual_scene id='w'><node "
+           "id='o'>"
            "<instance_geometry url='#g'><bind_material><technique_common><instance_material symbol='s' target='#m'/>"
            "</technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>"
            "<scene><instance_visual_scene url='#w'/></scene></COLLADA>";
@@ -201,8 +205,7 @@ std::string daeTriangle(const char* normals, const char* diffuse) {
 
 TEST(Import, NormalsBecomeUnitAndColoursNumbers) {
     const TempFolder folder;
-    const std::string path =
-        folder.write("a.dae", daeTriangle("0 0 2 1 0 0 0 0 0", "<color>nan 2 -1 1</color>"));
+    const std::string path = folder.write("a.dae", daeTriangle("0 0 2 1 0 0 0 0 0", "<color>nan 2 -1 1</color>"));
     const Scene scene = sceneOf(path);
     EXPECT_EQ(std::vector<Vec3>(scene.primitives[0].normals.begin(), scene.primitives[0].normals.end()),
               (std::vector<Vec3>{{0, 0, 1}, {1, 0, 0}, {0, 0, 1}}));

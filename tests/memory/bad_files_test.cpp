@@ -37,7 +37,9 @@ TEST(MemoryCeiling, HoldsForEveryBadFile) {
     std::size_t count = 0;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
         const std::string extension = entry.path().extension().string();
-        if (extension != ".gltf" && extension != ".glb" && extension != ".obj" && extension != ".ply" && extension != ".off") continue;
+        if (extension != ".gltf" && extension != ".glb" && extension != ".obj" && extension != ".ply" &&
+            extension != ".off")
+            continue;
         ++count;
         test::expectBounded(entry.path(), bytesWithNamedFiles(entry.path()));
     }

@@ -27,7 +27,8 @@ inline std::uint64_t bytesOf(const std::vector<std::filesystem::path>& files) {
 
 /// Runs every command on `model`. Each ends soon, with success or with one line, and stays below the ceiling for
 /// `file_bytes`. Says how many commands refused it.
-inline int expectBounded(const std::filesystem::path& model, std::uint64_t file_bytes, const std::vector<std::string>& more_options = {}) {
+inline int expectBounded(const std::filesystem::path& model, std::uint64_t file_bytes,
+                         const std::vector<std::string>& more_options = {}) {
     constexpr double kMostSeconds = 20;
     const TempFolder scratch;
     const std::string out = scratch.path(model.extension() == ".gltf" ? "out/out.gltf" : "out/out.glb").string();
@@ -44,9 +45,11 @@ inline int expectBounded(const std::filesystem::path& model, std::uint64_t file_
         const MeasuredRun run = runMeasured(arguments, scratch.path("messages"));
         const std::string message = scratch.read("messages");
         const std::string what = command + " " + model.filename().string() + ": " + message.substr(0, 300);
-        EXPECT_LE(run.peak_bytes, ceiling) << what << " (" << (run.peak_bytes >> 20) << " MiB of " << (ceiling >> 20) << ")";
+        EXPECT_LE(run.peak_bytes, ceiling)
+            << what << " (" << (run.peak_bytes >> 20) << " MiB of " << (ceiling >> 20) << ")";
         EXPECT_LT(run.processor_seconds, kMostSeconds) << what;
-        const bool is_known_end = run.exit_code == 0 || run.exit_code == 3 || (run.exit_code == 1 && command == "check");
+        const bool is_known_end =
+            run.exit_code == 0 || run.exit_code == 3 || (run.exit_code == 1 && command == "check");
         EXPECT_TRUE(is_known_end) << what << " (exit code " << run.exit_code << ")";
         if (run.exit_code == 3) {
             ++refused;

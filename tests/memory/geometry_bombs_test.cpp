@@ -19,7 +19,8 @@ int expectBounded(const TempFolder& folder, const GltfBuilder& builder, const st
     return test::expectBounded(path, std::filesystem::file_size(path), options);
 }
 
-std::size_t addPlain(GltfBuilder& builder, std::size_t view, int component, const char* type, std::size_t count, std::size_t offset = 0) {
+std::size_t addPlain(GltfBuilder& builder, std::size_t view, int component, const char* type, std::size_t count,
+                     std::size_t offset = 0) {
     Json accessor = {{"bufferView", view}, {"componentType", component}, {"count", count}, {"type", type}};
     if (offset != 0) accessor["byteOffset"] = offset;
     builder.json()["accessors"].push_back(accessor);
@@ -78,11 +79,13 @@ TEST(MemoryCeiling, HoldsForSparseElementsOverZeros) {
     GltfBuilder builder;
     const std::size_t view = builder.addView(Bytes(36, 1));
     const auto sparse = [&](const char* type) {
-        builder.json()["accessors"].push_back(
-            {{"componentType", kFloat},
-             {"count", 4'000'000},
-             {"type", type},
-             {"sparse", {{"count", 1}, {"indices", {{"bufferView", view}, {"componentType", kU8}}}, {"values", {{"bufferView", view}}}}}});
+        builder.json()["accessors"].push_back({{"componentType", kFloat},
+                                               {"count", 4'000'000},
+                                               {"type", type},
+                                               {"sparse",
+                                                {{"count", 1},
+                                                 {"indices", {{"bufferView", view}, {"componentType", kU8}}},
+                                                 {"values", {{"bufferView", view}}}}}});
         return builder.json()["accessors"].size() - 1;
     };
     builder.addPrimitive({{"POSITION", sparse("VEC3")}, {"NORMAL", sparse("VEC3")}, {"TEXCOORD_0", sparse("VEC2")}});
@@ -108,7 +111,8 @@ TEST(MemoryCeiling, HoldsForAThousandPrimitivesThatShareVerticesAndTurnThem) {
     for (int i = 0; i < 1000; ++i) {
         builder.json()["materials"].push_back(
             {{"normalTexture",
-              {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"rotation", 0.001 * (i + 1)}, {"scale", {1, 2}}}}}}}}});
+              {{"index", 0},
+               {"extensions", {{"KHR_texture_transform", {{"rotation", 0.001 * (i + 1)}, {"scale", {1, 2}}}}}}}}});
         Json& primitive = builder.addPrimitive(sheet.attributes);
         primitive["indices"] = sheet.indices;
         primitive["material"] = i;
@@ -152,8 +156,8 @@ TEST(MemoryCeiling, HoldsForAThousandMorphTargetsOverOneView) {
         Json& primitive = builder.addPrimitive(sheet.attributes);
         primitive["indices"] = sheet.indices;
         for (std::size_t i = 0; i < 1000; ++i) {
-            const std::size_t accessor =
-                one_accessor ? sheet.attributes["NORMAL"].get<std::size_t>() : addPlain(builder, view, kFloat, "VEC3", 10'000, 4 * i);
+            const std::size_t accessor = one_accessor ? sheet.attributes["NORMAL"].get<std::size_t>()
+                                                      : addPlain(builder, view, kFloat, "VEC3", 10'000, 4 * i);
             primitive["targets"].push_back({{"POSITION", accessor}});
         }
         expectBounded(folder, builder);
@@ -167,7 +171,8 @@ TEST(MemoryCeiling, HoldsForBuffersThatNameOneFile) {
     for (int i = 0; i < 1000; ++i) {
         json["buffers"].push_back({{"byteLength", 1'000'000}, {"uri", "data.bin"}});
         json["bufferViews"].push_back({{"buffer", i}, {"byteLength", 1'000'000}});
-        json["accessors"].push_back({{"bufferView", i}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", 80'000}});
+        json["accessors"].push_back(
+            {{"bufferView", i}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", 80'000}});
         json["meshes"].push_back({{"primitives", Json::array({Json{{"attributes", {{"POSITION", i}}}}})}});
     }
     const std::string path = folder.write("model.gltf", json.dump());
@@ -195,17 +200,23 @@ TEST(MemoryCeiling, HoldsForMeshoptViewsOverOneStream) {
     builder.addView(Bytes(bytes, 0xa0));
     builder.json()["buffers"] = Json::array({Json::object(), Json::object()});
     for (std::size_t i = 0; i < 50; ++i) {
-        builder.json()["bufferViews"].push_back(
-            {{"buffer", 1},
-             {"byteOffset", i * rows * 16},
-             {"byteLength", rows * 16},
-             {"byteStride", 16},
-             {"extensions", {{"EXT_meshopt_compression", {{"buffer", 0}, {"byteLength", bytes}, {"byteStride", 16}, {"count", rows}, {"mode", "ATTRIBUTES"}}}}}});
+        builder.json()["bufferViews"].push_back({{"buffer", 1},
+                                                 {"byteOffset", i * rows * 16},
+                                                 {"byteLength", rows * 16},
+                                                 {"byteStride", 16},
+                                                 {"extensions",
+                                                  {{"EXT_meshopt_compression",
+                                                    {{"buffer", 0},
+                                                     {"byteLength", bytes},
+                                                     {"byteStride", 16},
+                                                     {"count", rows},
+                                                     {"mode", "ATTRIBUTES"}}}}}});
         builder.addPrimitive({{"POSITION", addPlain(builder, i + 1, kFloat, "VEC3", rows)}});
     }
     Json json = builder.json();
-    json["buffers"] = {{{"byteLength", bytes}, {"uri", encodeDataUri("application/octet-stream", builder.bytes())}},
-                       {{"byteLength", 50 * rows * 16}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
+    json["buffers"] = {
+        {{"byteLength", bytes}, {"uri", encodeDataUri("application/octet-stream", builder.bytes())}},
+        {{"byteLength", 50 * rows * 16}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
     const std::string path = folder.write("model.gltf", json.dump());
     EXPECT_EQ(test::expectBounded(path, std::filesystem::file_size(path)), 4);
 }
@@ -213,12 +224,15 @@ TEST(MemoryCeiling, HoldsForMeshoptViewsOverOneStream) {
 TEST(MemoryCeiling, HoldsForAFallbackBufferOfNothing) {
     const TempFolder folder;
     Json json = {{"asset", {{"version", "2.0"}}}};
-    json["buffers"] = {{{"byteLength", 4}, {"uri", "data:;base64,oKCgoA=="}},
-                       {{"byteLength", 60'000'000}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
+    json["buffers"] = {
+        {{"byteLength", 4}, {"uri", "data:;base64,oKCgoA=="}},
+        {{"byteLength", 60'000'000}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
     json["bufferViews"].push_back(
         {{"buffer", 1},
          {"byteLength", 16},
-         {"extensions", {{"EXT_meshopt_compression", {{"buffer", 0}, {"byteLength", 4}, {"byteStride", 16}, {"count", 1}, {"mode", "ATTRIBUTES"}}}}}});
+         {"extensions",
+          {{"EXT_meshopt_compression",
+            {{"buffer", 0}, {"byteLength", 4}, {"byteStride", 16}, {"count", 1}, {"mode", "ATTRIBUTES"}}}}}});
     const std::string path = folder.write("model.gltf", json.dump());
     EXPECT_EQ(test::expectBounded(path, std::filesystem::file_size(path)), 4);
 }
@@ -238,12 +252,14 @@ TEST(MemoryCeiling, HoldsForDracoHeadersThatClaimMuch) {
             data.resize(2000, 0);
             const std::size_t view = builder.addView(data);
             const auto claim = [&](const char* type, int component, std::size_t elements) {
-                builder.json()["accessors"].push_back({{"componentType", component}, {"count", elements}, {"type", type}});
+                builder.json()["accessors"].push_back(
+                    {{"componentType", component}, {"count", elements}, {"type", type}});
                 return builder.json()["accessors"].size() - 1;
             };
             Json& primitive = builder.addPrimitive({{"POSITION", claim("VEC3", kFloat, count / 2)}});
             primitive["indices"] = claim("SCALAR", kU32, count / 2 * 3);
-            primitive["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", view}, {"attributes", {{"POSITION", 0}}}};
+            primitive["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", view},
+                                                                     {"attributes", {{"POSITION", 0}}}};
             EXPECT_EQ(expectBounded(folder, builder), 4);
         }
     }

@@ -34,15 +34,17 @@ void expectImageBounded(const std::string& image, int count, bool says_so) {
     if (!says_so) return;
     const Result<CheckReport> report = checkFile(path);
     ASSERT_TRUE(report);
-    EXPECT_TRUE(std::any_of(report->findings.begin(), report->findings.end(), [](const Finding& finding) {
-        return finding.code == FindingCode::normalMapUnreadable;
-    }));
+    EXPECT_TRUE(std::any_of(report->findings.begin(), report->findings.end(),
+                            [](const Finding& finding) { return finding.code == FindingCode::normalMapUnreadable; }));
 }
 
-RgbImage flatImage(std::uint32_t size) { return {size, size, std::vector<std::uint8_t>(std::size_t{3} * size * size, 128)}; }
+RgbImage flatImage(std::uint32_t size) {
+    return {size, size, std::vector<std::uint8_t>(std::size_t{3} * size * size, 128)};
+}
 
 /// The same file with another size in its head.
-std::string claiming(std::string file, std::size_t width_at, std::size_t bytes_each, std::uint32_t width, std::uint32_t height) {
+std::string claiming(std::string file, std::size_t width_at, std::size_t bytes_each, std::uint32_t width,
+                     std::uint32_t height) {
     for (std::size_t i = 0; i < bytes_each; ++i) {
         file[width_at + i] = static_cast<char>(width >> (8 * (bytes_each - 1 - i)));
         file[width_at + bytes_each + i] = static_cast<char>(height >> (8 * (bytes_each - 1 - i)));

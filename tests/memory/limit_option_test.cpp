@@ -35,15 +35,12 @@ class LongStrip : public testing::Test {
   protected:
     MeasuredRun run(const std::string& command, const std::string& limit = "") {
         std::vector<std::string> arguments = {command, path_};
-        if (command == "generate")
-            arguments.insert(arguments.end(), {"--all", "-o", folder_.path("out.glb").string()});
+        if (command == "generate") arguments.insert(arguments.end(), {"--all", "-o", folder_.path("out.glb").string()});
         if (!limit.empty()) arguments.insert(arguments.end(), {"--memory-limit", limit});
         return test::runMeasured(arguments, folder_.path("messages"));
     }
     [[nodiscard]] std::string message() const { return folder_.read("messages"); }
-    [[nodiscard]] bool says(const std::string& text) const {
-        return message().find(text) != std::string::npos;
-    }
+    [[nodiscard]] bool says(const std::string& text) const { return message().find(text) != std::string::npos; }
 
   private:
     TempFolder folder_ = {};
@@ -63,8 +60,7 @@ TEST_F(LongStrip, TakesNoMoreThanTheLimit) {
     for (const std::string command : {"generate", "check", "identify", "inspect"}) {
         for (const std::uint64_t limit : {100, 500}) {
             const MeasuredRun measured = run(command, std::to_string(limit) + "M");
-            EXPECT_TRUE(measured.exit_code == 0 || measured.exit_code == 1 || measured.exit_code == 3)
-                << message();
+            EXPECT_TRUE(measured.exit_code == 0 || measured.exit_code == 1 || measured.exit_code == 3) << message();
             EXPECT_LE(measured.peak_bytes, limit << 20) << command;
         }
     }
@@ -77,8 +73,7 @@ TEST_F(LongStrip, IsTakenWithTheMemoryThatTheLineNames) {
         const std::string about = "needs about ", line = message();
         ASSERT_NE(line.find(about), std::string::npos) << line;
         exit_code =
-            run("generate", std::to_string(std::atoi(line.c_str() + line.find(about) + about.size())) + "M")
-                .exit_code;
+            run("generate", std::to_string(std::atoi(line.c_str() + line.find(about) + about.size())) + "M").exit_code;
     }
     EXPECT_EQ(exit_code, 0) << message();
 }

@@ -53,7 +53,9 @@ inline MeasuredRun runMeasured(const std::vector<std::string>& arguments, const 
     if (wait4(child, &status, 0, &usage) != child) return run;
     run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     run.peak_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-    const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6; };
+    const auto seconds = [](const timeval& time) {
+        return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
+    };
     run.processor_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
     return run;
 }

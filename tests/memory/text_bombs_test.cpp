@@ -39,7 +39,8 @@ TEST(MemoryCeiling, HoldsForJsonOfManySmallValues) {
 }
 
 TEST(MemoryCeiling, HoldsForManyEntriesThatSayNothing) {
-    for (const char* list : {"images", "materials", "nodes", "animations", "skins", "textures", "meshes", "scenes", "cameras"}) {
+    for (const char* list :
+         {"images", "materials", "nodes", "animations", "skins", "textures", "meshes", "scenes", "cameras"}) {
         SCOPED_TRACE(list);
         expectTextBounded("model.gltf", gltfWith('"' + std::string(list) + "\":", "{}"));
     }
@@ -54,8 +55,9 @@ TEST(MemoryCeiling, HoldsForManyEntriesThatSayNothing) {
                           R"({"attributes":{"POSITION":0}})");
     primitives.replace(primitives.size() - 1, 1, "}]}");
     expectTextBounded("model.gltf", primitives);
-    std::string targets = gltfWith(R"("accessors":[{"componentType":5126,"count":3,"type":"VEC3"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"targets":)",
-                                   R"({})");
+    std::string targets = gltfWith(
+        R"("accessors":[{"componentType":5126,"count":3,"type":"VEC3"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"targets":)",
+        R"({})");
     targets.replace(targets.size() - 1, 1, "}]}]}");
     expectTextBounded("model.gltf", targets);
 }
@@ -83,7 +85,8 @@ TEST(MemoryCeiling, HoldsForObjFacesOfFewBytes) {
 TEST(MemoryCeiling, HoldsForALibraryThatIsNamedOftenInOneLine) {
     const TempFolder folder;
     const std::string library = folder.write("a", repeated("newmtl a\n", 100'000));
-    const std::string path = folder.write("model.obj", "mtllib " + repeated("a ", 10'000) + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const std::string path =
+        folder.write("model.obj", "mtllib " + repeated("a ", 10'000) + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     expectBounded(path, test::bytesOf({path, library}));
 }
 
@@ -103,12 +106,16 @@ void expectImportBounded(const std::string& name, const std::string& text) {
 }
 
 TEST(MemoryCeiling, HasAHigherOneForHeadersOfOtherFormats) {
-    expectImportBounded("model.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\n"
-                                   "element face 4000000000\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n");
+    expectImportBounded(
+        "model.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 4000000000\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n");
     expectImportBounded("model.off", "OFF\n4000000000 4000000000 0\n0 0 0\n");
     expectImportBounded("model.off", "OFF\n40000000 40000000 0\n0 0 0\n");
-    expectImportBounded("model.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 20000000\nproperty float x\nproperty float y\nproperty float z\n"
-                                   "element face 20000000\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n");
+    expectImportBounded("model.ply",
+                        "ply\nformat binary_little_endian 1.0\nelement vertex 20000000\nproperty float x\nproperty "
+                        "float y\nproperty float z\n"
+                        "element face 20000000\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n");
     std::string stl(80, ' ');
     stl += std::string("\x00\x00\x00\x7f", 4);
     expectImportBounded("model.stl", stl + std::string(50, '\0'));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// NormalWeighting::best where its result is known: planes, boxes, bevels, hard edges, noise. How accurate it is on curved
-// surfaces is tested in tests/accuracy.
+// NormalWeighting::best where its result is known: planes, boxes, bevels, hard edges, noise. How accurate it is on
+// curved surfaces is tested in tests/accuracy.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -67,8 +67,8 @@ TEST(BestNormals, OfAGradedParabolaAreCloserThanThoseOfSimpleMeans) {
         return sum;
     };
     const double best = errorOf(NormalWeighting::best);
-    for (const auto weighting : {NormalWeighting::uniform, NormalWeighting::area, NormalWeighting::angle,
-                                 NormalWeighting::angleArea}) {
+    for (const auto weighting :
+         {NormalWeighting::uniform, NormalWeighting::area, NormalWeighting::angle, NormalWeighting::angleArea}) {
         EXPECT_GT(errorOf(weighting), 3 * best);
     }
 }
@@ -101,14 +101,12 @@ TEST(BestNormals, DoNotCrossHardEdges) {
     SimpleMesh cube = test::quadCube();
     const std::vector<Vec3> creased =
         normalsOf(cube.view(), {.weighting = NormalWeighting::best, .crease_angle_deg = 60});
-    for (std::size_t c = 0; c < creased.size(); ++c)
-        EXPECT_LT(angleDeg(creased[c], test::kCubeNormals[c / 4]), 1e-4);
+    for (std::size_t c = 0; c < creased.size(); ++c) EXPECT_LT(angleDeg(creased[c], test::kCubeNormals[c / 4]), 1e-4);
 
     const std::vector<std::uint32_t> groups{1, 2, 4, 8, 16, 32};
     const std::vector<Vec3> grouped =
         normalsOf(cube.view(), {.weighting = NormalWeighting::best, .smoothing_groups = groups});
-    for (std::size_t c = 0; c < grouped.size(); ++c)
-        EXPECT_LT(angleDeg(grouped[c], test::kCubeNormals[c / 4]), 1e-4);
+    for (std::size_t c = 0; c < grouped.size(); ++c) EXPECT_LT(angleDeg(grouped[c], test::kCubeNormals[c / 4]), 1e-4);
 }
 
 TEST(BestNormals, TurnRoundWithTheWindingAndGrowWithNothing) {

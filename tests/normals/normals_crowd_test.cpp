@@ -18,8 +18,7 @@ using test::SimpleMesh;
 
 constexpr double kPi = 3.14159265358979323846;
 
-std::vector<Vec3> normalsOf(const MeshView& mesh, const NormalOptions& options,
-                            NormalReport* report = nullptr) {
+std::vector<Vec3> normalsOf(const MeshView& mesh, const NormalOptions& options, NormalReport* report = nullptr) {
     std::vector<Vec3> out(mesh.cornerCount());
     const Result<NormalReport> result = generateNormals(mesh, options, out);
     EXPECT_TRUE(result.ok());
@@ -59,8 +58,7 @@ TEST(Crowds, ABookOf100000PagesIsOneComponentOrOnePerPage) {
     const std::vector<Vec3> smooth = normalsOf(book.view(), {.crease_angle_deg = 1});
     for (std::uint32_t i = 1; i < kCount; ++i) ASSERT_EQ(smooth[3 * i], smooth[0]);
 
-    const NormalOptions by_mask{
-        .crease_angle_deg = 1, .smoothing_groups = masks, .smoothing_groups_are_masks = true};
+    const NormalOptions by_mask{.crease_angle_deg = 1, .smoothing_groups = masks, .smoothing_groups_are_masks = true};
     const std::vector<Vec3> halves = normalsOf(book.view(), by_mask);
     for (std::uint32_t i = 2; i < kCount; ++i) ASSERT_EQ(halves[3 * i], halves[3 * (i % 2)]);
     EXPECT_NE(halves[0], halves[3]);
@@ -91,8 +89,7 @@ TEST(Crowds, CollapsedFacesAtOnePointAllGetASubstitute) {
     mesh.positions = {{1, 2, 3}, {1, 2, 4}, {1, 2, 6}};
     for (std::uint32_t i = 0; i < kCount; ++i) mesh.addFace({0, i % 3, i % 2});
     NormalReport report;
-    for (const Vec3& n : normalsOf(mesh.view(), {.crease_angle_deg = 60}, &report))
-        ASSERT_EQ(n, (Vec3{0, 0, 1}));
+    for (const Vec3& n : normalsOf(mesh.view(), {.crease_angle_deg = 60}, &report)) ASSERT_EQ(n, (Vec3{0, 0, 1}));
     EXPECT_EQ(report.degenerate_face_count, kCount);
     EXPECT_EQ(report.fallback_corner_count, 3 * kCount);
 }
@@ -133,8 +130,7 @@ TEST(Threads, DoNotChangeABit) {
     };
     for (const NormalWeighting weighting : {NormalWeighting::angle, NormalWeighting::best}) {
         for (const float crease : {180.0f, 120.0f}) {
-            NormalOptions options{
-                .weighting = weighting, .crease_angle_deg = crease, .execution = {.thread_count = 1}};
+            NormalOptions options{.weighting = weighting, .crease_angle_deg = crease, .execution = {.thread_count = 1}};
             expectSameBits(options);
             options.smoothing_groups = groups;
             expectSameBits(options);
@@ -161,8 +157,7 @@ TEST(Threads, DoNotChangeABitOfTriangles) {
     }
     for (const bool weld : {false, true}) {
         for (const NormalWeighting weighting : {NormalWeighting::angle, NormalWeighting::area, NormalWeighting::best}) {
-            NormalOptions options{
-                .weighting = weighting, .weld_positions = weld, .execution = {.thread_count = 1}};
+            NormalOptions options{.weighting = weighting, .weld_positions = weld, .execution = {.thread_count = 1}};
             NormalReport one_report, report;
             const std::vector<Vec3> one = normalsOf(mesh.view(), options, &one_report);
             if (!weld) {
@@ -186,9 +181,7 @@ TEST(Welding, FindsTheLowestOfManyVerticesAtFewPositions) {
     SimpleMesh mesh;
     for (std::uint32_t v = 0; v < kCount; ++v) {
         const float nan = std::numeric_limits<float>::quiet_NaN();
-        mesh.positions.push_back(v % 3 == 0   ? Vec3{0, 0, 0}
-                                 : v % 3 == 1 ? Vec3{1, 0, -0.0f}
-                                              : Vec3{nan, 1, 0});
+        mesh.positions.push_back(v % 3 == 0 ? Vec3{0, 0, 0} : v % 3 == 1 ? Vec3{1, 0, -0.0f} : Vec3{nan, 1, 0});
     }
     Parallel one(Execution{.thread_count = 1}), four(Execution{.thread_count = 4});
     for (Parallel* parallel : {&one, &four}) {

@@ -31,17 +31,14 @@ std::vector<Vec3> normalsOf(const MeshView& mesh, const NormalOptions& options) 
 }
 
 bool sameBits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0);
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0);
 }
 
 struct D3 {
     double x = 0, y = 0, z = 0;
 };
 D3 minus(const Vec3& a, const Vec3& b) { return {double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z}; }
-D3 crossOf(const D3& a, const D3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+D3 crossOf(const D3& a, const D3& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 double dotOf(const D3& a, const D3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 double angleOf(const D3& a, const D3& b) {
     const D3 c = crossOf(a, b);
@@ -86,8 +83,7 @@ class BruteForce {
         if (areas_[a / 3] == 0 || areas_[b / 3] == 0) return false;
         const bool share_edge = samePoint(next(a), next(b)) || samePoint(next(a), previous(b)) ||
                                 samePoint(previous(a), next(b)) || samePoint(previous(a), previous(b));
-        return share_edge &&
-               angleOf(normals_[a / 3], normals_[b / 3]) <= options_.crease_angle_deg * kPi / 180;
+        return share_edge && angleOf(normals_[a / 3], normals_[b / 3]) <= options_.crease_angle_deg * kPi / 180;
     }
     double weight(std::size_t c) const {
         if (samePoint(c, previous(c))) return 0;
@@ -181,8 +177,7 @@ struct RandomOptions {
         options.weld_positions = randomInt(0, 3) != 0;
         options.smoothing_groups_are_masks = randomInt(0, 2) == 0;
         if (randomInt(0, 2) == 0) {
-            for (std::size_t f = 0; f < face_count; ++f)
-                groups.push_back(static_cast<std::uint32_t>(randomInt(0, 4)));
+            for (std::size_t f = 0; f < face_count; ++f) groups.push_back(static_cast<std::uint32_t>(randomInt(0, 4)));
         }
         options.execution.thread_count = 1;
     }
@@ -215,8 +210,7 @@ RC_GTEST_PROP(NormalsProperty, AreUnitAndFiniteForGarbage, ()) {
         mesh.face_sizes.push_back(static_cast<std::uint32_t>(randomInt(3, 8)));
         corner_count += mesh.face_sizes.back();
     }
-    for (std::size_t c = 0; c < corner_count; ++c)
-        mesh.indices.push_back(static_cast<std::uint32_t>(randomInt(0, 12)));
+    for (std::size_t c = 0; c < corner_count; ++c) mesh.indices.push_back(static_cast<std::uint32_t>(randomInt(0, 12)));
     RandomOptions random(10);
     for (const Vec3& n : normalsOf(mesh.view(), random.get())) RC_ASSERT(isUnit(n, 2e-7));
 }
@@ -282,8 +276,7 @@ RC_GTEST_PROP(MaxWeights, AreExactOnASphere, ()) {
     fan.positions.push_back(onSphere(0, 0));
     const int rim = randomInt(3, 9);
     for (int i = 0; i < rim; ++i) {
-        fan.positions.push_back(
-            onSphere(randomFloat(0.3f, 1.2f), (i + randomFloat(0, 0.5f)) * 2 * kPi / rim));
+        fan.positions.push_back(onSphere(randomFloat(0.3f, 1.2f), (i + randomFloat(0, 0.5f)) * 2 * kPi / rim));
     }
     for (int i = 0; i < rim; ++i) {
         fan.addFace({0, static_cast<std::uint32_t>(1 + i), static_cast<std::uint32_t>(1 + (i + 1) % rim)});

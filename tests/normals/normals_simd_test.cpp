@@ -47,8 +47,8 @@ SimpleMesh sheet(std::uint32_t side, float size = 1, Vec3 stretch = {1, 1, 1}) {
     for (std::uint32_t i = 0; i <= side; ++i) {
         for (std::uint32_t j = 0; j <= side; ++j) {
             const float u = 6.2831853f * static_cast<float>(i % side) / n, v = static_cast<float>(j) / n;
-            mesh.positions.push_back({size * stretch.x * std::cos(u) * (1 + v * v), size * stretch.y * std::sin(u),
-                                      size * stretch.z * v});
+            mesh.positions.push_back(
+                {size * stretch.x * std::cos(u) * (1 + v * v), size * stretch.y * std::sin(u), size * stretch.z * v});
         }
     }
     for (std::uint32_t i = 0; i < side; ++i) {
@@ -88,9 +88,8 @@ SimpleMesh randomMesh() {
 }
 
 std::vector<SimpleMesh> soundMeshes() {
-    return {sheet(40),       sheet(40, 1e-19f), sheet(40, 1e-37f),           sheet(40, 1e19f),
-            sheet(9, 1e38f), randomMesh(),      sheet(40, 1, {1, 1, 1e-6f}), sheet(40, 1, {1, 1e5f, 1}),
-            sheet(200)};
+    return {sheet(40),    sheet(40, 1e-19f),           sheet(40, 1e-37f),          sheet(40, 1e19f), sheet(9, 1e38f),
+            randomMesh(), sheet(40, 1, {1, 1, 1e-6f}), sheet(40, 1, {1, 1e5f, 1}), sheet(200)};
 }
 
 std::vector<SimpleMesh> meshes() {
@@ -163,11 +162,12 @@ TEST(Simd, WritesIntoInterleavedVerticesWithoutTouchingTheirNeighbours) {
     }
 }
 
-/// `best` fits in single precision on the one way, and in double on the other. Edges that lean by 1e-5 from one direction
-/// are one direction to the former: then it takes the mean by `max`.
+/// `best` fits in single precision on the one way, and in double on the other. Edges that lean by 1e-5 from one
+/// direction are one direction to the former: then it takes the mean by `max`.
 float allowedOfBest(const SimpleMesh& mesh) {
     float reach = 0;
-    for (const Vec3& p : mesh.positions) reach = std::max(reach, std::fabs(p.y) / (1 + std::fabs(p.x) + std::fabs(p.z)));
+    for (const Vec3& p : mesh.positions)
+        reach = std::max(reach, std::fabs(p.y) / (1 + std::fabs(p.x) + std::fabs(p.z)));
     return reach > 1e3f && reach < 1e6f ? 0.03f : 2e-4f;
 }
 

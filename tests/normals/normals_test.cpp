@@ -15,8 +15,7 @@ using test::SimpleMesh;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-std::vector<Vec3> normalsOf(const MeshView& mesh, const NormalOptions& options = {},
-                            NormalReport* report = nullptr) {
+std::vector<Vec3> normalsOf(const MeshView& mesh, const NormalOptions& options = {}, NormalReport* report = nullptr) {
     std::vector<Vec3> out(mesh.cornerCount(), Vec3{9, 9, 9});
     const Result<NormalReport> result = generateNormals(mesh, options, out);
     EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message);
@@ -44,8 +43,7 @@ void expectCubeIsSmooth(const SimpleMesh& cube, const std::vector<Vec3>& normals
 }
 
 void expectCubeIsHard(const std::vector<Vec3>& normals) {
-    for (std::size_t c = 0; c < normals.size(); ++c)
-        EXPECT_EQ(normals[c], test::kCubeNormals[c * 6 / normals.size()]);
+    for (std::size_t c = 0; c < normals.size(); ++c) EXPECT_EQ(normals[c], test::kCubeNormals[c * 6 / normals.size()]);
 }
 
 TEST(AngleWeights, GiveTheBoxDiagonalHoweverTheFacesAreCut) {
@@ -211,8 +209,7 @@ TEST(Welding, MakesUvSeamsSmoothAndCanBeTurnedOff) {
 
 TEST(Welding, TakesMinusZeroForZeroAndNothingForNan) {
     SimpleMesh mesh;
-    mesh.positions = {{0, 0, 0}, {1, 0, 0},    {0, 1, 0},   {-0.0f, 0, -0.0f},
-                      {0, 0, 1}, {kNan, 0, 0}, {kNan, 0, 0}};
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0f, 0, -0.0f}, {0, 0, 1}, {kNan, 0, 0}, {kNan, 0, 0}};
     mesh.addFace({0, 1, 2});
     mesh.addFace({3, 2, 4});
     mesh.addFace({5, 2, 4});
@@ -233,8 +230,7 @@ TEST(Conventions, HandednessAndWindingTurnNormals) {
                 options.convention = convention;
                 const std::vector<Vec3> turned = normalsOf(cube.view(), options);
                 for (std::size_t c = 0; c < plain.size(); ++c) {
-                    EXPECT_EQ(turned[c],
-                              (Vec3{factor * plain[c].x, factor * plain[c].y, factor * plain[c].z}));
+                    EXPECT_EQ(turned[c], (Vec3{factor * plain[c].x, factor * plain[c].y, factor * plain[c].z}));
                 }
             };
             expectFactor({.handedness = Handedness::left}, -1);
@@ -318,8 +314,7 @@ TEST(Border, RejectsWrongOptionsAndLengths) {
     EXPECT_EQ(errorOf(cube.view(), {.crease_angle_deg = -1}, out), ErrorCode::invalidOption);
     EXPECT_EQ(errorOf(cube.view(), {.crease_angle_deg = 181}, out), ErrorCode::invalidOption);
     EXPECT_EQ(errorOf(cube.view(), {.crease_angle_deg = kNan}, out), ErrorCode::invalidOption);
-    EXPECT_EQ(errorOf(cube.view(), {.weighting = static_cast<NormalWeighting>(7)}, out),
-              ErrorCode::invalidOption);
+    EXPECT_EQ(errorOf(cube.view(), {.weighting = static_cast<NormalWeighting>(7)}, out), ErrorCode::invalidOption);
     EXPECT_EQ(errorOf(cube.view(), {.smoothing_groups = groups}, out), ErrorCode::countMismatch);
     EXPECT_EQ(errorOf(cube.view(), {}, short_out), ErrorCode::countMismatch);
     EXPECT_EQ(errorOf(cube.view(), {}, StridedSpan<Vec3>(nullptr, 24)), ErrorCode::nullData);
@@ -342,9 +337,8 @@ TEST(Border, RunningOutOfMemoryIsAnErrorAtEveryAllocation) {
                                       ::operator delete(memory, std::align_val_t(alignment));
                                   },
                                   &state};
-        const NormalOptions options{.weighting = NormalWeighting::best,
-                                    .crease_angle_deg = 30,
-                                    .execution = {.allocator = &allocator}};
+        const NormalOptions options{
+            .weighting = NormalWeighting::best, .crease_angle_deg = 30, .execution = {.allocator = &allocator}};
         const ErrorCode code = errorOf(cube.view(), options, out);
         if (code == ErrorCode::ok) {
             EXPECT_GT(budget, 5);

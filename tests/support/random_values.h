@@ -14,9 +14,7 @@
 namespace tspace::test {
 
 /// A whole number in [low, high), spread over all of it from the first try on (RapidCheck begins near `low`).
-inline int randomInt(int low, int high) {
-    return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high));
-}
+inline int randomInt(int low, int high) { return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high)); }
 
 /// A float in [low, high] with 16 bits of resolution.
 inline float randomFloat(float low, float high) {
@@ -24,18 +22,14 @@ inline float randomFloat(float low, float high) {
     return low + (high - low) * (static_cast<float>(step) / 65536.0f);
 }
 
-inline Vec2 randomVec2(float low = -1, float high = 1) {
-    return {randomFloat(low, high), randomFloat(low, high)};
-}
+inline Vec2 randomVec2(float low = -1, float high = 1) { return {randomFloat(low, high), randomFloat(low, high)}; }
 
 inline Vec3 randomVec3(float low = -1, float high = 1) {
     const float x = randomFloat(low, high), y = randomFloat(low, high);
     return {x, y, randomFloat(low, high)};
 }
 
-inline double dot(const Vec3& a, const Vec3& b) {
-    return double{a.x} * b.x + double{a.y} * b.y + double{a.z} * b.z;
-}
+inline double dot(const Vec3& a, const Vec3& b) { return double{a.x} * b.x + double{a.y} * b.y + double{a.z} * b.z; }
 inline double norm(const Vec3& v) { return std::sqrt(dot(v, v)); }
 
 inline Vec3 randomUnit() {
@@ -58,8 +52,7 @@ inline float randomGarbage() {
             return *rc::gen::arbitrary<bool>() ? std::numeric_limits<float>::infinity()
                                                : -std::numeric_limits<float>::infinity();
         case 4:
-            return std::bit_cast<float>(
-                *rc::gen::resize(rc::kNominalSize, rc::gen::arbitrary<std::uint32_t>()));
+            return std::bit_cast<float>(*rc::gen::resize(rc::kNominalSize, rc::gen::arbitrary<std::uint32_t>()));
         case 5:
             return std::numeric_limits<float>::max();
         case 6:

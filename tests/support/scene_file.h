@@ -31,7 +31,8 @@ inline ModelData bentSheet(int n) {
     ModelData data{.name = "sheet"};
     for (int y = 0; y <= n; ++y) {
         for (int x = 0; x <= n; ++x) {
-            const float s = static_cast<float>(x) / static_cast<float>(n), t = static_cast<float>(y) / static_cast<float>(n);
+            const float s = static_cast<float>(x) / static_cast<float>(n),
+                        t = static_cast<float>(y) / static_cast<float>(n);
             const float height = 0.3f * s * s + 0.2f * s * t;
             data.positions.push_back({s, t, height});
             const float dx = 0.6f * s + 0.2f * t, dy = 0.2f * s;
@@ -75,7 +76,8 @@ inline std::vector<Vec4> tangentsOf(const ModelData& data, Method method) {
     return tangents;
 }
 
-/// Unwelds (but for `lengyel`, which averages at vertex indices), and sets the tangents that a method gives; `sign_factor` -1 is glTF's.
+/// Unwelds (but for `lengyel`, which averages at vertex indices), and sets the tangents that a method gives;
+/// `sign_factor` -1 is glTF's.
 inline ModelData withTangents(const ModelData& data, Method method, float sign_factor = -1) {
     ModelData result = method == Method::lengyel ? data : unwelded(data);
     const std::vector<Vec4> corners = tangentsOf(result, method);

@@ -17,8 +17,8 @@ inline std::filesystem::path shared(const std::string& relative) {
 }  // namespace tspace::test
 
 /// Skips the current test when the shared data does not have `relative`.
-#define TSPACE_NEEDS_SHARED(relative)                                                         \
-    if (!std::filesystem::exists(tspace::test::shared(relative))) {                           \
-        GTEST_SKIP() << "test data " << tspace::test::shared(relative) << " is not there";    \
-    }                                                                                         \
+#define TSPACE_NEEDS_SHARED(relative)                                                      \
+    if (!std::filesystem::exists(tspace::test::shared(relative))) {                        \
+        GTEST_SKIP() << "test data " << tspace::test::shared(relative) << " is not there"; \
+    }                                                                                      \
     static_assert(true)

@@ -42,8 +42,7 @@ inline constexpr std::array<Vec3, 6> kCubeNormals{
 inline std::vector<Vec3> cubePositions() {
     std::vector<Vec3> positions;
     for (unsigned i = 0; i < 8; ++i) {
-        positions.push_back(
-            {(i & 1) != 0 ? 1.0f : -1.0f, (i & 2) != 0 ? 1.0f : -1.0f, (i & 4) != 0 ? 1.0f : -1.0f});
+        positions.push_back({(i & 1) != 0 ? 1.0f : -1.0f, (i & 2) != 0 ? 1.0f : -1.0f, (i & 4) != 0 ? 1.0f : -1.0f});
     }
     return positions;
 }

@@ -50,9 +50,7 @@ class TempFolder {
         text << std::ifstream(path_ / relative, std::ios::binary).rdbuf();
         return text.str();
     }
-    [[nodiscard]] bool has(const std::string& relative) const {
-        return std::filesystem::exists(path_ / relative);
-    }
+    [[nodiscard]] bool has(const std::string& relative) const { return std::filesystem::exists(path_ / relative); }
 
     /// Relative paths of all files below `relative`.
     [[nodiscard]] std::set<std::string> files(const std::string& relative = ".") const {

@@ -23,7 +23,9 @@ struct MirroredStrip {
         for (Vec3& n : normals) n = {0, 0, normalFactor(convention)};
     }
     [[nodiscard]] MeshView view() const {
-        return {.positions = positions, .normals = normals, .uvs = uvs,
+        return {.positions = positions,
+                .normals = normals,
+                .uvs = uvs,
                 .indices = IndexView(std::span<const std::uint32_t>(indices))};
     }
 };
@@ -40,8 +42,8 @@ TEST(Conventions, GiveEveryMethodTheSignThatRebuildsTheWantedBitangent) {
         for (const Method method : {Method::mikktspace, Method::uniform, Method::angle, Method::area, Method::flat,
                                     Method::fast, Method::best}) {
             std::vector<Vec4> tangents(strip.indices.size());
-            ASSERT_TRUE(generateTangents(strip.view(), {.method = method, .convention = convention},
-                                         {.tangents = tangents}));
+            ASSERT_TRUE(
+                generateTangents(strip.view(), {.method = method, .convention = convention}, {.tangents = tangents}));
             for (std::size_t c = 0; c < tangents.size(); ++c) {
                 const Vec3 rebuilt = tangents[c].w * cross(strip.normals[strip.indices[c]], xyz(tangents[c]));
                 EXPECT_GT(dot(rebuilt, wantedBitangent(convention)), 0.999f)

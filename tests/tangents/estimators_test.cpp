@@ -51,8 +51,7 @@ TEST(Estimators, AreTheFormulasOfTheirPages) {
         const Shape shape = bumpyRing(5 + seed % 3, seed);
         for (const Method method : kEstimated) {
             const Outputs got = generate(shape, method);
-            const ExpectedFrame want =
-                method == Method::fast ? twoWeightsAtFirst(shape) : recoveryAtFirst(shape);
+            const ExpectedFrame want = method == Method::fast ? twoWeightsAtFirst(shape) : recoveryAtFirst(shape);
             EXPECT_LT(distance(xyz(got.tangents[0]), want.tangent), 2e-4) << "seed " << seed;
             EXPECT_LT(distance(got.bitangents[0], want.bitangent), 2e-4) << "seed " << seed;
             EXPECT_NEAR(got.magnitudes_s[0] / want.length_s, 1, 2e-3) << "seed " << seed;
@@ -116,8 +115,7 @@ TEST(Estimators, TheErrorOfBestFallsFasterThanTheEdges) {
         return PatchPoint{r * std::cos(a), r * std::sin(a), 0.4 * std::sin(3 * v)};
     };
     const auto order = [&](Method method) {
-        return std::log(meanError(smoothPatch(shell, 24, 5), method) /
-                        meanError(smoothPatch(shell, 96, 5), method)) /
+        return std::log(meanError(smoothPatch(shell, 24, 5), method) / meanError(smoothPatch(shell, 96, 5), method)) /
                std::log(4.0);
     };
     EXPECT_GT(order(Method::best), 1.6);
@@ -129,8 +127,7 @@ TEST(Estimators, AThinShearedBevelDoesNotTurnTheFlatFace) {
     const auto worst = [&](Method method) {
         const Outputs got = generate(shape, method);
         double error = 0;
-        for (std::size_t c = 0; c < 6; ++c)
-            error = std::max(error, errorDeg(xyz(got.tangents[c]), {1, 0, 0}));
+        for (std::size_t c = 0; c < 6; ++c) error = std::max(error, errorDeg(xyz(got.tangents[c]), {1, 0, 0}));
         return error;
     };
     EXPECT_GT(worst(Method::angle), 20);

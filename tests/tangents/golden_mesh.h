@@ -34,8 +34,8 @@ inline bool readGolden(const std::filesystem::path& path, GoldenMesh& golden) {
     golden.shape.face_sizes = file.face_sizes;
     for (std::size_t c = 0; c < file.inputs.size() / GoldenFile::kInputWords; ++c) {
         const auto word = [&](std::size_t k) { return std::bit_cast<float>(file.input(c)[k]); };
-        golden.shape.indices.push_back(golden.shape.vertex({word(0), word(1), word(2)},
-                                                           {word(3), word(4), word(5)}, {word(6), word(7)}));
+        golden.shape.indices.push_back(
+            golden.shape.vertex({word(0), word(1), word(2)}, {word(3), word(4), word(5)}, {word(6), word(7)}));
         GoldenResult& result = golden.results.emplace_back();
         static_assert(sizeof(GoldenResult) == 4 * GoldenFile::kResultWords);
         std::memcpy(static_cast<void*>(&result), file.result(c).data(), sizeof(result));
@@ -54,8 +54,7 @@ inline bool sameBits(const Outputs& a, const Outputs& b) {
     bool same = a.tangents.size() == b.tangents.size();
     for (std::size_t c = 0; same && c < a.tangents.size(); ++c) {
         same = sameBits(a.tangents[c], b.tangents[c]) && sameBits(a.bitangents[c], b.bitangents[c]) &&
-               sameBits(a.magnitudes_s[c], b.magnitudes_s[c]) &&
-               sameBits(a.magnitudes_t[c], b.magnitudes_t[c]);
+               sameBits(a.magnitudes_s[c], b.magnitudes_s[c]) && sameBits(a.magnitudes_t[c], b.magnitudes_t[c]);
     }
     return same;
 }

@@ -19,9 +19,7 @@ Shape randomShape() {
     const int vertices = *rc::gen::inRange(3, 40);
     const bool mixed_zeros = *rc::gen::inRange(0, 4) == 0;
     for (int v = 0; v < vertices; ++v) {
-        const auto number = [](int low, int high) {
-            return static_cast<float>(*rc::gen::inRange(low, high)) * 0.25f;
-        };
+        const auto number = [](int low, int high) { return static_cast<float>(*rc::gen::inRange(low, high)) * 0.25f; };
         if (v > 3 && *rc::gen::inRange(0, 6) == 0) {
             const auto other = *rc::gen::inRange<std::size_t>(0, shape.positions.size());
             shape.vertex(shape.positions[other], shape.normals[other], shape.uvs[other]);
@@ -29,8 +27,7 @@ Shape randomShape() {
             shape.vertex({number(-8, 8), number(-8, 8), number(-8, 8)}, {number(-2, 3), number(-2, 3), 1},
                          {number(0, 9), number(0, 9)});
         }
-        if (mixed_zeros && shape.positions.back().x == 0)
-            shape.positions.back().x = v % 2 == 0 ? 0.0f : -0.0f;
+        if (mixed_zeros && shape.positions.back().x == 0) shape.positions.back().x = v % 2 == 0 ? 0.0f : -0.0f;
     }
     const int faces = *rc::gen::inRange(1, 120);
     for (int f = 0; f < faces; ++f) {
@@ -76,8 +73,7 @@ RC_GTEST_PROP(GroupedProperty, AVertexPerCornerGivesTheSame, ()) {
     const Shape shape = randomShape();
     const TangentOptions options = randomOptions();
     Shape loose;
-    for (const std::uint32_t v : shape.indices)
-        loose.vertex(shape.positions[v], shape.normals[v], shape.uvs[v]);
+    for (const std::uint32_t v : shape.indices) loose.vertex(shape.positions[v], shape.normals[v], shape.uvs[v]);
     MeshView mesh = loose.view();
     mesh.indices = {};
     mesh.face_sizes = shape.face_sizes;
@@ -89,8 +85,7 @@ RC_GTEST_PROP(GroupedProperty, OrderOfVerticesDoesNotMatter, ()) {
     const TangentOptions options = randomOptions();
     std::vector<std::uint32_t> place(shape.positions.size());
     std::iota(place.begin(), place.end(), 0u);
-    for (std::size_t i = place.size(); i-- > 1;)
-        std::swap(place[i], place[*rc::gen::inRange<std::size_t>(0, i + 1)]);
+    for (std::size_t i = place.size(); i-- > 1;) std::swap(place[i], place[*rc::gen::inRange<std::size_t>(0, i + 1)]);
     Shape moved = shape;
     for (std::size_t v = 0; v < place.size(); ++v) {
         moved.positions[place[v]] = shape.positions[v];
@@ -111,8 +106,7 @@ RC_GTEST_PROP(GroupedProperty, StridesDoNotMatter, ()) {
         Vec3 normal;
     };
     std::vector<Interleaved> data(shape.positions.size());
-    for (std::size_t v = 0; v < data.size(); ++v)
-        data[v] = {shape.uvs[v], shape.positions[v], 7, shape.normals[v]};
+    for (std::size_t v = 0; v < data.size(); ++v) data[v] = {shape.uvs[v], shape.positions[v], 7, shape.normals[v]};
     MeshView mesh = shape.view();
     mesh.positions = {&data[0].position, data.size(), sizeof(Interleaved)};
     mesh.normals = {&data[0].normal, data.size(), sizeof(Interleaved)};
@@ -178,10 +172,8 @@ TEST(GroupedThreads, GiveTheSameBits) {
     shuffleTriangles(shapes.back(), 7);
     shapes.push_back(gridOf(40000));
     for (std::size_t v = 0; v < shapes.back().normals.size(); v += 3) shapes.back().normals[v].x = -0.0f;
-    const TangentOptions ways[] = {{},
-                                   {.angular_threshold_deg = 10.0f},
-                                   {.method = Method::fast},
-                                   {.method = Method::best}};
+    const TangentOptions ways[] = {
+        {}, {.angular_threshold_deg = 10.0f}, {.method = Method::fast}, {.method = Method::best}};
     for (const Shape& shape : shapes) {
         for (TangentOptions options : ways) {
             options.execution.thread_count = 1;

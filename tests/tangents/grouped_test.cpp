@@ -29,8 +29,7 @@ Outputs generate(const Shape& shape, const TangentOptions& options = {}) {
 /// A unit square in the plane of x and y whose UVs are its positions.
 Shape square() {
     Shape shape;
-    for (const Vec2 uv : {Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}})
-        shape.vertex({uv.x, uv.y, 0}, kUp, uv);
+    for (const Vec2 uv : {Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}}) shape.vertex({uv.x, uv.y, 0}, kUp, uv);
     shape.face({0, 1, 2, 3});
     return shape;
 }
@@ -153,11 +152,9 @@ TEST(Grouped, WeightingsAreTheirFormulas) {
             Vec3 s{v2 * d1.x - v1 * d2.x, v2 * d1.y - v1 * d2.y, 0};
             const Vec3 c{d1.y * d2.z - d1.z * d2.y, d1.z * d2.x - d1.x * d2.z, d1.x * d2.y - d1.y * d2.x};
             const float area = 0.5f * std::hypot(c.x, c.y, c.z);
-            const float cosine = (d1.x * d2.x + d1.y * d2.y + d1.z * d2.z) / std::hypot(d1.x, d1.y, d1.z) /
-                                 std::hypot(d2.x, d2.y, d2.z);
-            const float weight = method == Method::uniform ? 1.0f
-                                 : method == Method::area  ? area
-                                                           : std::acos(cosine);
+            const float cosine =
+                (d1.x * d2.x + d1.y * d2.y + d1.z * d2.z) / std::hypot(d1.x, d1.y, d1.z) / std::hypot(d2.x, d2.y, d2.z);
+            const float weight = method == Method::uniform ? 1.0f : method == Method::area ? area : std::acos(cosine);
             const float scale = weight / std::hypot(s.x, s.y);
             sum = {sum.x + scale * s.x, sum.y + scale * s.y, 0};
         }
@@ -187,8 +184,7 @@ TEST(Grouped, ASmallThresholdSplitsAGroup) {
 
 TEST(TangentPlan, GivesTheBitsOfTheOneCallOnItsOwnPose) {
     for (const Method method : kGrouping) {
-        for (const Shape& shape :
-             {someDegenerate(800), checkerboard(800), someWithoutUvArea(800), notFinite(800)}) {
+        for (const Shape& shape : {someDegenerate(800), checkerboard(800), someWithoutUvArea(800), notFinite(800)}) {
             const TangentOptions options{.method = method, .angular_threshold_deg = 60};
             const Outputs direct = generate(shape, options);
             const Result<TangentPlan> plan = planTangents(shape.view(), options);
@@ -342,8 +338,7 @@ std::size_t letEachAllocationFail(const Shape& shape, float threshold, Method me
 
 TEST(TangentMemory, EachAllocationMayFail) {
     Shape shape = someDegenerate(2000);
-    for (const auto& more : {std::array{0u, 1u, 2u}, std::array{0u, 1u, 3u}})
-        shape.triangle(more[0], more[1], more[2]);
+    for (const auto& more : {std::array{0u, 1u, 2u}, std::array{0u, 1u, 3u}}) shape.triangle(more[0], more[1], more[2]);
     shape.normals[0].x = -0.0f;
     shape.uvs[3] = shape.uvs[2];
     for (const float threshold : {20.0f, 180.0f}) EXPECT_GT(letEachAllocationFail(shape, threshold), 10u);
@@ -354,15 +349,14 @@ TEST(TangentMemory, UnindexedCornersTakeAtMost32BytesPerTriangle) {
     Shape shape = grid(200);
     for (std::uint32_t corner = 0; corner < 300; ++corner) shape.uvs[shape.indices[corner]] = {};  // for a second look
     Shape corners;
-    for (const std::uint32_t v : shape.indices)
-        corners.vertex(shape.positions[v], shape.normals[v], shape.uvs[v]);
+    for (const std::uint32_t v : shape.indices) corners.vertex(shape.positions[v], shape.normals[v], shape.uvs[v]);
     MeshView mesh = corners.view();
     mesh.indices = {};
     for (const unsigned threads : {1u, 2u}) {
         CountingAllocator counting;
         std::vector<Vec4> tangents(corners.positions.size());
-        ASSERT_TRUE(generateTangents(
-            mesh, {.execution = {.thread_count = threads, .allocator = &counting.allocator}}, {.tangents = tangents}));
+        ASSERT_TRUE(generateTangents(mesh, {.execution = {.thread_count = threads, .allocator = &counting.allocator}},
+                                     {.tangents = tangents}));
         EXPECT_LE(counting.peak_bytes, 32 * (tangents.size() / 3)) << threads << " threads";
     }
 }

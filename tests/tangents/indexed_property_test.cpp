@@ -48,8 +48,7 @@ void addRandomFaces(SimpleMesh& mesh, int most_corners) {
         const int size = randomInt(3, most_corners + 1);
         mesh.face_sizes.push_back(static_cast<std::uint32_t>(size));
         for (int i = 0; i < size; ++i) {
-            mesh.indices.push_back(
-                static_cast<std::uint32_t>(randomInt(0, static_cast<int>(mesh.positions.size()))));
+            mesh.indices.push_back(static_cast<std::uint32_t>(randomInt(0, static_cast<int>(mesh.positions.size()))));
         }
     }
 }
@@ -118,8 +117,7 @@ RC_GTEST_PROP(IndexedProperty, LengyelIsItsDefinition, ()) {
         const Vec3 wanted{static_cast<float>(rest[0] / l), static_cast<float>(rest[1] / l),
                           static_cast<float>(rest[2] / l)};
         RC_ASSERT(dot(wanted, xyz(out.tangents[c])) > 1 - 1e-6);
-        const double volume = (n.y * wanted.z - n.z * wanted.y) * t[0] +
-                              (n.z * wanted.x - n.x * wanted.z) * t[1] +
+        const double volume = (n.y * wanted.z - n.z * wanted.y) * t[0] + (n.z * wanted.x - n.x * wanted.z) * t[1] +
                               (n.x * wanted.y - n.y * wanted.x) * t[2];
         if (std::fabs(volume) > 1e-3 * greatest) RC_ASSERT(out.tangents[c].w == (volume < 0 ? -1.0f : 1.0f));
     }
@@ -228,11 +226,9 @@ RC_GTEST_PROP(IndexedProperty, FlatTriangleIsItsFaceFrameMadeOrthogonal, ()) {
         const Frame frame{face.tangent, face.bitangent, n};
         const double sine = test::norm(orthonormalize(frame).tangent);
         if (std::fabs(face.determinant) < 1e-2f || sine < 1e-2) continue;
-        RC_ASSERT(dot(packTangent(frame).w == 0 ? Vec3{} : xyz(packTangent(frame)), xyz(out.tangents[c])) >
-                  1 - 1e-5);
+        RC_ASSERT(dot(packTangent(frame).w == 0 ? Vec3{} : xyz(packTangent(frame)), xyz(out.tangents[c])) > 1 - 1e-5);
         if (std::fabs(determinant(frame)) > 1e-3f) RC_ASSERT(out.tangents[c].w == frameSign(frame));
-        RC_ASSERT(std::fabs(out.magnitudes_s[c] - test::norm(face.tangent)) <=
-                  1e-5 * test::norm(face.tangent));
+        RC_ASSERT(std::fabs(out.magnitudes_s[c] - test::norm(face.tangent)) <= 1e-5 * test::norm(face.tangent));
     }
 }
 

@@ -37,8 +37,7 @@ Outputs tangentsOf(const MeshView& mesh, const TangentOptions& options) {
     const IndexedPlan plan = planIndexed(mesh, options, parallel);
     EXPECT_GE(plan.memoryBytes(), 4 * corners);
     out.report = evaluateIndexed(plan, {mesh.positions, mesh.normals},
-                                 {out.tangents, out.bitangents, out.magnitudes_s, out.magnitudes_t}, {},
-                                 parallel);
+                                 {out.tangents, out.bitangents, out.magnitudes_s, out.magnitudes_t}, {}, parallel);
     return out;
 }
 
@@ -158,13 +157,11 @@ TEST(Defaults, StandWhereNoFaceGivesATangent) {
 TEST(Conventions, MultiplySignAndBitangentOnly) {
     for (const Method method : {Method::lengyel, Method::flat, Method::basis}) {
         const Outputs raw = tangentsOf(mirroredSquare().view(), {.method = method});
-        const Outputs gltf =
-            tangentsOf(mirroredSquare().view(), {.method = method, .convention = conventions::gltf});
+        const Outputs gltf = tangentsOf(mirroredSquare().view(), {.method = method, .convention = conventions::gltf});
         for (std::size_t c = 0; c < 6; ++c) {
             EXPECT_EQ(xyz(gltf.tangents[c]), xyz(raw.tangents[c]));
             EXPECT_EQ(gltf.tangents[c].w, -raw.tangents[c].w);
-            EXPECT_EQ(gltf.bitangents[c],
-                      (Vec3{-raw.bitangents[c].x, -raw.bitangents[c].y, -raw.bitangents[c].z}));
+            EXPECT_EQ(gltf.bitangents[c], (Vec3{-raw.bitangents[c].x, -raw.bitangents[c].y, -raw.bitangents[c].z}));
             EXPECT_EQ(gltf.magnitudes_t[c], raw.magnitudes_t[c]);
         }
     }
@@ -251,12 +248,10 @@ TEST(VertexDomain, IsRefusedForMethodsThatMaySplitAVertex) {
     std::vector<Vec4> tangents(4);
     const auto codeOf = [&](Method method, OutputDomain domain, std::size_t count) {
         const StridedSpan<Vec4> out(tangents.data(), count);
-        const auto result =
-            generateTangents(mesh.view(), {.method = method, .domain = domain}, {.tangents = out});
+        const auto result = generateTangents(mesh.view(), {.method = method, .domain = domain}, {.tangents = out});
         return result ? ErrorCode::ok : result.error().code;
     };
-    for (const Method method :
-         {Method::mikktspace, Method::uniform, Method::angle, Method::area, Method::flat}) {
+    for (const Method method : {Method::mikktspace, Method::uniform, Method::angle, Method::area, Method::flat}) {
         EXPECT_EQ(codeOf(method, OutputDomain::vertex, 4), ErrorCode::invalidOption);
     }
     EXPECT_EQ(codeOf(Method::lengyel, static_cast<OutputDomain>(2), 4), ErrorCode::invalidOption);
@@ -284,11 +279,10 @@ TEST(OneCall, CopiesNeitherIndicesNorUvs) {
     for (const OutputDomain domain : {OutputDomain::corner, OutputDomain::vertex}) {
         const StridedSpan<Vec4> out(tangents.data(), domain == OutputDomain::vertex ? 4 : 6);
         count.peak = 0;
-        ASSERT_TRUE(generateTangents(mesh.view(),
-                                     {.method = Method::lengyel,
-                                      .domain = domain,
-                                      .execution = {.thread_count = 1, .allocator = &allocator}},
-                                     {.tangents = out}));
+        ASSERT_TRUE(generateTangents(
+            mesh.view(),
+            {.method = Method::lengyel, .domain = domain, .execution = {.thread_count = 1, .allocator = &allocator}},
+            {.tangents = out}));
         // A part of each vertex's sum; the other part is where the outputs come to later. Per corner also a mark.
         EXPECT_EQ(count.peak, 4 * (domain == OutputDomain::vertex ? 8u : 17u));
     }
@@ -330,8 +324,7 @@ TEST(Lengyel, TellsSliversOfTheUvMapFromCollinearUvs) {
         EXPECT_NEAR(out.magnitudes_s[0] * height / l, 1, 1e-5) << bits;
         EXPECT_EQ(out.report.mirrored_count, 0u);
         mesh.uvs[2] = {1 + height, 1 + height};
-        EXPECT_EQ(tangentsOf(mesh.view(), {.method = Method::lengyel}).report.degenerate_uv_count, 1u)
-            << bits;
+        EXPECT_EQ(tangentsOf(mesh.view(), {.method = Method::lengyel}).report.degenerate_uv_count, 1u) << bits;
     }
 }
 
@@ -344,8 +337,7 @@ TEST(Plan, EvaluatesAnotherPoseWithItsOwnUvs) {
     for (const Method method : {Method::lengyel, Method::flat, Method::basis}) {
         const IndexedPlan plan = planIndexed(rest.view(), {.method = method}, parallel);
         std::vector<Vec4> tangents(6);
-        evaluateIndexed(plan, {bent.view().positions, bent.view().normals}, {.tangents = tangents}, {},
-                        parallel);
+        evaluateIndexed(plan, {bent.view().positions, bent.view().normals}, {.tangents = tangents}, {}, parallel);
         EXPECT_EQ(tangents, tangentsOf(bent.view(), {.method = method}).tangents);
     }
 }
@@ -367,8 +359,8 @@ TEST(Plan, RunsOutOfMemoryByItsOwnExceptionOnly) {
     for (bool done = false; !done; ++failures) {
         budget = failures;
         try {
-            const IndexedPlan plan = planIndexed(
-                mesh.view(), {.method = Method::lengyel, .execution = {.allocator = &allocator}}, parallel);
+            const IndexedPlan plan =
+                planIndexed(mesh.view(), {.method = Method::lengyel, .execution = {.allocator = &allocator}}, parallel);
             evaluateIndexed(plan, {mesh.view().positions, mesh.view().normals}, {.tangents = tangents},
                             {.allocator = &allocator}, parallel);
             done = true;
@@ -419,13 +411,9 @@ TEST(Threads, DoNotChangeABit) {
     for (const Method method : {Method::lengyel, Method::flat, Method::basis}) {
         const Outputs one = tangentsOf(mesh.view(), {.method = method, .execution = {.thread_count = 1}});
         for (const unsigned threads : {2u, 3u, 8u}) {
-            const Outputs many =
-                tangentsOf(mesh.view(), {.method = method, .execution = {.thread_count = threads}});
-            EXPECT_EQ(
-                std::memcmp(one.tangents.data(), many.tangents.data(), one.tangents.size() * sizeof(Vec4)),
-                0);
-            EXPECT_EQ(std::memcmp(one.bitangents.data(), many.bitangents.data(),
-                                  one.bitangents.size() * sizeof(Vec3)),
+            const Outputs many = tangentsOf(mesh.view(), {.method = method, .execution = {.thread_count = threads}});
+            EXPECT_EQ(std::memcmp(one.tangents.data(), many.tangents.data(), one.tangents.size() * sizeof(Vec4)), 0);
+            EXPECT_EQ(std::memcmp(one.bitangents.data(), many.bitangents.data(), one.bitangents.size() * sizeof(Vec3)),
                       0);
             EXPECT_EQ(one.magnitudes_s, many.magnitudes_s);
             EXPECT_EQ(one.magnitudes_t, many.magnitudes_t);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The reference's grouping depends on the order of faces (its last edge bucket is not sorted); the corrected one does not.
+// The reference's grouping depends on the order of faces (its last edge bucket is not sorted); the corrected one does
+// not.
 #include <gtest/gtest.h>
 
 #include <algorithm>

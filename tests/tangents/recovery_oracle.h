@@ -66,8 +66,7 @@ inline ExpectedFrame twoWeightsAtFirst(const Shape& shape) {
     Vec3 result[2];
     for (int k = 0; k < 2; ++k) {
         const DVec3 x = unitOf(across(n, a[k])), y = unitOf(across(n, b[k]));
-        const double sine = std::sin(3.4 * std::numbers::pi / 180),
-                     r = dot(cross(x, y), cross(x, y)) / (sine * sine);
+        const double sine = std::sin(3.4 * std::numbers::pi / 180), r = dot(cross(x, y), cross(x, y)) / (sine * sine);
         result[k] = toFloat(unitOf((1 / (1 + r)) * x + (r / (1 + r)) * y));
     }
     return {result[0], result[1], lengths[0] / weight, lengths[1] / weight};
@@ -80,8 +79,7 @@ struct EdgeEquation {
     DVec3 l;
 };
 
-inline EdgeEquation equationOf(const DVec3& n, const DVec3& other, const DVec3& e, double u, double v,
-                               double area) {
+inline EdgeEquation equationOf(const DVec3& n, const DVec3& other, const DVec3& e, double u, double v, double area) {
     const DVec3 p = across(n, e);
     const double size = length(e), turn = dot(other - n, e) / size;
     return {std::sqrt(area) / (size * size),
@@ -90,8 +88,8 @@ inline EdgeEquation equationOf(const DVec3& n, const DVec3& other, const DVec3& 
 }
 
 /// Minimises the sum of weight * |l - sum x c|^2, plus k * diagonal * c^2 for the last three.
-inline std::array<DVec3, 5> solveFit(const std::vector<EdgeEquation>& equations,
-                                     const std::array<double, 3>& diagonal, double k) {
+inline std::array<DVec3, 5> solveFit(const std::vector<EdgeEquation>& equations, const std::array<double, 3>& diagonal,
+                                     double k) {
     double m[5][5] = {};
     DVec3 right[5];
     for (const EdgeEquation& e : equations) {

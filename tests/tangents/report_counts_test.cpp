@@ -49,8 +49,8 @@ void expectEqualCounts(const TangentReport& a, const TangentReport& b) {
 RC_GTEST_PROP(ReportCounts, AreTheSameInOneCallAndByPlanAndEvaluation, ()) {
     const Shape shape = polygons();
     const MeshView mesh = shape.view();
-    for (const Method method : {Method::mikktspace, Method::uniform, Method::angle, Method::area,
-                                Method::fast, Method::best, Method::lengyel, Method::flat, Method::basis}) {
+    for (const Method method : {Method::mikktspace, Method::uniform, Method::angle, Method::area, Method::fast,
+                                Method::best, Method::lengyel, Method::flat, Method::basis}) {
         for (const unsigned threads : {1u, 3u}) {
             const TangentOptions options{.method = method, .execution = {.thread_count = threads}};
             Outputs one_call(mesh.cornerCount()), planned(mesh.cornerCount());

@@ -26,9 +26,7 @@ struct Shape {
         uvs.push_back(uv);
         return static_cast<std::uint32_t>(positions.size() - 1);
     }
-    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        indices.insert(indices.end(), {a, b, c});
-    }
+    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { indices.insert(indices.end(), {a, b, c}); }
     void face(const std::vector<std::uint32_t>& corners) {
         indices.insert(indices.end(), corners.begin(), corners.end());
         face_sizes.push_back(static_cast<std::uint32_t>(corners.size()));
@@ -131,8 +129,7 @@ inline Shape collapsed(std::size_t triangles) {
 /// All triangles share one edge; every other one runs along it the other way when `mixed`.
 inline Shape book(std::size_t pages, bool mixed) {
     Shape shape;
-    const std::uint32_t a = shape.vertex({0, 0, 0}, {0, 1, 0}, {0, 0}),
-                        b = shape.vertex({0, 0, 1}, {0, 1, 0}, {0, 1});
+    const std::uint32_t a = shape.vertex({0, 0, 0}, {0, 1, 0}, {0, 0}), b = shape.vertex({0, 0, 1}, {0, 1, 0}, {0, 1});
     for (std::size_t i = 0; i < pages; ++i) {
         const double angle = 1.5 * static_cast<double>(i) / static_cast<double>(pages);
         const auto x = static_cast<float>(std::cos(angle)), y = static_cast<float>(std::sin(angle));
@@ -163,8 +160,7 @@ inline Shape duplicatesWithOtherNormals(std::size_t triangles) {
 /// Every hundredth triangle has two corners at one place.
 inline Shape someDegenerate(std::size_t triangles) {
     Shape shape = gridOf(triangles);
-    for (std::size_t t = 50; t < shape.indices.size() / 3; t += 100)
-        shape.indices[3 * t + 1] = shape.indices[3 * t];
+    for (std::size_t t = 50; t < shape.indices.size() / 3; t += 100) shape.indices[3 * t + 1] = shape.indices[3 * t];
     return shape;
 }
 
@@ -240,8 +236,7 @@ inline Shape sortKiller(std::size_t triangles) {
         } while (i <= j);
         begin = static_cast<std::size_t>(i);
     }
-    for (std::size_t t = 0; t < triangles; ++t)
-        shape.triangle(corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]);
+    for (std::size_t t = 0; t < triangles; ++t) shape.triangle(corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]);
     return shape;
 }
 

@@ -16,8 +16,8 @@
 namespace tspace::test {
 namespace {
 
-constexpr SimdTarget kTargets[] = {SimdTarget::scalar, SimdTarget::sse2, SimdTarget::avx2,
-                                   SimdTarget::avx512, SimdTarget::neon};
+constexpr SimdTarget kTargets[] = {SimdTarget::scalar, SimdTarget::sse2, SimdTarget::avx2, SimdTarget::avx512,
+                                   SimdTarget::neon};
 constexpr Method kMethods[] = {Method::mikktspace, Method::uniform, Method::angle,  Method::area,
                                Method::fast,       Method::best,    Method::lengyel};
 
@@ -94,8 +94,7 @@ Shape withHexagons(const Shape& from) {
 Shape withBrokenValues(Shape shape) {
     for (std::size_t v = 0; v < shape.positions.size(); v += 301)
         shape.positions[v].x = std::numeric_limits<float>::quiet_NaN();
-    for (std::size_t v = 7; v < shape.uvs.size(); v += 401)
-        shape.uvs[v].x = std::numeric_limits<float>::infinity();
+    for (std::size_t v = 7; v < shape.uvs.size(); v += 401) shape.uvs[v].x = std::numeric_limits<float>::infinity();
     return shape;
 }
 
@@ -105,8 +104,8 @@ std::vector<Shape> shapes() {
         cone(3000), checkerboard(3000), withBrokenValues(rolledSheet(40))};
     list.push_back(rolledSheet(150));
     shuffleTriangles(list.back(), 5);
-    list.insert(list.end(), {foldedSheet(40, 3), withQuads(foldedSheet(37, 2)),
-                             withHexagons(foldedSheet(36, 4)), foldedSheet(160, 5)});
+    list.insert(list.end(), {foldedSheet(40, 3), withQuads(foldedSheet(37, 2)), withHexagons(foldedSheet(36, 4)),
+                             foldedSheet(160, 5)});
     shuffleTriangles(list.back(), 6);
     return list;
 }
@@ -211,8 +210,7 @@ std::optional<Outputs> look(const Shape& shape, const TangentOptions& options, m
     TangentOutput to = outputs.view();
     if (tangents_only) to = {.tangents = to.tangents};
     ScratchBlock brief(nullptr, std::as_writable_bytes(std::span(to.tangents.data, to.tangents.count)));
-    const auto report =
-        mikk::evaluateInOnePass(mesh, options, triangles, nodes, to, brief, parallel, first_look);
+    const auto report = mikk::evaluateInOnePass(mesh, options, triangles, nodes, to, brief, parallel, first_look);
     if (!report) return std::nullopt;
     outputs.report = *report;
     return outputs;
@@ -326,9 +324,8 @@ TEST(OnePass, ReadsInterleavedVerticesUpToTheLastByteOnly) {
     const std::size_t count = shape.positions.size();
     std::vector<float> data(8 * count);  // position, UV, normal: the last normal ends where the memory ends
     for (std::size_t v = 0; v < count; ++v) {
-        const float values[8] = {shape.positions[v].x, shape.positions[v].y, shape.positions[v].z,
-                                 shape.uvs[v].x,       shape.uvs[v].y,       shape.normals[v].x,
-                                 shape.normals[v].y,   shape.normals[v].z};
+        const float values[8] = {shape.positions[v].x, shape.positions[v].y, shape.positions[v].z, shape.uvs[v].x,
+                                 shape.uvs[v].y,       shape.normals[v].x,   shape.normals[v].y,   shape.normals[v].z};
         std::copy_n(values, 8, data.begin() + static_cast<std::ptrdiff_t>(8 * v));
     }
     const std::vector<float> exact(data);  // its capacity is its size, so a sanitizer sees any step beyond

@@ -24,8 +24,7 @@ Shape leaningPlane(double shear_deg, bool mirrored) {
         shape.positions[v] = {along + static_cast<float>(lean) * uv.y, uv.y, 0};
     }
     if (mirrored) {
-        for (std::size_t i = 0; i < shape.indices.size(); i += 3)
-            std::swap(shape.indices[i + 1], shape.indices[i + 2]);
+        for (std::size_t i = 0; i < shape.indices.size(); i += 3) std::swap(shape.indices[i + 1], shape.indices[i + 2]);
     }
     return shape;
 }
@@ -69,8 +68,7 @@ TEST(SymmetricFrame, KeepsSignsAndTheOtherOutputs) {
     for (const Method method : kMethods) {
         const Outputs plain = generate(shape, {.method = method});
         Outputs got = generate(shape, {.method = method, .frame = FrameShape::symmetric});
-        for (std::size_t c = 0; c < got.tangents.size(); ++c)
-            EXPECT_EQ(got.tangents[c].w, plain.tangents[c].w);
+        for (std::size_t c = 0; c < got.tangents.size(); ++c) EXPECT_EQ(got.tangents[c].w, plain.tangents[c].w);
         got.tangents = plain.tangents;
         EXPECT_TRUE(sameBits(plain, got));
     }
@@ -85,8 +83,7 @@ TEST(SymmetricFrame, PlanAndEvaluateEqualTheOneCallAndBitangentsNeedNotBeAskedFo
         ASSERT_TRUE(plan);
         std::vector<Vec4> tangents(shape.cornerCount());
         ASSERT_TRUE(evaluateTangents(*plan, {shape.positions, shape.normals}, {.tangents = tangents}));
-        for (std::size_t c = 0; c < tangents.size(); ++c)
-            EXPECT_TRUE(sameBits(tangents[c], want.tangents[c]));
+        for (std::size_t c = 0; c < tangents.size(); ++c) EXPECT_TRUE(sameBits(tangents[c], want.tangents[c]));
     }
 }
 
@@ -129,11 +126,9 @@ TEST(SymmetricFrame, IsRefusedWhereItMeansNothing) {
         const auto result = generateTangents(shape.view(), options, {.tangents = tangents});
         return result ? ErrorCode::ok : result.error().code;
     };
-    EXPECT_EQ(codeOf({.method = Method::mikktspace, .frame = FrameShape::symmetric}),
-              ErrorCode::invalidOption);
+    EXPECT_EQ(codeOf({.method = Method::mikktspace, .frame = FrameShape::symmetric}), ErrorCode::invalidOption);
     EXPECT_EQ(codeOf({.method = Method::basis, .frame = FrameShape::symmetric}), ErrorCode::invalidOption);
-    EXPECT_EQ(codeOf({.method = Method::best, .frame = static_cast<FrameShape>(2)}),
-              ErrorCode::invalidOption);
+    EXPECT_EQ(codeOf({.method = Method::best, .frame = static_cast<FrameShape>(2)}), ErrorCode::invalidOption);
 }
 
 }  // namespace

@@ -148,8 +148,7 @@ TEST(TailCheck, NoMeansThatBothPairingsGiveTheSameBits) {
         const Shape shape = someShape(seed);
         const std::vector<Vec4> reference = tangents(shape.view(), Pairing::reference),
                                 corrected = tangents(shape.view(), Pairing::corrected);
-        const bool same =
-            std::memcmp(reference.data(), corrected.data(), reference.size() * sizeof(Vec4)) == 0;
+        const bool same = std::memcmp(reference.data(), corrected.data(), reference.size() * sizeof(Vec4)) == 0;
         if (!Welded(shape.view()).tailMayMatter()) {
             ASSERT_TRUE(same) << seed;
         }
@@ -176,8 +175,7 @@ TEST(TailCheck, DecidesTheSameForLargeMeshesAndAllThreads) {
         Shape shape = seed < 5 ? test::grid(300) : test::fan(200000);
         if (seed > 0) test::shuffleTriangles(shape, seed);
         const bool want = Welded(shape.view()).lastBucketMatters();
-        for (const unsigned threads : {1u, 2u, 3u})
-            EXPECT_EQ(Welded(shape.view(), threads).tailMayMatter(), want);
+        for (const unsigned threads : {1u, 2u, 3u}) EXPECT_EQ(Welded(shape.view(), threads).tailMayMatter(), want);
     }
 }
 

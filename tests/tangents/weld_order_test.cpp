@@ -30,8 +30,7 @@ class Replay {
         const int axis = longest(d);
         std::vector<std::vector<std::uint32_t>> cells(kCells);
         for (const std::uint32_t c : order_) {
-            const float q =
-                static_cast<float>(kCells) * ((at(c, axis) - low_[axis]) / (high_[axis] - low_[axis]));
+            const float q = static_cast<float>(kCells) * ((at(c, axis) - low_[axis]) / (high_[axis] - low_[axis]));
             cells[static_cast<std::size_t>(std::clamp(static_cast<int>(q), 0, kCells - 1))].push_back(c);
         }
         order_.clear();

@@ -80,8 +80,8 @@ TEST(Batch, SharesCoverAllFilesOnceAndStayWhenFilesAreAdded) {
     const TempFolder folder;
     writeModels(folder, 20);
     const auto share = [&](int i) {
-        return doneBy(runTool(folder, "generate in -o out" + std::to_string(i) + " --json --shard " +
-                                          std::to_string(i) + "/3"));
+        return doneBy(
+            runTool(folder, "generate in -o out" + std::to_string(i) + " --json --shard " + std::to_string(i) + "/3"));
     };
     std::map<std::string, int> shard_of;
     for (int i = 1; i <= 3; ++i) {
@@ -118,8 +118,7 @@ TEST(Batch, AnEmptyShareIsDoneAtOnce) {
     writeModels(folder, 1);
     std::size_t written = 0;
     for (int i = 1; i <= 5; ++i) {
-        const ToolRun run =
-            runTool(folder, "generate in -o out --json --shard " + std::to_string(i) + "/5");
+        const ToolRun run = runTool(folder, "generate in -o out --json --shard " + std::to_string(i) + "/5");
         EXPECT_EQ(run.exit_code, 0) << run.err;
         written += countOf(doneBy(run), "written");
     }

@@ -10,11 +10,11 @@ namespace tspace::test {
 namespace {
 
 /// One pixel of a flat normal map.
-constexpr std::uint8_t kPng[] = {
-    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00,
-    0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00, 0x00, 0x90, 0x77, 0x53, 0xde, 0x00, 0x00, 0x00,
-    0x0c, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x68, 0x68, 0xf8, 0x0f, 0x00, 0x03, 0x83, 0x02, 0x00, 0x00,
-    0xa5, 0xfb, 0x89, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+constexpr std::uint8_t kPng[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48,
+                                 0x44, 0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00,
+                                 0x00, 0x90, 0x77, 0x53, 0xde, 0x00, 0x00, 0x00, 0x0c, 0x49, 0x44, 0x41, 0x54, 0x78,
+                                 0x9c, 0x63, 0x68, 0x68, 0xf8, 0x0f, 0x00, 0x03, 0x83, 0x02, 0x00, 0x00, 0xa5, 0xfb,
+                                 0x89, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
 
 /// Tangents of another convention are inverted signs to glTF.
 void writeInverted(const TempFolder& folder, const std::string& name) {
@@ -43,11 +43,15 @@ TEST(CheckCommand, BeginsWithASummaryAndEndsEachFindingWithItsRemedy) {
     const ToolRun run = runTool(folder, "check bad.glb");
     EXPECT_EQ(run.exit_code, 1);
     EXPECT_EQ(run.err, "");
-    EXPECT_EQ(run.out.rfind("bad.glb: 1 error, 0 warnings, 0 notes in 1 primitive, 1 of them with tangents; looked at 1 normal map\n", 0), 0U)
+    EXPECT_EQ(
+        run.out.rfind(
+            "bad.glb: 1 error, 0 warnings, 0 notes in 1 primitive, 1 of them with tangents; looked at 1 normal map\n",
+            0),
+        0U)
         << run.out;
-    for (const char* text : {"  error    signsInverted\n", "mesh 0 \"folded\", primitive 0, material \"skin\"",
-                             "(at /meshes/0/primitives/0)", "every sign is inverted", "first at vertices 0, 1",
-                             "mend: Negate every w"}) {
+    for (const char* text :
+         {"  error    signsInverted\n", "mesh 0 \"folded\", primitive 0, material \"skin\"",
+          "(at /meshes/0/primitives/0)", "every sign is inverted", "first at vertices 0, 1", "mend: Negate every w"}) {
         EXPECT_NE(run.out.find(text), std::string::npos) << text << "\n" << run.out;
     }
     EXPECT_EQ(run.out.find('\x1b'), std::string::npos) << "colours are for terminals";
@@ -103,7 +107,8 @@ TEST(CheckCommand, WorksThroughFoldersAndGivesTheWorstCode) {
 TEST(CheckCommand, NamesFromFilesCannotBreakLinesOrTheTerminal) {
     const TempFolder folder;
     folder.write("a.mtl", "newmtl evil\x1b[31m\nmap_Bump x\x07.png\n");
-    folder.write("a.obj", "mtllib a.mtl\no evil\x1b[31m\x07\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl evil\x1b[31m\nf 1 2 3\n");
+    folder.write("a.obj",
+                 "mtllib a.mtl\no evil\x1b[31m\x07\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl evil\x1b[31m\nf 1 2 3\n");
     const ToolRun run = runTool(folder, "check a.obj");
     EXPECT_EQ(run.exit_code, 1) << "it has no UVs";
     EXPECT_EQ(run.out.find('\x1b'), std::string::npos);

@@ -12,8 +12,7 @@ namespace {
 bool isCompleteGlb(const std::string& bytes) {
     if (bytes.size() < 12 || bytes.compare(0, 4, "glTF") != 0) return false;
     std::size_t length = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-        length |= std::size_t{static_cast<unsigned char>(bytes[8 + i])} << (8 * i);
+    for (std::size_t i = 0; i < 4; ++i) length |= std::size_t{static_cast<unsigned char>(bytes[8 + i])} << (8 * i);
     return length == bytes.size();
 }
 
@@ -171,8 +170,7 @@ TEST(Generate, InPlaceReplacesTheInput) {
     writeFoldedObj(folder, "a.obj");
     ASSERT_EQ(runTool(folder, "generate a.obj -o a.glb").exit_code, 0);
     const std::string before = folder.read("a.glb");
-    EXPECT_EQ(runTool(folder, "generate a.glb --in-place --all --overwrite --convention opengl").exit_code,
-              0);
+    EXPECT_EQ(runTool(folder, "generate a.glb --in-place --all --overwrite --convention opengl").exit_code, 0);
     EXPECT_TRUE(folder.read("a.glb") != before);
     EXPECT_TRUE(isCompleteGlb(folder.read("a.glb")));
     EXPECT_EQ(folder.files(), (std::set<std::string>{"a.glb", "a.obj", "folded.mtl"}));
@@ -239,8 +237,7 @@ TEST(Generate, AnInterruptLeavesACompleteFileOrNone) {
     }
     folder.write("grid.obj", grid.str());
     for (const std::string delay : {"0.01", "0.03", "0.06", "0.1", "0.15", "0.2"}) {
-        const ToolRun run =
-            runTool(folder, "generate grid.obj --all -o out/grid.glb", "timeout -s INT " + delay);
+        const ToolRun run = runTool(folder, "generate grid.obj --all -o out/grid.glb", "timeout -s INT " + delay);
         EXPECT_LE(run.errorLines(), 1) << run.err;
         const std::set<std::string> files = folder.files("out");
         if (files.empty()) continue;
@@ -253,12 +250,11 @@ TEST(Generate, AnInterruptLeavesACompleteFileOrNone) {
 TEST(Generate, PathsThatLeadOutsideAreRefused) {
     const TempFolder folder;
     folder.write("data.bin", std::string(36, '\0'));
-    folder.write(
-        "in/a.gltf",
-        R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"../data.bin"}],)"
-        R"("bufferViews":[{"buffer":0,"byteLength":36}],)"
-        R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)"
-        R"("min":[0,0,0],"max":[0,0,0]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})");
+    folder.write("in/a.gltf",
+                 R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"../data.bin"}],)"
+                 R"("bufferViews":[{"buffer":0,"byteLength":36}],)"
+                 R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)"
+                 R"("min":[0,0,0],"max":[0,0,0]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})");
     const ToolRun run = runTool(folder, "generate in/a.gltf -o out.glb");
     EXPECT_EQ(run.exit_code, 3) << run.err;
     EXPECT_EQ(run.errorLines(), 1);

@@ -14,8 +14,7 @@ TEST(Inspect, BeginsWithASummaryLine) {
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(run.out.rfind("a.obj: 1 primitive, 4 triangles, 6 vertices, ", 0), 0U) << run.out;
     EXPECT_NE(run.out.find("1 primitive needs tangents, 1 without"), std::string::npos) << run.out;
-    for (const char* text :
-         {"normalTexture", "\"skin\"", "\"folded\"", "POSITION float3", "1 island, 0 mirrored"}) {
+    for (const char* text : {"normalTexture", "\"skin\"", "\"folded\"", "POSITION float3", "1 island, 0 mirrored"}) {
         EXPECT_NE(run.out.find(text), std::string::npos) << text << "\n" << run.out;
     }
 }
@@ -43,7 +42,9 @@ TEST(Inspect, OneBadFileDoesNotStopTheOthers) {
 
 TEST(Inspect, NamesFromFilesCannotBreakLinesOrTheTerminal) {
     const TempFolder folder;
-    folder.write("a.obj", "o evil\x1b[31m\x07\xc2\x9b" "31m caf\xc3\xa9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.write("a.obj",
+                 "o evil\x1b[31m\x07\xc2\x9b"
+                 "31m caf\xc3\xa9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const ToolRun run = runTool(folder, "inspect a.obj");
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_EQ(run.out.find('\x1b'), std::string::npos);

@@ -27,8 +27,7 @@ std::map<std::string, std::string> documentedFields(const std::string& schema) {
     return fields;
 }
 
-void collect(const Json& value, const std::string& path,
-             std::map<std::string, std::set<std::string>>& fields) {
+void collect(const Json& value, const std::string& path, std::map<std::string, std::set<std::string>>& fields) {
     if (!path.empty() && !path.ends_with("[]")) fields[path].insert(value.type_name());
     if (value.is_object()) {
         for (const auto& [key, member] : value.items()) {
@@ -53,8 +52,7 @@ void expectFieldsDocumented(const std::vector<Json>& documents, const std::strin
         ASSERT_EQ(found.count(path), 1U) << path << " is documented but not there";
         for (const std::string& actual : found[path]) EXPECT_NE(type.find(actual), std::string::npos) << path;
     }
-    for (const auto& [path, types] : found)
-        EXPECT_EQ(documented.count(path), 1U) << path << " is not documented";
+    for (const auto& [path, types] : found) EXPECT_EQ(documented.count(path), 1U) << path << " is not documented";
 }
 
 /// A run over a good and a bad file shows every field there is.
@@ -77,9 +75,7 @@ void expectDocumented(const std::string& arguments, const std::string& schema) {
     expectFieldsDocumented({document}, schema);
 }
 
-TEST(JsonOutput, OfGenerateIsAsDocumented) {
-    expectDocumented("generate in -o out --json", "tspace.generate/1");
-}
+TEST(JsonOutput, OfGenerateIsAsDocumented) { expectDocumented("generate in -o out --json", "tspace.generate/1"); }
 
 TEST(JsonOutput, OfInspectIsAsDocumented) { expectDocumented("inspect in --json", "tspace.inspect/1"); }
 
@@ -87,8 +83,8 @@ TEST(JsonOutput, OfDiffIsAsDocumented) {
     const TempFolder folder;
     writeFoldedObj(folder, "a.obj");
     folder.write("small.obj", "v 0 0 0\nv 1 0 0\nv 0 9 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
-    for (const std::string arguments :
-         {"generate a.obj -o a.glb", "generate a.obj -o b.glb --convention opengl", "generate small.obj --all -o c.glb"}) {
+    for (const std::string arguments : {"generate a.obj -o a.glb", "generate a.obj -o b.glb --convention opengl",
+                                        "generate small.obj --all -o c.glb"}) {
         ASSERT_EQ(runTool(folder, arguments).exit_code, 0);
     }
     std::vector<Json> documents;
@@ -123,8 +119,7 @@ TEST(JsonOutput, OfCheckIsAsDocumented) { expectFolderDocumented("check", "--con
 TEST(JsonOutput, IsTheSameWithQuiet) {
     const TempFolder folder;
     writeFoldedObj(folder, "a.obj");
-    EXPECT_EQ(runTool(folder, "inspect a.obj --json --quiet").out,
-              runTool(folder, "inspect a.obj --json").out);
+    EXPECT_EQ(runTool(folder, "inspect a.obj --json --quiet").out, runTool(folder, "inspect a.obj --json").out);
 }
 
 TEST(JsonOutput, SurvivesNamesThatAreNotUtf8) {

@@ -20,15 +20,13 @@ struct ToolRun {
 };
 
 /// Runs in `folder`. `arguments` is shell text; `runner` is a command that starts the tool.
-inline ToolRun runTool(const TempFolder& folder, const std::string& arguments,
-                       const std::string& runner = "") {
+inline ToolRun runTool(const TempFolder& folder, const std::string& arguments, const std::string& runner = "") {
     const TempFolder output;
-    const std::string command = "cd '" + folder.path().string() + "' && " + runner + " '" TSPACE_TOOL "' " +
-                                arguments + " > '" + (output.path() / "out").string() + "' 2> '" +
+    const std::string command = "cd '" + folder.path().string() + "' && " + runner + " '" TSPACE_TOOL "' " + arguments +
+                                " > '" + (output.path() / "out").string() + "' 2> '" +
                                 (output.path() / "err").string() + "'";
     const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), output.read("out"),
-            output.read("err")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), output.read("out"), output.read("err")};
 }
 
 /// Two quads that meet at an edge, with UVs; the material has a normal map.

@@ -73,8 +73,7 @@ TEST(Usage, AnOutputIsAskedForInWords) {
 
 TEST(Usage, ACommandThatDoesNotExistIsNamed) {
     for (const std::string name : {"help", "chek", "a.glb"}) {
-        EXPECT_EQ(runTool(TempFolder(), name).err,
-                  "tspace: there is no command '" + name + "' (see tspace --help)\n");
+        EXPECT_EQ(runTool(TempFolder(), name).err, "tspace: there is no command '" + name + "' (see tspace --help)\n");
     }
 }
 
@@ -136,9 +135,8 @@ TEST(Usage, HelpOfGenerateNamesEveryOptionUnitAndDefault) {
                              "Examples:"}) {
         EXPECT_NE(run.out.find(text), std::string::npos) << "no " << text;
     }
-    for (const char* name :
-         {"mikktspace", "lengyel", "uniform", "angle", "area", "flat", "basis", "corrected", "angle-area",
-          "max", "opengl", "directx", "unreal", "unity", "blender", "godot"}) {
+    for (const char* name : {"mikktspace", "lengyel", "uniform", "angle", "area", "flat", "basis", "corrected",
+                             "angle-area", "max", "opengl", "directx", "unreal", "unity", "blender", "godot"}) {
         EXPECT_NE(run.out.find(name), std::string::npos) << "no " << name;
     }
 }

@@ -38,9 +38,10 @@ CLI::App* addDiff(CLI::App& app, DiffArguments& arguments) {
     command->add_option("B", arguments.b, "Another one.")->type_name("B")->required()->group(group);
     addAllowExternal(command, arguments.options.file.allow_external);
     command
-        ->add_option("--tolerance", arguments.tolerance_deg,
-                     "Exit with 1 when an angle is above this, a sign differs, or a triangle has no partner. In degrees, 0 "
-                     "to 180.")
+        ->add_option(
+            "--tolerance", arguments.tolerance_deg,
+            "Exit with 1 when an angle is above this, a sign differs, or a triangle has no partner. In degrees, 0 "
+            "to 180.")
         ->type_name("DEG")
         ->check(degrees(180))
         ->default_str("1")
@@ -210,8 +211,8 @@ Arguments parseArguments(int argc, char** argv) {
         return printUsageError(std::string(error.what()) + " (see tspace " +
                                (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help)");
     }
-    for (FileOptions* file : {&generate.options.file, &diff.options.file, &identify.options.file, &inspect.file,
-                              &check.options.file})
+    for (FileOptions* file :
+         {&generate.options.file, &diff.options.file, &identify.options.file, &inspect.file, &check.options.file})
         file->importer = importerPath();
     if (generate_command->parsed()) {
         const std::string wrong = finishGenerate(raw, generate_command, generate);

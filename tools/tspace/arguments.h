@@ -78,8 +78,8 @@ struct IdentifyArguments {
 };
 
 /// Nothing to run: help was printed, or the command line is wrong and the error line was printed.
-using Arguments = std::variant<ExitCode, GenerateArguments, InspectArguments, CheckArguments, DiffArguments,
-                               IdentifyArguments>;
+using Arguments =
+    std::variant<ExitCode, GenerateArguments, InspectArguments, CheckArguments, DiffArguments, IdentifyArguments>;
 
 Arguments parseArguments(int argc, char** argv);
 

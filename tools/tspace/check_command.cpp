@@ -34,7 +34,8 @@ ExitCode runCheck(const CheckArguments& arguments) {
     if (files.output_is_closed) return ExitCode::cannotReadOrWrite;
     ExitCode exit_code = files.exit_code;
     for (const CheckOutcome& outcome : files.outcomes) {
-        if (outcome.result && hasFindings(*outcome.result, arguments.fail_on)) exit_code = worse(exit_code, ExitCode::findings);
+        if (outcome.result && hasFindings(*outcome.result, arguments.fail_on))
+            exit_code = worse(exit_code, ExitCode::findings);
     }
     std::string last;
     if (arguments.json) {

@@ -54,8 +54,7 @@ std::string verticesText(const Finding& finding) {
 /// The findings of one code and severity, with the remedy once.
 std::string groupText(std::span<const Finding* const> group, bool in_color) {
     const Finding& first = *group.front();
-    std::string text =
-        fmt::format("\n  {}  {}", severityText(first.severity, in_color), findingName(first.code));
+    std::string text = fmt::format("\n  {}  {}", severityText(first.severity, in_color), findingName(first.code));
     if (first.confidence < 1) text += fmt::format(" (confidence {:.0f} %)", 100 * first.confidence);
     if (group.size() > 1) text += fmt::format(", {} places", group.size());
     text += "\n";
@@ -102,8 +101,7 @@ Json outcomeJson(const CheckOutcome& outcome) {
     json["primitives"] = report.primitive_count;
     json["primitivesWithTangents"] = report.tangents_count;
     json["normalMaps"] = report.image_count;
-    json["counts"] = {
-        {"error", report.error_count}, {"warning", report.warning_count}, {"note", report.note_count}};
+    json["counts"] = {{"error", report.error_count}, {"warning", report.warning_count}, {"note", report.note_count}};
     json["findings"] = Json::array();
     for (const Finding& finding : report.findings) json["findings"].push_back(findingJson(finding));
     return json;
@@ -149,12 +147,9 @@ std::string checkSummary(const std::vector<CheckOutcome>& outcomes) {
 
 std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, Severity fail_on) {
     Json json = {
-        {"schema", "tspace.check/1"},
-        {"version", TSPACE_VERSION},
-        {"ok", exit_code == ExitCode::done},
-        {"exitCode", static_cast<int>(exit_code)},
-        {"failOn", severityName(fail_on)},
-        {"files", Json::array()},
+        {"schema", "tspace.check/1"},        {"version", TSPACE_VERSION},
+        {"ok", exit_code == ExitCode::done}, {"exitCode", static_cast<int>(exit_code)},
+        {"failOn", severityName(fail_on)},   {"files", Json::array()},
     };
     for (const CheckOutcome& outcome : outcomes) json["files"].push_back(outcomeJson(outcome));
     return jsonText(json);

@@ -26,8 +26,7 @@ bool parseMemory(const std::string& text, std::uint64_t& bytes) {
         return true;
     }
     const std::size_t unit = text.find_first_not_of("0123456789");
-    const std::size_t power =
-        unit + 1 == text.size() ? std::string("KMGT").find(text[unit]) : std::string::npos;
+    const std::size_t power = unit + 1 == text.size() ? std::string("KMGT").find(text[unit]) : std::string::npos;
     std::uint64_t count = 0;
     if (power == std::string::npos || !CLI::detail::lexical_cast(text.substr(0, unit), count)) return false;
     const std::uint64_t factor = std::uint64_t{1} << (10 * (power + 1));
@@ -58,10 +57,11 @@ CLI::Validator conventionName() {
 
 void addInputs(CLI::App* command, std::vector<std::string>& inputs) {
     command
-        ->add_option("IN", inputs,
-                     "Model files (.glb, .gltf, .obj; also .fbx, .ply, .stl, .dae, .3ds and more where tspace-import is "
-                     "installed), folders, and patterns in quotes ('models/**/*.glb'). Of a "
-                     "folder all model files in it and below are taken.")
+        ->add_option(
+            "IN", inputs,
+            "Model files (.glb, .gltf, .obj; also .fbx, .ply, .stl, .dae, .3ds and more where tspace-import is "
+            "installed), folders, and patterns in quotes ('models/**/*.glb'). Of a "
+            "folder all model files in it and below are taken.")
         ->type_name("IN...")
         ->required()
         ->group("Input and output");
@@ -121,18 +121,15 @@ std::string resultOptions(const CLI::App* command) {
 
 void addReporting(CLI::App* command, bool& json, bool& quiet) {
     const char* group = "Reporting";
-    command->add_flag("--json", json, "Print the result as JSON on stdout (schema: docs/json.md).")
-        ->group(group);
-    command->add_flag("-q,--quiet", quiet, "Print nothing but errors, and the JSON if asked for.")
-        ->group(group);
+    command->add_flag("--json", json, "Print the result as JSON on stdout (schema: docs/json.md).")->group(group);
+    command->add_flag("-q,--quiet", quiet, "Print nothing but errors, and the JSON if asked for.")->group(group);
 }
 
 void addAllowExternal(CLI::App* command, bool& allow_external) {
     command
-        ->add_flag(
-            "--allow-external", allow_external,
-            "Also follow paths in a model that lead outside its own folder. By default absolute paths, paths "
-            "with '..' and URLs are refused.")
+        ->add_flag("--allow-external", allow_external,
+                   "Also follow paths in a model that lead outside its own folder. By default absolute paths, paths "
+                   "with '..' and URLs are refused.")
         ->group("Input and output");
 }
 
@@ -149,8 +146,7 @@ void addThreads(CLI::App* command, Execution& execution) {
 void addMemoryLimit(CLI::App* command, FileOptions& file) {
     command
         ->add_option_function<std::string>(
-            "--memory-limit",
-            [&file](const std::string& text) { parseMemory(text, file.memory_limit_bytes); },
+            "--memory-limit", [&file](const std::string& text) { parseMemory(text, file.memory_limit_bytes); },
             "What working on one file may take of memory, about: a number with M or G (64M or more), or "
             "none. What it "
             "would take is estimated first, and more is refused. Default: 64M, and 16 times the bytes of the "

@@ -39,8 +39,7 @@ ExitCode printUsageError(const std::string& message) {
 }
 
 bool printResult(std::string_view text) {
-    const bool written =
-        std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
     if (!written) printLine("tspace: standard output: cannot write");
     return written;
 }

@@ -23,8 +23,8 @@ std::string summary(const DiffArguments& arguments, const FrameDiff& diff) {
     if (!has_tangents) return text + "no primitive has tangents in both\n";
     const bool equal = diff.isWithin(0);
     if (equal) return text + fmt::format("equal frames at all {}\n", counted(diff.corner_count, "corner"));
-    text += fmt::format("tangents differ by {} degrees at half of the corners, {} at most", degrees(diff.tangents.median_deg),
-                        degrees(diff.tangents.max_deg));
+    text += fmt::format("tangents differ by {} degrees at half of the corners, {} at most",
+                        degrees(diff.tangents.median_deg), degrees(diff.tangents.max_deg));
     if (diff.sign_change_count != 0) {
         text += fmt::format("; {} of {} signs differ", diff.sign_change_count, diff.tangents.count);
     }
@@ -74,17 +74,19 @@ std::string placeText(const PrimitiveDiff& primitive) {
 
 std::string primitiveTable(const FrameDiff& diff) {
     Table table;
-    table.addRow({"primitive", "name", "paired by", "triangles", "paired", "T median", "T 95 %", "T max", "signs", "N max", "B max"});
+    table.addRow({"primitive", "name", "paired by", "triangles", "paired", "T median", "T 95 %", "T max", "signs",
+                  "N max", "B max"});
     for (const PrimitiveDiff& primitive : diff.primitives) {
         const bool both = primitive.has_tangents_a && primitive.has_tangents_b;
         const auto angle = [&](bool there, double value) { return there ? degrees(value) : std::string("-"); };
         const bool normals = primitive.normals.count != 0;
         table.addRow({placeText(primitive), primitive.mesh_name.empty() ? "-" : printable(primitive.mesh_name),
-                      primitive.paired_by, std::to_string(std::max(primitive.triangle_count_a, primitive.triangle_count_b)),
+                      primitive.paired_by,
+                      std::to_string(std::max(primitive.triangle_count_a, primitive.triangle_count_b)),
                       std::to_string(primitive.paired_triangle_count), angle(both, primitive.tangents.median_deg),
                       angle(both, primitive.tangents.p95_deg), angle(both, primitive.tangents.max_deg),
-                      both ? std::to_string(primitive.sign_change_count) : "-", angle(normals, primitive.normals.max_deg),
-                      angle(both && normals, primitive.bitangents.max_deg)});
+                      both ? std::to_string(primitive.sign_change_count) : "-",
+                      angle(normals, primitive.normals.max_deg), angle(both && normals, primitive.bitangents.max_deg)});
     }
     return table.text("  ");
 }
@@ -103,17 +105,20 @@ std::string worstTable(const FrameDiff& diff) {
 }
 
 Json anglesJson(const AngleStatistics& angles) {
-    return {{"corners", angles.count},       {"unusable", angles.unusable_count}, {"meanDeg", angles.mean_deg},
-            {"medianDeg", angles.median_deg}, {"p95Deg", angles.p95_deg},         {"maxDeg", angles.max_deg},
+    return {{"corners", angles.count},        {"unusable", angles.unusable_count}, {"meanDeg", angles.mean_deg},
+            {"medianDeg", angles.median_deg}, {"p95Deg", angles.p95_deg},          {"maxDeg", angles.max_deg},
             {"histogram", angles.histogram}};
 }
 
 Json sideJson(bool there, const std::string& place, std::uint32_t mesh, std::uint32_t primitive,
               std::uint64_t triangles, bool has_tangents, bool has_normals) {
     if (!there) return nullptr;
-    return {{"place", place},         {"mesh", mesh},
-            {"primitive", primitive}, {"triangles", triangles},
-            {"hasTangents", has_tangents}, {"hasNormals", has_normals}};
+    return {{"place", place},
+            {"mesh", mesh},
+            {"primitive", primitive},
+            {"triangles", triangles},
+            {"hasTangents", has_tangents},
+            {"hasNormals", has_normals}};
 }
 
 Json primitiveJson(const PrimitiveDiff& p) {
@@ -131,10 +136,16 @@ Json primitiveJson(const PrimitiveDiff& p) {
 }
 
 Json worstJson(const FrameDifference& d) {
-    return {{"meshA", d.mesh_a},           {"primitiveA", d.primitive_a}, {"vertexA", d.vertex_a},
-            {"meshB", d.mesh_b},           {"primitiveB", d.primitive_b}, {"vertexB", d.vertex_b},
+    return {{"meshA", d.mesh_a},
+            {"primitiveA", d.primitive_a},
+            {"vertexA", d.vertex_a},
+            {"meshB", d.mesh_b},
+            {"primitiveB", d.primitive_b},
+            {"vertexB", d.vertex_b},
             {"position", {d.position.x, d.position.y, d.position.z}},
-            {"tangentDeg", d.tangent_deg}, {"normalDeg", d.normal_deg},   {"bitangentDeg", d.bitangent_deg},
+            {"tangentDeg", d.tangent_deg},
+            {"normalDeg", d.normal_deg},
+            {"bitangentDeg", d.bitangent_deg},
             {"signDiffers", d.sign_differs}};
 }
 
@@ -148,7 +159,8 @@ std::string diffText(const DiffArguments& arguments, const FrameDiff& diff) {
     if (diff.missing_count != 0) {
         text += fmt::format("  {} with tangents in one file only\n", counted(diff.missing_count, "primitive"));
     }
-    for (const std::string& part : {angleTable(diff), histogramText(diff.tangents), primitiveTable(diff), worstTable(diff)}) {
+    for (const std::string& part :
+         {angleTable(diff), histogramText(diff.tangents), primitiveTable(diff), worstTable(diff)}) {
         if (!part.empty()) text.append("\n").append(part);
     }
     return text;

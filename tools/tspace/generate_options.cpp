@@ -52,13 +52,12 @@ void addOutputOptions(CLI::App* command, GenerateArguments& arguments, RawGenera
     const char* group = "Input and output";
     addInputs(command, arguments.inputs);
     command
-        ->add_option(
-            "-o,--output", arguments.output,
-            "Where to write: a file that ends in .glb or .gltf, or a folder. With several inputs, or a "
-            "folder as input, it is a folder: it is made if it is not there, and files keep their paths "
-            "relative to the input folder. Where a.glb and a.obj would both become a.glb, the later one "
-            "becomes "
-            "a.obj.glb.")
+        ->add_option("-o,--output", arguments.output,
+                     "Where to write: a file that ends in .glb or .gltf, or a folder. With several inputs, or a "
+                     "folder as input, it is a folder: it is made if it is not there, and files keep their paths "
+                     "relative to the input folder. Where a.glb and a.obj would both become a.glb, the later one "
+                     "becomes "
+                     "a.obj.glb.")
         ->type_name("OUT")
         ->group(group);
     command
@@ -66,19 +65,17 @@ void addOutputOptions(CLI::App* command, GenerateArguments& arguments, RawGenera
                    "Write over the input files. Each is replaced only when its result is complete.")
         ->group(group);
     command
-        ->add_option(
-            "--container", raw.container,
-            "File format of outputs whose name does not say it: glb or gltf. Default: that of the input; "
-            "glb for OBJ.")
+        ->add_option("--container", raw.container,
+                     "File format of outputs whose name does not say it: glb or gltf. Default: that of the input; "
+                     "glb for OBJ.")
         ->type_name("FORMAT")
         ->check(oneOf(kContainers))
         ->group(group);
     command
-        ->add_option(
-            "--compress", raw.compression,
-            "How geometry is packed. keep: what came in compressed goes out compressed the same way; none: "
-            "everything is unpacked; meshopt: EXT_meshopt_compression, which changes no value; draco: "
-            "KHR_draco_mesh_compression, which rounds positions, normals and UVs that were not in it before.")
+        ->add_option("--compress", raw.compression,
+                     "How geometry is packed. keep: what came in compressed goes out compressed the same way; none: "
+                     "everything is unpacked; meshopt: EXT_meshopt_compression, which changes no value; draco: "
+                     "KHR_draco_mesh_compression, which rounds positions, normals and UVs that were not in it before.")
         ->type_name("HOW")
         ->check(oneOf(kCompressions))
         ->default_str("keep")
@@ -89,13 +86,11 @@ void addOutputOptions(CLI::App* command, GenerateArguments& arguments, RawGenera
 /// Which primitives get tangents, and what becomes of those that are there.
 void addSelection(CLI::App* command, GenerateOptions& options, RawGenerate& raw) {
     const char* group = "Tangents";
-    CLI::Option* all =
-        command->add_flag("--all", options.all, "Also for primitives whose material needs no tangents.");
+    CLI::Option* all = command->add_flag("--all", options.all, "Also for primitives whose material needs no tangents.");
     all->group(group);
-    CLI::Option* missing =
-        command->add_flag("--only-missing", raw.only_missing,
-                          "Add tangents where there are none and keep those that are there. "
-                          "This is the default.");
+    CLI::Option* missing = command->add_flag("--only-missing", raw.only_missing,
+                                             "Add tangents where there are none and keep those that are there. "
+                                             "This is the default.");
     missing->group(group);
     CLI::Option* overwrite =
         command->add_flag("--overwrite", raw.overwrite, "Compute tangents anew where they are there.");
@@ -136,10 +131,9 @@ void addTangentOptions(CLI::App* command, bool& bitangents, RawGenerate& raw) {
         ->default_str("mikktspace")
         ->group(group);
     command
-        ->add_option(
-            "--pairing", raw.pairing,
-            "For mikktspace. reference: neighbours as the reference implementation finds them, with its "
-            "known defect; corrected: without it, so that the order of faces does not matter.")
+        ->add_option("--pairing", raw.pairing,
+                     "For mikktspace. reference: neighbours as the reference implementation finds them, with its "
+                     "known defect; corrected: without it, so that the order of faces does not matter.")
         ->type_name("NAME")
         ->check(oneOf(kPairings))
         ->default_str("reference")
@@ -161,10 +155,11 @@ void addTangentOptions(CLI::App* command, bool& bitangents, RawGenerate& raw) {
         ->default_str("gram-schmidt")
         ->group(group);
     command
-        ->add_flag("--bitangents", bitangents,
-                   "Also write the direction of dP/dv, which is not cross(N, T) where UVs are sheared, as the attribute "
-                   "_BITANGENT: for shaders that read it. Only where tangents are computed; morph targets get no deltas "
-                   "of it.")
+        ->add_flag(
+            "--bitangents", bitangents,
+            "Also write the direction of dP/dv, which is not cross(N, T) where UVs are sheared, as the attribute "
+            "_BITANGENT: for shaders that read it. Only where tangents are computed; morph targets get no deltas "
+            "of it.")
         ->group(group);
     command
         ->add_option("--convention", raw.convention,
@@ -198,25 +193,22 @@ void addOtherOptions(CLI::App* command, GenerateArguments& arguments, RawGenerat
         ->check(oneOf(kWeightings))
         ->group("Normals");
     command
-        ->add_option(
-            "--crease", raw.crease_deg,
-            "For missing normals: edges sharper than this stay hard. In degrees, 0 to 180; 180 makes none "
-            "hard. Given without --normals it takes the weights of angle.")
+        ->add_option("--crease", raw.crease_deg,
+                     "For missing normals: edges sharper than this stay hard. In degrees, 0 to 180; 180 makes none "
+                     "hard. Given without --normals it takes the weights of angle.")
         ->type_name("DEG")
         ->check(degrees(180))
         ->default_str("180")
         ->group("Normals");
     command
-        ->add_flag(
-            "!--no-sanitize", options.sanitize,
-            "Write what the method gives, even where it is not finite, zero, not unit, parallel to the "
-            "normal, or of mixed sign inside a face. By default such tangents are mended and counted.")
+        ->add_flag("!--no-sanitize", options.sanitize,
+                   "Write what the method gives, even where it is not finite, zero, not unit, parallel to the "
+                   "normal, or of mixed sign inside a face. By default such tangents are mended and counted.")
         ->group("Repair");
     command
-        ->add_flag(
-            "--orthogonalize", options.sanitize_options.orthogonalize_all,
-            "Also make every sound tangent unit and orthogonal to its normal. The result then no longer "
-            "matches bakes exactly where normals are not unit.")
+        ->add_flag("--orthogonalize", options.sanitize_options.orthogonalize_all,
+                   "Also make every sound tangent unit and orthogonal to its normal. The result then no longer "
+                   "matches bakes exactly where normals are not unit.")
         ->group("Repair");
     addThreads(command, options.tangents.execution);
     addMemoryLimit(command, options.file);

@@ -55,9 +55,8 @@ const char* actionWords(PrimitiveAction action) {
     return "unknown";
 }
 constexpr PrimitiveAction kActions[] = {
-    PrimitiveAction::generated,  PrimitiveAction::replaced,  PrimitiveAction::unchanged,
-    PrimitiveAction::kept,       PrimitiveAction::notNeeded, PrimitiveAction::notTriangles,
-    PrimitiveAction::impossible, PrimitiveAction::removed,
+    PrimitiveAction::generated, PrimitiveAction::replaced,     PrimitiveAction::unchanged,  PrimitiveAction::kept,
+    PrimitiveAction::notNeeded, PrimitiveAction::notTriangles, PrimitiveAction::impossible, PrimitiveAction::removed,
 };
 
 bool wasComputed(PrimitiveAction action) {
@@ -98,8 +97,7 @@ Totals totalsOf(const GenerateReport& report) {
         totals.degenerate_uv_count += primitive.tangents.degenerate_uv_count;
         totals.degenerate_triangle_count += primitive.tangents.degenerate_triangle_count;
         totals.reference_order_abandoned |= primitive.tangents.reference_order_abandoned;
-        for (const NamedCount& cause : kCauses)
-            totals.sanitize.*cause.count += primitive.sanitize.*cause.count;
+        for (const NamedCount& cause : kCauses) totals.sanitize.*cause.count += primitive.sanitize.*cause.count;
         for (const NamedCount& cure : kCures) totals.sanitize.*cure.count += primitive.sanitize.*cure.count;
         totals.sanitize.bad_normal_count += primitive.sanitize.bad_normal_count;
     }
@@ -112,8 +110,7 @@ std::string actionsText(const Totals& totals) {
         const std::uint64_t count = totals.actions[static_cast<std::size_t>(action)];
         if (count != 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, actionWords(action));
     }
-    return fmt::format("{}{}{}", counted(totals.primitive_count, "primitive"), text.empty() ? "" : ": ",
-                       text);
+    return fmt::format("{}{}{}", counted(totals.primitive_count, "primitive"), text.empty() ? "" : ": ", text);
 }
 
 std::string mendedText(const SanitizeReport& report) {
@@ -128,8 +125,7 @@ std::string mendedText(const SanitizeReport& report) {
 std::string inputFaultsText(const Totals& totals) {
     std::string text;
     const auto add = [&text](std::uint64_t count, const char* words) {
-        if (count != 0)
-            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counted(count, "triangle"), words);
+        if (count != 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counted(count, "triangle"), words);
     };
     add(totals.degenerate_uv_count, "without UV area");
     add(totals.degenerate_triangle_count, "with two corners at one place");
@@ -153,10 +149,9 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     }
     if (totals.triangle_count != 0) {
         table.addRow({"computed", counted(totals.triangle_count, "triangle")});
-        const std::uint64_t split =
-            totals.vertices_after - std::min(totals.vertices_before, totals.vertices_after);
-        table.addRow({"vertices", fmt::format("{} -> {} ({} split)", totals.vertices_before,
-                                              totals.vertices_after, split)});
+        const std::uint64_t split = totals.vertices_after - std::min(totals.vertices_before, totals.vertices_after);
+        table.addRow(
+            {"vertices", fmt::format("{} -> {} ({} split)", totals.vertices_before, totals.vertices_after, split)});
         const std::string faults = inputFaultsText(totals);
         if (!faults.empty()) table.addRow({"in the input", faults});
         table.addRow({"mended", mendedText(totals.sanitize)});
@@ -172,8 +167,9 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     }
     for (const std::string& warning : report.warnings) table.addRow({"warning", printable(warning)});
     if (totals.morph_sign_flip_count != 0) {
-        table.addRow({"warning", fmt::format("morph targets turn the sign of the frame at {}, which glTF cannot express",
-                                             counted(totals.morph_sign_flip_count, "corner"))});
+        table.addRow(
+            {"warning", fmt::format("morph targets turn the sign of the frame at {}, which glTF cannot express",
+                                    counted(totals.morph_sign_flip_count, "corner"))});
     }
     if (totals.reference_order_abandoned) {
         table.addRow({"warning",
@@ -182,13 +178,11 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     }
     table.addRow({"time", fmt::format("{:.2f} s", outcome.seconds)});
     const std::string first = report.output_files.empty() ? outcome.job.output : report.output_files.front();
-    const std::string others =
-        report.output_files.size() > 1
-            ? fmt::format(" and {}", counted(report.output_files.size() - 1, "other file"))
-            : "";
-    table.addRow(
-        {"written", fmt::format("{}{} ({}){}", printable(first), others, byteText(report.output_bytes),
-                                report.changed ? "" : ", a copy of the input")});
+    const std::string others = report.output_files.size() > 1
+                                   ? fmt::format(" and {}", counted(report.output_files.size() - 1, "other file"))
+                                   : "";
+    table.addRow({"written", fmt::format("{}{} ({}){}", printable(first), others, byteText(report.output_bytes),
+                                         report.changed ? "" : ", a copy of the input")});
     return table.text("  ");
 }
 
@@ -211,8 +205,8 @@ std::string notesText(const GenerateReport& report) {
     for (std::size_t i = 0; i < std::min(notes.size(), kMostNotes); ++i) {
         const auto& [note, who] = notes[i];
         const std::size_t more = others.count(note) == 0 ? 0 : others[note];
-        text += fmt::format("  note: {}{}: {}\n", who, more == 0 ? "" : fmt::format(" and {} more", more),
-                            printable(note));
+        text +=
+            fmt::format("  note: {}{}: {}\n", who, more == 0 ? "" : fmt::format(" and {} more", more), printable(note));
     }
     if (notes.size() > kMostNotes)
         text += fmt::format("  note: {} (--json has all)\n", counted(notes.size() - kMostNotes, "more note"));
@@ -230,8 +224,7 @@ std::string primitiveRows(const GenerateReport& report) {
         table.addRow({std::to_string(primitive.mesh), std::to_string(primitive.primitive),
                       primitive.mesh_name.empty() ? "-" : printable(primitive.mesh_name),
                       primitive.material_name.empty() ? "-" : printable(primitive.material_name),
-                      actionWords(primitive.action),
-                      primitive.uv_set < 0 ? "-" : std::to_string(primitive.uv_set),
+                      actionWords(primitive.action), primitive.uv_set < 0 ? "-" : std::to_string(primitive.uv_set),
                       std::to_string(primitive.triangle_count), vertices, printable(primitive.reason)});
     }
     return table.text("  ") + notesText(report);
@@ -298,10 +291,8 @@ Json totalsJson(const GenerateReport& report) {
 
 Json outcomeJson(const GenerateOutcome& outcome) {
     Json json = {
-        {"input", outcome.job.input},
-        {"output", outcome.job.output},
-        {"ok", outcome.result.ok()},
-        {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())},
+        {"input", outcome.job.input}, {"output", outcome.job.output},
+        {"ok", outcome.result.ok()},  {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())},
         {"seconds", outcome.seconds},
     };
     json["skipped"] = outcome.was_done_before;
@@ -314,8 +305,7 @@ Json outcomeJson(const GenerateOutcome& outcome) {
     json["warnings"] = report.warnings;
     json["totals"] = totalsJson(report);
     json["primitives"] = Json::array();
-    for (const PrimitiveReport& primitive : report.primitives)
-        json["primitives"].push_back(primitiveJson(primitive));
+    for (const PrimitiveReport& primitive : report.primitives) json["primitives"].push_back(primitiveJson(primitive));
     return json;
 }
 
@@ -355,12 +345,8 @@ std::string generateSummary(const std::vector<GenerateOutcome>& outcomes, double
 
 std::string generateJson(const std::vector<GenerateOutcome>& outcomes, ExitCode exit_code, double seconds) {
     Json json = {
-        {"schema", "tspace.generate/1"},
-        {"version", TSPACE_VERSION},
-        {"ok", exit_code == ExitCode::done},
-        {"exitCode", static_cast<int>(exit_code)},
-        {"seconds", seconds},
-        {"files", Json::array()},
+        {"schema", "tspace.generate/1"},           {"version", TSPACE_VERSION}, {"ok", exit_code == ExitCode::done},
+        {"exitCode", static_cast<int>(exit_code)}, {"seconds", seconds},        {"files", Json::array()},
     };
     for (const GenerateOutcome& outcome : outcomes) json["files"].push_back(outcomeJson(outcome));
     return jsonText(json);

@@ -62,10 +62,10 @@ std::string primitiveTable(const Identification& result) {
             row.push_back(primitive.skipped);
         } else {
             const Explanation& best = primitive.explanations.front();
-            row.insert(row.end(), {methodName(best.method), std::to_string(best.uv_set),
-                                   percent(best.near_count, best.corner_count),
-                                   percent(best.near_any_count, best.corner_count), signWords(best.signs()),
-                                   remarkOn(primitive)});
+            row.insert(
+                row.end(),
+                {methodName(best.method), std::to_string(best.uv_set), percent(best.near_count, best.corner_count),
+                 percent(best.near_any_count, best.corner_count), signWords(best.signs()), remarkOn(primitive)});
         }
         table.addRow(std::move(row));
     }
@@ -73,16 +73,11 @@ std::string primitiveTable(const Identification& result) {
 }
 
 Json explanationJson(const Explanation& entry) {
-    return {{"method", methodName(entry.method)},
-            {"uvSet", entry.uv_set},
-            {"isTexturesSet", entry.is_textures_set},
-            {"isTransformed", entry.is_transformed},
-            {"corners", entry.corner_count},
-            {"near", entry.near_count},
-            {"nearAtVertex", entry.near_any_count},
-            {"meanDeg", entry.mean_deg},
-            {"gltfSigns", entry.gltf_sign_count},
-            {"invertedSigns", entry.inverted_sign_count},
+    return {{"method", methodName(entry.method)},     {"uvSet", entry.uv_set},
+            {"isTexturesSet", entry.is_textures_set}, {"isTransformed", entry.is_transformed},
+            {"corners", entry.corner_count},          {"near", entry.near_count},
+            {"nearAtVertex", entry.near_any_count},   {"meanDeg", entry.mean_deg},
+            {"gltfSigns", entry.gltf_sign_count},     {"invertedSigns", entry.inverted_sign_count},
             {"signs", signReadingName(entry.signs())}};
 }
 

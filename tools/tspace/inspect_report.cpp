@@ -14,9 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kPi = 3.14159265358979323846;
 
-std::string joined(const std::vector<std::string>& parts) {
-    return fmt::format("{}", fmt::join(parts, ", "));
-}
+std::string joined(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, ", ")); }
 
 std::string needText(const PrimitiveInfo& primitive) {
     if (!primitive.needs_tangents) return primitive.has_tangents ? "not needed, but there" : "not needed";
@@ -66,9 +64,8 @@ std::string summaryLine(const InspectOutcome& outcome) {
     }
     std::string tangents = "no primitive needs tangents";
     if (needed != 0) {
-        tangents =
-            fmt::format("{} {} tangents, {}", counted(needed, "primitive"), needed == 1 ? "needs" : "need",
-                        missing == 0 ? "none lacks them" : fmt::format("{} without", missing));
+        tangents = fmt::format("{} {} tangents, {}", counted(needed, "primitive"), needed == 1 ? "needs" : "need",
+                               missing == 0 ? "none lacks them" : fmt::format("{} without", missing));
     }
     return fmt::format("{}: {}, {}, {}, {}; {}\n", printable(outcome.job.input),
                        counted(file.primitives.size(), "primitive"), counted(triangles, "triangle"),
@@ -77,34 +74,28 @@ std::string summaryLine(const InspectOutcome& outcome) {
 
 std::string fileRows(const Inspection& file) {
     Table table;
-    table.addRow({"format", file.generator.empty()
-                                ? file.format
-                                : fmt::format("{}, by {}", file.format, printable(file.generator))});
-    table.addRow(
-        {"contents", joined({counted(file.mesh_count, "mesh"), counted(file.material_count, "material"),
-                             counted(file.node_count, "node"), counted(file.animation_count, "animation"),
-                             counted(file.image_count, "image")})});
+    table.addRow({"format", file.generator.empty() ? file.format
+                                                   : fmt::format("{}, by {}", file.format, printable(file.generator))});
+    table.addRow({"contents", joined({counted(file.mesh_count, "mesh"), counted(file.material_count, "material"),
+                                      counted(file.node_count, "node"), counted(file.animation_count, "animation"),
+                                      counted(file.image_count, "image")})});
     if (!file.extensions_used.empty()) table.addRow({"extensions", printable(joined(file.extensions_used))});
     if (!file.variants.empty()) table.addRow({"variants", printable(joined(file.variants))});
-    if (!file.extensions_required.empty())
-        table.addRow({"required", printable(joined(file.extensions_required))});
+    if (!file.extensions_required.empty()) table.addRow({"required", printable(joined(file.extensions_required))});
     return table.text("  ");
 }
 
 std::string primitiveRows(const PrimitiveInfo& primitive) {
     Table table;
-    const std::string name =
-        primitive.mesh_name.empty() ? "" : fmt::format(" \"{}\"", printable(primitive.mesh_name));
-    const std::string material = primitive.material_name.empty()
-                                     ? ""
-                                     : fmt::format(", material \"{}\"", printable(primitive.material_name));
+    const std::string name = primitive.mesh_name.empty() ? "" : fmt::format(" \"{}\"", printable(primitive.mesh_name));
+    const std::string material =
+        primitive.material_name.empty() ? "" : fmt::format(", material \"{}\"", printable(primitive.material_name));
     std::string geometry = fmt::format("{}, {}, indices {}", counted(primitive.triangle_count, "triangle"),
                                        counted(primitive.vertex_count, "vertex"), primitive.index_type);
     if (primitive.mode != "triangles") geometry += ", " + primitive.mode;
     if (primitive.skinned) geometry += ", skinned";
     if (primitive.compression != "none") geometry += ", compressed by " + primitive.compression;
-    if (primitive.morph_target_count != 0)
-        geometry += ", " + counted(primitive.morph_target_count, "morph target");
+    if (primitive.morph_target_count != 0) geometry += ", " + counted(primitive.morph_target_count, "morph target");
     table.addRow({"geometry", geometry});
     table.addRow({"attributes", printable(joined(primitive.attributes))});
     table.addRow({"tangents", needText(primitive)});
@@ -116,14 +107,13 @@ std::string primitiveRows(const PrimitiveInfo& primitive) {
         std::string uvs = fmt::format("set {} of {}: {}", primitive.uv_set, primitive.uv_set_count,
                                       counted(primitive.uv_island_count, "island"));
         uvs += fmt::format(", {} mirrored", primitive.mirrored_island_count);
-        uvs += fmt::format("; {} mirrored, {} without UV area",
-                           counted(primitive.mirrored_triangle_count, "triangle"),
+        uvs += fmt::format("; {} mirrored, {} without UV area", counted(primitive.mirrored_triangle_count, "triangle"),
                            primitive.degenerate_uv_count);
         table.addRow({"UVs", uvs});
     }
     if (primitive.degenerate_triangle_count != 0) {
-        table.addRow({"faults", counted(primitive.degenerate_triangle_count, "triangle") +
-                                    " with two corners at one place"});
+        table.addRow(
+            {"faults", counted(primitive.degenerate_triangle_count, "triangle") + " with two corners at one place"});
     }
     return fmt::format("  mesh {}{}, primitive {}{}\n{}", primitive.mesh, name, primitive.primitive, material,
                        table.text("    "));
@@ -197,8 +187,7 @@ Json outcomeJson(const InspectOutcome& outcome) {
     json["extensionsRequired"] = file.extensions_required;
     json["variants"] = file.variants;
     json["primitives"] = Json::array();
-    for (const PrimitiveInfo& primitive : file.primitives)
-        json["primitives"].push_back(primitiveJson(primitive));
+    for (const PrimitiveInfo& primitive : file.primitives) json["primitives"].push_back(primitiveJson(primitive));
     return json;
 }
 

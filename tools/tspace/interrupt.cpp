@@ -23,8 +23,7 @@ void catchInterrupts() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction old = {};
         // nohup and background jobs ask for signals to be ignored; that stays.
-        if (sigaction(signal, nullptr, &old) == 0 && old.sa_handler != SIG_IGN)
-            sigaction(signal, &action, nullptr);
+        if (sigaction(signal, nullptr, &old) == 0 && old.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
     }
 }
 

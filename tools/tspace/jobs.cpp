@@ -65,9 +65,7 @@ void findModels(const fs::path& folder, const std::string& skipped_folder, std::
                          {}});
     } else if (models.empty()) {
         found.push_back(
-            {{.input = folder.string(),
-              .error = {ErrorCode::invalidFile, "no model files in this folder"}},
-             {}});
+            {{.input = folder.string(), .error = {ErrorCode::invalidFile, "no model files in this folder"}}, {}});
     }
 }
 
@@ -81,7 +79,8 @@ void findMatches(const std::string& pattern, std::vector<Found>& found) {
         found.push_back({{.input = match.string(), .name = relative.string()}, relative});
     }
     if (found.size() == before) {
-        found.push_back({{.input = pattern, .error = {ErrorCode::cannotRead, "no model file matches this pattern"}}, {}});
+        found.push_back(
+            {{.input = pattern, .error = {ErrorCode::cannotRead, "no model file matches this pattern"}}, {}});
     }
 }
 
@@ -131,8 +130,7 @@ Result<std::vector<Job>> jobWithNamedOutput(const GenerateArguments& arguments) 
         job.output += extensionFor(arguments.container, job.input);
     } else if (extension != ".glb" && extension != ".gltf") {
         return usage("the output must end in .glb or .gltf: " + job.output);
-    } else if (arguments.container != Container::sameAsInput &&
-               extension != extensionFor(arguments.container, "")) {
+    } else if (arguments.container != Container::sameAsInput && extension != extensionFor(arguments.container, "")) {
         return usage("--container says otherwise than the name of the output: " + job.output);
     }
     return std::vector<Job>{std::move(job)};
@@ -159,8 +157,8 @@ Result<std::vector<Job>> jobsIntoFolder(const GenerateArguments& arguments) {
             const std::string name = canonicalName(job.output);
             const auto [writer, is_new] = writers.emplace(name, job.input);
             if (inputs.count(name) != 0) {
-                job.error = usage("the output " + job.output +
-                                  " is one of the inputs; use another folder or --in-place");
+                job.error =
+                    usage("the output " + job.output + " is one of the inputs; use another folder or --in-place");
             } else if (!is_new) {
                 job.error = usage("the output " + job.output + " is already that of " + writer->second);
             }
@@ -198,8 +196,7 @@ Result<std::vector<Job>> generateJobs(const GenerateArguments& arguments) {
     const std::string& output = arguments.output;
     if (arguments.in_place && !output.empty()) return usage("--in-place and -o exclude each other");
     if (arguments.in_place) return jobsInPlace(arguments);
-    if (output.empty())
-        return usage("say where to write: -o OUT, or --in-place to change the inputs themselves");
+    if (output.empty()) return usage("say where to write: -o OUT, or --in-place to change the inputs themselves");
 
     const std::string& first = arguments.inputs.front();
     const bool several = arguments.inputs.size() > 1 || isFolder(first) || isPatternInput(first);

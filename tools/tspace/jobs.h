@@ -20,8 +20,8 @@ struct Job {
 /// The program that reads other formats: beside this one. Empty: it is not there.
 std::string importerPath();
 
-/// true for names that end in .glb, .gltf or .obj, in any case; also .fbx, .ply, .stl, .dae and .3ds where the importer is
-/// there. (Files that are named may be of any format that it reads.)
+/// true for names that end in .glb, .gltf or .obj, in any case; also .fbx, .ply, .stl, .dae and .3ds where the importer
+/// is there. (Files that are named may be of any format that it reads.)
 bool isModelFile(const std::string& path);
 
 /// Every input file, the model files of every input folder and below in the order of their names, and the model files

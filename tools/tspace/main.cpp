@@ -24,8 +24,8 @@ void keepFreedMemory() {
 #endif
 }
 
-/// The other commands keep what they found between large blocks that they let go of. Left in one heap, those would not fit
-/// into each other's places, and files with many primitives would take a multiple of what they need.
+/// The other commands keep what they found between large blocks that they let go of. Left in one heap, those would not
+/// fit into each other's places, and files with many primitives would take a multiple of what they need.
 void giveMemoryBack() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 256 << 10);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the commands that only read files do with many of them: several at one time, told in the order of the files; one bad
-// file does not stop the others.
+// What the commands that only read files do with many of them: several at one time, told in the order of the files; one
+// bad file does not stop the others.
 #pragma once
 
 #include <atomic>
@@ -20,8 +20,8 @@ struct ReadFiles {
     bool output_is_closed = false;        ///< nobody reads stdout any more; files may have been left out
 };
 
-/// Calls read(path) for each job, which gives a Result<Value>. Errors are printed, and textOf(outcome) of what was read if
-/// `wants_text`.
+/// Calls read(path) for each job, which gives a Result<Value>. Errors are printed, and textOf(outcome) of what was read
+/// if `wants_text`.
 template <class Value, class Read, class TextOf>
 ReadFiles<Value> readFiles(const std::vector<Job>& jobs, unsigned workers, bool wants_text, Read read, TextOf textOf) {
     ReadFiles<Value> files;

@@ -18,7 +18,7 @@ struct Outcome {
     Job job = {};
     Result<Value> result = Error{};
     double seconds = 0;
-    bool was_done_before = false;  ///< the manifest says so, nothing has changed, and nothing was done; the value is empty
+    bool was_done_before = false;  ///< by the manifest; nothing changed, nothing was done, the value is empty
 };
 using GenerateOutcome = Outcome<GenerateReport>;
 using IdentifyOutcome = Outcome<Identification>;

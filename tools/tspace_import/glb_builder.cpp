@@ -46,8 +46,7 @@ std::size_t GlbBuilder::addAccessor(std::size_t view, unsigned component, std::s
 
 std::size_t GlbBuilder::addFloats(std::span<const float> values, std::size_t components, const std::string& type,
                                   unsigned target, bool bounds) {
-    const std::size_t accessor =
-        addAccessor(addView(bytesOf(values), target), kF32, values.size() / components, type);
+    const std::size_t accessor = addAccessor(addView(bytesOf(values), target), kF32, values.size() / components, type);
     if (!bounds) return accessor;
     Json low = Json::array(), high = Json::array();
     for (std::size_t k = 0; k < components; ++k) {
@@ -64,14 +63,17 @@ std::size_t GlbBuilder::addFloats(std::span<const float> values, std::size_t com
     return accessor;
 }
 
-std::size_t GlbBuilder::addShorts(std::span<const std::uint16_t> values, std::size_t components, const std::string& type) {
+std::size_t GlbBuilder::addShorts(std::span<const std::uint16_t> values, std::size_t components,
+                                  const std::string& type) {
     return addAccessor(addView(bytesOf(values), 34962), kU16, values.size() / components, type);
 }
 
 std::size_t GlbBuilder::addIndices(std::span<const std::uint32_t> indices, std::size_t vertex_count) {
-    if (vertex_count > 0xffff) return addAccessor(addView(bytesOf(indices), kIndexTarget), kU32, indices.size(), "SCALAR");
+    if (vertex_count > 0xffff)
+        return addAccessor(addView(bytesOf(indices), kIndexTarget), kU32, indices.size(), "SCALAR");
     const std::vector<std::uint16_t> narrow(indices.begin(), indices.end());
-    return addAccessor(addView(bytesOf(std::span<const std::uint16_t>(narrow)), kIndexTarget), kU16, indices.size(), "SCALAR");
+    return addAccessor(addView(bytesOf(std::span<const std::uint16_t>(narrow)), kIndexTarget), kU16, indices.size(),
+                       "SCALAR");
 }
 
 std::vector<std::uint8_t> GlbBuilder::finish() {

@@ -24,8 +24,8 @@ class GlbBuilder {
     /// Bytes as a buffer view; `target` 0: none.
     std::size_t addView(std::span<const std::uint8_t> bytes, unsigned target);
     /// `type` "VEC3" and so on. With `bounds` min and max are written.
-    std::size_t addFloats(std::span<const float> values, std::size_t components, const std::string& type, unsigned target,
-                          bool bounds = false);
+    std::size_t addFloats(std::span<const float> values, std::size_t components, const std::string& type,
+                          unsigned target, bool bounds = false);
     std::size_t addShorts(std::span<const std::uint16_t> values, std::size_t components, const std::string& type);
     /// Indices in 16 bits where they fit.
     std::size_t addIndices(std::span<const std::uint32_t> indices, std::size_t vertex_count);

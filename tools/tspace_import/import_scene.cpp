@@ -112,7 +112,8 @@ class SceneWriter {
                 joints.push_back(skin.place_of.at(mesh.mBones[b]->mName.C_Str()));
             std::optional<Json> primitive = addPrimitive(builder_, mesh, joints);
             if (!primitive) continue;
-            if (mesh.mMaterialIndex < scene_.mNumMaterials) (*primitive)["material"] = materialFor(mesh.mMaterialIndex, *primitive);
+            if (mesh.mMaterialIndex < scene_.mNumMaterials)
+                (*primitive)["material"] = materialFor(mesh.mMaterialIndex, *primitive);
             if (list.size() == 1 && mesh.mName.length > 0) name = mesh.mName.C_Str();
             if (primitives.empty()) {
                 for (unsigned t = 0; t < mesh.mNumAnimMeshes; ++t) {
@@ -147,7 +148,8 @@ class SceneWriter {
         leaveOut(material["pbrMetallicRoughness"], "baseColorTexture");
         leaveOut(material, "normalTexture");
         if (!changed) return number;
-        const auto [entry, is_new] = reduced_materials_.try_emplace(material.dump(-1, ' ', false, Json::error_handler_t::replace), 0);
+        const auto [entry, is_new] =
+            reduced_materials_.try_emplace(material.dump(-1, ' ', false, Json::error_handler_t::replace), 0);
         if (is_new) entry->second = builder_.append("materials", std::move(material));
         return entry->second;
     }
@@ -167,7 +169,8 @@ class SceneWriter {
                 const aiBone& bone = *mesh.mBones[b];
                 const auto node = index_of_.find(bone.mName.C_Str());
                 if (node == index_of_.end() || skin.joints.size() == 0xffff) return {};
-                if (!skin.place_of.try_emplace(bone.mName.C_Str(), static_cast<std::uint16_t>(skin.joints.size())).second)
+                if (!skin.place_of.try_emplace(bone.mName.C_Str(), static_cast<std::uint16_t>(skin.joints.size()))
+                         .second)
                     continue;
                 skin.joints.push_back(node->second);
                 const std::vector<float> matrix = columnsOf(bone.mOffsetMatrix, builder_.mended());
@@ -192,7 +195,8 @@ class SceneWriter {
                 const aiNodeAnim& channel = *source.mChannels[c];
                 const auto node = index_of_.find(channel.mNodeName.C_Str());
                 if (node == index_of_.end()) continue;
-                addTrack(animation, node->second, "translation", channel.mPositionKeys, channel.mNumPositionKeys, ticks);
+                addTrack(animation, node->second, "translation", channel.mPositionKeys, channel.mNumPositionKeys,
+                         ticks);
                 addTrack(animation, node->second, "rotation", channel.mRotationKeys, channel.mNumRotationKeys, ticks);
                 addTrack(animation, node->second, "scale", channel.mScalingKeys, channel.mNumScalingKeys, ticks);
             }
@@ -200,7 +204,9 @@ class SceneWriter {
         }
     }
 
-    static void appendValue(std::vector<float>& values, const aiVector3D& v) { values.insert(values.end(), {v.x, v.y, v.z}); }
+    static void appendValue(std::vector<float>& values, const aiVector3D& v) {
+        values.insert(values.end(), {v.x, v.y, v.z});
+    }
     static void appendValue(std::vector<float>& values, const aiQuaternion& rotation) {
         const aiQuaternion q = unitRotation(rotation);
         values.insert(values.end(), {q.x, q.y, q.z, q.w});

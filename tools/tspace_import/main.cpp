@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// tspace-import IN OUT.glb MAX_BYTES MAX_SECONDS: reads FBX, PLY, STL, DAE, 3DS and what else Assimp knows, and writes a
-// GLB that tspace goes on with. A program of its own, because Assimp's parsers may crash or run away on broken files:
+// tspace-import IN OUT.glb MAX_BYTES MAX_SECONDS: reads FBX, PLY, STL, DAE, 3DS and what else Assimp knows, and writes
+// a GLB that tspace goes on with. A program of its own, because Assimp's parsers may crash or run away on broken files:
 // memory and time are limited, and whatever happens ends with this process. Not meant to be called by hand.
 #include <sys/resource.h>
 
@@ -30,7 +30,8 @@ int run(const char* input, const char* output) {
         return kBadInput;
     }
     std::FILE* file = std::fopen(output, "wb");
-    const bool written = file != nullptr && std::fwrite(imported.glb.data(), 1, imported.glb.size(), file) == imported.glb.size();
+    const bool written =
+        file != nullptr && std::fwrite(imported.glb.data(), 1, imported.glb.size(), file) == imported.glb.size();
     if (file == nullptr || std::fclose(file) != 0 || !written) {
         std::fprintf(stderr, "cannot write the temporary file\n");
         return kCannotWrite;

@@ -21,8 +21,9 @@ std::string percentEncoded(const std::string& text) {
     std::string out;
     for (const char c : text) {
         const auto byte = static_cast<unsigned char>(c);
-        const bool is_plain = (byte >= '0' && byte <= '9') || (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') ||
-                              byte == '/' || byte == '.' || byte == '-' || byte == '_' || byte == '~';
+        const bool is_plain = (byte >= '0' && byte <= '9') || (byte >= 'a' && byte <= 'z') ||
+                              (byte >= 'A' && byte <= 'Z') || byte == '/' || byte == '.' || byte == '-' ||
+                              byte == '_' || byte == '~';
         if (is_plain) {
             out += c;
         } else {
@@ -34,12 +35,13 @@ std::string percentEncoded(const std::string& text) {
     return out;
 }
 
-/// A path that leads below the model's folder. Files from elsewhere (absolute, of another system, upwards) are looked for
-/// beside the model by their bare name.
+/// A path that leads below the model's folder. Files from elsewhere (absolute, of another system, upwards) are looked
+/// for beside the model by their bare name.
 std::string localName(std::string path) {
     std::replace(path.begin(), path.end(), '\\', '/');
     const std::filesystem::path plain = std::filesystem::path(path).lexically_normal();
-    const bool leads_away = plain.is_absolute() || path.find(':') != std::string::npos || plain.string().starts_with("..");
+    const bool leads_away =
+        plain.is_absolute() || path.find(':') != std::string::npos || plain.string().starts_with("..");
     return leads_away ? plain.filename().string() : plain.string();
 }
 
@@ -59,8 +61,10 @@ class MaterialWriter {
         if (source.Get(AI_MATKEY_NAME, name) == AI_SUCCESS && name.length > 0) material["name"] = name.C_Str();
         Json& pbr = material["pbrMetallicRoughness"] = Json::object();
         aiColor4D color(1, 1, 1, 1);
-        if (source.Get(AI_MATKEY_BASE_COLOR, color) == AI_SUCCESS || source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS) {
-            pbr["baseColorFactor"] = {unitInterval(color.r, 1), unitInterval(color.g, 1), unitInterval(color.b, 1), unitInterval(color.a, 1)};
+        if (source.Get(AI_MATKEY_BASE_COLOR, color) == AI_SUCCESS ||
+            source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS) {
+            pbr["baseColorFactor"] = {unitInterval(color.r, 1), unitInterval(color.g, 1), unitInterval(color.b, 1),
+                                      unitInterval(color.a, 1)};
         }
         float metallic = 0, roughness = 1;
         source.Get(AI_MATKEY_METALLIC_FACTOR, metallic);
@@ -135,7 +139,8 @@ class MaterialWriter {
 
 void addMaterials(GlbBuilder& builder, const aiScene& scene) {
     MaterialWriter writer(builder, scene);
-    for (unsigned i = 0; i < scene.mNumMaterials; ++i) builder.append("materials", writer.material(*scene.mMaterials[i]));
+    for (unsigned i = 0; i < scene.mNumMaterials; ++i)
+        builder.append("materials", writer.material(*scene.mMaterials[i]));
 }
 
 }  // namespace tspace::import

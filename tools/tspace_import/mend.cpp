@@ -15,7 +15,9 @@ constexpr double kUnitTolerance = 5e-4;
 
 using Vec = std::array<double, 3>;
 
-Vec at(const std::vector<float>& values, std::size_t i) { return {values[3 * i], values[3 * i + 1], values[3 * i + 2]}; }
+Vec at(const std::vector<float>& values, std::size_t i) {
+    return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+}
 
 double lengthOf(const Vec& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
@@ -78,7 +80,7 @@ std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& p
         }
     }
     for (std::size_t t = 0; count != 0 && t + 2 < triangles.size(); t += 3) {
-        const std::uint32_t *corners = &triangles[t];
+        const std::uint32_t* corners = &triangles[t];
         if (!is_bad[corners[0]] && !is_bad[corners[1]] && !is_bad[corners[2]]) continue;
         const Vec cross = crossOf(at(positions, corners[0]), at(positions, corners[1]), at(positions, corners[2]));
         const double length = lengthOf(cross);

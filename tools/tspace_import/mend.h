@@ -32,8 +32,8 @@ std::size_t zeroNotFinite(std::vector<float>& values, std::size_t components);
 std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& positions,
                         const std::vector<std::uint32_t>& triangles);
 
-/// Column by column, as glTF wants it; Assimp stores rows. The last row is exactly 0 0 0 1. The identity, counted, where a
-/// number is not finite.
+/// Column by column, as glTF wants it; Assimp stores rows. The last row is exactly 0 0 0 1. The identity, counted,
+/// where a number is not finite.
 std::vector<float> columnsOf(const aiMatrix4x4& matrix, Mended& mended);
 
 /// Unit; the identity where it has no direction.

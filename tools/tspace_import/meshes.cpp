@@ -72,7 +72,8 @@ void addWeights(const aiMesh& mesh, const std::vector<std::uint16_t>& joints, st
     }
     std::size_t most = 1;
     for (std::vector<Influence>& list : influences) {
-        std::stable_sort(list.begin(), list.end(), [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
+        std::stable_sort(list.begin(), list.end(),
+                         [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
         if (list.size() > kPerSet * kMostSets) list.resize(kPerSet * kMostSets);
         float sum = 0;
         for (const Influence& influence : list) sum += influence.weight;
@@ -107,7 +108,8 @@ std::vector<Attribute> attributesOf(const aiMesh& mesh, const std::vector<std::u
     std::size_t uv_set = 0;
     for (unsigned set = 0; set < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++set) {
         if (mesh.mTextureCoords[set] == nullptr) continue;
-        attributes.push_back({"TEXCOORD_" + std::to_string(uv_set++), 2, vectors(mesh.mTextureCoords[set], count, 2, true)});
+        attributes.push_back(
+            {"TEXCOORD_" + std::to_string(uv_set++), 2, vectors(mesh.mTextureCoords[set], count, 2, true)});
         mended.uvs += zeroNotFinite(attributes.back().values, 2);
     }
     std::size_t color_set = 0;
@@ -116,7 +118,8 @@ std::vector<Attribute> attributesOf(const aiMesh& mesh, const std::vector<std::u
         Attribute color{"COLOR_" + std::to_string(color_set++), 4};
         for (std::size_t i = 0; i < count; ++i) {
             const aiColor4D& c = mesh.mColors[set][i];
-            for (const float value : {c.r, c.g, c.b, c.a}) color.values.push_back(static_cast<float>(unitInterval(value, 1)));
+            for (const float value : {c.r, c.g, c.b, c.a})
+                color.values.push_back(static_cast<float>(unitInterval(value, 1)));
         }
         attributes.push_back(std::move(color));
     }
@@ -135,8 +138,8 @@ std::vector<Attribute> attributesOf(const aiMesh& mesh, const std::vector<std::u
 
 /// Which vertex stands for each: the first with the same bits in every attribute.
 struct Joined {
-    std::vector<std::uint32_t> place = {};    ///< of each old vertex among those kept
-    std::vector<std::uint32_t> kept = {};     ///< old numbers
+    std::vector<std::uint32_t> place = {};  ///< of each old vertex among those kept
+    std::vector<std::uint32_t> kept = {};   ///< old numbers
 };
 
 Joined joinEqual(const std::vector<Attribute>& attributes, std::size_t count) {
@@ -168,7 +171,8 @@ std::vector<std::uint32_t> trianglesOf(const aiMesh& mesh) {
         only_triangles = only_triangles && face.mNumIndices == 3;
         sizes.push_back(face.mNumIndices);
         for (unsigned k = 0; k < face.mNumIndices; ++k) {
-            if (face.mIndices[k] >= mesh.mNumVertices) throw std::runtime_error("a face names a vertex that is not there");
+            if (face.mIndices[k] >= mesh.mNumVertices)
+                throw std::runtime_error("a face names a vertex that is not there");
             indices.push_back(face.mIndices[k]);
         }
     }
@@ -224,8 +228,7 @@ std::optional<Json> addPrimitive(GlbBuilder& builder, const aiMesh& mesh, const 
             continue;
         }
         const std::size_t space = attribute.name.rfind(' ');
-        const auto [entry, is_new] =
-            target_of.try_emplace(attribute.name.substr(0, space), target_of.size());
+        const auto [entry, is_new] = target_of.try_emplace(attribute.name.substr(0, space), target_of.size());
         if (is_new) primitive["targets"].push_back(Json::object());
         primitive["targets"][entry->second][attribute.name.substr(space + 1)] = accessor;
     }

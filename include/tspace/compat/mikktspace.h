@@ -32,12 +32,9 @@ typedef struct SMikkTSpaceInterface {
 
     /* Writes position (3 floats), normal (3) and texture coordinate (2) of one vertex of one face. Normals
      * are used as given. Equal vertices are found by value, so faces need not share an index. */
-    void (*m_getPosition)(const SMikkTSpaceContext* pContext, float fvPosOut[], const int iFace,
-                          const int iVert);
-    void (*m_getNormal)(const SMikkTSpaceContext* pContext, float fvNormOut[], const int iFace,
-                        const int iVert);
-    void (*m_getTexCoord)(const SMikkTSpaceContext* pContext, float fvTexcOut[], const int iFace,
-                          const int iVert);
+    void (*m_getPosition)(const SMikkTSpaceContext* pContext, float fvPosOut[], const int iFace, const int iVert);
+    void (*m_getNormal)(const SMikkTSpaceContext* pContext, float fvNormOut[], const int iFace, const int iVert);
+    void (*m_getTexCoord)(const SMikkTSpaceContext* pContext, float fvTexcOut[], const int iFace, const int iVert);
 
     /* Takes the unit tangent (3 floats) and sign of one vertex of one face. The bitangent for the pixel
      * shader is fSign * cross(normal, tangent). Results belong to (face, vertex) pairs: an index list made
@@ -48,9 +45,9 @@ typedef struct SMikkTSpaceInterface {
     /* Takes everything: unit tangent and bitangent (3 floats each; not perpendicular in general), their
      * lengths before normalisation, and whether texture and surface have the same orientation (then the sign
      * is +1). Called before m_setTSpaceBasic for each vertex. */
-    void (*m_setTSpace)(const SMikkTSpaceContext* pContext, const float fvTangent[],
-                        const float fvBiTangent[], const float fMagS, const float fMagT,
-                        const tbool bIsOrientationPreserving, const int iFace, const int iVert);
+    void (*m_setTSpace)(const SMikkTSpaceContext* pContext, const float fvTangent[], const float fvBiTangent[],
+                        const float fMagS, const float fMagT, const tbool bIsOrientationPreserving, const int iFace,
+                        const int iVert);
 } SMikkTSpaceInterface;
 
 struct SMikkTSpaceContext {

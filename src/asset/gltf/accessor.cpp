@@ -33,8 +33,7 @@ ComponentType readComponentType(const Json& object, const std::string& place) {
         case 5126:
             return static_cast<ComponentType>(value);
         default:
-            failAt("the component type " + std::to_string(value) + " does not exist",
-                   join(place, "componentType"));
+            failAt("the component type " + std::to_string(value) + " does not exist", join(place, "componentType"));
     }
 }
 
@@ -42,13 +41,8 @@ struct Shape {
     const char* name;
     std::size_t columns, rows;
 };
-constexpr std::array<Shape, 7> kShapes = {{{"SCALAR", 1, 1},
-                                           {"VEC2", 1, 2},
-                                           {"VEC3", 1, 3},
-                                           {"VEC4", 1, 4},
-                                           {"MAT2", 2, 2},
-                                           {"MAT3", 3, 3},
-                                           {"MAT4", 4, 4}}};
+constexpr std::array<Shape, 7> kShapes = {
+    {{"SCALAR", 1, 1}, {"VEC2", 1, 2}, {"VEC3", 1, 3}, {"VEC4", 1, 4}, {"MAT2", 2, 2}, {"MAT3", 3, 3}, {"MAT4", 4, 4}}};
 
 void setShape(Accessor& accessor, const Json& object, const std::string& place) {
     const std::string name = readString(object, "type", place);
@@ -84,8 +78,7 @@ void checkRange(const BufferView& view, std::size_t offset, std::size_t count, s
 }
 
 std::size_t viewIndex(const Document& document, const Json& object, const std::string& place) {
-    const auto index =
-        readIndex(object, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
+    const auto index = readIndex(object, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
     if (!index) failAt("the member 'bufferView' is missing", place);
     return *index;
 }
@@ -94,25 +87,22 @@ SparsePart readSparse(const Document& document, const Json& object, const Access
                       const std::string& place) {
     SparsePart sparse;
     sparse.count = readSize(object, "count", place);
-    if (sparse.count > accessor.count)
-        failAt("there are more sparse elements than elements", join(place, "count"));
+    if (sparse.count > accessor.count) failAt("there are more sparse elements than elements", join(place, "count"));
     const Json* indices = readObject(object, "indices", place);
     const Json* values = readObject(object, "values", place);
     if (indices == nullptr || values == nullptr) failAt("sparse 'indices' or 'values' are missing", place);
     const std::string index_place = join(place, "indices"), value_place = join(place, "values");
     sparse.index_type = readComponentType(*indices, index_place);
-    const bool is_unsigned = sparse.index_type == ComponentType::u8 ||
-                             sparse.index_type == ComponentType::u16 ||
+    const bool is_unsigned = sparse.index_type == ComponentType::u8 || sparse.index_type == ComponentType::u16 ||
                              sparse.index_type == ComponentType::u32;
-    if (!is_unsigned)
-        failAt("sparse indices must be unsigned whole numbers", join(index_place, "componentType"));
+    if (!is_unsigned) failAt("sparse indices must be unsigned whole numbers", join(index_place, "componentType"));
     sparse.index_view = viewIndex(document, *indices, index_place);
     sparse.index_offset = readSize(*indices, "byteOffset", index_place, 0);
     sparse.value_view = viewIndex(document, *values, value_place);
     sparse.value_offset = readSize(*values, "byteOffset", value_place, 0);
     const std::size_t index_bytes = bytesOf(sparse.index_type);
-    checkRange(readBufferView(document, sparse.index_view), sparse.index_offset, sparse.count, index_bytes,
-               index_bytes, index_place);
+    checkRange(readBufferView(document, sparse.index_view), sparse.index_offset, sparse.count, index_bytes, index_bytes,
+               index_place);
     if (accessor.component_count > 0) {
         checkRange(readBufferView(document, sparse.value_view), sparse.value_offset, sparse.count,
                    accessor.element_bytes, accessor.data_bytes, value_place);
@@ -159,27 +149,23 @@ std::uint32_t unsignedAt(const std::uint8_t* bytes, ComponentType type) {
 void applySparse(const Document& document, const Accessor& accessor, std::uint8_t* elements) {
     const SparsePart& sparse = *accessor.sparse;
     if (sparse.count == 0) return;
-    const std::uint8_t* indices = viewBytes(document, sparse.index_view, sparse.index_offset,
-                                            sparse.count * bytesOf(sparse.index_type));
-    const std::uint8_t* values =
-        viewBytes(document, sparse.value_view, sparse.value_offset,
-                  (sparse.count - 1) * accessor.element_bytes + accessor.data_bytes);
+    const std::uint8_t* indices =
+        viewBytes(document, sparse.index_view, sparse.index_offset, sparse.count * bytesOf(sparse.index_type));
+    const std::uint8_t* values = viewBytes(document, sparse.value_view, sparse.value_offset,
+                                           (sparse.count - 1) * accessor.element_bytes + accessor.data_bytes);
     for (std::size_t i = 0; i < sparse.count; ++i) {
         const std::uint32_t at = unsignedAt(indices + i * bytesOf(sparse.index_type), sparse.index_type);
         if (at >= accessor.count) {
-            failAt("the sparse index " + std::to_string(at) + " is out of range",
-                   accessor.place() + "/sparse/indices");
+            failAt("the sparse index " + std::to_string(at) + " is out of range", accessor.place() + "/sparse/indices");
         }
-        std::memcpy(elements + at * accessor.element_bytes, values + i * accessor.element_bytes,
-                    accessor.data_bytes);
+        std::memcpy(elements + at * accessor.element_bytes, values + i * accessor.element_bytes, accessor.data_bytes);
     }
 }
 
 /// Where the elements lie; null for those that are all zero. Fails where there are none, and for an unknown type.
 const std::uint8_t* elementSource(const Document& document, const Accessor& accessor) {
     if (accessor.component_count == 0) {
-        failAt("the accessor type " + inQuotes(accessor.type) + " does not exist",
-               join(accessor.place(), "type"));
+        failAt("the accessor type " + inQuotes(accessor.type) + " does not exist", join(accessor.place(), "type"));
     }
     if (const auto decoded = document.elements.find(accessor.index); decoded != document.elements.end())
         return decoded->second.data();
@@ -266,8 +252,8 @@ template <class Vec>
 std::vector<Vec> decodeVec(const Document& document, const Accessor& accessor, const std::string& place) {
     constexpr std::size_t components = sizeof(Vec) / sizeof(float);
     if (accessor.component_count != components || accessor.type[0] != 'V') {
-        failAt("the accessor is " + formatName(accessor) + ", but the attribute needs " +
-                   std::to_string(components) + " components",
+        failAt("the accessor is " + formatName(accessor) + ", but the attribute needs " + std::to_string(components) +
+                   " components",
                place);
     }
     if (accessor.component == ComponentType::f32) {
@@ -314,10 +300,9 @@ BufferView readBufferView(const Document& document, std::size_t index) {
     view.byte_count = readSize(object, "byteLength", place);
     view.stride = readSize(object, "byteStride", place, 0);
     const Buffer& data = document.buffers[view.buffer];
-    const std::size_t limit =
-        data.source == BufferSource::absent
-            ? readSize(rootArray(document, "buffers")[view.buffer], "byteLength", "/buffers")
-            : data.bytes.size();
+    const std::size_t limit = data.source == BufferSource::absent
+                                  ? readSize(rootArray(document, "buffers")[view.buffer], "byteLength", "/buffers")
+                                  : data.bytes.size();
     if (view.begin > limit || view.byte_count > limit - view.begin) {
         failAt("the buffer view reaches beyond its buffer of " + std::to_string(limit) + " bytes", place);
     }
@@ -333,8 +318,7 @@ Accessor readAccessor(const Document& document, std::size_t index) {
     setShape(accessor, object, place);
     accessor.normalized = readBool(object, "normalized", place, false);
     accessor.count = readSize(object, "count", place);
-    accessor.view =
-        readIndex(object, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
+    accessor.view = readIndex(object, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
     accessor.byte_offset = readSize(object, "byteOffset", place, 0);
     accessor.stride = accessor.element_bytes;
     if (accessor.count > kMaxCorners) {
@@ -348,13 +332,12 @@ Accessor readAccessor(const Document& document, std::size_t index) {
         const BufferView view = readBufferView(document, *accessor.view);
         if (view.stride != 0) accessor.stride = view.stride;
         if (accessor.stride < accessor.element_bytes) {
-            failAt("elements of " + std::to_string(accessor.element_bytes) +
-                       " bytes overlap at a stride of " + std::to_string(accessor.stride),
+            failAt("elements of " + std::to_string(accessor.element_bytes) + " bytes overlap at a stride of " +
+                       std::to_string(accessor.stride),
                    join(join("/bufferViews", *accessor.view), "byteStride"));
         }
         if (accessor.component_count > 0) {
-            checkRange(view, accessor.byte_offset, accessor.count, accessor.stride, accessor.data_bytes,
-                       place);
+            checkRange(view, accessor.byte_offset, accessor.count, accessor.stride, accessor.data_bytes, place);
         }
     }
     if (const Json* sparse = readObject(object, "sparse", place)) {
@@ -366,8 +349,8 @@ Accessor readAccessor(const Document& document, std::size_t index) {
 bool hasData(const Document& document, const Accessor& accessor) {
     if (document.hidden_accessors.count(accessor.index) != 0) return false;
     return (!accessor.view || viewHasData(document, *accessor.view)) &&
-           (!accessor.sparse || (viewHasData(document, accessor.sparse->index_view) &&
-                                 viewHasData(document, accessor.sparse->value_view)));
+           (!accessor.sparse ||
+            (viewHasData(document, accessor.sparse->index_view) && viewHasData(document, accessor.sparse->value_view)));
 }
 
 std::optional<ElementView> viewElements(const Document& document, const Accessor& accessor) {
@@ -380,8 +363,8 @@ Bytes copyElements(const Document& document, const Accessor& accessor) {
     const std::uint8_t* source = elementSource(document, accessor);
     // Zeros only where something stays unset.
     const bool covers_all = source != nullptr && accessor.data_bytes == accessor.element_bytes;
-    Bytes elements = covers_all ? Bytes(accessor.count * accessor.element_bytes)
-                                : Bytes(accessor.count * accessor.element_bytes, 0);
+    Bytes elements =
+        covers_all ? Bytes(accessor.count * accessor.element_bytes) : Bytes(accessor.count * accessor.element_bytes, 0);
     if (source != nullptr) pack(accessor, source, elements.data());
     if (accessor.sparse) applySparse(document, accessor, elements.data());
     return elements;
@@ -397,10 +380,9 @@ std::vector<Vec4> decodeVec4(const Document& document, const Accessor& accessor,
     return decodeVec<Vec4>(document, accessor, place);
 }
 
-std::vector<std::uint32_t> decodeIndices(const Document& document, const Accessor& accessor,
-                                         std::size_t vertex_count, const std::string& place) {
-    const bool is_unsigned = accessor.component == ComponentType::u8 ||
-                             accessor.component == ComponentType::u16 ||
+std::vector<std::uint32_t> decodeIndices(const Document& document, const Accessor& accessor, std::size_t vertex_count,
+                                         const std::string& place) {
+    const bool is_unsigned = accessor.component == ComponentType::u8 || accessor.component == ComponentType::u16 ||
                              accessor.component == ComponentType::u32;
     if (!is_unsigned || accessor.component_count != 1 || accessor.normalized) {
         failAt("indices must be unsigned scalars, not " + formatName(accessor), place);
@@ -450,8 +432,7 @@ std::string formatName(const Accessor& accessor) {
     if (accessor.component_count == 0) return name + " of an unknown type";
     if (accessor.component_count == 1) return name;
     // "snorm16x3", but "float3".
-    return name + (accessor.component == ComponentType::f32 ? "" : "x") +
-           std::to_string(accessor.component_count);
+    return name + (accessor.component == ComponentType::f32 ? "" : "x") + std::to_string(accessor.component_count);
 }
 
 }  // namespace tspace::gltf

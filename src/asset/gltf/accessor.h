@@ -21,7 +21,7 @@ struct BufferView {
     std::size_t buffer = 0;
     std::size_t begin = 0;
     std::size_t byte_count = 0;
-    std::size_t stride = 0;   ///< 0: tightly packed
+    std::size_t stride = 0;  ///< 0: tightly packed
 };
 BufferView readBufferView(const Document& document, std::size_t index);
 
@@ -48,8 +48,7 @@ struct Accessor {
 
     [[nodiscard]] std::string place() const { return "/accessors/" + std::to_string(index); }
     [[nodiscard]] bool isFloatVec(std::size_t components) const {
-        return component == ComponentType::f32 && component_count == components && !normalized &&
-               type[0] == 'V';
+        return component == ComponentType::f32 && component_count == components && !normalized && type[0] == 'V';
     }
 };
 
@@ -82,19 +81,25 @@ std::vector<Vec4> decodeVec4(const Document& document, const Accessor& accessor,
 
 /// u8, u16 or u32 scalars. Each must be smaller than `vertex_count`, which also excludes primitive restart
 /// values.
-std::vector<std::uint32_t> decodeIndices(const Document& document, const Accessor& accessor,
-                                         std::size_t vertex_count, const std::string& place);
+std::vector<std::uint32_t> decodeIndices(const Document& document, const Accessor& accessor, std::size_t vertex_count,
+                                         const std::string& place);
 
 /// body(size), where size is a constant for the usual ones: copies of single elements are then moves, not calls.
 template <class Body>
 void withElementSize(std::size_t bytes, Body&& body) {
     switch (bytes) {
-        case 2: return body(std::integral_constant<std::size_t, 2>{});
-        case 4: return body(std::integral_constant<std::size_t, 4>{});
-        case 8: return body(std::integral_constant<std::size_t, 8>{});
-        case 12: return body(std::integral_constant<std::size_t, 12>{});
-        case 16: return body(std::integral_constant<std::size_t, 16>{});
-        default: return body(bytes);
+        case 2:
+            return body(std::integral_constant<std::size_t, 2>{});
+        case 4:
+            return body(std::integral_constant<std::size_t, 4>{});
+        case 8:
+            return body(std::integral_constant<std::size_t, 8>{});
+        case 12:
+            return body(std::integral_constant<std::size_t, 12>{});
+        case 16:
+            return body(std::integral_constant<std::size_t, 16>{});
+        default:
+            return body(bytes);
     }
 }
 

@@ -75,8 +75,7 @@ class Applier {
         for (const std::size_t number : geometry.primitives) {
             Json& object = editor_.primitive(primitives_[number].mesh, primitives_[number].index);
             object["indices"] = stored;
-            if (primitives_[number].mode != Mode::triangles)
-                object["mode"] = static_cast<unsigned>(Mode::triangles);
+            if (primitives_[number].mode != Mode::triangles) object["mode"] = static_cast<unsigned>(Mode::triangles);
             editor_.moveUse(primitives_[number].indices, stored);
         }
     }
@@ -155,8 +154,8 @@ std::string keptNote(const PoolElements& elements) {
 
 }  // namespace
 
-void applyFrames(Editor& editor, const Document& document, std::span<const Primitive> primitives,
-                 const Pool& pool, PoolElements&& elements, std::span<PrimitiveReport> reports) {
+void applyFrames(Editor& editor, const Document& document, std::span<const Primitive> primitives, const Pool& pool,
+                 PoolElements&& elements, std::span<PrimitiveReport> reports) {
     Applier applier(editor, document, primitives, pool, elements);
     const bool changed = applier.run();
     for (const std::size_t number : pool.primitives) {

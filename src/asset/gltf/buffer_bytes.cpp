@@ -107,7 +107,9 @@ void BufferBytes::cut(std::span<const ByteCut> cuts) {
             if (!is_cut && stop - at == piece.count) {
                 addPiece(piece);
             } else if (!is_cut) {
-                addPiece({.count = stop - at, .bytes = piece.there().subspan(at - piece.begin, stop - at), .later = piece.later});
+                addPiece({.count = stop - at,
+                          .bytes = piece.there().subspan(at - piece.begin, stop - at),
+                          .later = piece.later});
             }
             at = stop;
         }
@@ -117,7 +119,8 @@ void BufferBytes::cut(std::span<const ByteCut> cuts) {
 std::vector<OutputPiece> BufferBytes::pieces() const {
     std::vector<OutputPiece> all;
     for (const Piece& piece : pieces_)
-        all.push_back(piece.bytes.empty() ? piece.later->piece() : OutputPiece(std::span<const std::uint8_t>(piece.bytes)));
+        all.push_back(piece.bytes.empty() ? piece.later->piece()
+                                          : OutputPiece(std::span<const std::uint8_t>(piece.bytes)));
     return all;
 }
 

@@ -21,8 +21,7 @@ constexpr std::size_t kJoinAlignment = 8;  // more than glTF's 4: data of extens
 constexpr const char* kNewBufferEnding = ".tspace.bin";
 
 std::string mimeTypeOf(const Bytes& bytes, const std::string& declared) {
-    const std::string_view head(reinterpret_cast<const char*>(bytes.data()),
-                                std::min<std::size_t>(bytes.size(), 16));
+    const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 16));
     if (head.substr(0, 8) == "\x89PNG\r\n\x1a\n") return "image/png";
     if (head.substr(0, 3) == "\xff\xd8\xff") return "image/jpeg";
     if (head.substr(0, 4) == "RIFF" && head.size() >= 12 && head.substr(8, 4) == "WEBP") return "image/webp";
@@ -33,9 +32,8 @@ std::string mimeTypeOf(const Bytes& bytes, const std::string& declared) {
 }
 
 /// The bytes and media type behind an image's URI, or nothing (with a warning) when they cannot be had.
-std::optional<DataUri> loadImage(Document& document, const std::string& uri,
-                                 const std::string& declared, const std::string& place,
-                                 std::vector<std::string>& warnings) {
+std::optional<DataUri> loadImage(Document& document, const std::string& uri, const std::string& declared,
+                                 const std::string& place, std::vector<std::string>& warnings) {
     DataUri image;
     if (uriKind(uri) == UriKind::data) {
         image = decodeDataUri(uri, join(place, "uri"));
@@ -44,8 +42,7 @@ std::optional<DataUri> loadImage(Document& document, const std::string& uri,
         warnings.push_back("the image " + inQuotes(uri) + " is not a file and stays outside of the GLB");
         return {};
     } else {
-        const fs::path path =
-            resolveUri(document.folder, uri, document.options.allow_external, join(place, "uri"));
+        const fs::path path = resolveUri(document.folder, uri, document.options.allow_external, join(place, "uri"));
         std::error_code error;
         if (!fs::exists(path, error)) {
             warnings.push_back("the image " + inQuotes(uri) + " does not exist; its URI is kept");
@@ -57,8 +54,7 @@ std::optional<DataUri> loadImage(Document& document, const std::string& uri,
     }
     image.mime_type = mimeTypeOf(image.bytes, image.mime_type);
     if (image.bytes.empty() || image.mime_type.empty()) {
-        warnings.push_back("the image " + inQuotes(uri, 60) +
-                           " has no known type and stays outside of the GLB");
+        warnings.push_back("the image " + inQuotes(uri, 60) + " has no known type and stays outside of the GLB");
         return {};
     }
     return image;
@@ -171,8 +167,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
     const fs::path from = resolveUri(document.folder, uri, document.options.allow_external, place);
     const fs::path relative = fs::path(pathOfUri(uri)).lexically_normal();
     if (relative.is_absolute() || *relative.begin() == "..") {
-        warnings.push_back("the file " + inQuotes(uri) +
-                           " lies outside of the model's folder and was not copied");
+        warnings.push_back("the file " + inQuotes(uri) + " lies outside of the model's folder and was not copied");
         return;
     }
     std::error_code error;
@@ -203,13 +198,11 @@ void copyNamedFiles(const Document& document, const OutputTarget& target, Atomic
     const Json& buffers = rootArray(document, "buffers");
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         if (document.buffers[i].own || document.buffers[i].source != BufferSource::file) continue;
-        copyNamedFile(document, target, readString(buffers[i], "uri", ""), join("/buffers", i), output,
-                      warnings);
+        copyNamedFile(document, target, readString(buffers[i], "uri", ""), join("/buffers", i), output, warnings);
     }
     const Json& images = rootArray(document, "images");
     for (std::size_t i = 0; i < images.size(); ++i) {
-        copyNamedFile(document, target, readString(images[i], "uri", ""), join("/images", i), output,
-                      warnings);
+        copyNamedFile(document, target, readString(images[i], "uri", ""), join("/images", i), output, warnings);
     }
 }
 
@@ -231,8 +224,7 @@ OutputTarget outputTarget(const Document& document, const fs::path& path) {
     target.path = path;
     const std::string extension = lowerExtension(path);
     if (extension != ".glb" && extension != ".gltf") {
-        failFile(ErrorCode::unsupportedFile,
-                 "the output " + pathInQuotes(path) + " is neither .glb nor .gltf");
+        failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(path) + " is neither .glb nor .gltf");
     }
     target.container = extension == ".glb" ? Container::glb : Container::gltf;
     target.takes_images_in =
@@ -247,8 +239,7 @@ std::string freeFileName(const Document& document, const OutputTarget& target, c
     const std::size_t dot = ending.rfind('.');
     std::string name = stem + ending;
     const auto taken = [&] {
-        return namesFile(rootArray(document, "buffers"), name) ||
-               namesFile(rootArray(document, "images"), name);
+        return namesFile(rootArray(document, "buffers"), name) || namesFile(rootArray(document, "images"), name);
     };
     for (int number = 2; taken(); ++number) {
         name = stem + ending.substr(0, dot) + "-" + std::to_string(number) + ending.substr(dot);
@@ -298,9 +289,8 @@ void writeDocument(Document& document, const OutputTarget& target, AtomicOutput&
     if (target.container == Container::glb) {
         const std::string text = writeJson(document.json, document.style);
         const bool has_bin = !document.buffers.empty() && document.buffers[0].source == BufferSource::bin;
-        const GlbFrame frame =
-            frameGlb(text, has_bin ? std::optional(document.buffers[0].bytes.size()) : std::nullopt,
-                     document.extra_chunks);
+        const GlbFrame frame = frameGlb(text, has_bin ? std::optional(document.buffers[0].bytes.size()) : std::nullopt,
+                                        document.extra_chunks);
         std::vector<OutputPiece> pieces;
         if (has_bin) pieces = document.buffers[0].bytes.pieces();
         pieces.insert(pieces.begin(), frame.head);

@@ -47,9 +47,7 @@ constexpr std::array<const char*, 28> kHarmless = {"KHR_mesh_quantization",
                                                    "KHR_node_hoverability",
                                                    "KHR_interactivity"};
 
-bool isCompression(const std::string& name) {
-    return name == kExtMeshopt || name == kKhrMeshopt || name == kDraco;
-}
+bool isCompression(const std::string& name) { return name == kExtMeshopt || name == kKhrMeshopt || name == kDraco; }
 
 /// Why this build cannot read it; empty when it can.
 std::string compressionMissing(const std::string& name) {
@@ -61,10 +59,9 @@ std::string compressionMissing(const std::string& name) {
 void checkRoot(const Json& root) {
     // Looking up a member is a linear search, done for every accessor.
     constexpr std::size_t kMaxRootMembers = 1000;
-    if (root.size() > kMaxRootMembers)
-        failFile(ErrorCode::invalidFile, "the root has more than 1000 members", "");
-    for (const char* name : {"accessors", "bufferViews", "buffers", "images", "materials", "meshes", "nodes",
-                             "skins", "animations"}) {
+    if (root.size() > kMaxRootMembers) failFile(ErrorCode::invalidFile, "the root has more than 1000 members", "");
+    for (const char* name :
+         {"accessors", "bufferViews", "buffers", "images", "materials", "meshes", "nodes", "skins", "animations"}) {
         readArray(root, name, "", true);
     }
 }
@@ -87,14 +84,12 @@ void checkVersion(const Json& root) {
     if (asset == nullptr)
         failFile(ErrorCode::invalidFile, "the member 'asset' is missing: this is not a glTF 2.0 file", "");
     for (const char* key : {"version", "minVersion"}) {
-        const std::string version =
-            readString(*asset, key, "/asset", std::string(key) == "version" ? "" : "2.0");
-        if (version.empty())
-            failFile(ErrorCode::invalidFile, "the glTF version is missing", "/asset/version");
+        const std::string version = readString(*asset, key, "/asset", std::string(key) == "version" ? "" : "2.0");
+        if (version.empty()) failFile(ErrorCode::invalidFile, "the glTF version is missing", "/asset/version");
         const bool readable = std::string(key) == "version" ? version.substr(0, 2) == "2." : version == "2.0";
         if (!readable) {
-            failFile(ErrorCode::unsupportedFile,
-                     "the file needs glTF version " + inQuotes(version) + ", not 2.0", join("/asset", key));
+            failFile(ErrorCode::unsupportedFile, "the file needs glTF version " + inQuotes(version) + ", not 2.0",
+                     join("/asset", key));
         }
     }
 }
@@ -108,8 +103,7 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
         if (index != 0 || glb == nullptr || !glb->bin) {
             if (document.container == Container::glb && index == 0 && meshoptExtension(entry) == nullptr &&
                 length > 0) {
-                failFile(ErrorCode::invalidFile, "the buffer is in the BIN chunk, but the file has none",
-                         place);
+                failFile(ErrorCode::invalidFile, "the buffer is in the BIN chunk, but the file has none", place);
             }
             return buffer;
         }
@@ -145,10 +139,10 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
         document.memory->take(bytes.size(), place);
     }
     if (length > bytes.size()) {
-        failFile(ErrorCode::invalidFile,
-                 "the buffer says " + std::to_string(length) + " bytes, but its data has " +
-                     std::to_string(bytes.size()),
-                 join(place, "byteLength"));
+        failFile(
+            ErrorCode::invalidFile,
+            "the buffer says " + std::to_string(length) + " bytes, but its data has " + std::to_string(bytes.size()),
+            join(place, "byteLength"));
     }
     bytes.resize(length);
     buffer.bytes = BufferBytes(std::move(bytes));
@@ -174,8 +168,9 @@ void takeEntries(const Document& document) {
         const char* name;
         std::size_t entry_bytes;
     };
-    for (const List& list : {List{"buffers", 1500}, List{"images", 500}, List{"accessors", 200}, List{"bufferViews", 200},
-                             List{"materials", 100}, List{"meshes", 100}, List{"nodes", 100}}) {
+    for (const List& list :
+         {List{"buffers", 1500}, List{"images", 500}, List{"accessors", 200}, List{"bufferViews", 200},
+          List{"materials", 100}, List{"meshes", 100}, List{"nodes", 100}}) {
         document.memory->take(rootArray(document, list.name).size() * list.entry_bytes, std::string("/") + list.name);
     }
 }
@@ -189,9 +184,7 @@ void checkViewsAndAccessors(const Document& document) {
 
 }  // namespace
 
-const Json& rootArray(const Document& document, const char* name) {
-    return readArray(document.json, name, "", false);
-}
+const Json& rootArray(const Document& document, const char* name) { return readArray(document.json, name, "", false); }
 
 Json& editableRootArray(Document& document, const char* name) {
     Json& array = document.json[name];

@@ -63,11 +63,11 @@ struct Document {
     /// How the values of a Draco attribute were rounded; by view and Draco id.
     std::map<std::pair<std::size_t, std::uint32_t>, DracoRounding> draco_roundings = {};
     std::vector<ExtraChunk> extra_chunks = {};
-    std::uint64_t input_bytes = 0;  ///< the model file and its buffer files
+    std::uint64_t input_bytes = 0;              ///< the model file and its buffer files
     std::vector<std::string> input_files = {};  ///< what was read beside the model file
-    bool imported = false;  ///< made from a file of another format: `file_bytes` is not that file
+    bool imported = false;                      ///< made from a file of another format: `file_bytes` is not that file
     FileOptions options = {};
-    std::vector<std::string> warnings = {};  ///< about how the file is stored
+    std::vector<std::string> warnings = {};                                   ///< about how the file is stored
     std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< what it may still take
 };
 

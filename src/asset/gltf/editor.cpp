@@ -101,9 +101,8 @@ bool Editor::canOverwrite(const Accessor& accessor) const {
     if (rootArray(document_, "bufferViews")[*accessor.view].contains("extensions")) return false;
     const Extent own = extentOf(document_, accessor);
     if (!document_.buffers[own.buffer].own) return false;
-    return std::none_of(extents_.begin(), extents_.end(), [&](const Extent& other) {
-        return other.accessor != accessor.index && overlaps(own, other);
-    });
+    return std::none_of(extents_.begin(), extents_.end(),
+                        [&](const Extent& other) { return other.accessor != accessor.index && overlaps(own, other); });
 }
 
 void Editor::overwrite(const Accessor& accessor, const Bytes& elements) {
@@ -111,13 +110,12 @@ void Editor::overwrite(const Accessor& accessor, const Bytes& elements) {
     // What is to be copied later may lie here.
     for (Buffer& any : document_.buffers) any.bytes.makeAll();
     Buffer& buffer = document_.buffers[view.buffer];
-    std::uint8_t* to = buffer.bytes
-                           .range(view.begin + accessor.byte_offset,
-                                  (accessor.count - 1) * accessor.stride + accessor.data_bytes)
-                           .data();
+    std::uint8_t* to =
+        buffer.bytes
+            .range(view.begin + accessor.byte_offset, (accessor.count - 1) * accessor.stride + accessor.data_bytes)
+            .data();
     for (std::size_t i = 0; i < accessor.count; ++i) {
-        std::memcpy(to + i * accessor.stride, elements.data() + i * accessor.element_bytes,
-                    accessor.element_bytes);
+        std::memcpy(to + i * accessor.stride, elements.data() + i * accessor.element_bytes, accessor.element_bytes);
     }
     Json& json = document_.json["accessors"][accessor.index];
     ElementData data{.component = accessor.component, .element_bytes = accessor.element_bytes, .bytes = elements};
@@ -193,8 +191,7 @@ Editor::Form Editor::formLike(std::optional<std::size_t> accessor) const {
 
 std::size_t Editor::storeView(ElementData&& data, const Form& form) {
     // Vertex attributes start at multiples of 4 bytes each; indices are packed.
-    const std::size_t stride =
-        data.target == kVertexTarget ? (data.element_bytes + 3) / 4 * 4 : data.element_bytes;
+    const std::size_t stride = data.target == kVertexTarget ? (data.element_bytes + 3) / 4 * 4 : data.element_bytes;
     const std::size_t count = data.byteCount() / data.element_bytes;
     // The codec knows no indices of one byte.
     const bool packs = form.meshopt != nullptr && stride > 1;
@@ -219,7 +216,8 @@ std::size_t Editor::storeView(ElementData&& data, const Form& form) {
         view.erase("target");
     }
     if (packs) {
-        to_encode_[index] = {form.meshopt, data.filter, std::move(data.unfiltered), data.target == kIndexTarget, stride};
+        to_encode_[index] = {form.meshopt, data.filter, std::move(data.unfiltered), data.target == kIndexTarget,
+                             stride};
     }
     return index;
 }
@@ -328,9 +326,9 @@ void Editor::finish() {
     if (!changed_) return;
     for (const auto& [view, request] : to_encode_) encodeMeshoptView(document_, view, request, targetBuffer());
     to_encode_.clear();
-    encodeDracoPrimitives(document_, changed_accessors_, view_uses_, [&](Bytes data, std::optional<std::size_t> replaces) {
-        return storeBlob(std::move(data), replaces);
-    });
+    encodeDracoPrimitives(
+        document_, changed_accessors_, view_uses_,
+        [&](Bytes data, std::optional<std::size_t> replaces) { return storeBlob(std::move(data), replaces); });
     for (const std::size_t view : spare_views_) shrinkView(view);
     spare_views_.clear();
     if (!vacated_.empty()) cutVacated(document_, vacated_);

@@ -21,7 +21,7 @@ namespace tspace::gltf {
 inline constexpr unsigned kVertexTarget = 34962;  // ARRAY_BUFFER
 inline constexpr unsigned kIndexTarget = 34963;   // ELEMENT_ARRAY_BUFFER
 
-inline constexpr unsigned kNoTarget = 0;          // the parts of a sparse accessor
+inline constexpr unsigned kNoTarget = 0;  // the parts of a sparse accessor
 
 /// Elements for a new or replaced accessor, tightly packed.
 struct ElementData {
@@ -39,8 +39,8 @@ struct ElementData {
     bool in_draco = false;  ///< they lie in data of a Draco primitive, which the caller stores
     Bytes unfiltered = {};
     MeshoptFilter filter = MeshoptFilter::none;
-    /// There: `bytes` holds only the elements at these places, ascending, and all others of the `count` are zero. They are
-    /// stored as a sparse accessor.
+    /// There: `bytes` holds only the elements at these places, ascending, and all others of the `count` are zero. They
+    /// are stored as a sparse accessor.
     std::optional<std::vector<std::uint32_t>> places = {};
     Json min = nullptr, max = nullptr;  ///< written unless null
 
@@ -63,19 +63,19 @@ class Editor {
     /// One primitive lets go of `from` (if any) and now uses `to`.
     void moveUse(std::optional<std::size_t> from, std::size_t to);
 
-    /// One primitive lets go of an accessor. When nothing uses it any more its data go: its entry is left as one zero, and
-    /// the entry of a view that nothing uses as one byte, because entries are never removed.
+    /// One primitive lets go of an accessor. When nothing uses it any more its data go: its entry is left as one zero,
+    /// and the entry of a view that nothing uses as one byte, because entries are never removed.
     void release(std::size_t accessor);
 
     /// True when the accessor's elements may be overwritten where they are: not sparse, in an own buffer, and
     /// no other accessor, image or extension sees these bytes.
     [[nodiscard]] bool canOverwrite(const Accessor& accessor) const;
-    /// Elements of the accessor's own format. Bounds of floats are brought up to date where the accessor has them; of others
-    /// they are removed.
+    /// Elements of the accessor's own format. Bounds of floats are brought up to date where the accessor has them; of
+    /// others they are removed.
     void overwrite(const Accessor& accessor, const Bytes& elements);
 
-    /// Makes an accessor for `data`, whose bytes it takes. `replaces`: an accessor that nothing else uses; its entry is re-used.
-    /// Returns its index.
+    /// Makes an accessor for `data`, whose bytes it takes. `replaces`: an accessor that nothing else uses; its entry is
+    /// re-used. Returns its index.
     std::size_t store(ElementData&& data, std::optional<std::size_t> replaces);
 
     /// Stores bytes in a view without a target and returns its index; `replaces`: a view that only the caller uses.
@@ -84,7 +84,8 @@ class Editor {
     void letGoOfView(std::size_t view);
     /// Takes the meshopt extension from a view, which then has plain bytes in a file.
     void unpackView(std::size_t view);
-    /// Has the first `byte_count` bytes of a plain view encoded by EXT_meshopt_compression; zeros follow where it has fewer.
+    /// Has the first `byte_count` bytes of a plain view encoded by EXT_meshopt_compression; zeros follow where it has
+    /// fewer.
     void packView(std::size_t view, std::size_t byte_count, std::size_t stride, bool is_indices);
 
     /// The file needs this extension from now on.
@@ -94,15 +95,15 @@ class Editor {
     Json& primitive(std::size_t mesh, std::size_t index);
     Json& accessor(std::size_t index);
 
-    /// Encodes views and Draco primitives that changed, cuts out bytes that were left behind, and brings lengths up to date.
-    /// Call once, after all edits.
+    /// Encodes views and Draco primitives that changed, cuts out bytes that were left behind, and brings lengths up to
+    /// date. Call once, after all edits.
     void finish();
 
     [[nodiscard]] bool changed() const { return changed_; }
 
   private:
-    /// How elements are stored: in the data of Draco primitives; or the meshopt extension of their view, and the decoded
-    /// buffer that the view lies in.
+    /// How elements are stored: in the data of Draco primitives; or the meshopt extension of their view, and the
+    /// decoded buffer that the view lies in.
     struct Form {
         bool is_draco = false;
         const char* meshopt = nullptr;
@@ -127,7 +128,7 @@ class Editor {
     std::vector<std::size_t> view_uses_;
     std::vector<Extent> extents_;  ///< as the document was before any edit
     std::vector<ByteRange> vacated_;
-    std::vector<std::size_t> spare_views_;  ///< entries that nothing uses any more
+    std::vector<std::size_t> spare_views_;             ///< entries that nothing uses any more
     std::map<std::size_t, MeshoptRequest> to_encode_;  ///< by view
     std::set<std::size_t> changed_accessors_;
     bool changed_ = false;

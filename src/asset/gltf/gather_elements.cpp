@@ -53,8 +53,7 @@ ElementData gatherSplit(const Document& document, const Accessor& accessor, cons
     return gatherElements(document, accessor, all);
 }
 
-ElementData gatherElements(const Document& document, const Accessor& accessor,
-                           std::span<const std::uint32_t> sources) {
+ElementData gatherElements(const Document& document, const Accessor& accessor, std::span<const std::uint32_t> sources) {
     Bytes packed;
     std::optional<ElementView> old = viewElements(document, accessor);
     if (!old) {

@@ -10,15 +10,15 @@
 
 namespace tspace::gltf {
 
-/// Element i is a copy of old element sources[i]. Bounds stay, because copies change none; the elements are to be stored in the
-/// form that the accessor's have.
+/// Element i is a copy of old element sources[i]. Bounds stay, because copies change none; the elements are to be
+/// stored in the form that the accessor's have.
 ElementData gatherElements(const Document& document, const Accessor& accessor, std::span<const std::uint32_t> sources);
 
 /// The same for split vertices. Elements that lie in the model file's own bytes are copied when they are written.
 ElementData gatherSplit(const Document& document, const Accessor& accessor, const SplitSources& sources);
 
-/// Brings min and max of float vectors up to date, where there are any; both go when an element is not finite, because JSON has
-/// no such number.
+/// Brings min and max of float vectors up to date, where there are any; both go when an element is not finite, because
+/// JSON has no such number.
 void renewBounds(ElementData& data);
 
 }  // namespace tspace::gltf

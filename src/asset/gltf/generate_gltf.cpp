@@ -24,8 +24,9 @@ void tell(const GenerateOptions& options, const char* what, std::uint64_t done, 
     if (options.progress) options.progress(what, done, total);
 }
 
-/// How many of the pools, one at least, are computed together. What becomes of them waits in memory too, for those before it
-/// to be stored: hence some more than the work itself, and twice as much for several. Fails with tooLarge where the first alone is too much.
+/// How many of the pools, one at least, are computed together. What becomes of them waits in memory too, for those
+/// before it to be stored: hence some more than the work itself, and twice as much for several. Fails with tooLarge
+/// where the first alone is too much.
 std::size_t countTogether(std::span<const Pool> pools, const Document& document, std::span<const Primitive> primitives,
                           const Execution& execution) {
     document.memory->require(pools[0].workBytes() / 4 * 5, primitives[pools[0].primitives[0]].place());
@@ -45,20 +46,19 @@ std::size_t countTogether(std::span<const Pool> pools, const Document& document,
 void noteMissingBitangents(std::span<const Primitive> primitives, std::span<PrimitiveReport> reports) {
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (reports[i].action != PrimitiveAction::kept || primitives[i].find("_BITANGENT")) continue;
-        reports[i].notes.emplace_back("its tangents stay, so it gets no bitangents: those are computed only together "
-                                      "(--overwrite)");
+        reports[i].notes.emplace_back(
+            "its tangents stay, so it gets no bitangents: those are computed only together "
+            "(--overwrite)");
     }
 }
 
-GenerateReport generate(const std::string& input, const std::string& output_path,
-                        const GenerateOptions& options) {
+GenerateReport generate(const std::string& input, const std::string& output_path, const GenerateOptions& options) {
     GenerateReport report;
     tell(options, "reading", 0, 1);
     Document document = loadDocument(input, options.file, options.tangents.execution);
     const OutputTarget target = outputTarget(document, output_path);
     report.warnings = document.warnings;
-    for (std::string& warning : checkRequiredExtensions(document))
-        report.warnings.push_back(std::move(warning));
+    for (std::string& warning : checkRequiredExtensions(document)) report.warnings.push_back(std::move(warning));
     std::vector<Primitive> primitives = readPrimitives(document);
     const auto makePlan = [&] {
         GeneratePlan made = planGenerate(document, primitives, options);
@@ -84,7 +84,8 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     PoolComputer computer(document, primitives, options);
     for (std::span<const Pool> rest = plan.pools; !rest.empty();) {
         tell(options, "computing tangents", done, total);
-        const std::span<const Pool> pools = rest.first(countTogether(rest, document, primitives, options.tangents.execution));
+        const std::span<const Pool> pools =
+            rest.first(countTogether(rest, document, primitives, options.tangents.execution));
         rest = rest.subspan(pools.size());
         std::vector<PoolElements> elements = computer.compute(pools, plan.reports);
         for (std::size_t i = 0; i < pools.size(); ++i) {
@@ -97,7 +98,8 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     stripTangents(editor, primitives, plan.reports);
     editor.finish();
     // Views that could not be packed may be free now of what stood in the way.
-    const bool packed_more = options.compression == Compression::meshopt && recompress(document, options.compression, new_file);
+    const bool packed_more =
+        options.compression == Compression::meshopt && recompress(document, options.compression, new_file);
 
     AtomicOutput files;
     tell(options, "writing", 0, 1);

@@ -28,7 +28,7 @@ struct Pool {
     std::size_t uv_set = 0;
     UvMatrix uv_matrix = {};
     bool has_normals = false;
-    bool has_tangents = false;  ///< there are tangents with normals; others do not count
+    bool has_tangents = false;    ///< there are tangents with normals; others do not count
     bool keeps_tangents = false;  ///< they stay, and morph targets without tangent deltas get some
     std::size_t corner_count = 0;
     std::size_t vertex_count = 0;

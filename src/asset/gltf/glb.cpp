@@ -46,9 +46,9 @@ GlbChunks readGlb(std::span<const std::uint8_t> file) {
     }
     const std::size_t stated = word(file, 8);
     if (stated > file.size()) {
-        failGlb("the GLB header says " + std::to_string(stated) + " bytes, but the file has " +
-                    std::to_string(file.size()),
-                8);
+        failGlb(
+            "the GLB header says " + std::to_string(stated) + " bytes, but the file has " + std::to_string(file.size()),
+            8);
     }
     if (stated <= kHeaderBytes) {
         failGlb("the GLB header says " + std::to_string(stated) + " bytes, in which no JSON chunk has room", 8);
@@ -83,16 +83,15 @@ GlbChunks readGlb(std::span<const std::uint8_t> file) {
     return chunks;
 }
 
-GlbFrame frameGlb(const std::string& json, std::optional<std::size_t> bin_bytes,
-                  std::span<const ExtraChunk> extra) {
+GlbFrame frameGlb(const std::string& json, std::optional<std::size_t> bin_bytes, std::span<const ExtraChunk> extra) {
     const std::size_t json_bytes = json.size() + paddingOf(json.size());
     std::size_t total = kHeaderBytes + kChunkHeadBytes + json_bytes;
     if (bin_bytes) total += kChunkHeadBytes + *bin_bytes + paddingOf(*bin_bytes);
-    for (const ExtraChunk& chunk : extra)
-        total += kChunkHeadBytes + chunk.bytes.size() + paddingOf(chunk.bytes.size());
+    for (const ExtraChunk& chunk : extra) total += kChunkHeadBytes + chunk.bytes.size() + paddingOf(chunk.bytes.size());
     if (total > 0xffffffffu) {
-        failFile(ErrorCode::cannotWrite,
-                 "the GLB would be larger than the 4 GiB that the format allows; write .gltf, which has its data in a .bin");
+        failFile(
+            ErrorCode::cannotWrite,
+            "the GLB would be larger than the 4 GiB that the format allows; write .gltf, which has its data in a .bin");
     }
     GlbFrame frame;
     frame.head.reserve(kHeaderBytes + 2 * kChunkHeadBytes + json_bytes);

@@ -37,7 +37,6 @@ struct GlbFrame {
     Bytes head;
     Bytes tail;
 };
-GlbFrame frameGlb(const std::string& json, std::optional<std::size_t> bin_bytes,
-                  std::span<const ExtraChunk> extra);
+GlbFrame frameGlb(const std::string& json, std::optional<std::size_t> bin_bytes, std::span<const ExtraChunk> extra);
 
 }  // namespace tspace::gltf

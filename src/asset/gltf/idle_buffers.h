@@ -6,8 +6,8 @@
 
 namespace tspace::gltf {
 
-/// Removes buffers that no view and no compression extension names, but for those that the output writes itself. Views and
-/// extensions follow.
+/// Removes buffers that no view and no compression extension names, but for those that the output writes itself. Views
+/// and extensions follow.
 void removeIdleBuffers(Document& document);
 
 /// Removes buffers of the output that lost all their bytes: a buffer of length 0 is not valid.

@@ -93,8 +93,8 @@ class Builder {
     void take(std::size_t bytes) {
         if (budget_ != nullptr) budget_->take(bytes, {});
     }
-    /// Before an element is added. The old memory of long lists is not always of use to others, and the parser's library
-    /// copies them once more when it lets go of them: hence three times. That of short ones serves the next.
+    /// Before an element is added. The old memory of long lists is not always of use to others, and the parser's
+    /// library copies them once more when it lets go of them: hence three times. That of short ones serves the next.
     template <class List>
     void takeGrowth(const List& list) {
         if (list.size() < list.capacity()) return;
@@ -180,8 +180,7 @@ std::size_t readSize(const Json& object, const char* key, const std::string& pla
 
 std::size_t toIndex(const Json& value, const std::string& place, std::size_t limit, const char* what) {
     const auto number = wholeNumber(value);
-    if (!number)
-        failJson(std::string("the index of the ") + what + " is not a whole number of 0 or more", place);
+    if (!number) failJson(std::string("the index of the ") + what + " is not a whole number of 0 or more", place);
     if (*number >= limit) {
         failJson(std::string("there is no ") + what + " " + std::to_string(*number) + "; the file has " +
                      std::to_string(limit),
@@ -190,8 +189,8 @@ std::size_t toIndex(const Json& value, const std::string& place, std::size_t lim
     return *number;
 }
 
-std::optional<std::size_t> readIndex(const Json& object, const char* key, const std::string& place,
-                                     std::size_t limit, const char* what) {
+std::optional<std::size_t> readIndex(const Json& object, const char* key, const std::string& place, std::size_t limit,
+                                     const char* what) {
     const Json* value = findMember(object, key);
     if (value == nullptr) return {};
     return toIndex(*value, join(place, key), limit, what);
@@ -204,8 +203,7 @@ double readNumber(const Json& object, const char* key, const std::string& place,
     return value->get<double>();
 }
 
-std::string readString(const Json& object, const char* key, const std::string& place,
-                       const std::string& fallback) {
+std::string readString(const Json& object, const char* key, const std::string& place, const std::string& fallback) {
     const Json* value = findMember(object, key);
     if (value == nullptr) return fallback;
     if (!value->is_string()) failJson(std::string("'") + key + "' is not a string", join(place, key));

@@ -48,15 +48,14 @@ std::size_t readSize(const Json& object, const char* key, const std::string& pla
                      std::optional<std::size_t> fallback = {});
 
 /// An index into an array of `limit` entries, or nothing when absent. `what` names an entry ("accessor").
-std::optional<std::size_t> readIndex(const Json& object, const char* key, const std::string& place,
-                                     std::size_t limit, const char* what);
+std::optional<std::size_t> readIndex(const Json& object, const char* key, const std::string& place, std::size_t limit,
+                                     const char* what);
 
 /// The same for a value that is already at hand.
 std::size_t toIndex(const Json& value, const std::string& place, std::size_t limit, const char* what);
 
 double readNumber(const Json& object, const char* key, const std::string& place, double fallback);
-std::string readString(const Json& object, const char* key, const std::string& place,
-                       const std::string& fallback = {});
+std::string readString(const Json& object, const char* key, const std::string& place, const std::string& fallback = {});
 bool readBool(const Json& object, const char* key, const std::string& place, bool fallback);
 
 /// An array member; an empty array when absent. Every entry of it is an object where `of_objects`.

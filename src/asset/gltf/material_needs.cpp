@@ -16,8 +16,7 @@ namespace {
 std::size_t readUvSet(const Json& object, const std::string& place, std::size_t fallback) {
     constexpr std::size_t kMaxUvSet = 0x7fffffff;
     const std::size_t set = readSize(object, "texCoord", place, fallback);
-    if (set > kMaxUvSet)
-        failFile(ErrorCode::invalidFile, "no file has so many UV sets", join(place, "texCoord"));
+    if (set > kMaxUvSet) failFile(ErrorCode::invalidFile, "no file has so many UV sets", join(place, "texCoord"));
     return set;
 }
 

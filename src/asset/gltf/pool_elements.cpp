@@ -49,8 +49,7 @@ Bytes narrow(const std::vector<std::uint32_t>& indices) {
 }
 
 /// u8 and u16 keep their width while every vertex fits below the primitive restart value.
-ElementData indexElements(std::vector<std::uint32_t>&& indices, ComponentType narrowest,
-                          std::size_t vertex_count) {
+ElementData indexElements(std::vector<std::uint32_t>&& indices, ComponentType narrowest, std::size_t vertex_count) {
     ElementData data;
     data.target = kIndexTarget;
     data.component = narrowest;
@@ -142,8 +141,7 @@ PoolElements packFrames(const Document& document, std::span<const Primitive> pri
     }
     if (frames.normals_generated) elements.normals = unitVectors(std::move(frames.normals), format);
     elements.tangents = unitVectors(std::move(frames.tangents), format);
-    if (elements.bitangents_generated)
-        elements.bitangents = unitVectors(std::move(frames.bitangents), format);
+    if (elements.bitangents_generated) elements.bitangents = unitVectors(std::move(frames.bitangents), format);
     return elements;
 }
 

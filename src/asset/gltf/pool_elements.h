@@ -33,8 +33,8 @@ struct PoolElements {
     std::size_t vertex_count = 0;
     bool was_split = false;
     bool normals_generated = false, bitangents_generated = false;
-    /// After a split: what else the vertices have, by accessor, so that what was shared stays shared; and the index list of
-    /// each geometry.
+    /// After a split: what else the vertices have, by accessor, so that what was shared stays shared; and the index
+    /// list of each geometry.
     std::map<std::size_t, CarriedElements> carried = {};
     std::vector<ElementData> indices = {};
     ElementData normals = {}, tangents = {}, bitangents = {};

@@ -18,8 +18,8 @@ std::string nameOf(const TangentUse& use) {
 /// Why tangents for `first` do not fit `other`.
 std::string difference(const TangentUse& first, const TangentUse& other) {
     if (first.uv_set != other.uv_set) {
-        return "follow TEXCOORD_" + std::to_string(first.uv_set) + " for " + nameOf(first) + ", but " +
-               nameOf(other) + " is on TEXCOORD_" + std::to_string(other.uv_set);
+        return "follow TEXCOORD_" + std::to_string(first.uv_set) + " for " + nameOf(first) + ", but " + nameOf(other) +
+               " is on TEXCOORD_" + std::to_string(other.uv_set);
     }
     return "fit the KHR_texture_transform of " + nameOf(first) + ", but " + nameOf(other) +
            " is turned or mirrored in another way";

@@ -41,8 +41,7 @@ std::size_t trianglesOf(Mode mode, std::size_t corners) {
     return hasTriangles(mode) && corners >= 3 ? corners - 2 : 0;
 }
 
-Primitive readPrimitive(const Document& document, const Json& object, std::uint32_t mesh,
-                        std::uint32_t index) {
+Primitive readPrimitive(const Document& document, const Json& object, std::uint32_t mesh, std::uint32_t index) {
     Primitive primitive;
     primitive.mesh = mesh;
     primitive.index = index;
@@ -50,25 +49,21 @@ Primitive readPrimitive(const Document& document, const Json& object, std::uint3
     const std::size_t accessor_count = rootArray(document, "accessors").size();
     const std::size_t mode = readSize(object, "mode", place, static_cast<std::size_t>(Mode::triangles));
     if (mode > static_cast<std::size_t>(Mode::triangleFan)) {
-        failFile(ErrorCode::invalidFile, "the mode " + std::to_string(mode) + " does not exist",
-                 join(place, "mode"));
+        failFile(ErrorCode::invalidFile, "the mode " + std::to_string(mode) + " does not exist", join(place, "mode"));
     }
     primitive.mode = static_cast<Mode>(mode);
     primitive.indices = readIndex(object, "indices", place, accessor_count, "accessor");
-    primitive.material =
-        readIndex(object, "material", place, rootArray(document, "materials").size(), "material");
+    primitive.material = readIndex(object, "material", place, rootArray(document, "materials").size(), "material");
     const Json* attributes = readObject(object, "attributes", place);
     if (attributes == nullptr) failFile(ErrorCode::invalidFile, "the member 'attributes' is missing", place);
     primitive.attributes = readAttributes(*attributes, join(place, "attributes"), accessor_count);
     const Json& targets = readArray(object, "targets", place);
     for (std::size_t i = 0; i < targets.size(); ++i) {
-        primitive.targets.push_back(
-            readAttributes(targets[i], join(join(place, "targets"), i), accessor_count));
+        primitive.targets.push_back(readAttributes(targets[i], join(join(place, "targets"), i), accessor_count));
     }
     if (!primitive.attributes.empty()) {
         const auto position = primitive.find("POSITION");
-        primitive.vertex_count =
-            readAccessor(document, position.value_or(primitive.attributes[0].second)).count;
+        primitive.vertex_count = readAccessor(document, position.value_or(primitive.attributes[0].second)).count;
     }
     checkCounts(document, primitive.attributes, primitive.vertex_count, join(place, "attributes"));
     for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
@@ -187,8 +182,7 @@ std::vector<std::uint32_t> readTriangleCorners(const Document& document, const P
 
 std::vector<Vec2> readUvs(const Document& document, const Primitive& primitive, std::size_t uv_set) {
     const std::string name = "TEXCOORD_" + std::to_string(uv_set);
-    return decodeVec2(document, attributeAccessor(document, primitive, name),
-                      attributePlace(primitive, name));
+    return decodeVec2(document, attributeAccessor(document, primitive, name), attributePlace(primitive, name));
 }
 
 std::vector<Vec3> readVec3(const Document& document, const Primitive& primitive, const char* attribute) {

@@ -73,9 +73,10 @@ std::vector<std::uint32_t> readTriangleCorners(const Document& document, const P
 std::vector<Vec2> readUvs(const Document& document, const Primitive& primitive, std::size_t uv_set);
 std::vector<Vec3> readVec3(const Document& document, const Primitive& primitive, const char* attribute);
 std::vector<Vec4> readTangents(const Document& document, const Primitive& primitive);
-/// The same without a copy: nothing where elements are no plain floats one stride apart. Valid while the document's bytes
-/// stay where they are and as they are.
-std::optional<StridedSpan<const Vec2>> lendUvs(const Document& document, const Primitive& primitive, std::size_t uv_set);
+/// The same without a copy: nothing where elements are no plain floats one stride apart. Valid while the document's
+/// bytes stay where they are and as they are.
+std::optional<StridedSpan<const Vec2>> lendUvs(const Document& document, const Primitive& primitive,
+                                               std::size_t uv_set);
 std::optional<StridedSpan<const Vec3>> lendVec3(const Document& document, const Primitive& primitive,
                                                 const char* attribute);
 /// Offsets of morph target `target`; empty where it does not move the attribute.

@@ -78,8 +78,7 @@ class PrimitiveLoader {
         result.normals = vec3(list, "NORMAL", place);
         result.tangents = vec4_.read(document_, list, "TANGENT", place, budget_);
         for (std::size_t set = 0; set < kMaxUvSets; ++set) {
-            SharedArray<Vec2> uvs =
-                vec2_.read(document_, list, "TEXCOORD_" + std::to_string(set), place, budget_);
+            SharedArray<Vec2> uvs = vec2_.read(document_, list, "TEXCOORD_" + std::to_string(set), place, budget_);
             if (uvs.empty()) continue;
             result.uv_sets.resize(set + 1);
             result.uv_sets[set] = std::move(uvs);
@@ -118,8 +117,7 @@ class PrimitiveLoader {
 };
 
 Bytes readImageBytes(const Document& document, const Json& image, const std::string& place) {
-    const auto view =
-        readIndex(image, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
+    const auto view = readIndex(image, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
     if (view) {
         const BufferView range = readBufferView(document, *view);
         const Buffer& buffer = document.buffers[range.buffer];

@@ -51,8 +51,7 @@ std::vector<std::size_t> accessorViewUses(const Document& document) {
         const Json* sparse = findMember(accessor, "sparse");
         if (sparse == nullptr) continue;
         for (const char* part : {"indices", "values"}) {
-            if (const Json* object = findMember(*sparse, part))
-                count(uses, findMember(*object, "bufferView"));
+            if (const Json* object = findMember(*sparse, part)) count(uses, findMember(*object, "bufferView"));
         }
     }
     return uses;
@@ -65,8 +64,7 @@ Extent solidExtent(const Document& document, std::size_t accessor, std::size_t v
 }
 
 /// Ranges to cut from one buffer: vacated, not read by anything, aligned; sorted and disjoint.
-std::vector<ByteRange> cutsOf(std::size_t buffer, std::span<const ByteRange> vacated,
-                              std::span<const Extent> live) {
+std::vector<ByteRange> cutsOf(std::size_t buffer, std::span<const ByteRange> vacated, std::span<const Extent> live) {
     std::vector<ByteRange> holes, cuts;
     for (const ByteRange& range : vacated) {
         if (range.buffer == buffer) holes.push_back(range);
@@ -74,8 +72,7 @@ std::vector<ByteRange> cutsOf(std::size_t buffer, std::span<const ByteRange> vac
     std::sort(holes.begin(), holes.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
     std::vector<ByteRange> blocks;
     for (const Extent& extent : live) {
-        if (extent.buffer == buffer && extent.begin < extent.end)
-            blocks.push_back({buffer, extent.begin, extent.end});
+        if (extent.buffer == buffer && extent.begin < extent.end) blocks.push_back({buffer, extent.begin, extent.end});
     }
     std::sort(blocks.begin(), blocks.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
     std::size_t done = 0, block = 0, reach = 0;
@@ -88,14 +85,12 @@ std::vector<ByteRange> cutsOf(std::size_t buffer, std::span<const ByteRange> vac
         std::size_t at = std::max(hole.begin, done);
         // Blocks that begin before this hole: only their furthest end matters.
         while (at < hole.end) {
-            while (block < blocks.size() && blocks[block].begin <= at)
-                reach = std::max(reach, blocks[block++].end);
+            while (block < blocks.size() && blocks[block].begin <= at) reach = std::max(reach, blocks[block++].end);
             if (reach > at) {
                 at = std::min(reach, hole.end);
                 continue;
             }
-            const std::size_t stop =
-                block < blocks.size() ? std::min(blocks[block].begin, hole.end) : hole.end;
+            const std::size_t stop = block < blocks.size() ? std::min(blocks[block].begin, hole.end) : hole.end;
             addCut(at, stop);
             at = stop;
         }
@@ -115,9 +110,8 @@ class Mover {
         }
     }
     [[nodiscard]] std::size_t operator()(std::size_t offset) const {
-        const auto after =
-            std::upper_bound(cuts_.begin(), cuts_.end(), offset,
-                             [](std::size_t value, const ByteRange& cut) { return value < cut.begin; });
+        const auto after = std::upper_bound(cuts_.begin(), cuts_.end(), offset,
+                                            [](std::size_t value, const ByteRange& cut) { return value < cut.begin; });
         const auto number = static_cast<std::size_t>(after - cuts_.begin());
         if (number == 0) return offset;
         const ByteRange& cut = cuts_[number - 1];
@@ -184,8 +178,7 @@ std::vector<std::size_t> countAccessorUses(const Document& document) {
             for (const Json& primitive : *primitives) countPrimitive(uses, primitive);
         }
     }
-    for (const Json& skin : rootArray(document, "skins"))
-        count(uses, findMember(skin, "inverseBindMatrices"));
+    for (const Json& skin : rootArray(document, "skins")) count(uses, findMember(skin, "inverseBindMatrices"));
     for (const Json& animation : rootArray(document, "animations")) {
         const Json* samplers = findMember(animation, "samplers");
         if (samplers == nullptr) continue;
@@ -213,8 +206,7 @@ Extent extentOf(const Document& document, const Accessor& accessor) {
     if (accessor.component_count == 0)
         return {accessor.index, view.buffer, view.begin, view.begin + view.byte_count, 0, 0};
     const std::size_t begin = view.begin + accessor.byte_offset;
-    const std::size_t span =
-        accessor.count == 0 ? 0 : (accessor.count - 1) * accessor.stride + accessor.data_bytes;
+    const std::size_t span = accessor.count == 0 ? 0 : (accessor.count - 1) * accessor.stride + accessor.data_bytes;
     return {accessor.index, view.buffer, begin, begin + span, accessor.stride, accessor.element_bytes};
 }
 
@@ -228,25 +220,22 @@ std::vector<Extent> collectExtents(const Document& document) {
         extents.push_back(solidExtent(document, Extent::kNoAccessor, sparse.index_view, sparse.index_offset,
                                       sparse.count * bytesOf(sparse.index_type)));
         const bool known = accessor.component_count > 0;
-        extents.push_back(solidExtent(document, Extent::kNoAccessor, sparse.value_view,
-                                      known ? sparse.value_offset : 0,
-                                      known ? sparse.count * accessor.element_bytes
-                                            : readBufferView(document, sparse.value_view).byte_count));
+        extents.push_back(solidExtent(
+            document, Extent::kNoAccessor, sparse.value_view, known ? sparse.value_offset : 0,
+            known ? sparse.count * accessor.element_bytes : readBufferView(document, sparse.value_view).byte_count));
     }
     for (std::size_t i = 0; i < rootArray(document, "bufferViews").size(); ++i) {
         if (const auto packed = readMeshoptView(document, i)) {
-            extents.push_back({Extent::kNoAccessor, packed->buffer, packed->begin,
-                               packed->begin + packed->byte_count, 0, 0});
+            extents.push_back(
+                {Extent::kNoAccessor, packed->buffer, packed->begin, packed->begin + packed->byte_count, 0, 0});
         }
     }
     // Views that images, extensions or nobody we know reads are taken as a whole.
     const std::vector<std::size_t> all = countViewUses(document), known = accessorViewUses(document);
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (known[i] > 0 && known[i] == all[i] &&
-            !rootArray(document, "bufferViews")[i].contains("extensions"))
+        if (known[i] > 0 && known[i] == all[i] && !rootArray(document, "bufferViews")[i].contains("extensions"))
             continue;
-        extents.push_back(
-            solidExtent(document, Extent::kNoAccessor, i, 0, readBufferView(document, i).byte_count));
+        extents.push_back(solidExtent(document, Extent::kNoAccessor, i, 0, readBufferView(document, i).byte_count));
     }
     return extents;
 }
@@ -255,8 +244,8 @@ bool overlaps(const Extent& a, const Extent& b) {
     if (a.buffer != b.buffer || a.begin >= b.end || b.begin >= a.end) return false;
     if (a.stride == 0 || a.stride != b.stride) return true;
     // Same stride: compare the places inside one stride.
-    const std::size_t distance = a.begin >= b.begin ? (a.begin - b.begin) % a.stride
-                                                    : (a.stride - (b.begin - a.begin) % a.stride) % a.stride;
+    const std::size_t distance =
+        a.begin >= b.begin ? (a.begin - b.begin) % a.stride : (a.stride - (b.begin - a.begin) % a.stride) % a.stride;
     return distance < b.element_bytes || a.stride - distance < a.element_bytes;
 }
 

@@ -39,8 +39,7 @@ void keepGoodPools(const Document& document, std::span<const Primitive> primitiv
         parallel.forTasks(count, [&](std::size_t task) noexcept {
             const std::size_t i = begin + task;
             try {
-                if (plan.pools[i].has_tangents)
-                    reasons[i] = whyWrong(document, primitives, plan.pools[i], one_thread);
+                if (plan.pools[i].has_tangents) reasons[i] = whyWrong(document, primitives, plan.pools[i], one_thread);
             } catch (...) {
                 failures[i] = std::current_exception();
             }

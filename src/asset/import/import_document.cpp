@@ -26,12 +26,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What Assimp 5 reads, but for OBJ and glTF, which tspace reads itself, and for formats without meshes or with parsers that
-/// nobody maintains.
-constexpr std::array kExtensions = {".3d",  ".3ds", ".3mf", ".ac",  ".ase", ".b3d", ".blend", ".cob", ".dae", ".dxf",
-                                    ".fbx", ".hmp", ".iqm", ".lwo", ".lws", ".md2", ".md3",   ".md5mesh", ".mdl",
-                                    ".ms3d", ".ndo", ".nff", ".off", ".ply", ".q3o", ".q3s", ".smd", ".stl", ".ter", ".x",
-                                    ".xgl", ".zgl"};
+/// What Assimp 5 reads, but for OBJ and glTF, which tspace reads itself, and for formats without meshes or with parsers
+/// that nobody maintains.
+constexpr std::array kExtensions = {".3d",  ".3ds",     ".3mf", ".ac",   ".ase", ".b3d", ".blend", ".cob",
+                                    ".dae", ".dxf",     ".fbx", ".hmp",  ".iqm", ".lwo", ".lws",   ".md2",
+                                    ".md3", ".md5mesh", ".mdl", ".ms3d", ".ndo", ".nff", ".off",   ".ply",
+                                    ".q3o", ".q3s",     ".smd", ".stl",  ".ter", ".x",   ".xgl",   ".zgl"};
 
 /// A folder of its own for the result, removed with all in it.
 class ScratchFolder {
@@ -68,7 +68,8 @@ pid_t start(const std::vector<std::string>& command, const fs::path& messages) {
     pid_t child = 0;
     const int failed = posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), no_environment.data());
     posix_spawn_file_actions_destroy(&actions);
-    if (failed != 0) failFile(ErrorCode::unsupportedFile, "the importer " + pathInQuotes(command[0]) + " cannot be started");
+    if (failed != 0)
+        failFile(ErrorCode::unsupportedFile, "the importer " + pathInQuotes(command[0]) + " cannot be started");
     return child;
 }
 
@@ -124,8 +125,8 @@ bool isImportedFormat(const fs::path& path) {
 
 gltf::Document importDocument(const fs::path& path, const FileOptions& options) {
     if (options.importer.empty()) {
-        failFile(ErrorCode::unsupportedFile,
-                 "reading " + lowerExtension(path) + " files needs tspace-import, which is not there (see docs/import.md)");
+        failFile(ErrorCode::unsupportedFile, "reading " + lowerExtension(path) +
+                                                 " files needs tspace-import, which is not there (see docs/import.md)");
     }
     std::error_code error;
     const std::uintmax_t size = fs::file_size(path, error);
@@ -142,12 +143,13 @@ gltf::Document importDocument(const fs::path& path, const FileOptions& options) 
     const ScratchFolder scratch;
     const fs::path result = scratch.path("scene.glb"), messages = scratch.path("messages");
     bool timed_out = false;
-    const pid_t child = start({options.importer, fs::absolute(path).string(), result.string(),
-                               std::to_string(memory), std::to_string(options.import_max_seconds)},
+    const pid_t child = start({options.importer, fs::absolute(path).string(), result.string(), std::to_string(memory),
+                               std::to_string(options.import_max_seconds)},
                               messages);
     const int status = waitFor(child, options.import_max_seconds, timed_out);
     if (timed_out || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)) {
-        failFile(ErrorCode::invalidFile, "the importer was stopped after " + std::to_string(options.import_max_seconds) + " s");
+        failFile(ErrorCode::invalidFile,
+                 "the importer was stopped after " + std::to_string(options.import_max_seconds) + " s");
     }
     if (WIFSIGNALED(status)) failFile(ErrorCode::invalidFile, "the importer crashed on this file");
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {

@@ -12,9 +12,9 @@ namespace tspace {
 /// True for the extensions of formats that tspace reads through the importer (.fbx, .ply, .stl, .dae, .3ds, ...).
 bool isImportedFormat(const std::filesystem::path& path);
 
-/// Runs the importer on the file, with limits on memory and time, and parses what it wrote. `path` and `folder` are those
-/// of the file. Fails with unsupportedFile when there is no importer; with invalidFile when it cannot read the file,
-/// crashes, or passes a limit.
+/// Runs the importer on the file, with limits on memory and time, and parses what it wrote. `path` and `folder` are
+/// those of the file. Fails with unsupportedFile when there is no importer; with invalidFile when it cannot read the
+/// file, crashes, or passes a limit.
 gltf::Document importDocument(const std::filesystem::path& path, const FileOptions& options);
 
 }  // namespace tspace

@@ -37,8 +37,7 @@ bool decide(const Material& material, const ObjPrimitive& primitive, const Gener
     const bool needed = material.normal_texture.used();
     if (!needed && !options.all) {
         report.action = PrimitiveAction::notNeeded;
-        report.reason =
-            material.found ? "the material has no normal map" : "there is no material with a normal map";
+        report.reason = material.found ? "the material has no normal map" : "there is no material with a normal map";
     } else if (!primitive.has_uvs && options.tangents.method != Method::basis) {
         report.action = PrimitiveAction::impossible;
         report.reason = "the faces have no texture coordinates";
@@ -52,10 +51,8 @@ bool decide(const Material& material, const ObjPrimitive& primitive, const Gener
     return false;
 }
 
-FinishedPrimitive finishWithFrames(ObjGeometry geometry, const GenerateOptions& options,
-                                   PrimitiveReport& report) {
-    PoolFrames frames =
-        valueOrThrow(computeFrames(geometry.pool, {&geometry.polygons, 1}, options, {&report, 1}));
+FinishedPrimitive finishWithFrames(ObjGeometry geometry, const GenerateOptions& options, PrimitiveReport& report) {
+    PoolFrames frames = valueOrThrow(computeFrames(geometry.pool, {&geometry.polygons, 1}, options, {&report, 1}));
     FinishedPrimitive finished;
     finished.positions = gather(geometry.pool.positions, frames.source_vertices);
     finished.normals = gather(geometry.pool.normals, frames.source_vertices);

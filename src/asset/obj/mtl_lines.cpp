@@ -71,8 +71,8 @@ std::vector<Word> wordsOf(std::string_view line) {
 }
 
 bool namesTexture(std::string_view keyword) {
-    return keyword.starts_with("map_") || keyword == "bump" || keyword == "norm" || keyword == "disp" || keyword == "decal" ||
-           keyword == "refl";
+    return keyword.starts_with("map_") || keyword == "bump" || keyword == "norm" || keyword == "disp" ||
+           keyword == "decal" || keyword == "refl";
 }
 
 /// Appends the line with complete options. True when one of them moves the texture.

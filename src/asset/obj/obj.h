@@ -9,7 +9,6 @@
 namespace tspace {
 
 /// generateFile for an OBJ input; `output` is a .glb or .gltf.
-Result<GenerateReport> generateObj(const std::string& input, const std::string& output,
-                                   const GenerateOptions& options);
+Result<GenerateReport> generateObj(const std::string& input, const std::string& output, const GenerateOptions& options);
 
 }  // namespace tspace

@@ -49,8 +49,7 @@ void noteFace(std::string_view rest, std::uint32_t line, std::uint32_t smoothing
     for (const char c : rest) {
         empty = empty && isBlank(c);
         digits = isDigit(c) ? digits + 1 : 0;
-        if (digits > kMostDigits)
-            failFile(ErrorCode::invalidFile, "an index of a face is too large", lineName(line));
+        if (digits > kMostDigits) failFile(ErrorCode::invalidFile, "an index of a face is too large", lineName(line));
     }
     if (!empty) notes.faces.push_back({line, smoothing_group});
 }

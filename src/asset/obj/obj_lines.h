@@ -19,9 +19,8 @@ struct LineNotes {
     std::vector<FaceLine> faces = {};                  ///< in file order: the parser reports exactly these
     std::vector<std::string> material_libraries = {};  ///< what follows `mtllib`, in file order
     bool has_smoothing_groups = false;
-    std::uint64_t unreadable_number_count =
-        0;  ///< in v, vt, vn lines: not a number, or NaN or infinity by name
-    std::uint32_t unreadable_number_line = 0;  ///< the first of them
+    std::uint64_t unreadable_number_count = 0;  ///< in v, vt, vn lines: not a number, or NaN or infinity by name
+    std::uint32_t unreadable_number_line = 0;   ///< the first of them
     bool has_vertex_colors = false;
     bool has_lines_or_points = false;
     bool has_free_form = false;  ///< curves and surfaces

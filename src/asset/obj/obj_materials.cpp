@@ -33,9 +33,7 @@ float inUnitRange(float value, float otherwise) {
     return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : otherwise;
 }
 
-Vec3 color(const float rgb[3]) {
-    return {inUnitRange(rgb[0], 1), inUnitRange(rgb[1], 1), inUnitRange(rgb[2], 1)};
-}
+Vec3 color(const float rgb[3]) { return {inUnitRange(rgb[0], 1), inUnitRange(rgb[1], 1), inUnitRange(rgb[2], 1)}; }
 
 /// Blinn-Phong exponent to roughness: alpha = sqrt(2 / (n + 2)), roughness = sqrt(alpha) (Walter et al. 2007;
 /// glTF squares its roughness).
@@ -85,11 +83,11 @@ std::uint64_t countOf(const std::string& word, const std::string& text) {
     return count;
 }
 
-/// false when there is no such file. A file that was read before is there, and not read again. Fails with forbiddenPath.
+/// false when there is no such file. A file that was read before is there, and not read again. Fails with
+/// forbiddenPath.
 bool readLibrary(const fs::path& folder, const std::string& name, const FileOptions& options, Model& model,
                  std::vector<Material>& materials) {
-    const fs::path path =
-        resolveUri(folder, percentEncode(plainPath(name)), options.allow_external, "mtllib");
+    const fs::path path = resolveUri(folder, percentEncode(plainPath(name)), options.allow_external, "mtllib");
     std::error_code ignored;
     if (!fs::is_regular_file(path, ignored)) return false;
     const auto& known = model.input_files;

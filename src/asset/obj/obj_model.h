@@ -59,9 +59,9 @@ struct Model {
     std::vector<Corner> corners = {};   ///< every index is in range
     std::vector<Face> faces = {};       ///< in file order, at least 3 corners each; never empty
     std::vector<std::string> shape_names = {};
-    std::vector<Material> materials = {};  ///< in order of first use by a face
-    bool has_smoothing_groups = false;     ///< the file has `s` lines
-    std::uint64_t input_bytes = 0;         ///< the OBJ and its MTL files
+    std::vector<Material> materials = {};       ///< in order of first use by a face
+    bool has_smoothing_groups = false;          ///< the file has `s` lines
+    std::uint64_t input_bytes = 0;              ///< the OBJ and its MTL files
     std::vector<std::string> input_files = {};  ///< the same
     std::vector<std::string> warnings = {};
     std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< what it may still take

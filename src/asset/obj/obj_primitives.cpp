@@ -73,9 +73,8 @@ std::vector<ObjPrimitive> collectPrimitives(const Model& model) {
 Result<NormalReport> completeNormals(Model& model, std::vector<ObjPrimitive>& primitives,
                                      const GenerateOptions& options) {
     for (ObjPrimitive& primitive : primitives) {
-        primitive.normals_generated =
-            !std::all_of(primitive.faces.begin(), primitive.faces.end(),
-                         [&](auto face) { return hasNormals(model, model.faces[face]); });
+        primitive.normals_generated = !std::all_of(primitive.faces.begin(), primitive.faces.end(),
+                                                   [&](auto face) { return hasNormals(model, model.faces[face]); });
     }
     const BareMesh bare = collectBareFaces(model);
     if (bare.faces.empty()) return NormalReport{};
@@ -131,9 +130,8 @@ ObjGeometry buildGeometry(const Model& model, const ObjPrimitive& primitive) {
             const Corner& corner = model.corners[face.first_corner + c];
             const Vec3 normal = has_normals ? model.normals[corner.normal] : Vec3{};
             const std::uint32_t vertex = vertices.indexOf(
-                {corner.position, primitive.has_uvs ? corner.uv : kNone,
-                 std::bit_cast<std::uint32_t>(normal.x), std::bit_cast<std::uint32_t>(normal.y),
-                 std::bit_cast<std::uint32_t>(normal.z)});
+                {corner.position, primitive.has_uvs ? corner.uv : kNone, std::bit_cast<std::uint32_t>(normal.x),
+                 std::bit_cast<std::uint32_t>(normal.y), std::bit_cast<std::uint32_t>(normal.z)});
             if (vertex == pool.positions.size()) {
                 pool.positions.push_back(model.positions[corner.position]);
                 if (has_normals) pool.normals.push_back(normal);

@@ -90,10 +90,9 @@ void addNormal(void* user, float x, float y, float z) {
     const double length = std::sqrt(double{x} * x + double{y} * y + double{z} * z);
     Vec3 normal{};
     if (std::isfinite(length) && length > 1e-30) {
-        normal = std::abs(length - 1) <= 5e-4
-                     ? Vec3{x, y, z}
-                     : Vec3{static_cast<float>(x / length), static_cast<float>(y / length),
-                            static_cast<float>(z / length)};
+        normal = std::abs(length - 1) <= 5e-4 ? Vec3{x, y, z}
+                                              : Vec3{static_cast<float>(x / length), static_cast<float>(y / length),
+                                                     static_cast<float>(z / length)};
     } else {
         ++build.bad_normal_count;
     }
@@ -163,16 +162,14 @@ void addFace(void* user, tinyobj::index_t* indices, int count) {
     Build& build = buildOf(user);
     Model& model = *build.model;
     if (build.face_line >= build.notes->faces.size()) {
-        failFile(ErrorCode::internal,
-                 "internal error: the OBJ parser found a face that the first pass did not");
+        failFile(ErrorCode::internal, "internal error: the OBJ parser found a face that the first pass did not");
     }
     Face face{.first_corner = static_cast<std::uint32_t>(model.corners.size()),
               .corner_count = static_cast<std::uint32_t>(count),
               .smoothing_group = build.notes->faces[build.face_line].smoothing_group,
               .line = build.notes->faces[build.face_line].line};
     if (model.corners.size() + face.corner_count > kMaxCorners) {
-        failFile(ErrorCode::unsupportedFile, "the file has more corners than fit into one mesh",
-                 currentPlace(build));
+        failFile(ErrorCode::unsupportedFile, "the file has more corners than fit into one mesh", currentPlace(build));
     }
     for (int i = 0; i < count; ++i) {
         const tinyobj::index_t& index = indices[i];
@@ -183,8 +180,7 @@ void addFace(void* user, tinyobj::index_t* indices, int count) {
         model.corners.push_back(
             {.position = resolvePosition(build, index.vertex_index),
              .uv = resolveOptional(index.texcoord_index, model.uvs.size(), face.line, build.dead_uvs),
-             .normal =
-                 resolveOptional(index.normal_index, model.normals.size(), face.line, build.dead_normals)});
+             .normal = resolveOptional(index.normal_index, model.normals.size(), face.line, build.dead_normals)});
     }
     if (count < 3) {
         ++build.small_face_count;
@@ -247,8 +243,8 @@ void checkIndices(Build& build) {
             Corner& corner = model.corners[face.first_corner + i];
             if (corner.position >= model.positions.size()) {
                 failFile(ErrorCode::invalidFile,
-                         "a face refers to vertex " + std::to_string(std::uint64_t{corner.position} + 1) +
-                             " of " + std::to_string(model.positions.size()),
+                         "a face refers to vertex " + std::to_string(std::uint64_t{corner.position} + 1) + " of " +
+                             std::to_string(model.positions.size()),
                          "line " + std::to_string(face.line));
             }
             if (corner.uv != kNone && corner.uv >= model.uvs.size()) {
@@ -270,18 +266,16 @@ void addWarnings(const Build& build, Model& model) {
         if (count != 0) warn(text + (": " + std::to_string(count)));
     };
     if (notes.unreadable_number_count != 0) {
-        warn("numbers that cannot be read and were taken as 0: " +
-             std::to_string(notes.unreadable_number_count) + ", the first in line " +
-             std::to_string(notes.unreadable_number_line));
+        warn("numbers that cannot be read and were taken as 0: " + std::to_string(notes.unreadable_number_count) +
+             ", the first in line " + std::to_string(notes.unreadable_number_line));
     }
     warnCount(build.bad_position_count, "positions that are not finite and were moved to the origin");
     warnCount(build.bad_uv_count, "texture coordinates that are not finite and were set to 0");
-    warnCount(build.bad_normal_count,
-              "normals that are zero or not finite; the faces that use them get new ones");
+    warnCount(build.bad_normal_count, "normals that are zero or not finite; the faces that use them get new ones");
     const auto warnDead = [&](const DeadIndices& dead, const std::string& what, const char* result) {
         if (dead.count == 0) return;
-        warn("indices of " + what + " that do not exist: " + std::to_string(dead.count) +
-             ", the first in line " + std::to_string(dead.first_line) + "; " + result);
+        warn("indices of " + what + " that do not exist: " + std::to_string(dead.count) + ", the first in line " +
+             std::to_string(dead.first_line) + "; " + result);
     };
     warnDead(build.dead_uvs, "texture coordinates", "the faces that use them are taken to have none");
     warnDead(build.dead_normals, "normals", "the faces that use them get new ones");
@@ -322,8 +316,7 @@ Model readModel(const std::filesystem::path& path, const FileOptions& options) {
     constexpr std::uintmax_t kMostBytes = std::uintmax_t{8} << 30;
     std::error_code no_file;
     const std::uintmax_t size = std::filesystem::file_size(path, no_file);
-    if (!no_file && size > kMostBytes)
-        failFile(ErrorCode::unsupportedFile, "the OBJ file is larger than 8 GiB");
+    if (!no_file && size > kMostBytes) failFile(ErrorCode::unsupportedFile, "the OBJ file is larger than 8 GiB");
     Bytes bytes = readFile(path);
     Model model;
     model.folder = folderOf(path);

@@ -17,8 +17,7 @@ Model readModel(const std::filesystem::path& path, const FileOptions& options);
 
 /// The materials of the named libraries. `names` is what stands after `mtllib`: a file name, or several with
 /// spaces between.
-std::vector<Material> readMaterials(const std::filesystem::path& folder,
-                                    const std::vector<std::string>& names, const FileOptions& options,
-                                    Model& model);
+std::vector<Material> readMaterials(const std::filesystem::path& folder, const std::vector<std::string>& names,
+                                    const FileOptions& options, Model& model);
 
 }  // namespace tspace::obj

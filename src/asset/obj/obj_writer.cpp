@@ -115,8 +115,7 @@ const char* imageType(const Bytes& bytes) {
     static constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
     static constexpr std::uint8_t kJpeg[] = {0xFF, 0xD8, 0xFF};
     const auto starts = [&](const auto& magic) {
-        return bytes.size() >= std::size(magic) &&
-               std::equal(std::begin(magic), std::end(magic), bytes.begin());
+        return bytes.size() >= std::size(magic) && std::equal(std::begin(magic), std::end(magic), bytes.begin());
     };
     if (starts(kPng)) return "image/png";
     return starts(kJpeg) ? "image/jpeg" : nullptr;
@@ -125,8 +124,8 @@ const char* imageType(const Bytes& bytes) {
 /// Images and textures, one per file however often it is used.
 class ImageBuilder {
   public:
-    ImageBuilder(const Model& model, const fs::path& output, const FileOptions& options,
-                 BufferBuilder& buffer, AtomicOutput& files, std::vector<std::string>& warnings)
+    ImageBuilder(const Model& model, const fs::path& output, const FileOptions& options, BufferBuilder& buffer,
+                 AtomicOutput& files, std::vector<std::string>& warnings)
         : names_by_uri_(isSameFile(folderOf(output), model.folder)),
           folder_(model.folder),
           options_(options),
@@ -154,8 +153,7 @@ class ImageBuilder {
             files_.addSource(path);
             const char* type = imageType(bytes);
             if (type == nullptr) {
-                warnings_.push_back("the texture '" + texture.file +
-                                    "' was left out: it is neither PNG nor JPEG");
+                warnings_.push_back("the texture '" + texture.file + "' was left out: it is neither PNG nor JPEG");
                 return -1;
             }
             images_.push_back(imageJson(path, bytes, type));
@@ -243,8 +241,8 @@ Json primitiveJson(const FinishedPrimitive& primitive, int material, BufferBuild
 }
 
 /// A mesh and a node per shape that has faces, in the order of the file.
-void addMeshes(const Model& model, const std::vector<FinishedPrimitive>& primitives,
-               const std::vector<int>& materials, BufferBuilder& buffer, Json& root) {
+void addMeshes(const Model& model, const std::vector<FinishedPrimitive>& primitives, const std::vector<int>& materials,
+               BufferBuilder& buffer, Json& root) {
     Json meshes = Json::array();
     Json nodes = Json::array();
     Json roots = Json::array();

@@ -18,8 +18,8 @@ struct FinishedPrimitive {
     std::uint32_t material = 0;
     std::vector<Vec3> positions = {};
     std::vector<Vec3> normals = {};
-    std::vector<Vec2> uvs = {};       ///< empty: none
-    std::vector<Vec4> tangents = {};  ///< empty: none
+    std::vector<Vec2> uvs = {};         ///< empty: none
+    std::vector<Vec4> tangents = {};    ///< empty: none
     std::vector<Vec3> bitangents = {};  ///< empty: none
     std::vector<std::uint32_t> indices = {};
     VectorFormat normal_format = VectorFormat::float32, tangent_format = VectorFormat::float32;

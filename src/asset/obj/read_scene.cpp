@@ -35,8 +35,8 @@ class NormalMaps {
   private:
     void readBytes(const Texture& texture, SceneImage& image) const {
         try {
-            const Bytes bytes = readFile(
-                resolveUri(texture.folder, percentEncode(texture.file), options_.allow_external, "material"));
+            const Bytes bytes =
+                readFile(resolveUri(texture.folder, percentEncode(texture.file), options_.allow_external, "material"));
             memory_.allow(bytes.size());
             memory_.take(bytes.size(), "material");
             image.bytes.assign(bytes.begin(), bytes.end());

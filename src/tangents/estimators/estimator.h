@@ -32,8 +32,7 @@ struct Estimator {
     /// Writes the rows of corner k of triangle t to rows + 4 * row_count * (3 * t + k). `vertices`: three per
     /// triangle, and valid ones up to the end of the last lane group. count <= kBlockTriangles. Triangles
     /// with values that are not finite write zeros.
-    void (*add)(const VertexSource& source, const std::uint32_t* vertices, std::size_t count,
-                float* rows) = nullptr;
+    void (*add)(const VertexSource& source, const std::uint32_t* vertices, std::size_t count, float* rows) = nullptr;
     /// Turns the sums of `count` groups, up to the end of the last lane group, into results in place.
     /// normals: four floats per group. The first row becomes the unit tangent, the second the unit bitangent,
     /// and the last two numbers of these rows the lengths of dP/du and dP/dv: {T.x, T.y, T.z, |dP/du|}, {B.x,

@@ -109,8 +109,7 @@ struct Triangles {
         // From corner 0: edges 0 and -2.
         determinant = u[2] * v[0] - u[0] * v[2];
         const Floats facing = select(determinant < zero(), broadcast(-1.0f), broadcast(1.0f));
-        const Floats v2 = minus(facing * v[2]), v0 = facing * v[0], u2 = minus(facing * u[2]),
-                     u0 = facing * u[0];
+        const Floats v2 = minus(facing * v[2]), v0 = facing * v[0], u2 = minus(facing * u[2]), u0 = facing * u[0];
         const Vectors back{minus(edge[2].x), minus(edge[2].y), minus(edge[2].z)};
         along_u = v2 * edge[0] - v0 * back;
         along_v = u0 * back - u2 * edge[0];

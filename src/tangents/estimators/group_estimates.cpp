@@ -123,8 +123,7 @@ class RangeWork {
                 normals[4 * i + 2] = n.z;
             }
             setting_.estimator.finish(room_.sums + step * first, normals, kLaneGroup, setting_.length_factor);
-            for (std::size_t i = 0; i < count; ++i)
-                write(first_group_ + first + i, room_.sums + step * (first + i));
+            for (std::size_t i = 0; i < count; ++i) write(first_group_ + first + i, room_.sums + step * (first + i));
         }
     }
 
@@ -145,9 +144,8 @@ class RangeWork {
     alignas(64) float rows_[3 * kBlockTriangles * 4 * kMostRows];
 };
 
-Setting settingOf(Method method, const TriangleGroups& triangles, const Pose& pose,
-                  const StridedSpan<const Vec2>& uvs, const InputScale& scale, const GroupEstimates& to,
-                  SimdTarget simd) {
+Setting settingOf(Method method, const TriangleGroups& triangles, const Pose& pose, const StridedSpan<const Vec2>& uvs,
+                  const InputScale& scale, const GroupEstimates& to, SimdTarget simd) {
     const VertexSource source{vertexArrays(pose, uvs), scale.positions, scale.uvs};
     const Estimator estimator =
         method == Method::fast ? twoWeightsFor(simd, to.rest == nullptr) : quadraticRecoveryFor(simd);

@@ -11,9 +11,9 @@ namespace tspace::estimators {
 
 inline bool isEstimated(Method method) { return method == Method::fast || method == Method::best; }
 
-/// Where results go: for group g three floats at tangents + g * tangent_stride; with `rest` the bitangent and the length
-/// of dP/du at rest + g * rest_stride, and the length of dP/dv at lengths_t + g * length_stride. What no triangle gives
-/// is 0.
+/// Where results go: for group g three floats at tangents + g * tangent_stride; with `rest` the bitangent and the
+/// length of dP/du at rest + g * rest_stride, and the length of dP/dv at lengths_t + g * length_stride. What no
+/// triangle gives is 0.
 struct GroupEstimates {
     std::byte* tangents = nullptr;
     std::size_t tangent_stride = 0;

@@ -44,8 +44,7 @@ class Exponents {
 }  // namespace
 
 float InputScale::lengthFactor() const {
-    return static_cast<float>(
-        std::clamp(static_cast<double>(uvs) / positions, double{FLT_MIN}, double{FLT_MAX}));
+    return static_cast<float>(std::clamp(static_cast<double>(uvs) / positions, double{FLT_MIN}, double{FLT_MAX}));
 }
 
 InputScale inputScale(const TriangleGroups& triangles, const StridedSpan<const Vec3>& positions,

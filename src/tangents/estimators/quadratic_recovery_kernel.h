@@ -41,11 +41,11 @@ constexpr float kMostRidge = 1e6f;
 // Sums are rounded to about 1e-7. Where the edges leave the quadratic part open (few triangles), that alone
 // is explained by one of 1e-7^2 / k0, or 3e-11 of the energy. A surface of 512 squared cells has 1e-7.
 constexpr float kRoundingShare = 1e-9f;
-constexpr float kLongestArc =
-    2.0f;  // an edge that climbs more than 60 degrees from the tangent plane is no arc in it
+constexpr float kLongestArc = 2.0f;  // an edge that climbs more than 60 degrees from the tangent plane is no arc in it
 // The ridge weighs the second derivatives as their Frobenius norm does: uu, uv, vv as 1, 2, 1. This is the share of
 // trace(Q) that Q's entries for uu and vv have where edges point everywhere. Q's own diagonal will not do: where four
-// edges make a cross, which leaves the part uv open, it hardly holds that part, and u^2 v^2 then explains what it must not.
+// edges make a cross, which leaves the part uv open, it hardly holds that part, and u^2 v^2 then explains what it must
+// not.
 constexpr float kRidgeShare = 0.3f;
 constexpr float kSmallestDeterminant = 1e-6f;
 
@@ -112,8 +112,7 @@ inline void storeCorner(float* at, const EdgeMoments& leaving, const EdgeMoments
     storeRows<kStep>(at + 24, robust_v.x, robust_v.y, energy, robust_weight);
 }
 
-inline void addRecoveryOf(const VertexSource& source, const std::uint32_t* vertices, bool exact,
-                          float* rows) {
+inline void addRecoveryOf(const VertexSource& source, const std::uint32_t* vertices, bool exact, float* rows) {
     const Triangles t(source, vertices, exact);
     Vectors normals[3];
     for (std::size_t k = 0; k < 3; ++k)
@@ -261,15 +260,12 @@ struct Doubt {
 
 inline Doubt doubtIn(const Fit& f, const Reduced& m, const Solution& s) {
     const Floats two = broadcast(2.0f);
-    const Floats bent =
-        f.q[0] * dot(s.q[0], s.q[0]) + f.q[3] * dot(s.q[1], s.q[1]) + f.q[5] * dot(s.q[2], s.q[2]);
-    const Floats straight =
-        f.m0 * dot(s.j[0], s.j[0]) + two * f.m1 * dot(s.j[0], s.j[1]) + f.m2 * dot(s.j[1], s.j[1]);
+    const Floats bent = f.q[0] * dot(s.q[0], s.q[0]) + f.q[3] * dot(s.q[1], s.q[1]) + f.q[5] * dot(s.q[2], s.q[2]);
+    const Floats straight = f.m0 * dot(s.j[0], s.j[0]) + two * f.m1 * dot(s.j[0], s.j[1]) + f.m2 * dot(s.j[1], s.j[1]);
     const Floats bend = bent / straight;
-    const Floats held = m.ridge[0] * dot(s.q[0], s.q[0]) + m.ridge[1] * dot(s.q[1], s.q[1]) +
-                        m.ridge[2] * dot(s.q[2], s.q[2]);
-    const Floats explained =
-        dot(s.q[0], m.p[0]) + dot(s.q[1], m.p[1]) + dot(s.q[2], m.p[2]) + broadcast(kRidge) * held;
+    const Floats held =
+        m.ridge[0] * dot(s.q[0], s.q[0]) + m.ridge[1] * dot(s.q[1], s.q[1]) + m.ridge[2] * dot(s.q[2], s.q[2]);
+    const Floats explained = dot(s.q[0], m.p[0]) + dot(s.q[1], m.p[1]) + dot(s.q[2], m.p[2]) + broadcast(kRidge) * held;
     const Floats left = f.energy - dot(f.r[0], m.linear[0]) - dot(f.r[1], m.linear[1]) - explained;
     // A NaN becomes the limit: the second one counts then.
     const Floats miss = smaller(larger(left, zero()) / explained, broadcast(kMissLimit));

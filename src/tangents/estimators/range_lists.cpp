@@ -43,8 +43,7 @@ class Walk {
         if (range == kSeveral) {
             const std::size_t size = read(block);
             for (std::size_t t = 0; t < size; ++t) {
-                enterTriangle(static_cast<std::uint32_t>(block * kBlockTriangles + t), groups_ + 3 * t,
-                              enter);
+                enterTriangle(static_cast<std::uint32_t>(block * kBlockTriangles + t), groups_ + 3 * t, enter);
             }
         } else if (range != kNoRange) {
             enter(range, RangeLists::kBlock | static_cast<std::uint32_t>(block));
@@ -97,8 +96,7 @@ RangeLists::RangeLists(const TriangleGroups& triangles, std::size_t group_count,
         std::size_t* const mine = places.data() + task * ranges;
         forBlocks(task, [&](std::size_t block) {
             range_of[block] = walk.rangeOfBlock(block);
-            walk.enterBlock(block, range_of[block],
-                            [mine](std::uint32_t range, std::uint32_t) { ++mine[range]; });
+            walk.enterBlock(block, range_of[block], [mine](std::uint32_t range, std::uint32_t) { ++mine[range]; });
         });
     });
     begin_ = Buffer<std::size_t>(allocator, ranges + 1);
@@ -118,9 +116,8 @@ RangeLists::RangeLists(const TriangleGroups& triangles, std::size_t group_count,
         Walk walk(triangles, group_count, shift);
         std::size_t* const mine = places.data() + task * ranges;
         forBlocks(task, [&](std::size_t block) {
-            walk.enterBlock(block, range_of[block], [&](std::uint32_t range, std::uint32_t entry) {
-                entries_[mine[range]++] = entry;
-            });
+            walk.enterBlock(block, range_of[block],
+                            [&](std::uint32_t range, std::uint32_t entry) { entries_[mine[range]++] = entry; });
         });
     });
 }

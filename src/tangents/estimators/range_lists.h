@@ -31,8 +31,7 @@ class TriangleGroups {
 
 class RangeLists {
   public:
-    static constexpr std::uint32_t kBlock =
-        0x80000000u;  ///< mark: a block of kBlockTriangles, not a triangle
+    static constexpr std::uint32_t kBlock = 0x80000000u;  ///< mark: a block of kBlockTriangles, not a triangle
 
     /// Ranges of `range_size` groups, a power of two. Takes 4 bytes per triangle at the border of two ranges,
     /// or up to 12 where triangles are in no order. Linear. Throws OutOfMemory.

@@ -25,8 +25,7 @@ namespace {
 constexpr float kMixSquare = 0.00351691f;  // sin^2(3.4 degrees): where both sums count alike
 
 template <bool kTangentsOnly>
-inline void addTwoWeightsOf(const VertexSource& source, const std::uint32_t* vertices, bool exact,
-                            float* rows) {
+inline void addTwoWeightsOf(const VertexSource& source, const std::uint32_t* vertices, bool exact, float* rows) {
     constexpr std::size_t kRows = kTangentsOnly ? 2 : 4, kStep = 12 * kRows;
     const Triangles t(source, vertices, exact);
     const Floats one = broadcast(1.0f), weight = t.robustWeight();
@@ -56,8 +55,7 @@ inline void addTwoWeightsOf(const VertexSource& source, const std::uint32_t* ver
 }
 
 template <bool kTangentsOnly>
-void addTwoWeights(const VertexSource& source, const std::uint32_t* vertices, std::size_t count,
-                   float* rows) {
+void addTwoWeights(const VertexSource& source, const std::uint32_t* vertices, std::size_t count, float* rows) {
     for (std::size_t t = 0; t < count; t += kWidth) {
         const std::uint32_t* const v = vertices + 3 * t;
         addTwoWeightsOf<kTangentsOnly>(source, v, namesLast(v, source.last_vertex),
@@ -70,8 +68,7 @@ inline Vectors mixed(Vectors n, Vectors accurate, Vectors robust) {
     const Vectors a = unit(accurate - dot(n, accurate) * n), b = unit(robust - dot(n, robust) * n);
     const Vectors across = cross(a, b);
     const Floats one = broadcast(1.0f);
-    const Floats square = select(dot(a, b) < zero(), one, dot(across, across)),
-                 r = square / broadcast(kMixSquare);
+    const Floats square = select(dot(a, b) < zero(), one, dot(across, across)), r = square / broadcast(kMixSquare);
     const Floats m = select(dot(a, a) > zero(), r / (one + r), one);
     return unit((one - m) * a + m * b);
 }

@@ -34,9 +34,8 @@ enum class Sums { none, tangents, all };
 
 class BucketSummer {
   public:
-    BucketSummer(const NodeBuckets& buckets, const Nodes& nodes, const CornerSource& source,
-                 CornerTermsFunction terms, NodeSums& sums, OpenNode* open, std::size_t open_count,
-                 FanRoom fan_room)
+    BucketSummer(const NodeBuckets& buckets, const Nodes& nodes, const CornerSource& source, CornerTermsFunction terms,
+                 NodeSums& sums, OpenNode* open, std::size_t open_count, FanRoom fan_room)
         : buckets_(buckets),
           nodes_(nodes),
           source_(source),
@@ -132,8 +131,7 @@ class BucketSummer {
     }
 
     template <Sums kSums>
-    void addCorner(std::size_t t, std::size_t k, std::uint32_t number, std::uint32_t next,
-                   std::uint32_t previous) {
+    void addCorner(std::size_t t, std::size_t k, std::uint32_t number, std::uint32_t next, std::uint32_t previous) {
         if (!owns(number)) return;
         OpenNode& node = open_[number - first_node_];
         const std::size_t row = 3 * t + k;
@@ -194,8 +192,8 @@ class BucketSummer {
 
 }  // namespace
 
-void sumBuckets(const NodeBuckets& buckets, const Nodes& nodes, const CornerSource& source,
-                CornerTermsFunction terms, NodeSums& sums, const Allocator* allocator, Parallel& parallel) {
+void sumBuckets(const NodeBuckets& buckets, const Nodes& nodes, const CornerSource& source, CornerTermsFunction terms,
+                NodeSums& sums, const Allocator* allocator, Parallel& parallel) {
     constexpr std::size_t kFans = 256;  // of more than two paths at a time, in one bucket
     struct Counts {
         std::uint64_t degenerate, no_uv_area, mirrored;

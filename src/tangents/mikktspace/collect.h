@@ -21,8 +21,7 @@ inline constexpr std::size_t kCollectBlock = NodeBlocks::kTriangles;
 /// many.
 template <class Test>
 std::size_t collectBlock(std::size_t begin, std::size_t end, const Test& test, std::uint32_t* to) {
-    std::size_t count =
-        0;  // to[count] is written in any case, and stays when the next one is written behind it
+    std::size_t count = 0;  // to[count] is written in any case, and stays when the next one is written behind it
     for (std::size_t i = begin; i < end; ++i) {
         to[count] = static_cast<std::uint32_t>(i);
         count += test(i) ? 1 : 0;
@@ -39,8 +38,8 @@ inline void listBits(std::uint64_t bits, std::size_t first, std::uint32_t* to) {
 /// The numbers i of [0, count), ascending, for which test(i). mayHold(begin, end) is asked first, for each
 /// block: when it says no, no test in the block may hold.
 template <class Test, class MayHold>
-Buffer<std::uint32_t> collect(std::size_t count, const Test& test, const MayHold& mayHold,
-                              const Allocator* allocator, Parallel& parallel) {
+Buffer<std::uint32_t> collect(std::size_t count, const Test& test, const MayHold& mayHold, const Allocator* allocator,
+                              Parallel& parallel) {
     constexpr std::size_t kGrain = 256;  // blocks
     static_assert(kCollectBlock == 64);  // bits
     const std::size_t blocks = (count + kCollectBlock - 1) / kCollectBlock;
@@ -61,8 +60,7 @@ Buffer<std::uint32_t> collect(std::size_t count, const Test& test, const MayHold
             const std::size_t begin = block * kCollectBlock, end = std::min(count, begin + kCollectBlock);
             std::uint64_t bits = 0;
             if (mayHold(begin, end)) {
-                for (std::size_t i = begin; i < end; ++i)
-                    bits |= std::uint64_t{test(i) ? 1u : 0u} << (i - begin);
+                for (std::size_t i = begin; i < end; ++i) bits |= std::uint64_t{test(i) ? 1u : 0u} << (i - begin);
             }
             passed[block] = bits;
             ends[block] = static_cast<std::uint32_t>(std::popcount(bits));
@@ -114,8 +112,7 @@ inline Marks noMarks(const Allocator* allocator, std::size_t count) {
 }
 
 /// Vertices with their nodes' marks.
-inline Marks marksOfVertices(Marks at_nodes, const Nodes& nodes, const Allocator* allocator,
-                             Parallel& parallel) {
+inline Marks marksOfVertices(Marks at_nodes, const Nodes& nodes, const Allocator* allocator, Parallel& parallel) {
     constexpr std::size_t kGrain = 65536;
     if (nodes.of_vertex.empty()) return at_nodes;
     Marks marks(allocator, nodes.of_vertex.size());
@@ -165,16 +162,13 @@ Buffer<std::uint32_t> collectMarked(const TriangleList& triangles, const NodeBlo
         const NodeBlocks::Range range = blocks.ranges[begin / NodeBlocks::kTriangles];
         return parts->any(range.first, range.last);
     };
-    const auto test = [=](std::size_t t) {
-        return (isMarked(3 * t) | isMarked(3 * t + 1) | isMarked(3 * t + 2)) != 0;
-    };
+    const auto test = [=](std::size_t t) { return (isMarked(3 * t) | isMarked(3 * t + 1) | isMarked(3 * t + 2)) != 0; };
     return collect(triangles.count, test, anyMarked, allocator, parallel);
 }
 
 /// The triangles with a corner at a marked vertex, ascending.
-inline Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles,
-                                              const Nodes& nodes, const Marks& marks,
-                                              const Allocator* allocator, Parallel& parallel) {
+inline Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+                                              const Marks& marks, const Allocator* allocator, Parallel& parallel) {
     std::optional<MarkedParts> parts;
     const auto nodeOf = [&](std::size_t v) { return nodes.ofVertex(static_cast<std::uint32_t>(v)); };
     if (!nodes.blocks.ranges.empty()) parts.emplace(marks, nodes.count, nodeOf, allocator);
@@ -186,9 +180,8 @@ inline Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const Triang
 }
 
 /// The triangles with a corner at a marked node, ascending. Nodes must be tame.
-inline Buffer<std::uint32_t> collectAround(const MeshView& mesh, const TriangleList& triangles,
-                                           const Nodes& nodes, Marks at_nodes, const Allocator* allocator,
-                                           Parallel& parallel) {
+inline Buffer<std::uint32_t> collectAround(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+                                           Marks at_nodes, const Allocator* allocator, Parallel& parallel) {
     if (mesh.indices.type != IndexType::none || !triangles.corners.empty() || nodes.of_vertex.empty()) {
         const Marks marks = marksOfVertices(std::move(at_nodes), nodes, allocator, parallel);
         return collectTriangles(mesh, triangles, nodes, marks, allocator, parallel);

@@ -20,8 +20,7 @@ void listCorners(GroupedPlan& plan, const Allocator* allocator) {
     plan.list = Buffer<std::uint32_t>(allocator, listed);
     for (std::size_t n = 2; n <= plan.listed_count; ++n) begin[n] += begin[n - 1];
     for (std::size_t i = 0; i < count; ++i) {
-        if (plan.nodes[i] < plan.listed_count)
-            plan.list[begin[plan.nodes[i] + 1]++] = static_cast<std::uint32_t>(i);
+        if (plan.nodes[i] < plan.listed_count) plan.list[begin[plan.nodes[i] + 1]++] = static_cast<std::uint32_t>(i);
     }
 }
 

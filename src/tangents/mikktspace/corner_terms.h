@@ -54,9 +54,8 @@ inline constexpr std::uint32_t kNotMiddle = 0x20;  ///< above kMiddleWeight
 inline constexpr std::uint32_t kHeavy = 0x40;      ///< above kHeavyWeight
 inline constexpr std::uint32_t kFanKnown = 0x80;   ///< always set here; taken away where fan.h loses track
 inline constexpr std::uint32_t kAllMarks = 0xff;
-inline constexpr std::uint32_t kNoUvArea = 0x100;  ///< the triangle has no usable UV area
-inline constexpr std::uint32_t kDegenerateMark =
-    0x200;  ///< two corners at one position: nothing else means anything
+inline constexpr std::uint32_t kNoUvArea = 0x100;        ///< the triangle has no usable UV area
+inline constexpr std::uint32_t kDegenerateMark = 0x200;  ///< two corners at one position: nothing else means anything
 inline constexpr float kLightWeight = 1.0f / 128, kMiddleWeight = 1.0f / 16, kHeavyWeight = 1.0f / 4;
 inline constexpr float kSmallestSquare = 0.04f, kTurnMargin = 0.15f;
 
@@ -71,8 +70,8 @@ struct CornerTerms {
 
 /// `vertices`: three per triangle; whole groups of 16 triangles are read, so the rest of the last one must
 /// hold valid numbers too. count <= kTermTriangles.
-using CornerTermsFunction = void (*)(const CornerSource& source, const std::uint32_t* vertices,
-                                     std::size_t count, CornerTerms& terms);
+using CornerTermsFunction = void (*)(const CornerSource& source, const std::uint32_t* vertices, std::size_t count,
+                                     CornerTerms& terms);
 
 /// The kernel for a target (see simd/dispatch.h).
 CornerTermsFunction cornerTermsFor(SimdTarget wish);

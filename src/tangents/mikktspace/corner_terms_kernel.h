@@ -53,8 +53,7 @@ struct Group {
     }
 
     [[nodiscard]] Mask isDegenerate() const {
-        return equal(position[0], position[1]) | equal(position[1], position[2]) |
-               equal(position[2], position[0]);
+        return equal(position[0], position[1]) | equal(position[1], position[2]) | equal(position[2], position[0]);
     }
 };
 
@@ -115,8 +114,8 @@ inline Floats weightOrCosine(const Vectors& normal, const Vectors& previous, con
 }
 
 template <Weighting kWeighting, bool kTangentsOnly>
-inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t first,
-                       unsigned valid, bool exact, CornerTerms& terms) {
+inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t first, unsigned valid,
+                       bool exact, CornerTerms& terms) {
     Group group;
     group.load(source, vertices, exact);
     const Mask degenerate = group.isDegenerate();
@@ -124,8 +123,7 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
     const unsigned bad = bitsOf(degenerate), flat = bitsOf(shape.no_area) & ~bad & valid;
     terms.degenerate_count += static_cast<unsigned>(__builtin_popcount(bad & valid));
     terms.no_uv_area_count += static_cast<unsigned>(__builtin_popcount(flat));
-    terms.mirrored_count +=
-        static_cast<unsigned>(__builtin_popcount(~(bitsOf(shape.positive) | bad | flat) & valid));
+    terms.mirrored_count += static_cast<unsigned>(__builtin_popcount(~(bitsOf(shape.positive) | bad | flat) & valid));
     Bits facing = orWhere(broadcastBits(0), shape.positive, kFacesUp);
     facing = orWhere(facing, !shape.positive, kFacesDown);
     const Mask usable = shape.finite & !shape.no_area;
@@ -150,8 +148,8 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
         s[k] = unit(flat_s, square);
         if constexpr (!kTangentsOnly) t[k] = flatten(normal, shape.t);
         const Vectors here = group.position[k];
-        weights[k] = weightOrCosine<kWeighting>(normal, group.position[(k + 2) % 3] - here,
-                                                group.position[(k + 1) % 3] - here);
+        weights[k] =
+            weightOrCosine<kWeighting>(normal, group.position[(k + 2) % 3] - here, group.position[(k + 1) % 3] - here);
         marks[k] = facing;
         if constexpr (kWeighting == Weighting::projected_angle)
             marks[k] = markTurn(facing, normal, s[k], square, shape.t);
@@ -168,16 +166,14 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
         const std::size_t row = 3 * first + k;
         storeRows(terms.s[row], weight * s[k].x, weight * s[k].y, weight * s[k].z, weight);
         if constexpr (!kTangentsOnly) {
-            storeRows(terms.t[row], weight * t[k].x, weight * t[k].y, weight * t[k].z,
-                      weight * shape.length_s);
+            storeRows(terms.t[row], weight * t[k].x, weight * t[k].y, weight * t[k].z, weight * shape.length_s);
             store(terms.lengths_t[k] + first, weight * shape.length_t);
         }
     }
 }
 
 template <Weighting kWeighting, bool kTangentsOnly>
-void blockTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t count,
-                CornerTerms& terms) {
+void blockTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t count, CornerTerms& terms) {
     for (std::size_t t = 0; t < count; t += kWidth) {
         const std::size_t left = count - t;
         const unsigned valid = left >= kWidth ? (1u << kWidth) - 1 : (1u << left) - 1;
@@ -187,8 +183,7 @@ void blockTerms(const CornerSource& source, const std::uint32_t* vertices, std::
 }
 
 template <bool kTangentsOnly>
-void termsBy(const CornerSource& source, const std::uint32_t* vertices, std::size_t count,
-             CornerTerms& terms) {
+void termsBy(const CornerSource& source, const std::uint32_t* vertices, std::size_t count, CornerTerms& terms) {
     switch (source.weighting) {
         case Weighting::projected_angle:
             return blockTerms<Weighting::projected_angle, kTangentsOnly>(source, vertices, count, terms);
@@ -205,8 +200,7 @@ void termsBy(const CornerSource& source, const std::uint32_t* vertices, std::siz
 
 }  // namespace
 
-void cornerTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t count,
-                 CornerTerms& terms) {
+void cornerTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t count, CornerTerms& terms) {
     terms.degenerate_count = terms.no_uv_area_count = terms.mirrored_count = 0;
     if (source.tangents_only) {
         termsBy<true>(source, vertices, count, terms);

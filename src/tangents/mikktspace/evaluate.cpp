@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::size_t kGroupGrain = 8192, kCornerGrain = 16384;
 
-/// A plan's triangles, as estimators read them. Groups with kMark, to which a triangle adds nothing, are no groups there.
+/// A plan's triangles, as estimators read them. Groups with kMark, to which a triangle adds nothing, are no groups
+/// there.
 class PlanTriangles final : public estimators::TriangleGroups {
   public:
     explicit PlanTriangles(const EvaluationPlan& plan) : TriangleGroups(plan.triangle_count), plan_(plan) {}
@@ -36,8 +37,8 @@ class PlanTriangles final : public estimators::TriangleGroups {
 
 class Evaluation {
   public:
-    Evaluation(const EvaluationPlan& plan, const Pose& pose, const TangentOutput& out,
-               const Execution& execution, Parallel& parallel, const estimators::InputScale* scale)
+    Evaluation(const EvaluationPlan& plan, const Pose& pose, const TangentOutput& out, const Execution& execution,
+               Parallel& parallel, const estimators::InputScale* scale)
         : plan_(plan),
           pose_(pose),
           scale_(scale),
@@ -81,10 +82,13 @@ class Evaluation {
             scale_ != nullptr ? *scale_ : estimators::inputScale(triangles, pose_.positions, uvs);
         sums_.groups = Buffer<GroupSum>(allocator_, plan_.group_count);
         if (!source_.tangents_only) sums_.rest = Buffer<GroupRest>(allocator_, plan_.group_count);
-        const estimators::GroupEstimates to{reinterpret_cast<std::byte*>(sums_.groups.data()), sizeof(GroupSum),
-                                            reinterpret_cast<std::byte*>(sums_.rest.data()), sizeof(GroupRest),
-                                            sums_.rest.empty() ? nullptr : reinterpret_cast<std::byte*>(&sums_.rest[0].length_t),
-                                            sizeof(GroupRest)};
+        const estimators::GroupEstimates to{
+            reinterpret_cast<std::byte*>(sums_.groups.data()),
+            sizeof(GroupSum),
+            reinterpret_cast<std::byte*>(sums_.rest.data()),
+            sizeof(GroupRest),
+            sums_.rest.empty() ? nullptr : reinterpret_cast<std::byte*>(&sums_.rest[0].length_t),
+            sizeof(GroupRest)};
         estimators::estimateGroups(plan_.method, triangles, plan_.group_count, pose_, uvs, scale, to, execution_,
                                    parallel_);
     }

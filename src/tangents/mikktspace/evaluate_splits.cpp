@@ -36,8 +36,8 @@ struct Sums {
 /// One task's worth of groups.
 class SplitEvaluator {
   public:
-    SplitEvaluator(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction kernel,
-                   const Sink& sink, Term* terms, Tangents* results, Tangents* all_results)
+    SplitEvaluator(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction kernel, const Sink& sink,
+                   Term* terms, Tangents* results, Tangents* all_results)
         : plan_(plan),
           source_(source),
           kernel_(kernel),
@@ -90,8 +90,7 @@ class SplitEvaluator {
             for (std::uint32_t i = 0; i < count; ++i) {
                 const std::size_t k = plan_.members[split.begin + begin + i] % 3;
                 const float *s = block_.s[3 * i + k], *t = block_.t[3 * i + k];
-                terms_[begin + i] = {
-                    {s[0], s[1], s[2]}, {t[0], t[1], t[2]}, t[3], block_.lengths_t[k][i], s[3]};
+                terms_[begin + i] = {{s[0], s[1], s[2]}, {t[0], t[1], t[2]}, t[3], block_.lengths_t[k][i], s[3]};
             }
         }
     }
@@ -109,21 +108,18 @@ class SplitEvaluator {
 
 }  // namespace
 
-Buffer<Tangents> evaluateSplits(const EvaluationPlan& plan, const CornerSource& source,
-                                CornerTermsFunction terms, const Sink& sink, const Allocator* allocator,
-                                Parallel& parallel) {
+Buffer<Tangents> evaluateSplits(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction terms,
+                                const Sink& sink, const Allocator* allocator, Parallel& parallel) {
     Buffer<Tangents> all(allocator, plan.conflicts.empty() ? 0 : plan.members.size());
     const std::size_t count = plan.splits.size(), most = plan.largest_split;
     if (count == 0) return all;
-    const std::size_t tasks =
-        std::min<std::size_t>(count / 64 + 1, parallel.width() == 1 ? 1 : 4 * parallel.width());
+    const std::size_t tasks = std::min<std::size_t>(count / 64 + 1, parallel.width() == 1 ? 1 : 4 * parallel.width());
     Buffer<Term> scratch(allocator, tasks * most);
     Buffer<Tangents> results(allocator, tasks * most);
     parallel.forTasks(tasks, [&](std::size_t task) {
-        SplitEvaluator evaluator(plan, source, terms, sink, scratch.data() + task * most,
-                                 results.data() + task * most, all.data());
-        for (std::size_t i = count * task / tasks; i < count * (task + 1) / tasks; ++i)
-            evaluator.run(plan.splits[i]);
+        SplitEvaluator evaluator(plan, source, terms, sink, scratch.data() + task * most, results.data() + task * most,
+                                 all.data());
+        for (std::size_t i = count * task / tasks; i < count * (task + 1) / tasks; ++i) evaluator.run(plan.splits[i]);
     });
     return all;
 }

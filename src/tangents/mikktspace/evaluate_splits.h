@@ -11,8 +11,7 @@ namespace tspace::mikk {
 /// Writes the results of all members but those whose corner has several. Those are returned, one per member,
 /// when the plan has conflicts. Quadratic in the size of a group, which is limited when plans are made.
 /// Throws OutOfMemory.
-Buffer<Tangents> evaluateSplits(const EvaluationPlan& plan, const CornerSource& source,
-                                CornerTermsFunction terms, const Sink& sink, const Allocator* allocator,
-                                Parallel& parallel);
+Buffer<Tangents> evaluateSplits(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction terms,
+                                const Sink& sink, const Allocator* allocator, Parallel& parallel);
 
 }  // namespace tspace::mikk

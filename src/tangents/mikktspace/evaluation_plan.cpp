@@ -22,8 +22,7 @@ class Numberer {
     void run() {
         to_.groups = Buffer<std::uint32_t>(allocator_, 3 * from_.triangle_count, kNone);
         to_.splits = Buffer<EvaluatedSplit>(allocator_, from_.split_groups.size());
-        if (!from_.conflicts.empty())
-            source_of_ = Buffer<std::uint32_t>(allocator_, from_.list.size(), kNone);
+        if (!from_.conflicts.empty()) source_of_ = Buffer<std::uint32_t>(allocator_, from_.list.size(), kNone);
         for (std::uint32_t begin = 0; begin < from_.list.size();) {
             std::uint32_t end = begin + 1;
             while (end < from_.list.size() && (from_.list[end] & kMark) == 0) ++end;
@@ -39,9 +38,7 @@ class Numberer {
     }
 
   private:
-    [[nodiscard]] bool isAny(std::uint32_t tricorner) const {
-        return (from_.flags[tricorner / 3] & kAny) != 0;
-    }
+    [[nodiscard]] bool isAny(std::uint32_t tricorner) const { return (from_.flags[tricorner / 3] & kAny) != 0; }
 
     /// The group at [begin, end) of the list. Without a usable triangle it is a node's ungrouped rest.
     void number(std::uint32_t begin, std::uint32_t end) {
@@ -53,8 +50,8 @@ class Numberer {
         const bool positive = (from_.flags[first / 3] & kPositive) != 0;
         if (split_ < from_.split_groups.size() && from_.split_groups[split_].begin == begin) {
             const SplitGroup& split = from_.split_groups[split_];
-            to_.splits[split_++] = {static_cast<std::uint32_t>(members_.size()), split.count, split.rows,
-                                    split.leaders, positive};
+            to_.splits[split_++] = {static_cast<std::uint32_t>(members_.size()), split.count, split.rows, split.leaders,
+                                    positive};
             for (std::uint32_t e = begin; e < end; ++e) {
                 if (!source_of_.empty()) source_of_[e] = kMark | static_cast<std::uint32_t>(members_.size());
                 members_.push(from_.list[e] & kValue);
@@ -164,10 +161,9 @@ EvaluationPlan makeEvaluationPlan(GroupedPlan plan, const MeshView& mesh, PlanUs
 
 std::size_t EvaluationPlan::memoryBytes() const {
     const auto bytes = [](const auto& buffer) { return buffer.size() * sizeof(*buffer.data()); };
-    return sizeof(*this) + bytes(vertices) + bytes(groups) + bytes(corner_groups) + bytes(group_positive) +
-           bytes(uvs) + bytes(splits) + bytes(members) + bytes(member_slots) + bytes(split_rows) +
-           bytes(split_leaders) + bytes(conflicts) + bytes(repeat_slots) + bytes(default_corners) +
-           bytes(skipped_corners) + bytes(copies);
+    return sizeof(*this) + bytes(vertices) + bytes(groups) + bytes(corner_groups) + bytes(group_positive) + bytes(uvs) +
+           bytes(splits) + bytes(members) + bytes(member_slots) + bytes(split_rows) + bytes(split_leaders) +
+           bytes(conflicts) + bytes(repeat_slots) + bytes(default_corners) + bytes(skipped_corners) + bytes(copies);
 }
 
 }  // namespace tspace::mikk

@@ -12,8 +12,8 @@ namespace tspace::mikk {
 /// A group whose members do not all share one result (angular threshold).
 struct EvaluatedSplit {
     std::uint32_t begin = 0, count = 0;  ///< its range in EvaluationPlan::members
-    std::size_t rows = 0;     ///< first word in split_rows: `count` rows of (count + 63) / 64 words
-    std::size_t leaders = 0;  ///< first entry in split_leaders
+    std::size_t rows = 0;                ///< first word in split_rows: `count` rows of (count + 63) / 64 words
+    std::size_t leaders = 0;             ///< first entry in split_leaders
     bool positive = false;
 };
 
@@ -34,8 +34,8 @@ struct EvaluationPlan {
     bool has_repeats = false;       ///< some corner of the mesh belongs to several triangles
 
     /// One per tricorner: the vertex whose data stand for it. In a plan that is kept that is the corner's own, because
-    /// vertices that are equal on the mesh may come apart in a pose. Followed by the numbers of some more valid vertices,
-    /// so that kernels can read whole blocks.
+    /// vertices that are equal on the mesh may come apart in a pose. Followed by the numbers of some more valid
+    /// vertices, so that kernels can read whole blocks.
     Buffer<std::uint32_t> vertices;
     /// One per tricorner: the group it belongs to, with kMark if it adds nothing to it; kNone without one,
     /// and for members of groups that split.
@@ -47,15 +47,14 @@ struct EvaluationPlan {
     Buffer<Vec2> uvs;                     ///< one per vertex
 
     Buffer<EvaluatedSplit> splits;
-    Buffer<std::uint32_t> members;  ///< tricorners of these groups
-    Buffer<std::uint32_t>
-        member_slots;  ///< one per member: its corner of the mesh, with kMark where others conflict
+    Buffer<std::uint32_t> members;        ///< tricorners of these groups
+    Buffer<std::uint32_t> member_slots;   ///< one per member: its corner of the mesh, with kMark where others conflict
     Buffer<std::uint64_t> split_rows;     ///< bit b of row a: member b counts for member a
     Buffer<std::uint32_t> split_leaders;  ///< the first member with the same row
     std::uint32_t largest_split = 0;
 
-    Buffer<Conflict> conflicts;          ///< by corner, then in the order in which the reference writes them
-    Buffer<std::uint32_t> repeat_slots;  ///< with has_repeats, one per tricorner: its corner of the mesh
+    Buffer<Conflict> conflicts;             ///< by corner, then in the order in which the reference writes them
+    Buffer<std::uint32_t> repeat_slots;     ///< with has_repeats, one per tricorner: its corner of the mesh
     Buffer<std::uint32_t> default_corners;  ///< corners that no group reaches
     Buffer<std::uint32_t> skipped_corners;  ///< corners of faces that are ignored: all outputs are 0
     Buffer<Copy> copies;                    ///< corners of degenerate triangles

@@ -25,8 +25,7 @@ class FanRoom {
   public:
     static constexpr std::uint32_t kNone = 0xffffffffu;
 
-    FanRoom(ManyPaths* places, std::size_t count)
-        : places_(places), unused_(static_cast<std::uint32_t>(count)) {}
+    FanRoom(ManyPaths* places, std::size_t count) : places_(places), unused_(static_cast<std::uint32_t>(count)) {}
 
     ManyPaths& operator[](std::uint32_t place) { return places_[place]; }
     /// kNone when all are taken.

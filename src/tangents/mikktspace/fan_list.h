@@ -42,15 +42,13 @@ using FourNumbers = std::uint32_t __attribute__((vector_size(16)));
 inline FanLinks splitLinks(FourNumbers low, FourNumbers high) {
 #if defined(TSPACE_SIMD_X86)
     const __m128i both = _mm_packs_epi32(std::bit_cast<__m128i>(low), std::bit_cast<__m128i>(high));
-    const __m128i bytes =
-        _mm_packus_epi16(_mm_and_si128(both, _mm_set1_epi16(0xff)), _mm_srli_epi16(both, 8));
+    const __m128i bytes = _mm_packus_epi16(_mm_and_si128(both, _mm_set1_epi16(0xff)), _mm_srli_epi16(both, 8));
     return {static_cast<std::uint64_t>(_mm_cvtsi128_si64(bytes)),
             static_cast<std::uint64_t>(_mm_cvtsi128_si64(_mm_unpackhi_epi64(bytes, bytes)))};
 #elif defined(TSPACE_SIMD_ARM64)
     const uint16x8_t both =
         vcombine_u16(vmovn_u32(std::bit_cast<uint32x4_t>(low)), vmovn_u32(std::bit_cast<uint32x4_t>(high)));
-    return {std::bit_cast<std::uint64_t>(vmovn_u16(both)),
-            std::bit_cast<std::uint64_t>(vshrn_n_u16(both, 8))};
+    return {std::bit_cast<std::uint64_t>(vmovn_u16(both)), std::bit_cast<std::uint64_t>(vshrn_n_u16(both, 8))};
 #else
     FanLinks links{0, 0};
     for (std::uint32_t i = 0; i < FanList::kMost; ++i) {

@@ -44,8 +44,7 @@ TangentReport generateWith(const MeshView& mesh, const TangentOptions& options, 
         if (report) return *report;
     }
     const std::size_t count = nodes.count;
-    const EvaluationPlan plan =
-        planNodes(mesh, general, std::move(triangles), nodes, count, PlanUse::once, parallel);
+    const EvaluationPlan plan = planNodes(mesh, general, std::move(triangles), nodes, count, PlanUse::once, parallel);
     return evaluateGroups(plan, {mesh.positions, mesh.normals}, out, options.execution, parallel);
 }
 
@@ -55,8 +54,7 @@ TangentReport generateGrouped(const MeshView& mesh, const TangentOptions& option
                               Parallel& parallel) {
     const std::size_t corners = mesh.cornerCount();
     if (corners > kSmallMesh) return generateWith(mesh, options, out, parallel);
-    ScratchBlock scratch(options.execution.allocator,
-                         std::min(kLeastBlock + corners * kBytesPerCorner, kLargestBlock));
+    ScratchBlock scratch(options.execution.allocator, std::min(kLeastBlock + corners * kBytesPerCorner, kLargestBlock));
     TangentOptions small = options;
     small.execution.allocator = scratch.allocator();
     return generateWith(mesh, small, out, parallel);

@@ -30,10 +30,9 @@ inline constexpr std::uint32_t kValue = 0x7fffffffu;
 inline constexpr std::uint64_t kMaxTricorners = kValue;
 
 enum TriangleFlag : std::uint8_t {
-    kPositive =
-        1,     ///< positive UV area (after quads were made uniform): the orientation of the triangle's groups
-    kAny = 2,  ///< no usable UV area: joins groups of either orientation, opens none, adds nothing
-    kGrouped = 4,  ///< used while grouping: some corner of this kAny triangle has a group
+    kPositive = 1,  ///< positive UV area (after quads were made uniform): the orientation of the triangle's groups
+    kAny = 2,       ///< no usable UV area: joins groups of either orientation, opens none, adds nothing
+    kGrouped = 4,   ///< used while grouping: some corner of this kAny triangle has a group
 };
 
 /// dP/du and dP/dv of a triangle: directions (zero when they have none) and lengths.
@@ -51,8 +50,8 @@ struct PoseData {
 /// A group whose members do not all share one result (angular threshold).
 struct SplitGroup {
     std::uint32_t begin = 0, count = 0;  ///< its range in GroupedPlan::list
-    std::size_t rows = 0;     ///< first word in split_rows: `count` rows of (count + 63) / 64 words
-    std::size_t leaders = 0;  ///< first entry in split_leaders
+    std::size_t rows = 0;                ///< first word in split_rows: `count` rows of (count + 63) / 64 words
+    std::size_t leaders = 0;             ///< first entry in split_leaders
 };
 
 struct Copy {
@@ -89,9 +88,8 @@ struct GroupedPlan {
     Buffer<std::uint32_t> split_leaders;  ///< the first member with the same row
     std::uint32_t largest_split_group = 0;
 
-    Buffer<std::uint32_t> conflicts;  ///< positions in `list` whose slot is marked, ascending
-    Buffer<std::uint32_t>
-        conflict_order;  ///< indices into conflicts, by slot, then as the reference writes them
+    Buffer<std::uint32_t> conflicts;        ///< positions in `list` whose slot is marked, ascending
+    Buffer<std::uint32_t> conflict_order;   ///< indices into conflicts, by slot, then as the reference writes them
     Buffer<std::uint32_t> default_corners;  ///< corners that no group reaches
     Buffer<std::uint32_t> skipped_corners;  ///< corners of faces that are ignored: all outputs are 0
     Buffer<Copy> copies;                    ///< corners of degenerate triangles
@@ -116,7 +114,7 @@ EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, 
 
 /// The same from triangles that are cut and nodes that are known, for the first `listed_count` nodes. With
 /// Pairing::reference these must be all; it is meant for what needsReferenceOrder. `nodes` may become exact.
-EvaluationPlan planNodes(const MeshView& mesh, const TangentOptions& options, TriangleList triangles,
-                         Nodes& nodes, std::size_t listed_count, PlanUse use, Parallel& parallel);
+EvaluationPlan planNodes(const MeshView& mesh, const TangentOptions& options, TriangleList triangles, Nodes& nodes,
+                         std::size_t listed_count, PlanUse use, Parallel& parallel);
 
 }  // namespace tspace::mikk

@@ -24,14 +24,13 @@ constexpr std::size_t kLookAhead = 4;  // nodes; far enough for their triangles 
 /// Spreads a group from `seed` along one side. `joins(member)` says whether the group may take a member.
 template <class Joins>
 void spread(std::uint32_t seed, const std::uint32_t* link, std::uint32_t* group, const Joins& joins) {
-    for (std::uint32_t m = link[seed]; m != kNone && group[m] == kNone && joins(m); m = link[m])
-        group[m] = group[seed];
+    for (std::uint32_t m = link[seed]; m != kNone && group[m] == kNone && joins(m); m = link[m]) group[m] = group[seed];
 }
 
 /// Puts a node's tricorners into the order group by group and marks where groups start. `start` has room for
 /// group_count + 1 numbers, `copy` for one per member.
-void sortByGroup(std::uint32_t* list, std::uint32_t count, const std::uint32_t* group,
-                 std::uint32_t group_count, std::uint32_t* start, std::uint32_t* copy) {
+void sortByGroup(std::uint32_t* list, std::uint32_t count, const std::uint32_t* group, std::uint32_t group_count,
+                 std::uint32_t* start, std::uint32_t* copy) {
     std::fill_n(start, group_count + 1, 0u);
     const auto rank = [&](std::uint32_t i) { return group[i] == kNone ? group_count : group[i]; };
     for (std::uint32_t i = 0; i < count; ++i) ++start[rank(i)];
@@ -61,8 +60,7 @@ class Grouper {
             std::uint64_t groups = 0;
             for (std::size_t node = begin; node < end; ++node) {
                 if (node + kLookAhead < end) fetch(node + kLookAhead);
-                if (size(node) != 0 && size(node) <= kSmallNode && !touchesAny(node))
-                    groups += groupSmall(node);
+                if (size(node) != 0 && size(node) <= kSmallNode && !touchesAny(node)) groups += groupSmall(node);
             }
             group_count_ += groups;
         });
@@ -76,12 +74,8 @@ class Grouper {
         return plan_.node_begin[node + 1] - plan_.node_begin[node];
     }
     std::uint32_t* list(std::size_t node) { return plan_.list.data() + plan_.node_begin[node]; }
-    [[nodiscard]] std::uint8_t flags(std::uint32_t tricorner) const {
-        return plan_.flags[(tricorner & kValue) / 3];
-    }
-    [[nodiscard]] bool touchesAny(std::size_t node) const {
-        return !any_node_.empty() && any_node_[node] != 0;
-    }
+    [[nodiscard]] std::uint8_t flags(std::uint32_t tricorner) const { return plan_.flags[(tricorner & kValue) / 3]; }
+    [[nodiscard]] bool touchesAny(std::size_t node) const { return !any_node_.empty() && any_node_[node] != 0; }
 
     void fetch(std::size_t node) const {
         const std::uint32_t begin = plan_.node_begin[node],
@@ -95,11 +89,9 @@ class Grouper {
     void findAnyNodes() {
         for (std::size_t t = 0; t < plan_.triangle_count; ++t) {
             if ((plan_.flags[t] & kAny) == 0) continue;
-            if (any_node_.empty())
-                any_node_ = Buffer<std::uint8_t>(allocator_, plan_.listed_count, std::uint8_t{0});
+            if (any_node_.empty()) any_node_ = Buffer<std::uint8_t>(allocator_, plan_.listed_count, std::uint8_t{0});
             for (std::size_t k = 0; k < 3; ++k) {
-                if (const std::uint32_t node = plan_.nodes[3 * t + k]; node < plan_.listed_count)
-                    any_node_[node] = 1;
+                if (const std::uint32_t node = plan_.nodes[3 * t + k]; node < plan_.listed_count) any_node_[node] = 1;
             }
         }
     }
@@ -111,9 +103,7 @@ class Grouper {
         for (std::uint32_t i = 0; i < around.count; ++i) {
             if (group[i] != kNone) continue;
             const std::uint8_t orientation = flags(around.list[i]) & kPositive;
-            const auto joins = [&](std::uint32_t m) {
-                return (flags(around.list[m]) & kPositive) == orientation;
-            };
+            const auto joins = [&](std::uint32_t m) { return (flags(around.list[m]) & kPositive) == orientation; };
             group[i] = groups++;
             spread(i, around.left, group, joins);
             spread(i, around.right, group, joins);
@@ -122,8 +112,7 @@ class Grouper {
     }
 
     std::uint32_t groupSmall(std::size_t node) {
-        std::uint32_t next[kSmallNode], previous[kSmallNode], left[kSmallNode], right[kSmallNode],
-            group[kSmallNode];
+        std::uint32_t next[kSmallNode], previous[kSmallNode], left[kSmallNode], right[kSmallNode], group[kSmallNode];
         Around around{size(node), list(node), next, previous, left, right};
         readNeighbours(plan_, around);
         pairSmall(around);
@@ -229,8 +218,7 @@ class Grouper {
     /// A kAny triangle takes the orientation of the first group that asks, at whichever of its nodes.
     bool joinsAny(std::uint32_t triangle, std::uint8_t orientation) {
         std::uint8_t& f = plan_.flags[triangle];
-        if ((f & kAny) != 0 && (f & kGrouped) == 0)
-            f = static_cast<std::uint8_t>((f & ~kPositive) | orientation);
+        if ((f & kAny) != 0 && (f & kGrouped) == 0) f = static_cast<std::uint8_t>((f & ~kPositive) | orientation);
         if ((f & kPositive) != orientation) return false;
         f |= kGrouped;
         return true;

@@ -11,10 +11,8 @@
 
 namespace tspace::mikk {
 
-inline constexpr std::size_t kBlock =
-    128;  // corners; a block's arrays take 10 KB and stay in the first cache
-inline constexpr std::size_t kLaneGroup =
-    16;  // loops run over whole groups, so that no remainder loop is needed
+inline constexpr std::size_t kBlock = 128;     // corners; a block's arrays take 10 KB and stay in the first cache
+inline constexpr std::size_t kLaneGroup = 16;  // loops run over whole groups, so that no remainder loop is needed
 
 struct Lanes3 {
     alignas(64) float x[kBlock] = {};
@@ -29,9 +27,7 @@ struct Lanes3 {
     [[nodiscard]] Vec3 get(std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-inline std::size_t wholeGroups(std::size_t count) {
-    return (count + kLaneGroup - 1) / kLaneGroup * kLaneGroup;
-}
+inline std::size_t wholeGroups(std::size_t count) { return (count + kLaneGroup - 1) / kLaneGroup * kLaneGroup; }
 
 /// v[i] = flatten(n[i], v[i]) for the first `count` lanes (and the rest of the last group).
 inline void flattenLanes(const Lanes3& n, Lanes3& v, std::size_t count) {
@@ -41,8 +37,7 @@ inline void flattenLanes(const Lanes3& n, Lanes3& v, std::size_t count) {
         const float x = v.x[i] - along * n.x[i], y = v.y[i] - along * n.y[i], z = v.z[i] - along * n.z[i];
         const float scale = 1.0f / std::sqrt(x * x + y * y + z * z);
         // All three are compared, without a branch.
-        const int sound =
-            int{std::fabs(x) > FLT_MIN} | int{std::fabs(y) > FLT_MIN} | int{std::fabs(z) > FLT_MIN};
+        const int sound = int{std::fabs(x) > FLT_MIN} | int{std::fabs(y) > FLT_MIN} | int{std::fabs(z) > FLT_MIN};
         v.x[i] = sound != 0 ? scale * x : x;
         v.y[i] = sound != 0 ? scale * y : y;
         v.z[i] = sound != 0 ? scale * z : z;

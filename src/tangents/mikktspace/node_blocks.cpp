@@ -17,13 +17,12 @@ constexpr std::size_t kGrain = 256;  // blocks
 /// Judged by a sample.
 bool isScattered(const MeshView& mesh, const TriangleList& triangles) {
     constexpr std::size_t kSamples = 1024;
-    constexpr std::int64_t kFar = 2048;  // vertices
+    constexpr std::int64_t kFar = 2048;                                      // vertices
     if (triangles.count < 2 || mesh.vertexCount() < 4 * kFar) return false;  // nothing is far
     std::size_t far = 0;
     for (std::size_t i = 0; i < kSamples; ++i) {
         const std::size_t t = (triangles.count - 1) * i / kSamples;
-        const std::int64_t a = mesh.indices[triangles.corner(3 * t)],
-                           b = mesh.indices[triangles.corner(3 * t + 3)];
+        const std::int64_t a = mesh.indices[triangles.corner(3 * t)], b = mesh.indices[triangles.corner(3 * t + 3)];
         far += std::abs(a - b) > kFar;
     }
     return far > kSamples / 4;
@@ -91,8 +90,8 @@ NodeBlocks findNodeBlocks(const MeshView& mesh, const TriangleList& triangles, c
         parallel.forRanges(count, kGrain, [&](std::size_t first, std::size_t end) {
             for (std::size_t block = first; block < end; ++block) {
                 const std::size_t begin = 3 * NodeBlocks::kTriangles * block;
-                blocks.ranges[block] = parts.nodesOf(rangeOf(
-                    begin, std::min(begin + 3 * NodeBlocks::kTriangles, 3 * triangles.count), vertexOf));
+                blocks.ranges[block] = parts.nodesOf(
+                    rangeOf(begin, std::min(begin + 3 * NodeBlocks::kTriangles, 3 * triangles.count), vertexOf));
             }
         });
     });

@@ -9,8 +9,8 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kMostBuckets = 1024;  // each is a place that is written to
-constexpr unsigned kShiftForThreads = 11;   // buckets are not made smaller than this for more threads
+constexpr std::size_t kMostBuckets = 1024;     // each is a place that is written to
+constexpr unsigned kShiftForThreads = 11;      // buckets are not made smaller than this for more threads
 constexpr std::size_t kPartTriangles = 16384;  // of a task at least
 
 }  // namespace
@@ -124,13 +124,11 @@ bool NodeBuckets::fill(ScratchBlock& brief) {
         parallel_.forTasks(parts_, [&](std::size_t part) {
             Filler filler(*this, lists_.data() + part * count_, links_.data(), chunks * part / parts_,
                           chunks * (part + 1) / parts_);
-            const std::size_t begin = triangles_.count * part / parts_,
-                              end = triangles_.count * (part + 1) / parts_;
+            const std::size_t begin = triangles_.count * part / parts_, end = triangles_.count * (part + 1) / parts_;
             const std::uint32_t* node_of = nodes_.of_vertex.data();
-            const bool done =
-                node_of == nullptr
-                    ? filler.run(begin, end, vertexOf)
-                    : filler.run(begin, end, [=](std::size_t i) { return node_of[vertexOf(i)]; });
+            const bool done = node_of == nullptr
+                                  ? filler.run(begin, end, vertexOf)
+                                  : filler.run(begin, end, [=](std::size_t i) { return node_of[vertexOf(i)]; });
             if (!done) fits = false;
         });
     });

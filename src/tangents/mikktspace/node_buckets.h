@@ -27,8 +27,8 @@ struct BucketChunk {
 class NodeBuckets {
   public:
     /// All must outlive this object.
-    NodeBuckets(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                const Allocator* allocator, Parallel& parallel);
+    NodeBuckets(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const Allocator* allocator,
+                Parallel& parallel);
 
     /// Fills the buckets, in what is left of `brief`. Returns false when they do not fit, or when many triangles are in
     /// several buckets. Not for polygons.

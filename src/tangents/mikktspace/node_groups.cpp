@@ -28,8 +28,7 @@ Vec3 vectorOf(Float4 row) { return {row[0], row[1], row[2]}; }
 
 /// Whether the links between them make one path or ring, without a choice.
 bool areOneFan(std::span<const UnclearCorner> around) {
-    if (around.size() == 2)
-        return around[0].next == around[1].previous || around[1].next == around[0].previous;
+    if (around.size() == 2) return around[0].next == around[1].previous || around[1].next == around[0].previous;
     if (around.size() > FanList::kMost) return false;
     FanList list;
     list.clear();
@@ -50,8 +49,7 @@ NodeGroups::NodeGroups(const MeshView& mesh, const TangentOptions& options, cons
       nodes_(nodes),
       chosen_(chosen),
       out_(out),
-      sink_(out, signFactor(options.convention) * normalFactor(options.convention),
-            signFactor(options.convention)),
+      sink_(out, signFactor(options.convention) * normalFactor(options.convention), signFactor(options.convention)),
       corners_(corners),
       may_split_(options.method == Method::mikktspace),
       has_polygons_(!triangles.faces.empty()),
@@ -128,8 +126,7 @@ NodeState NodeGroups::walk(std::size_t place, WalkCounts& counts) const {
     if (around.size() > kSmallNode) return kLeft;
     const bool one_orientation = corners_.facing[place] != (kFacesUp | kFacesDown);
     // The usual case: one fan of one orientation, and nothing else to see to.
-    if (one_orientation && (around.size() == 1 || areOneFan(around)))
-        return finishOneGroup(place, around, counts);
+    if (one_orientation && (around.size() == 1 || areOneFan(around))) return finishOneGroup(place, around, counts);
     const Links links(around);
     if (one_orientation && links.areOnePath(around.size())) return finishOneGroup(place, around, counts);
     Members members(around);
@@ -179,8 +176,7 @@ NodeGroups::Sum NodeGroups::sumOf(std::span<const UnclearCorner> around, bool wi
 NodeState NodeGroups::finishOneGroup(std::size_t place, std::span<const UnclearCorner> around,
                                      WalkCounts& counts) const {
     const Sum sum = sumOf(around, !tangents_only_);
-    if (may_split_ && sum.adding > 1 && splits(place, sum, around, [](std::size_t) { return true; }))
-        return kLeft;
+    if (may_split_ && sum.adding > 1 && splits(place, sum, around, [](std::size_t) { return true; })) return kLeft;
     if (!tangents_only_) {
         const Tangents result = resultOf(sum);
         if (!isSound(result)) return kLeft;
@@ -202,13 +198,11 @@ NodeState NodeGroups::finishOneGroup(std::size_t place, std::span<const UnclearC
 bool NodeGroups::restIsSound(const Sum& sum) {
     const Vec3 t = vectorOf(sum.t);
     const float square = dot(t, t);
-    return (sum.common & (kFacesUp | kFacesDown)) != 0 && square > 0 &&
-           square < std::numeric_limits<float>::infinity();
+    return (sum.common & (kFacesUp | kFacesDown)) != 0 && square > 0 && square < std::numeric_limits<float>::infinity();
 }
 
 bool NodeGroups::isSound(const Tangents& result) const {
-    return isFinite(result.s) && (!has_polygons_ || sameResult(result, result)) &&
-           (may_split_ || notZero(result.s));
+    return isFinite(result.s) && (!has_polygons_ || sameResult(result, result)) && (may_split_ || notZero(result.s));
 }
 
 /// Groups of a node without contested triangles: those without UV area join any.
@@ -250,8 +244,7 @@ NodeState NodeGroups::finishGroups(std::size_t place, const Members& members, Wa
     }
     for (std::uint32_t g = 0; g < members.group_count; ++g) {
         const auto isMember = [&](std::size_t i) { return members.group[i] == g; };
-        if (may_split_ && sums[g].adding > 1 && splits(place, sums[g], members.corners, isMember))
-            return kLeft;
+        if (may_split_ && sums[g].adding > 1 && splits(place, sums[g], members.corners, isMember)) return kLeft;
         if (tangents_only_ && (!has_polygons_ || restIsSound(sums[g]))) {
             results[g].s = unit(vectorOf(sums[g].s));
             results[g].positive = sums[g].positive;
@@ -294,9 +287,7 @@ struct NodeGroups::Columns {
 
     explicit Columns(Adding adding) {
         for (std::size_t block = 0; 4 * block < adding.size(); ++block) {
-            const auto at = [&](std::size_t i) {
-                return adding[4 * block + i < adding.size() ? 4 * block + i : 0];
-            };
+            const auto at = [&](std::size_t i) { return adding[4 * block + i < adding.size() ? 4 * block + i : 0]; };
             const UnclearCorner *a = at(0), *b = at(1), *c = at(2), *d = at(3);
             Float4 s[4] = {loadFloat4(a->s), loadFloat4(b->s), loadFloat4(c->s), loadFloat4(d->s)};
             Float4 t[4] = {loadFloat4(a->t()), loadFloat4(b->t()), loadFloat4(c->t()), loadFloat4(d->t())};
@@ -327,10 +318,8 @@ bool NodeGroups::anyOpposed(Adding adding, const Vec3& normal) const {
         for (std::size_t block = 0; 4 * block < i; ++block) {
             const Float4 limit = splat(kNotOpposed * s[3]) * of.weight[block];
             const Mask4 far =
-                (splat(s[0]) * of.sx[block] + splat(s[1]) * of.sy[block] + splat(s[2]) * of.sz[block] >
-                 limit) &
-                (splat(t[0]) * of.tx[block] + splat(t[1]) * of.ty[block] + splat(t[2]) * of.tz[block] >
-                 limit) &
+                (splat(s[0]) * of.sx[block] + splat(s[1]) * of.sy[block] + splat(s[2]) * of.sz[block] > limit) &
+                (splat(t[0]) * of.tx[block] + splat(t[1]) * of.ty[block] + splat(t[2]) * of.tz[block] > limit) &
                 (of.weight[block] > splat(kLeastWeight)) & (splat(s[3]) > splat(kLeastWeight));
             const unsigned before = i - 4 * block < 4 ? (1u << (i - 4 * block)) - 1 : 0xfu;
             for (unsigned doubts = ~laneBits(far) & before; doubts != 0; doubts &= doubts - 1) {
@@ -360,8 +349,7 @@ bool NodeGroups::onOneSide(Adding adding, const Sum& sum) {
 /// Whether it is plain that neither the tangents nor the bitangents of two corners have opposite directions.
 bool NodeGroups::farFromOpposed(const UnclearCorner& a, const UnclearCorner& b) {
     const float weight = a.s[3], other = b.s[3], limit = kNotOpposed * weight * other;
-    return (int{weight > kLeastWeight} & int{other > kLeastWeight} &
-            int{dot(vectorOf(a.s), vectorOf(b.s)) > limit} &
+    return (int{weight > kLeastWeight} & int{other > kLeastWeight} & int{dot(vectorOf(a.s), vectorOf(b.s)) > limit} &
             int{dot(vectorOf(a.t()), vectorOf(b.t())) > limit}) != 0;
 }
 
@@ -376,10 +364,8 @@ bool NodeGroups::allFarFromOpposed(Adding adding) {
     const auto afterNext = [](Float4 v) { return __builtin_shufflevector(v, v, 2, 3, 0, 1); };
     const auto areFar = [&](const auto& turned) {
         const Float4 limit = splat(kNotOpposed) * of.weight[0] * turned(of.weight[0]);
-        return (of.sx[0] * turned(of.sx[0]) + of.sy[0] * turned(of.sy[0]) + of.sz[0] * turned(of.sz[0]) >
-                limit) &
-               (of.tx[0] * turned(of.tx[0]) + of.ty[0] * turned(of.ty[0]) + of.tz[0] * turned(of.tz[0]) >
-                limit);
+        return (of.sx[0] * turned(of.sx[0]) + of.sy[0] * turned(of.sy[0]) + of.sz[0] * turned(of.sz[0]) > limit) &
+               (of.tx[0] * turned(of.tx[0]) + of.ty[0] * turned(of.ty[0]) + of.tz[0] * turned(of.tz[0]) > limit);
     };
     return laneBits((of.weight[0] > splat(kLeastWeight)) & areFar(next) & areFar(afterNext)) == 0xf;
 }

@@ -48,9 +48,8 @@ struct WalkCounts {
 
 class NodeGroups {
   public:
-    NodeGroups(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
-               const Nodes& nodes, std::span<const std::uint32_t> chosen, const TangentOutput& out,
-               const UnclearCorners& corners);
+    NodeGroups(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles, const Nodes& nodes,
+               std::span<const std::uint32_t> chosen, const TangentOutput& out, const UnclearCorners& corners);
 
     /// Whether bitangents and lengths decide on anything.
     [[nodiscard]] bool isFull() const { return full_; }
@@ -80,8 +79,7 @@ class NodeGroups {
     void add(const UnclearCorner& corner, bool with_lengths, Sum& sum) const;
     [[nodiscard]] Sum sumOf(std::span<const UnclearCorner> around, bool with_lengths) const;
     NodeState writeDefaults(std::span<const UnclearCorner> around, WalkCounts& counts) const;
-    NodeState finishOneGroup(std::size_t place, std::span<const UnclearCorner> around,
-                             WalkCounts& counts) const;
+    NodeState finishOneGroup(std::size_t place, std::span<const UnclearCorner> around, WalkCounts& counts) const;
     static void formGroups(Members& members, const Links& links);
     template <std::size_t kMost>
     NodeState finishGroups(std::size_t place, const Members& members, WalkCounts& counts) const;
@@ -101,17 +99,13 @@ class NodeGroups {
     [[nodiscard]] bool isSound(const Tangents& result) const;
     [[nodiscard]] static bool repeatsApart(std::span<const UnclearCorner> around);
     [[nodiscard]] bool isEntangled(std::size_t place, const Members& members) const;
-    NodeState write(const Members& members, const Sum* sums, const Tangents* results,
-                    WalkCounts& counts) const;
+    NodeState write(const Members& members, const Sum* sums, const Tangents* results, WalkCounts& counts) const;
     void writeOne(std::uint32_t slot, const Tangents& result) const;
-    void writeMerged(std::uint32_t slot, const std::uint8_t* first, const std::uint8_t* end,
-                     const Sum* sums) const;
+    void writeMerged(std::uint32_t slot, const std::uint8_t* first, const std::uint8_t* end, const Sum* sums) const;
     [[nodiscard]] std::uint32_t faceOf(const UnclearCorner& corner) const {
         return triangles_.face(corners_.triangleOf(corners_.numberOf(corner)));
     }
-    [[nodiscard]] const Vec3& normalOf(std::size_t place) const {
-        return mesh_.normals[nodes_.vertex(chosen_[place])];
-    }
+    [[nodiscard]] const Vec3& normalOf(std::size_t place) const { return mesh_.normals[nodes_.vertex(chosen_[place])]; }
 
     const MeshView& mesh_;
     const TriangleList& triangles_;

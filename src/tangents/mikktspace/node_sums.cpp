@@ -41,8 +41,7 @@ struct PackedNode {
 static_assert(sizeof(PackedNode) == 32);
 
 /// Copies node data side by side, so that a triangle's corner is one place in memory and not three.
-void packNodes(const MeshView& mesh, const Nodes& nodes, PackedNode* packed, CornerSource& source,
-               Parallel& parallel) {
+void packNodes(const MeshView& mesh, const Nodes& nodes, PackedNode* packed, CornerSource& source, Parallel& parallel) {
     constexpr std::size_t kGrain = 16384;
     parallel.forRanges(nodes.count, kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) {
@@ -69,8 +68,7 @@ class Summer {
         bool packed = false;     ///< the source is numbered by nodes, all data of one side by side
     };
 
-    Summer(const Setting& setting, NodeSums& sums, FanRoom fan_room, std::size_t first_node,
-           std::size_t end_node)
+    Summer(const Setting& setting, NodeSums& sums, FanRoom fan_room, std::size_t first_node, std::size_t end_node)
         : setting_(setting),
           triangles_(setting.triangles),
           sums_(sums),
@@ -153,8 +151,7 @@ class Summer {
         const Nodes& map = setting_.nodes;
         const std::uint32_t* vertices = direct_ + 3 * first;
         block.count = kTermTriangles;
-        for (std::size_t t = 0; t < kTermTriangles; ++t)
-            block.triangles[t] = static_cast<std::uint32_t>(first + t);
+        for (std::size_t t = 0; t < kTermTriangles; ++t) block.triangles[t] = static_cast<std::uint32_t>(first + t);
         block.vertices = block.nodes = vertices;
         if (map.of_vertex.empty()) return;
         for (std::size_t i = 0; i < kTermCorners; ++i) block.own_nodes[i] = map.of_vertex[vertices[i]];
@@ -162,8 +159,7 @@ class Summer {
         if (setting_.packed) {
             block.vertices = block.own_nodes;
         } else if (map.mixed) {
-            for (std::size_t i = 0; i < kTermCorners; ++i)
-                block.own_vertices[i] = map.vertex(block.own_nodes[i]);
+            for (std::size_t i = 0; i < kTermCorners; ++i) block.own_vertices[i] = map.vertex(block.own_nodes[i]);
             block.vertices = block.own_vertices;
         }
     }
@@ -174,8 +170,7 @@ class Summer {
         const CornerSource& source = setting_.source;
         for (std::size_t i = 0; i < 3 * block.count; ++i) {
             __builtin_prefetch(&sums_.nodes[block.nodes[i]], 1, kSecondCache);
-            __builtin_prefetch(source.positions + source.position_stride * block.vertices[i], 0,
-                               kSecondCache);
+            __builtin_prefetch(source.positions + source.position_stride * block.vertices[i], 0, kSecondCache);
             if (setting_.packed) continue;
             __builtin_prefetch(source.normals + source.normal_stride * block.vertices[i], 0, kSecondCache);
             __builtin_prefetch(source.uvs + source.uv_stride * block.vertices[i], 0, kSecondCache);
@@ -224,15 +219,13 @@ class Summer {
         }
     }
 
-    std::size_t keepOwn(std::uint32_t* vertices, std::uint32_t* nodes, std::uint32_t* numbers,
-                        std::size_t count) {
+    std::size_t keepOwn(std::uint32_t* vertices, std::uint32_t* nodes, std::uint32_t* numbers, std::size_t count) {
         std::size_t kept = 0;
         for (std::size_t t = 0; t < count; ++t) {
             const std::uint32_t number = numbers[t];
-            const bool mine =
-                triangles_.faces.empty()
-                    ? int{owns(nodes[3 * t])} | int{owns(nodes[3 * t + 1])} | int{owns(nodes[3 * t + 2])}
-                    : ownsFaceOf(number);
+            const bool mine = triangles_.faces.empty()
+                                  ? int{owns(nodes[3 * t])} | int{owns(nodes[3 * t + 1])} | int{owns(nodes[3 * t + 2])}
+                                  : ownsFaceOf(number);
             for (std::size_t k = 0; k < 3; ++k) {
                 vertices[3 * kept + k] = vertices[3 * t + k];
                 nodes[3 * kept + k] = nodes[3 * t + k];
@@ -308,16 +301,14 @@ class Summer {
         const bool degenerate = (terms_.marks[0][t] & kDegenerateMark) != 0;
         for (std::size_t k = 0; k < 3; ++k) {
             if (!owns(n[k])) continue;
-            const bool known =
-                !degenerate && sums_.nodes[n[k]].fan.add(n[(k + 1) % 3], n[(k + 2) % 3], fan_room_);
+            const bool known = !degenerate && sums_.nodes[n[k]].fan.add(n[(k + 1) % 3], n[(k + 2) % 3], fan_room_);
             if (!known) sums_.marks[n[k]] &= static_cast<std::uint16_t>(degenerate ? 0 : ~kFanKnown);
         }
         if (!degenerate && owns(n[0])) sums_.flat[block.triangles[t]] = 1;
     }
 
     template <bool kOwnsAll, Sums kSums>
-    void addCorner(std::size_t t, std::size_t k, std::uint32_t node, std::uint32_t next,
-                   std::uint32_t previous) {
+    void addCorner(std::size_t t, std::size_t k, std::uint32_t node, std::uint32_t next, std::uint32_t previous) {
         if (!kOwnsAll && !owns(node)) return;
         NodeSum& sum = sums_.nodes[node];
         const std::size_t row = 3 * t + k;
@@ -359,8 +350,7 @@ class Summer {
     void endFace() {
         open_differs_ |= open_count_ == 2 && open_starts_flat_ && open_marks_ != 0;
         if (open_count_ > 1 && (open_differs_ || open_degenerate_)) {
-            for (std::size_t t = open_first_; t < triangles_.count && triangles_.faces[t] == open_face_;
-                 ++t) {
+            for (std::size_t t = open_first_; t < triangles_.count && triangles_.faces[t] == open_face_; ++t) {
                 for (std::size_t k = 0; k < 3; ++k) {
                     const std::uint32_t node = nodeAt(3 * t + k);
                     if (owns(node)) sums_.marks[node] = 0;
@@ -405,13 +395,11 @@ bool sumCannotSplit(const float* sum, std::uint32_t marks, const Vec3& normal) {
     const float normal_square = normal.x * normal.x + normal.y * normal.y + normal.z * normal.z;
     // With a weight sum of at most 1024 times the lightest, the rounding errors of the sums stay below 0.1 of
     // it.
-    return square > least * least && sum[3] < 1024 * lightest && normal_square > 0.98f &&
-           normal_square < 1.02f;
+    return square > least * least && sum[3] < 1024 * lightest && normal_square > 0.98f && normal_square < 1.02f;
 }
 
-NodeSums sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                  const CornerSource& source, CornerTermsFunction terms, ScratchBlock& brief,
-                  const Allocator* allocator, Parallel& parallel) {
+NodeSums sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const CornerSource& source,
+                  CornerTermsFunction terms, ScratchBlock& brief, const Allocator* allocator, Parallel& parallel) {
     NodeSums sums;
     sums.nodes = Buffer<NodeSum>(allocator, nodes.count);
     sums.marks = Buffer<std::uint16_t>(allocator, nodes.count, std::uint16_t{kAllMarks});
@@ -451,8 +439,8 @@ NodeSums sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nod
     const std::size_t fans_each = nodes.count / kManyShare / tasks + 64;
     Buffer<ManyPaths> many_paths(brief.allocator(), tasks * fans_each);
     parallel.forTasks(tasks, [&](std::size_t task) {
-        Summer summer(setting, sums, {many_paths.data() + task * fans_each, fans_each},
-                      nodes.count * task / tasks, nodes.count * (task + 1) / tasks);
+        Summer summer(setting, sums, {many_paths.data() + task * fans_each, fans_each}, nodes.count * task / tasks,
+                      nodes.count * (task + 1) / tasks);
         summer.run();
         counts[task] = {summer.degenerate_count, summer.no_uv_area_count, summer.mirrored_count};
     });

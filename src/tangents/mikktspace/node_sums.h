@@ -50,8 +50,7 @@ bool sumCannotSplit(const float* sum, std::uint32_t marks, const Vec3& normal);
 
 /// `nodes` must be tame, and nodes.vertex() valid. `brief`: for what is not needed any more when tangents are
 /// written; with 32 bytes per node in it, triangles in random order are read faster.
-NodeSums sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                  const CornerSource& source, CornerTermsFunction terms, ScratchBlock& brief,
-                  const Allocator* allocator, Parallel& parallel);
+NodeSums sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const CornerSource& source,
+                  CornerTermsFunction terms, ScratchBlock& brief, const Allocator* allocator, Parallel& parallel);
 
 }  // namespace tspace::mikk

@@ -24,9 +24,8 @@ constexpr std::uint8_t kNearContested = 0x20;  // one more flag: a triangle at a
 
 class NodeWalk {
   public:
-    NodeWalk(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
-             const Nodes& nodes, std::span<const std::uint32_t> chosen, const TangentOutput& out,
-             Parallel& parallel)
+    NodeWalk(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles, const Nodes& nodes,
+             std::span<const std::uint32_t> chosen, const TangentOutput& out, Parallel& parallel)
         : mesh_(mesh),
           triangles_(triangles),
           nodes_(nodes),
@@ -38,8 +37,7 @@ class NodeWalk {
 
     WalkedNodes run(CornerSource source, CornerTermsFunction terms, NodeSums* sums) {
         source.tangents_only = !groups_.isFull() && !groups_.maySplit();
-        corners_ =
-            readCorners({mesh_, triangles_, nodes_, chosen_, source, terms, sums, allocator_, parallel_});
+        corners_ = readCorners({mesh_, triangles_, nodes_, chosen_, source, terms, sums, allocator_, parallel_});
         state_ = Buffer<std::uint8_t>(allocator_, chosen_.size(), std::uint8_t{kDone});
         if (findContested()) groupContested();
         std::atomic<std::uint64_t> groups{0}, defaults{0};
@@ -78,8 +76,7 @@ class NodeWalk {
         for (std::size_t t = 0; t < corners_.flags.size(); ++t) {
             if ((corners_.flags[t] & kAny) == 0) continue;
             const std::uint32_t* places = corners_.placesOf(t);
-            if ((facing[places[0]] | facing[places[1]] | facing[places[2]]) == (kFacesUp | kFacesDown))
-                mark(t, places);
+            if ((facing[places[0]] | facing[places[1]] | facing[places[2]]) == (kFacesUp | kFacesDown)) mark(t, places);
         }
         return !contested_.empty();
     }
@@ -123,8 +120,7 @@ class NodeWalk {
             groups[seed] = progress[place].group_count++;
             for (const std::uint8_t* link : {left + begin, right + begin}) {
                 for (std::uint8_t m = link[seed]; m != Links::kNoLink && groups[m] == kNoGroup; m = link[m]) {
-                    if (!joinsContested(corners_.numberOf(corners_.corners[begin + m]), flags & kPositive))
-                        break;
+                    if (!joinsContested(corners_.numberOf(corners_.corners[begin + m]), flags & kPositive)) break;
                     groups[m] = groups[seed];
                 }
             }
@@ -152,8 +148,7 @@ class NodeWalk {
         const Links links(around);
         std::copy_n(links.left, around.size(), to_left);
         std::copy_n(links.right, around.size(), to_right);
-        for (const UnclearCorner& corner : around)
-            corners_.flags[corners_.numberOf(corner)] |= kNearContested;
+        for (const UnclearCorner& corner : around) corners_.flags[corners_.numberOf(corner)] |= kNearContested;
     }
 
     /// As in groups.cpp. A triangle that is not contested joins any group.
@@ -168,9 +163,7 @@ class NodeWalk {
     }
 
     void listLeft(WalkedNodes& result) const {
-        const auto isLeft = [&](std::uint32_t place) {
-            return place < chosen_.size() && result.left[place] != 0;
-        };
+        const auto isLeft = [&](std::uint32_t place) { return place < chosen_.size() && result.left[place] != 0; };
         for (std::size_t t = 0; t < corners_.flags.size(); ++t) {
             const std::uint32_t* places = corners_.placesOf(t);
             if (isLeft(places[0]) || isLeft(places[1]) || isLeft(places[2]))
@@ -214,8 +207,7 @@ class NodeWalk {
 
 WalkedNodes walkNodes(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
                       const Nodes& nodes, std::span<const std::uint32_t> chosen, const CornerSource& source,
-                      CornerTermsFunction terms, NodeSums* sums, const TangentOutput& out,
-                      Parallel& parallel) {
+                      CornerTermsFunction terms, NodeSums* sums, const TangentOutput& out, Parallel& parallel) {
     return NodeWalk(mesh, options, triangles, nodes, chosen, out, parallel).run(source, terms, sums);
 }
 

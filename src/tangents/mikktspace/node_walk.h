@@ -31,7 +31,6 @@ struct WalkedNodes {
 /// nodes. Throws OutOfMemory.
 WalkedNodes walkNodes(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
                       const Nodes& nodes, std::span<const std::uint32_t> chosen, const CornerSource& source,
-                      CornerTermsFunction terms, NodeSums* sums, const TangentOutput& out,
-                      Parallel& parallel);
+                      CornerTermsFunction terms, NodeSums* sums, const TangentOutput& out, Parallel& parallel);
 
 }  // namespace tspace::mikk

@@ -37,8 +37,7 @@ constexpr std::size_t kAlwaysSmall = 1024;  // faces left to the general steps t
 /// nothing.
 class MeshTriangles final : public estimators::TriangleGroups {
   public:
-    MeshTriangles(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                  const NodeSums& sums)
+    MeshTriangles(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const NodeSums& sums)
         : TriangleGroups(triangles.count),
           mesh_(mesh),
           triangles_(triangles),
@@ -46,15 +45,13 @@ class MeshTriangles final : public estimators::TriangleGroups {
           flat_(sums.flat),
           has_flat_(sums.no_uv_area_count != 0) {}
 
-    void read(std::size_t first, std::size_t size, std::uint32_t* vertices,
-              std::uint32_t* groups) const override {
+    void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const override {
         if (triangles_.corners.empty()) {
             withIndices(mesh_.indices, [&](auto vertexOf) {
                 for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = vertexOf(3 * first + i);
             });
         } else {
-            for (std::size_t i = 0; i < 3 * size; ++i)
-                groups[i] = mesh_.indices[triangles_.corners[3 * first + i]];
+            for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = mesh_.indices[triangles_.corners[3 * first + i]];
         }
         if (vertices != nullptr) std::copy_n(groups, 3 * size, vertices);
         if (!nodes_.of_vertex.empty()) {
@@ -79,8 +76,8 @@ class MeshTriangles final : public estimators::TriangleGroups {
 
 class OnePass {
   public:
-    OnePass(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
-            const Nodes& nodes, const TangentOutput& out, ScratchBlock& brief, Parallel& parallel)
+    OnePass(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles, const Nodes& nodes,
+            const TangentOutput& out, ScratchBlock& brief, Parallel& parallel)
         : mesh_(mesh),
           options_(options),
           triangles_(triangles),
@@ -120,8 +117,8 @@ class OnePass {
         for (const std::uint32_t c : triangles_.skipped_corners)
             Sink(out_, sign_factor_, signFactor(options_.convention)).clear(c);
         const Buffer<std::uint32_t> all = numbersBelow(nodes_.count, allocator_);
-        const WalkedNodes walked = walkNodes(mesh_, options_, triangles_, nodes_, {all.data(), all.size()},
-                                             source, terms, nullptr, out_, parallel_);
+        const WalkedNodes walked = walkNodes(mesh_, options_, triangles_, nodes_, {all.data(), all.size()}, source,
+                                             terms, nullptr, out_, parallel_);
         unclear_count_ = walked.left_count;
         group_count_ = walked.group_count;
         default_corner_count_ = walked.default_corner_count;
@@ -159,10 +156,9 @@ class OnePass {
         }
         const MeshTriangles triangles(mesh_, triangles_, nodes_, sums_);
         scale_ = estimators::inputScale(triangles, mesh_.positions, mesh_.uvs);
-        const estimators::GroupEstimates to{
-            reinterpret_cast<std::byte*>(sums_.nodes.data()),     sizeof(NodeSum),
-            reinterpret_cast<std::byte*>(sums_.rest.data()),      sizeof(NodeRest),
-            reinterpret_cast<std::byte*>(sums_.lengths_t.data()), sizeof(float)};
+        const estimators::GroupEstimates to{reinterpret_cast<std::byte*>(sums_.nodes.data()),     sizeof(NodeSum),
+                                            reinterpret_cast<std::byte*>(sums_.rest.data()),      sizeof(NodeRest),
+                                            reinterpret_cast<std::byte*>(sums_.lengths_t.data()), sizeof(float)};
         Execution execution = options_.execution;
         execution.allocator = brief_.allocator();
         estimators::estimateGroups(options_.method, triangles, nodes_.count, {mesh_.positions, mesh_.normals},
@@ -243,8 +239,7 @@ class OnePass {
     void forEachUnclear(const Body& body) const {
         for (std::size_t word = 0; word < unclear_.size(); ++word) {
             for (std::uint64_t bits = unclear_[word]; bits != 0; bits &= bits - 1)
-                body(static_cast<std::uint32_t>(64 * word) +
-                     static_cast<std::uint32_t>(std::countr_zero(bits)));
+                body(static_cast<std::uint32_t>(64 * word) + static_cast<std::uint32_t>(std::countr_zero(bits)));
         }
     }
 
@@ -277,8 +272,8 @@ class OnePass {
         Buffer<std::uint32_t> chosen(allocator_, unclear_count_);
         std::size_t count = 0;
         forEachUnclear([&](std::uint32_t node) { chosen[count++] = node; });
-        const WalkedNodes walked = walkNodes(mesh_, options_, triangles_, nodes_, {chosen.data(), count},
-                                             source, terms, &sums_, out_, parallel_);
+        const WalkedNodes walked = walkNodes(mesh_, options_, triangles_, nodes_, {chosen.data(), count}, source, terms,
+                                             &sums_, out_, parallel_);
         for (std::size_t i = 0; i < count; ++i) {
             if (walked.left[i] == 0) unclear_[chosen[i] / 64] &= ~(std::uint64_t{1} << (chosen[i] % 64));
         }
@@ -309,9 +304,7 @@ class OnePass {
         NodeRest& rest = sums_.rest[node];
         float& length_t = sums_.lengths_t[node];
         const Vec3 sum_t{rest.t[0], rest.t[1], rest.t[2]};
-        const Vec3 t = signFactor(options_.convention) * (empty        ? Vec3{0, 1, 0}
-                                                          : estimates_ ? sum_t
-                                                                       : unit(sum_t));
+        const Vec3 t = signFactor(options_.convention) * (empty ? Vec3{0, 1, 0} : estimates_ ? sum_t : unit(sum_t));
         rest.t[0] = t.x;
         rest.t[1] = t.y;
         rest.t[2] = t.z;
@@ -368,8 +361,7 @@ class OnePass {
         if (streamed) endOfRows();
     }
 
-    void writeTangents(std::size_t first, const std::uint32_t* nodes, std::size_t count,
-                       bool streamed) const {
+    void writeTangents(std::size_t first, const std::uint32_t* nodes, std::size_t count, bool streamed) const {
         if (streamed) {
             auto* to = reinterpret_cast<float*>(out_.tangents.data + first);
             for (std::size_t i = 0; i < count; ++i) streamRow(to + 4 * i, sums_.nodes[nodes[i]].s);
@@ -530,8 +522,8 @@ class OnePass {
 
 std::optional<TangentReport> evaluateInOnePass(const MeshView& mesh, const TangentOptions& options,
                                                const TriangleList& triangles, const Nodes& nodes,
-                                               const TangentOutput& out, ScratchBlock& brief,
-                                               Parallel& parallel, FirstLook first_look) {
+                                               const TangentOutput& out, ScratchBlock& brief, Parallel& parallel,
+                                               FirstLook first_look) {
     return OnePass(mesh, options, triangles, nodes, out, brief, parallel).run(first_look);
 }
 

@@ -25,8 +25,7 @@ enum class FirstLook { asItSeems, onePass, eachNode };
 /// looks at it. Throws OutOfMemory.
 std::optional<TangentReport> evaluateInOnePass(const MeshView& mesh, const TangentOptions& options,
                                                const TriangleList& triangles, const Nodes& nodes,
-                                               const TangentOutput& out, ScratchBlock& brief,
-                                               Parallel& parallel,
+                                               const TangentOutput& out, ScratchBlock& brief, Parallel& parallel,
                                                FirstLook first_look = FirstLook::asItSeems);
 
 }  // namespace tspace::mikk

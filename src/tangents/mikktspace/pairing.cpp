@@ -58,8 +58,8 @@ PairingTable::Queue& PairingTable::find(std::uint32_t neighbour) {
 
 /// Links a half-edge with the oldest waiting opposite one, or lets it wait. `outgoing` tells which of the
 /// member's two half-edges it is; waiters are stored as 2 * member + outgoing.
-void PairingTable::meet(std::uint32_t member, std::uint32_t neighbour, std::uint32_t* mine,
-                        std::uint32_t* theirs, std::uint32_t outgoing) {
+void PairingTable::meet(std::uint32_t member, std::uint32_t neighbour, std::uint32_t* mine, std::uint32_t* theirs,
+                        std::uint32_t outgoing) {
     Queue& queue = find(neighbour);
     const std::uint32_t waiter = 2 * member + outgoing;
     if (queue.first != kNone && (queue.first & 1) != outgoing) {

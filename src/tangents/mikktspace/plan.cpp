@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::size_t kGrain = 4096;  // nodes
 
-void readNodes(const MeshView& mesh, Nodes& nodes, GroupedPlan& plan, PoseData& pose,
-               const Allocator* allocator, Parallel& parallel) {
+void readNodes(const MeshView& mesh, Nodes& nodes, GroupedPlan& plan, PoseData& pose, const Allocator* allocator,
+               Parallel& parallel) {
     listVertices(nodes, allocator, parallel);
     plan.node_count = nodes.count;
     plan.node_vertex = Buffer<std::uint32_t>(allocator, nodes.count);
@@ -65,8 +65,8 @@ bool needsReferenceOrder(const MeshView& mesh, const TangentOptions& options, co
            tailMayMatter(mesh, triangles, nodes, options.execution.allocator, parallel);
 }
 
-EvaluationPlan planNodes(const MeshView& mesh, const TangentOptions& options, TriangleList triangles,
-                         Nodes& nodes, std::size_t listed_count, PlanUse use, Parallel& parallel) {
+EvaluationPlan planNodes(const MeshView& mesh, const TangentOptions& options, TriangleList triangles, Nodes& nodes,
+                         std::size_t listed_count, PlanUse use, Parallel& parallel) {
     const Allocator* allocator = options.execution.allocator;
     const bool is_mikktspace = options.method == Method::mikktspace;
     GroupedPlan plan;
@@ -95,8 +95,7 @@ EvaluationPlan planNodes(const MeshView& mesh, const TangentOptions& options, Tr
     formGroups(plan, tail, allocator, parallel);
     if (is_mikktspace) {
         const Pose own{mesh.positions, mesh.normals};
-        findSplits(plan, thresholdCosine(options.angular_threshold_deg), own, pose, pass.faces, allocator,
-                   parallel);
+        findSplits(plan, thresholdCosine(options.angular_threshold_deg), own, pose, pass.faces, allocator, parallel);
     }
     planSlotWrites(plan, pass, allocator);
     pose = {};

@@ -53,9 +53,7 @@ class Sink {
         if (!out_.magnitudes_s.empty()) out_.magnitudes_s[c.to] = out_.magnitudes_s[c.from];
         if (!out_.magnitudes_t.empty()) out_.magnitudes_t[c.to] = out_.magnitudes_t[c.from];
     }
-    [[nodiscard]] bool isFinite(std::size_t corner) const {
-        return tspace::isFinite(xyz(out_.tangents[corner]));
-    }
+    [[nodiscard]] bool isFinite(std::size_t corner) const { return tspace::isFinite(xyz(out_.tangents[corner])); }
 
   private:
     TangentOutput out_;

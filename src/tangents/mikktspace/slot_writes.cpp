@@ -60,8 +60,7 @@ void collectConflicts(GroupedPlan& plan, const Buffer<std::uint32_t>& result_of,
     }
     plan.conflicts = conflicts.exact();
     plan.conflict_order = Buffer<std::uint32_t>(allocator, plan.conflicts.size());
-    for (std::size_t i = 0; i < plan.conflicts.size(); ++i)
-        plan.conflict_order[i] = static_cast<std::uint32_t>(i);
+    for (std::size_t i = 0; i < plan.conflicts.size(); ++i) plan.conflict_order[i] = static_cast<std::uint32_t>(i);
     // Positions ascend in the order in which the reference writes a node's groups.
     std::sort(plan.conflict_order.begin(), plan.conflict_order.end(), [&](std::uint32_t a, std::uint32_t b) {
         const std::uint32_t slot_a = plan.slot(plan.list[plan.conflicts[a]] & kValue);
@@ -73,8 +72,8 @@ void collectConflicts(GroupedPlan& plan, const Buffer<std::uint32_t>& result_of,
 }  // namespace
 
 void planSlotWrites(GroupedPlan& plan, TrianglePass& pass, const Allocator* allocator) {
-    const bool all_written = plan.slots.empty() && plan.report.degenerate_triangle_count == 0 &&
-                             plan.report.degenerate_uv_count == 0;
+    const bool all_written =
+        plan.slots.empty() && plan.report.degenerate_triangle_count == 0 && plan.report.degenerate_uv_count == 0;
     if (all_written) return;  // every corner has one triangle, and that is in a group
     Buffer<std::uint32_t> result_of(allocator, plan.corner_count, kNone);
     bool has_conflict = false;

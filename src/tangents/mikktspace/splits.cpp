@@ -27,8 +27,7 @@ bool isAny(const GroupedPlan& plan, std::uint32_t tricorner) {
 /// cosine of the half angle is sqrt((1 + c) / 2).
 class QuickTest {
   public:
-    explicit QuickTest(float threshold_cosine)
-        : limit_(std::sqrt((1.0f + threshold_cosine) * 0.5f) + kMargin) {}
+    explicit QuickTest(float threshold_cosine) : limit_(std::sqrt((1.0f + threshold_cosine) * 0.5f) + kMargin) {}
 
     void start() { has_first_ = false; }
     /// Returns false when the member may differ too much from the first one (always for NaN).
@@ -209,8 +208,7 @@ class Splitter {
         for (std::uint32_t a = 0; a < count; ++a) {
             leaders[a] = a;
             for (std::uint32_t b = 0; b < a; ++b) {
-                if (leaders[b] == b &&
-                    std::equal(rows + a * words, rows + (a + 1) * words, rows + b * words)) {
+                if (leaders[b] == b && std::equal(rows + a * words, rows + (a + 1) * words, rows + b * words)) {
                     leaders[a] = b;
                     break;
                 }

@@ -55,8 +55,8 @@ struct LateEdge {
 
 class TailCheck {
   public:
-    TailCheck(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-              const Allocator* allocator, Parallel& parallel)
+    TailCheck(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const Allocator* allocator,
+              Parallel& parallel)
         : mesh_(mesh),
           triangles_(triangles),
           nodes_(nodes),
@@ -135,8 +135,7 @@ class TailCheck {
             widen(node, corner);
         }
         for (std::size_t t = 0; t < tail_; ++t) {
-            const std::uint32_t n[3] = {nodes_.ofVertex(vertexOf(3 * t)),
-                                        nodes_.ofVertex(vertexOf(3 * t + 1)),
+            const std::uint32_t n[3] = {nodes_.ofVertex(vertexOf(3 * t)), nodes_.ofVertex(vertexOf(3 * t + 1)),
                                         nodes_.ofVertex(vertexOf(3 * t + 2))};
             const unsigned late_count = late_nodes_[n[0]] + late_nodes_[n[1]] + late_nodes_[n[2]];
             if (late_count == 0) continue;
@@ -157,8 +156,7 @@ class TailCheck {
         for (const std::uint32_t node : tail_nodes_) late_nodes_[node] = bounds_[node].last >= least ? 1 : 0;
         withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
             for (const std::uint32_t t : shared_) addEdges(t, vertexOf);
-            for (std::size_t t = tail_; t < triangles_.count && edges_.size() <= kManyEdges; ++t)
-                addEdges(t, vertexOf);
+            for (std::size_t t = tail_; t < triangles_.count && edges_.size() <= kManyEdges; ++t) addEdges(t, vertexOf);
         });
         return edges_.size() <= kManyEdges;
     }
@@ -190,8 +188,7 @@ class TailCheck {
     /// Whether some node may have the last bucket, and that bucket may matter: finds all of them.
     bool findSuspects(std::uint32_t least) {
         records_.reserve(2 * edges_.size());
-        const auto add = [&](std::uint32_t low, std::uint32_t high, std::uint32_t third,
-                             std::uint32_t ascends) {
+        const auto add = [&](std::uint32_t low, std::uint32_t high, std::uint32_t third, std::uint32_t ascends) {
             if (bounds_[low].first < bounds_[high].last)
                 records_.push({std::uint64_t{low} << 32 | high << 1 | ascends, third});
         };
@@ -202,8 +199,7 @@ class TailCheck {
         std::sort(records_.begin(), records_.end(),
                   [](const BoundedRecord& a, const BoundedRecord& b) { return a.key < b.key; });
         for (std::size_t begin = 0, end = 0; begin < records_.size(); begin = end) {
-            for (end = begin + 1; end < records_.size() && records_[end].low() == records_[begin].low();)
-                ++end;
+            for (end = begin + 1; end < records_.size() && records_[end].low() == records_[begin].low();) ++end;
             const Records bucket(records_.begin() + begin, end - begin);
             if (mayMatter(bucket, least)) suspects_.push(bucket);
         }
@@ -213,8 +209,7 @@ class TailCheck {
     /// Gives suspects their representatives as bounds: often that is enough, and takes less than to find
     /// those of all neighbours. Returns whether any suspicion is left.
     bool narrowSuspects(const WeldOrder& order, std::uint32_t least) {
-        for (const Records& bucket : suspects_)
-            late_vertices_.push(mesh_.indices[bounds_[bucket.front().low()].first]);
+        for (const Records& bucket : suspects_) late_vertices_.push(mesh_.indices[bounds_[bucket.front().low()].first]);
         order.findSome({late_vertices_.begin(), late_vertices_.size()}, representatives_.data());
         late_vertices_.drop(late_vertices_.size());
         for (const Records& bucket : suspects_) {
@@ -243,8 +238,7 @@ class TailCheck {
         std::size_t count = 0;
         for (std::size_t begin = 0, end = 0; begin < records.size(); begin = end) {
             const std::uint32_t high = records[begin].high();
-            std::uint32_t lowest = std::max(x.first, least),
-                          highest = std::min(x.last, bounds_[high].last - 1);
+            std::uint32_t lowest = std::max(x.first, least), highest = std::min(x.last, bounds_[high].last - 1);
             for (end = begin; end < records.size() && records[end].high() == high; ++end) {
                 const std::uint32_t third = records[end].third;
                 if (late_nodes_[third] != 0) lowest = std::max(lowest, bounds_[third].first + 1);
@@ -252,8 +246,7 @@ class TailCheck {
             if (lowest > highest) continue;
             const bool is_both = ((records[begin].key ^ records[end - 1].key) & 1) != 0;
             if (is_both && end - begin > 2) return true;
-            neighbors[count++] = {
-                records.data() + begin, records.data() + end, high, lowest, highest, is_both};
+            neighbors[count++] = {records.data() + begin, records.data() + end, high, lowest, highest, is_both};
         }
         for (std::size_t i = 1; i < count; ++i) {
             const Neighbor& y = neighbors[i];
@@ -298,16 +291,13 @@ class TailCheck {
     /// F: a face's first corner is in one of its triangles.
     [[nodiscard]] std::uint32_t firstCorner(std::size_t triangle) const {
         std::uint32_t first = kNone;
-        for (std::size_t t = triangle;
-             t < triangles_.count && triangles_.face(t) == triangles_.face(triangle); ++t) {
+        for (std::size_t t = triangle; t < triangles_.count && triangles_.face(t) == triangles_.face(triangle); ++t) {
             for (std::size_t k = 0; k < 3; ++k) first = std::min(first, triangles_.corner(3 * t + k));
         }
         return first;
     }
 
-    [[nodiscard]] std::uint32_t nodeAt(std::size_t entry) const {
-        return nodes_.of(mesh_, triangles_.corner(entry));
-    }
+    [[nodiscard]] std::uint32_t nodeAt(std::size_t entry) const { return nodes_.of(mesh_, triangles_.corner(entry)); }
 
     template <class VertexOf>
     [[nodiscard]] bool isGood(std::size_t triangle, const VertexOf& vertexOf) const {
@@ -364,8 +354,7 @@ class TailCheck {
             return a.high != b.high ? a.high < b.high : a.ascending < b.ascending;
         });
         for (std::size_t i = 1; i < bucket.size(); ++i) {
-            if (bucket[i].high == bucket[i - 1].high && bucket[i].ascending != bucket[i - 1].ascending)
-                return true;
+            if (bucket[i].high == bucket[i - 1].high && bucket[i].ascending != bucket[i - 1].ascending) return true;
         }
         return false;
     }
@@ -391,8 +380,8 @@ class TailCheck {
 
 }  // namespace
 
-bool tailMayMatter(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                   const Allocator* allocator, Parallel& parallel) {
+bool tailMayMatter(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const Allocator* allocator,
+                   Parallel& parallel) {
     if (!nodes.tame) return true;
     if (triangles.count == 0) return false;
     return TailCheck(mesh, triangles, nodes, allocator, parallel).run();

@@ -14,7 +14,7 @@ namespace tspace::mikk {
 /// both directions. True otherwise, and always for nodes that are not tame. Takes about a byte per vertex,
 /// six per node, and what the corners of a few cells of the reference's grid need; mostly reads all indices
 /// once.
-bool tailMayMatter(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                   const Allocator* allocator, Parallel& parallel);
+bool tailMayMatter(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const Allocator* allocator,
+                   Parallel& parallel);
 
 }  // namespace tspace::mikk

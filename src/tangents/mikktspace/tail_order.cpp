@@ -52,8 +52,7 @@ class EdgeSort {
                 if (size > steps) return false;
                 steps -= size;
                 if (size == 2) {
-                    if (key(range.begin) > key(range.last))
-                        std::swap(record(range.begin), record(range.last));
+                    if (key(range.begin) > key(range.last)) std::swap(record(range.begin), record(range.last));
                 } else {
                     const std::uint32_t seed =
                         range.seed + std::rotl(range.seed, static_cast<int>(range.seed & 31)) + 3;
@@ -69,8 +68,7 @@ class EdgeSort {
                 range = waiting[--depth];
             } else {
                 if (count == 2) {
-                    const bool first_is_larger =
-                        sides[0].last - sides[0].begin > sides[1].last - sides[1].begin;
+                    const bool first_is_larger = sides[0].last - sides[0].begin > sides[1].last - sides[1].begin;
                     waiting[depth++] = sides[first_is_larger ? 0 : 1];
                     range = sides[first_is_larger ? 1 : 0];
                 } else {
@@ -106,8 +104,8 @@ struct TailEdge {
 
 class TailFinder {
   public:
-    TailFinder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-               const GroupedPlan& plan, const Allocator* allocator, Parallel& parallel)
+    TailFinder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const GroupedPlan& plan,
+               const Allocator* allocator, Parallel& parallel)
         : mesh_(mesh),
           triangles_(triangles),
           nodes_(nodes),
@@ -144,8 +142,7 @@ class TailFinder {
         }
         const std::uint32_t* n = plan_.nodes.data();
         for (std::size_t i = 0; i < 3 * plan_.triangle_count; i += 3) {
-            const std::uint32_t r[3] = {representative(n[i]), representative(n[i + 1]),
-                                        representative(n[i + 2])};
+            const std::uint32_t r[3] = {representative(n[i]), representative(n[i + 1]), representative(n[i + 2])};
             const std::uint32_t middle = middleOf(r[0], r[1], r[2]);
             if (middle < low_) continue;
             low_ = middle;
@@ -158,11 +155,9 @@ class TailFinder {
         for (std::uint32_t e = plan_.node_begin[low_node_]; e < plan_.node_begin[low_node_ + 1]; ++e) {
             const std::uint32_t h = plan_.list[e], first = h - h % 3;
             const std::uint32_t before = first + (h - first + 2) % 3;
-            const std::uint32_t next = plan_.nodes[first + (h - first + 1) % 3],
-                                previous = plan_.nodes[before];
+            const std::uint32_t next = plan_.nodes[first + (h - first + 1) % 3], previous = plan_.nodes[before];
             if (representative(next) > low_) edges_.push({representative(next), next, h, true});
-            if (representative(previous) > low_)
-                edges_.push({representative(previous), previous, before, false});
+            if (representative(previous) > low_) edges_.push({representative(previous), previous, before, false});
         }
     }
 
@@ -173,8 +168,7 @@ class TailFinder {
             return a.high != b.high ? a.high < b.high : a.ascending < b.ascending;
         });
         for (std::size_t i = 1; i < edges_.size(); ++i) {
-            if (edges_[i].high == edges_[i - 1].high && edges_[i].ascending != edges_[i - 1].ascending)
-                return true;
+            if (edges_[i].high == edges_[i - 1].high && edges_[i].ascending != edges_[i - 1].ascending) return true;
         }
         return false;
     }
@@ -192,18 +186,16 @@ class TailFinder {
                   [](const TailEdge& a, const TailEdge& b) { return a.half_edge < b.half_edge; });
         Growing<TailEdge> ordered(allocator_);
         for (std::size_t i = records.size() - edges_.size(); i < records.size(); ++i) {
-            ordered.push(
-                *std::lower_bound(edges_.begin(), edges_.end(), records[i].half_edge,
-                                  [](const TailEdge& e, std::uint32_t h) { return e.half_edge < h; }));
+            ordered.push(*std::lower_bound(edges_.begin(), edges_.end(), records[i].half_edge,
+                                           [](const TailEdge& e, std::uint32_t h) { return e.half_edge < h; }));
         }
         edges_ = std::move(ordered);
         // Runs of one higher end are sorted by triangle, but for the very last run.
         for (std::size_t begin = 0; begin < edges_.size();) {
             const std::size_t end = endOfRun(begin);
             if (end < edges_.size()) {
-                std::sort(
-                    edges_.begin() + begin, edges_.begin() + end,
-                    [](const TailEdge& a, const TailEdge& b) { return a.half_edge / 3 < b.half_edge / 3; });
+                std::sort(edges_.begin() + begin, edges_.begin() + end,
+                          [](const TailEdge& a, const TailEdge& b) { return a.half_edge / 3 < b.half_edge / 3; });
             }
             begin = end;
         }
@@ -242,8 +234,7 @@ class TailFinder {
         }
         pairs.nodes[edges_.size()] = low_node_;
         std::sort(pairs.nodes.begin(), pairs.nodes.end());
-        std::sort(links.begin(), links.end(),
-                  [](const Link& a, const Link& b) { return a.half_edge < b.half_edge; });
+        std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) { return a.half_edge < b.half_edge; });
         pairs.half_edges = Buffer<std::uint32_t>(allocator_, links.size());
         pairs.partners = Buffer<std::uint32_t>(allocator_, links.size());
         for (std::size_t i = 0; i < links.size(); ++i) {

@@ -19,8 +19,7 @@ struct TailPairs {
     Buffer<std::uint32_t> half_edges;  ///< ascending
     Buffer<std::uint32_t> partners;    ///< one per half-edge; kNone: no neighbour
     Buffer<std::uint32_t> nodes;       ///< ascending: ends of these edges
-    bool abandoned =
-        false;  ///< the input drives the reference's sort into quadratic time; pairs are not known
+    bool abandoned = false;  ///< the input drives the reference's sort into quadratic time; pairs are not known
 
     /// Replaces the links of a node that pairing has filled.
     void apply(std::uint32_t node, Around& around) const;

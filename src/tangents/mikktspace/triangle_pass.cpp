@@ -127,8 +127,7 @@ void uniteOrientation(GroupedPlan& plan, const Buffer<std::uint32_t>& faces) {
             first, end, [&](std::size_t t) { return (plan.flags[t] & kAny) != 0; },
             [&](std::size_t t) { return uvArea(plan, t); });
         for (std::size_t t = first; t < end; ++t) {
-            plan.flags[t] =
-                static_cast<std::uint8_t>((plan.flags[t] & ~kPositive) | (plan.flags[chosen] & kPositive));
+            plan.flags[t] = static_cast<std::uint8_t>((plan.flags[t] & ~kPositive) | (plan.flags[chosen] & kPositive));
         }
         first = end;
     }
@@ -155,9 +154,8 @@ TriangleShape triangleShape(const Vec3& p0, const Vec3& p1, const Vec3& p2, cons
     return shape;
 }
 
-TrianglePass passTriangles(const MeshView& mesh, const TriangleList& list, const Nodes& nodes,
-                           GroupedPlan& plan, PoseData& pose, const Allocator* allocator,
-                           Parallel& parallel) {
+TrianglePass passTriangles(const MeshView& mesh, const TriangleList& list, const Nodes& nodes, GroupedPlan& plan,
+                           PoseData& pose, const Allocator* allocator, Parallel& parallel) {
     TrianglePass pass(allocator);
     plan.nodes = Buffer<std::uint32_t>(allocator, 3 * list.count);
     parallel.forRanges(plan.nodes.size(), kGrain, [&](std::size_t begin, std::size_t end) {

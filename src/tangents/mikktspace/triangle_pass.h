@@ -31,16 +31,15 @@ struct TrianglePass {
 
 /// Fills the plan's nodes, slots, flags, triangle_count and report counts, and pose.frames; pose.positions
 /// and plan.node_uv must be there.
-TrianglePass passTriangles(const MeshView& mesh, const TriangleList& list, const Nodes& nodes,
-                           GroupedPlan& plan, PoseData& pose, const Allocator* allocator, Parallel& parallel);
+TrianglePass passTriangles(const MeshView& mesh, const TriangleList& list, const Nodes& nodes, GroupedPlan& plan,
+                           PoseData& pose, const Allocator* allocator, Parallel& parallel);
 
 /// Which triangle of a face gives all of them its orientation. In a quad that is the first, unless the second
 /// has a usable UV area and the first's is not at least as large; in an n-gon it is the largest that has a
 /// usable one. `uvArea` is without sign.
 template <class IsAny, class UvArea>
 std::size_t orientingTriangle(std::size_t first, std::size_t end, const IsAny& isAny, const UvArea& uvArea) {
-    if (end - first == 2)
-        return !isAny(first + 1) && !(uvArea(first) >= uvArea(first + 1)) ? first + 1 : first;
+    if (end - first == 2) return !isAny(first + 1) && !(uvArea(first) >= uvArea(first + 1)) ? first + 1 : first;
     std::size_t chosen = first;
     for (std::size_t t = first + 1; t < end; ++t) {
         if (isAny(t)) continue;

@@ -25,8 +25,7 @@ class Sampler {
         const std::size_t size = std::min(count, count < kSmall ? kSmallSample : kSample);
         std::size_t troubled = 0;
         const std::size_t enough = count < kTiny ? 1 : (size + kShare - 1) / kShare;
-        for (std::size_t i = 0; i < size && troubled < enough; ++i)
-            troubled += isTroubled(count * i / size) ? 1 : 0;
+        for (std::size_t i = 0; i < size && troubled < enough; ++i) troubled += isTroubled(count * i / size) ? 1 : 0;
         return troubled == enough && size != 0;
     }
 
@@ -39,8 +38,7 @@ class Sampler {
         const std::uint32_t v[3] = {vertex(0), vertex(1), vertex(2)};
         const Vec2 a = mesh_.uvs[v[1]] - mesh_.uvs[v[0]], b = mesh_.uvs[v[2]] - mesh_.uvs[v[0]];
         if (a.x * b.y == a.y * b.x) return Kind::flat;
-        const Vec3 d = mesh_.positions[v[1]] - mesh_.positions[v[0]],
-                   e = mesh_.positions[v[2]] - mesh_.positions[v[0]];
+        const Vec3 d = mesh_.positions[v[1]] - mesh_.positions[v[0]], e = mesh_.positions[v[2]] - mesh_.positions[v[0]];
         const Vec3 s = b.y * d - a.y * e, t = a.x * e - b.x * d;
         const float along = dot(s, t);
         return along * along > 0.5f * dot(s, s) * dot(t, t) ? Kind::sheared : Kind::plain;
@@ -50,8 +48,7 @@ class Sampler {
     [[nodiscard]] bool isTroubled(std::size_t t) const {
         const Kind kind = kindOf(t);
         if (kind != Kind::flat) return kind == Kind::sheared;
-        return (t > 0 && kindOf(t - 1) != Kind::flat) ||
-               (t + 1 < triangles_.count && kindOf(t + 1) != Kind::flat);
+        return (t > 0 && kindOf(t - 1) != Kind::flat) || (t + 1 < triangles_.count && kindOf(t + 1) != Kind::flat);
     }
 
     const MeshView& mesh_;

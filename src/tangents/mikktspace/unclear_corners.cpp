@@ -49,8 +49,7 @@ class CornerReader {
             from_.sums->nodes[from_.chosen[i]].fan.leaves[1] = static_cast<std::uint32_t>(i);
         Marks at_nodes = noMarks(from_.allocator, from_.nodes.count);
         for (const std::uint32_t node : from_.chosen) at_nodes[node] = 1;
-        return collectAround(mesh_, triangles_, from_.nodes, std::move(at_nodes), from_.allocator,
-                             from_.parallel);
+        return collectAround(mesh_, triangles_, from_.nodes, std::move(at_nodes), from_.allocator, from_.parallel);
     }
 
     /// The place of a node's second path holds its number in `chosen` from here on; what it held before is no

@@ -41,8 +41,7 @@ struct UnclearCorners {
     Buffer<CornerTerms> terms;  ///< kTermTriangles each; the rows of those without UV area are kNothing
     // Three per triangle.
     Buffer<std::uint32_t> nodes;
-    Buffer<std::uint32_t>
-        places;  ///< numbers of their nodes in `chosen`, of others its size; empty: as `nodes`
+    Buffer<std::uint32_t> places;  ///< numbers of their nodes in `chosen`, of others its size; empty: as `nodes`
     std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;
 
     Buffer<UnclearCorner> corners;  ///< node by node, ascending by triangle
@@ -75,13 +74,10 @@ struct UnclearCorners {
     [[nodiscard]] std::uint32_t tricornerOf(const UnclearCorner& corner) const {
         const auto bytes = static_cast<std::size_t>(reinterpret_cast<const std::byte*>(corner.s) -
                                                     reinterpret_cast<const std::byte*>(terms.data()));
-        const std::size_t block = bytes / sizeof(CornerTerms),
-                          row = bytes % sizeof(CornerTerms) / sizeof terms[0].s[0];
+        const std::size_t block = bytes / sizeof(CornerTerms), row = bytes % sizeof(CornerTerms) / sizeof terms[0].s[0];
         return static_cast<std::uint32_t>(kTermCorners * block + row);
     }
-    [[nodiscard]] std::uint32_t numberOf(const UnclearCorner& corner) const {
-        return tricornerOf(corner) / 3;
-    }
+    [[nodiscard]] std::uint32_t numberOf(const UnclearCorner& corner) const { return tricornerOf(corner) / 3; }
     [[nodiscard]] const std::uint32_t* placesOf(std::size_t t) const {
         return (places.empty() ? nodes.data() : places.data()) + 3 * t;
     }

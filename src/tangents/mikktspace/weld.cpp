@@ -28,9 +28,8 @@ namespace {
 
 /// The reference adds the ends of intervals of positions: above this the sum may overflow and welding stops.
 constexpr float kHugePosition = 1.6e38f;
-constexpr std::size_t kGrain =
-    16384;  // vertices per task at least: below, starting threads costs more than it saves
-constexpr std::size_t kFew = 4096;           // vertices; so few are all looked up
+constexpr std::size_t kGrain = 16384;  // vertices per task at least: below, starting threads costs more than it saves
+constexpr std::size_t kFew = 4096;     // vertices; so few are all looked up
 constexpr std::size_t kPlacesPerVertex = 8;  // of a counting table: leaves 1 vertex of 9 to be looked up
 constexpr std::size_t kBlock = 256;          // vertices; their hashes stay in the first cache
 constexpr std::size_t kBatch = 32;           // lookups; all that they touch has to stay in the first cache
@@ -106,14 +105,9 @@ bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std:
 class Lookup {
   public:
     /// `candidates` ascending; null: all vertices. roots[i] becomes the root of candidate i.
-    Lookup(const MeshView& mesh, const std::uint32_t* hashes, const std::uint32_t* candidates,
-           std::size_t count, bool all_tame, std::uint32_t* roots)
-        : mesh_(mesh),
-          hashes_(hashes),
-          candidates_(candidates),
-          count_(count),
-          all_tame_(all_tame),
-          roots_(roots) {}
+    Lookup(const MeshView& mesh, const std::uint32_t* hashes, const std::uint32_t* candidates, std::size_t count,
+           bool all_tame, std::uint32_t* roots)
+        : mesh_(mesh), hashes_(hashes), candidates_(candidates), count_(count), all_tame_(all_tame), roots_(roots) {}
 
     /// `distinct`: about how many different candidates there are. Returns whether equal vertices differ in a
     /// zero's sign.
@@ -124,8 +118,7 @@ class Lookup {
         parallel.forRanges(count_, kGrain, [&](std::size_t begin, std::size_t end) {
             bool mixed = false, different = false;
             for (std::size_t i = begin; i < end; ++i) {
-                if (i + kBatch < end && roots_[i + kBatch] != vertexOf(i + kBatch))
-                    prefetch(roots_[i + kBatch]);
+                if (i + kBatch < end && roots_[i + kBatch] != vertexOf(i + kBatch)) prefetch(roots_[i + kBatch]);
                 verify(i, mixed, different);
             }
             if (mixed) any_mixed.store(true, std::memory_order_relaxed);
@@ -167,12 +160,10 @@ class Lookup {
 
     void matchHashes(std::size_t distinct, const Allocator* allocator, Parallel& parallel) {
         const std::size_t tasks =
-            count_ < 2 * kGrain
-                ? 1
-                : std::min<std::size_t>(parallel.width(), std::size_t{2} * RepeatedHashes::kMostRanges);
+            count_ < 2 * kGrain ? 1
+                                : std::min<std::size_t>(parallel.width(), std::size_t{2} * RepeatedHashes::kMostRanges);
         std::size_t slots = std::bit_ceil(2 * distinct / tasks + 2 * kBatch);  // of each task
-        for (bool full = true; full;
-             slots *= 4) {  // when the guess is bad; at 4/3 of the candidates it ends for sure
+        for (bool full = true; full; slots *= 4) {  // when the guess is bad; at 4/3 of the candidates it ends for sure
             Buffer<Slot> table(allocator, tasks * slots);
             std::atomic<std::size_t> done{0};
             parallel.forTasks(tasks, [&](std::size_t task) {
@@ -277,11 +268,7 @@ class Lookup {
 class VertexWelder {
   public:
     VertexWelder(const MeshView& mesh, const Allocator* allocator, const Allocator* brief, Parallel& parallel)
-        : mesh_(mesh),
-          count_(mesh.vertexCount()),
-          allocator_(allocator),
-          brief_(brief),
-          parallel_(parallel) {}
+        : mesh_(mesh), count_(mesh.vertexCount()), allocator_(allocator), brief_(brief), parallel_(parallel) {}
 
     /// Fills count, of_vertex and mixed. Returns whether all vertices are tame.
     bool run(Nodes& nodes) {
@@ -299,8 +286,7 @@ class VertexWelder {
             distinct = counting.sum(ranges, parallel_);
             if (distinct >= count_ - count_ / 4) {
                 candidates = Buffer<std::uint32_t>(brief_, count_);
-                candidate_count =
-                    counting.collect(hashes_.data(), count_, ranges, candidates.data(), parallel_);
+                candidate_count = counting.collect(hashes_.data(), count_, ranges, candidates.data(), parallel_);
             }
         }
         if (candidate_count == count_) {
@@ -312,9 +298,8 @@ class VertexWelder {
             if (nodes.count < count_) nodes.of_vertex = std::move(of_vertex);
         } else {
             Buffer<std::uint32_t> roots(brief_, candidate_count);
-            nodes.mixed =
-                Lookup(mesh_, hashes_.data(), candidates.data(), candidate_count, all_tame_, roots.data())
-                    .run(candidate_count, brief_, parallel_);
+            nodes.mixed = Lookup(mesh_, hashes_.data(), candidates.data(), candidate_count, all_tame_, roots.data())
+                              .run(candidate_count, brief_, parallel_);
             hashes_ = {};
             numberFew(nodes, candidates, roots);
         }
@@ -364,8 +349,7 @@ class VertexWelder {
     }
 
     /// `roots`: the first equal vertices of the candidates.
-    void numberFew(Nodes& nodes, const Buffer<std::uint32_t>& candidates,
-                   const Buffer<std::uint32_t>& roots) const {
+    void numberFew(Nodes& nodes, const Buffer<std::uint32_t>& candidates, const Buffer<std::uint32_t>& roots) const {
         struct Repeated {
             std::uint32_t vertex, root;
         };
@@ -380,11 +364,9 @@ class VertexWelder {
         }
         nodes.count = count_ - count;
         parallel_.forRanges(count_, kGrain, [&](std::size_t begin, std::size_t end) {
-            const Repeated* r =
-                std::lower_bound(repeated.begin(), repeated.end(), begin,
-                                 [](const Repeated& a, std::size_t v) { return a.vertex < v; });
-            for (std::size_t v = begin; v < end;
-                 ++v) {  // one step past the repeated vertex, which comes below
+            const Repeated* r = std::lower_bound(repeated.begin(), repeated.end(), begin,
+                                                 [](const Repeated& a, std::size_t v) { return a.vertex < v; });
+            for (std::size_t v = begin; v < end; ++v) {  // one step past the repeated vertex, which comes below
                 const std::size_t before = static_cast<std::size_t>(r - repeated.begin());
                 const std::size_t stop = r == repeated.end() ? end : std::min<std::size_t>(r->vertex, end);
                 for (; v < stop; ++v) of_vertex[v] = static_cast<std::uint32_t>(v - before);
@@ -404,8 +386,8 @@ class VertexWelder {
 };
 
 /// Where nodes mix -0 and +0, the reference's representative decides on the bits.
-void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
-                  const Allocator* allocator, Parallel& parallel) {
+void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes, const Allocator* allocator,
+                  Parallel& parallel) {
     listVertices(nodes, allocator, parallel);
     Growing<std::uint32_t> different(allocator);
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
@@ -429,8 +411,8 @@ bool usesTameVerticesOnly(const MeshView& mesh, const TriangleList& triangles) {
 
 /// Nodes of corners: each with a NaN is alone, and so is each that the reference does not come to weld. The
 /// corner that stands for a node keeps it.
-void weldCorners(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
-                 const Allocator* allocator, Parallel& parallel) {
+void weldCorners(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes, const Allocator* allocator,
+                 Parallel& parallel) {
     const std::size_t corner_count = mesh.cornerCount();
     nodes.tame = false;
     listVertices(nodes, allocator, parallel);
@@ -453,8 +435,7 @@ void weldCorners(const MeshView& mesh, const TriangleList& triangles, Nodes& nod
         if (nodes.representatives[node] == kNone) nodes.representatives[node] = corner;
     }
     Buffer<std::uint8_t> not_welded(allocator, corner_count, std::uint8_t{0});
-    WeldOrder(mesh, triangles, nodes, allocator, parallel)
-        .findAll(nodes.representatives.data(), not_welded.data());
+    WeldOrder(mesh, triangles, nodes, allocator, parallel).findAll(nodes.representatives.data(), not_welded.data());
     for (std::size_t c = 0; c < corner_count; ++c) {
         const std::uint32_t node = nodes.of_corner[c];
         if (not_welded[c] != 0 && node != kNone && nodes.representatives[node] != c) {
@@ -472,11 +453,10 @@ void weldCorners(const MeshView& mesh, const TriangleList& triangles, Nodes& nod
 
 }  // namespace
 
-Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator,
-           Parallel& parallel, const Allocator* brief) {
+Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator, Parallel& parallel,
+           const Allocator* brief) {
     Nodes nodes;
-    const bool all_tame =
-        VertexWelder(mesh, allocator, brief != nullptr ? brief : allocator, parallel).run(nodes);
+    const bool all_tame = VertexWelder(mesh, allocator, brief != nullptr ? brief : allocator, parallel).run(nodes);
     if (!all_tame && !usesTameVerticesOnly(mesh, triangles)) {
         weldCorners(mesh, triangles, nodes, allocator, parallel);
     } else if (nodes.mixed) {

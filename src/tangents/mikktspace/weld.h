@@ -18,8 +18,7 @@ struct Nodes {
     bool tame = true;
     /// Some node mixes -0 and +0: the node's data are those of vertex(node), not those of any vertex of it.
     bool mixed = false;
-    Buffer<std::uint32_t>
-        of_vertex;  ///< node of each vertex; empty: no two vertices are equal, node == vertex
+    Buffer<std::uint32_t> of_vertex;  ///< node of each vertex; empty: no two vertices are equal, node == vertex
     /// Only when not tame, and then in place of of_vertex: node of each corner of the mesh, kNone for corners
     /// of skipped faces.
     Buffer<std::uint32_t> of_corner;
@@ -47,8 +46,8 @@ struct Nodes {
 /// Takes 10 to 12 bytes per vertex while it works, up to 24 with four threads, and up to 32 when most
 /// vertices are equal to others; of which up to 4 remain. Linear, whatever is equal to what. `brief`: for what
 /// does not remain; null: `allocator`.
-Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator,
-           Parallel& parallel, const Allocator* brief = nullptr);
+Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator, Parallel& parallel,
+           const Allocator* brief = nullptr);
 
 /// Makes nodes.vertex() valid.
 void listVertices(Nodes& nodes, const Allocator* allocator, Parallel& parallel);

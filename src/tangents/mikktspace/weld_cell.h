@@ -174,8 +174,7 @@ class WeldCell {
             }
             const std::size_t count = std::min(left_count - left_next, right_count - right_next);
             for (std::size_t n = 0; n < count; ++n)
-                std::swap(elements_[i + on_left[left_next + n]],
-                          elements_[end - 1 - on_right[right_next + n]]);
+                std::swap(elements_[i + on_left[left_next + n]], elements_[end - 1 - on_right[right_next + n]]);
             left_next += count;
             right_next += count;
             if (left_next == left_count) i += kBlock;

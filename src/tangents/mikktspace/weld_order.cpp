@@ -24,8 +24,8 @@ namespace tspace::mikk {
 namespace {
 
 constexpr std::size_t kCells = kWeldCells;
-constexpr std::size_t kFewVertices = 512;  // so few are looked at without NearCells
-constexpr std::size_t kFewEntries = 4096;  // of the corner list: one node of theirs is found without lists
+constexpr std::size_t kFewVertices = 512;          // so few are looked at without NearCells
+constexpr std::size_t kFewEntries = 4096;          // of the corner list: one node of theirs is found without lists
 constexpr std::size_t kElementsForThreads = 4096;  // of cells: fewer are done sooner than threads are started
 /// Marks of vertices in wanted cells: the cell's number, from 1, and whether their nodes are wanted. All
 /// cells that get none of their own share the last number.
@@ -42,14 +42,12 @@ std::size_t cellOf(float low, float high, float x) {
 /// the mesh.
 Box listedBox(const MeshView& mesh, const TriangleList& triangles) {
     Box box(mesh.positions[mesh.indices[0]]);
-    for (std::size_t i = 1; i < 3 * triangles.count; ++i)
-        box.add(mesh.positions[mesh.indices[triangles.corner(i)]]);
+    for (std::size_t i = 1; i < 3 * triangles.count; ++i) box.add(mesh.positions[mesh.indices[triangles.corner(i)]]);
     return box;
 }
 
 /// A box and the vertices [begin, end), four components at a time: x, y, y and z.
-Box boxOfVertices(const Box& start, const StridedSpan<const Vec3>& positions, std::size_t begin,
-                  std::size_t end) {
+Box boxOfVertices(const Box& start, const StridedSpan<const Vec3>& positions, std::size_t begin, std::size_t end) {
     const auto components = [](const Vec3& p) { return joinPairs(&p.x, &p.y); };
     Float4 low = components(start.low), high = components(start.high);
     for (std::size_t v = begin; v < end; ++v) {
@@ -92,8 +90,7 @@ bool isFirstListedAgain(const MeshView& mesh, const TriangleList& triangles) {
 /// reading those of the list; nearly always they make the same box. It does for us when vertices on both ends
 /// of its longest axis are in the list: the box of the list may be shorter on other axes only, and so has the
 /// same longest one. Not for a NaN in the list.
-Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator,
-                Parallel& parallel) {
+Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator, Parallel& parallel) {
     constexpr std::size_t kBoxed = 512;  // vertices
     constexpr std::size_t kGrain = 64;   // boxes
     if (triangles.corner(0) != 0 && !isFirstListedAgain(mesh, triangles)) return listedBox(mesh, triangles);
@@ -130,8 +127,7 @@ class NearCells {
         : low_(low), scale_(static_cast<float>(kCells) / (high - low)) {
         for (std::size_t cell = 0; cell < kCells; ++cell) {
             if (wanted[cell] == 0) continue;
-            for (std::size_t near = cell; near < cell + 3; ++near)
-                near_[near] = 1;  // near_[0] is for cell -1
+            for (std::size_t near = cell; near < cell + 3; ++near) near_[near] = 1;  // near_[0] is for cell -1
         }
         if (!(scale_ <= std::numeric_limits<float>::max())) near_.fill(1);  // no extent, or nearly none
         if (!std::isfinite(low) || !std::isfinite(high - low)) near_.fill(1);
@@ -167,8 +163,7 @@ WeldOrder::WeldOrder(const MeshView& mesh, const TriangleList& triangles, const 
                      const Allocator* allocator, Parallel& parallel)
     : mesh_(mesh), triangles_(triangles), nodes_(nodes), allocator_(allocator), parallel_(parallel) {
     if (triangles.count == 0) return;
-    const Box box =
-        nodes.tame ? boundingBox(mesh, triangles, allocator, parallel) : listedBox(mesh, triangles);
+    const Box box = nodes.tame ? boundingBox(mesh, triangles, allocator, parallel) : listedBox(mesh, triangles);
     axis_ = box.longestAxis();
     low_ = component(box.low, axis_);
     high_ = component(box.high, axis_);
@@ -201,10 +196,9 @@ Buffer<std::uint8_t> WeldOrder::verticesInCells(const CellNumbers& numbers, cons
             if (in_cells[v] != 0) in_cells[v] = markOf(v);
         }
     };
-    parallel_.forRanges((vertex_count + kBlock - 1) / kBlock, kGrain,
-                        [&](std::size_t first, std::size_t last) {
-                            for (std::size_t block = first; block < last; ++block) markBlock(block);
-                        });
+    parallel_.forRanges((vertex_count + kBlock - 1) / kBlock, kGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t block = first; block < last; ++block) markBlock(block);
+    });
     return in_cells;
 }
 
@@ -224,8 +218,7 @@ void WeldOrder::findSome(std::span<const std::uint32_t> vertices, std::uint32_t*
         if (number == 0) number = cell_count + 1u < kCellNumber ? ++cell_count : kCellNumber;
     }
     const Marks in_cells = verticesInCells(numbers, wanted);
-    const Buffer<std::uint32_t> found =
-        collectTriangles(mesh_, triangles_, nodes_, in_cells, allocator_, parallel_);
+    const Buffer<std::uint32_t> found = collectTriangles(mesh_, triangles_, nodes_, in_cells, allocator_, parallel_);
     std::array<std::uint32_t, kCellNumber + 2> next = {};  // first how many, then where the next one is put
     withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
         for (const std::uint32_t t : found) {
@@ -316,8 +309,8 @@ void WeldOrder::findAll(std::uint32_t* representatives, std::uint8_t* not_welded
 }
 
 /// `wanted`: one per node; empty: all nodes.
-void WeldOrder::find(const Buffer<std::uint32_t>& entries, const Marks& wanted,
-                     std::uint32_t* representatives, std::uint8_t* not_welded) const {
+void WeldOrder::find(const Buffer<std::uint32_t>& entries, const Marks& wanted, std::uint32_t* representatives,
+                     std::uint8_t* not_welded) const {
     if (entries.size() < kCells) {
         findInFew(entries, wanted, representatives, not_welded);
         return;
@@ -333,8 +326,7 @@ void WeldOrder::find(const Buffer<std::uint32_t>& entries, const Marks& wanted,
     Buffer<CellElement> elements(allocator_, entries.size());
     Buffer<std::size_t> fill(allocator_, kCells);
     std::copy_n(cell_begin.data(), kCells, fill.data());
-    for (std::size_t i = 0; i < entries.size(); ++i)
-        elements[fill[cells[i]]++] = elementOf(entries[i], wanted);
+    for (std::size_t i = 0; i < entries.size(); ++i) elements[fill[cells[i]]++] = elementOf(entries[i], wanted);
     // Cells share nothing: a node lies in one of them.
     parallel_.forTasks(kCells, [&](std::size_t cell) {
         const std::size_t begin = cell_begin[cell], count = cell_begin[cell + 1] - begin;
@@ -343,15 +335,14 @@ void WeldOrder::find(const Buffer<std::uint32_t>& entries, const Marks& wanted,
 }
 
 /// The same where most cells are empty.
-void WeldOrder::findInFew(const Buffer<std::uint32_t>& entries, const Marks& wanted,
-                          std::uint32_t* representatives, std::uint8_t* not_welded) const {
+void WeldOrder::findInFew(const Buffer<std::uint32_t>& entries, const Marks& wanted, std::uint32_t* representatives,
+                          std::uint8_t* not_welded) const {
     Buffer<std::uint64_t> by_cell(allocator_, entries.size());  // cell, then place in the list
     for (std::size_t i = 0; i < entries.size(); ++i)
         by_cell[i] = std::uint64_t{cellOf(mesh_.indices[triangles_.corner(entries[i])])} << 32 | i;
     std::sort(by_cell.begin(), by_cell.end());
     Buffer<CellElement> elements(allocator_, entries.size());
-    for (std::size_t i = 0; i < entries.size(); ++i)
-        elements[i] = elementOf(entries[by_cell[i] & 0xffffffffu], wanted);
+    for (std::size_t i = 0; i < entries.size(); ++i) elements[i] = elementOf(entries[by_cell[i] & 0xffffffffu], wanted);
     for (std::size_t begin = 0; begin < entries.size();) {
         std::size_t end = begin + 1;
         while (end < entries.size() && by_cell[end] >> 32 == by_cell[begin] >> 32) ++end;

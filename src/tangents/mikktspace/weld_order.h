@@ -23,8 +23,8 @@ struct CellElement;
 class WeldOrder {
   public:
     /// All must outlive this object.
-    WeldOrder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-              const Allocator* allocator, Parallel& parallel);
+    WeldOrder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const Allocator* allocator,
+              Parallel& parallel);
 
     /// Sets representatives[node] to the corner that the reference keeps, for all nodes that have corners.
     /// `not_welded` may be null; else it has one zero byte per corner of the mesh, which becomes 1 where the

@@ -95,10 +95,9 @@ TEST(UvMap, AnIslandIsMirroredWhenMostOfItsAreaIs) {
 TEST(InspectFile, CountsShapesMaterialsAndImagesOfAnObj) {
     const TempFolder folder;
     folder.write("m.mtl", "newmtl a\nmap_Kd c.png\nnorm n.png\nnewmtl unused\n");
-    const std::string file =
-        folder.write("a.obj",
-                     "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
-                     "vt 0 1\no one\nusemtl a\nf 1/1 2/2 3/3 4/4\no two\nf 1 2 3\n");
+    const std::string file = folder.write("a.obj",
+                                          "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+                                          "vt 0 1\no one\nusemtl a\nf 1/1 2/2 3/3 4/4\no two\nf 1 2 3\n");
     Result<Inspection> result = inspectFile(file);
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_EQ(result->format, "obj");

@@ -41,8 +41,7 @@ GenerateOptions everything() {
     return options;
 }
 
-Result<GenerateReport> tryMake(const TempFolder& folder, const std::string& obj,
-                               const GenerateOptions& options) {
+Result<GenerateReport> tryMake(const TempFolder& folder, const std::string& obj, const GenerateOptions& options) {
     return generateFile(folder.write("in/model.obj", obj), (folder.path() / "out.glb").string(), options);
 }
 
@@ -74,8 +73,7 @@ TEST(Obj, KeepsPolygonsOfAnySizeUntilFramesAreComputed) {
     constexpr int kCorners = 400;  // more than fits the parser's own 8-bit counts
     for (int i = 1; i <= kCorners; ++i) {
         const double a = i * 2 * 3.14159265358979 / kCorners;
-        obj << "v " << std::cos(a) << ' ' << std::sin(a) << " 0\nvt " << std::cos(a) << ' ' << std::sin(a)
-            << '\n';
+        obj << "v " << std::cos(a) << ' ' << std::sin(a) << " 0\nvt " << std::cos(a) << ' ' << std::sin(a) << '\n';
         face << ' ' << i << '/' << i;
     }
     const TempFolder folder;
@@ -87,8 +85,7 @@ TEST(Obj, KeepsPolygonsOfAnySizeUntilFramesAreComputed) {
 
 TEST(Obj, EqualTriplesOfIndicesBecomeOneVertexInOrderOfFirstUse) {
     const TempFolder folder;
-    const Made made =
-        make(folder, std::string(kQuad) + "vn 0 0 1\nf 4/4/1 1/1/1 2/2/1\nf 4/4/1 2/2/1 3/3/1\n");
+    const Made made = make(folder, std::string(kQuad) + "vn 0 0 1\nf 4/4/1 1/1/1 2/2/1\nf 4/4/1 2/2/1 3/3/1\n");
     EXPECT_EQ(made.corners(), (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
     EXPECT_EQ(made.vec3("POSITION").front(), (Vec3{0, 1, 0}));
     EXPECT_EQ(made.document.json["accessors"][0]["max"], Json({1.0, 1.0, 0.0}));
@@ -126,15 +123,14 @@ TEST(Obj, TextureCoordinatesAreTurnedToRunDown) {
     const Made made = make(folder, std::string(kQuad) + "f 1/1 2/2 3/3 4/4\n");
     const std::vector<Vec2> uvs = gltf::readUvs(made.document, made.primitives[0], 0);
     EXPECT_EQ(uvs, (std::vector<Vec2>{{0, 1}, {1, 1}, {1, 0}, {0, 0}}));
-    for (const Vec4& t : gltf::readTangents(made.document, made.primitives[0]))
-        EXPECT_EQ(t, (Vec4{1, 0, 0, 1}));
+    for (const Vec4& t : gltf::readTangents(made.document, made.primitives[0])) EXPECT_EQ(t, (Vec4{1, 0, 0, 1}));
 }
 
 TEST(Obj, AMaterialThatStatesNoColourIsWhite) {
     const TempFolder folder;
     folder.write("in/m.mtl", "newmtl a\nNs 10\nnewmtl b\nKd 0 0 0\n");
-    const Made made = make(
-        folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/3 4/4\n");
+    const Made made =
+        make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/3 4/4\n");
     const Json& materials = made.document.json["materials"];
     EXPECT_FALSE(materials[0]["pbrMetallicRoughness"].contains("baseColorFactor"));
     EXPECT_EQ(materials[1]["pbrMetallicRoughness"]["baseColorFactor"], Json({0.0, 0.0, 0.0, 1.0}));
@@ -170,8 +166,7 @@ TEST(Obj, SmoothingGroupsDecideWhereNormalsAreMissing) {
     EXPECT_EQ(make(folder, folded("s off\n")).vec3("NORMAL").size(), 8U);
     EXPECT_EQ(make(folder, folded("s 0\n")).vec3("NORMAL").size(), 8U);
     EXPECT_EQ(make(folder, folded("")).vec3("NORMAL").size(), 8U) << "glTF's default is flat";
-    EXPECT_EQ(make(folder, std::string(kQuad) +
-                               "v 1 0 -1\nv 1 1 -1\ns 1\nf 1/1 2/2 3/3 4/4\ns 2\nf 2/2 5/1 6/4 3/3\n")
+    EXPECT_EQ(make(folder, std::string(kQuad) + "v 1 0 -1\nv 1 1 -1\ns 1\nf 1/1 2/2 3/3 4/4\ns 2\nf 2/2 5/1 6/4 3/3\n")
                   .vec3("NORMAL")
                   .size(),
               8U);
@@ -193,9 +188,8 @@ TEST(Obj, OptionsDecideAboutNormalsWhenGroupsAreNotAskedFor) {
 
 TEST(Obj, SmoothingGoesAcrossMaterialsAndObjects) {
     const TempFolder folder;
-    const Made made =
-        make(folder, std::string(kQuad) + "v 1 0 -1\nv 1 1 -1\ns 1\no a\nusemtl x\nf 1/1 2/2 3/3 4/4\n" +
-                         "o b\nusemtl y\nf 2/2 5/1 6/4 3/3\n");
+    const Made made = make(folder, std::string(kQuad) + "v 1 0 -1\nv 1 1 -1\ns 1\no a\nusemtl x\nf 1/1 2/2 3/3 4/4\n" +
+                                       "o b\nusemtl y\nf 2/2 5/1 6/4 3/3\n");
     ASSERT_EQ(made.primitives.size(), 2U);
     EXPECT_EQ(made.vec3("NORMAL", 0)[1], made.vec3("NORMAL", 1)[0]);
 }
@@ -225,10 +219,9 @@ TEST(Obj, TangentsAreMadeWhereTheMaterialHasANormalMap) {
         const TempFolder folder;
         folder.write("in/m.mtl", std::string("newmtl plain\nnewmtl rough\n") + keyword + " -bm 0.5 n.png\n");
         folder.write("in/n.png", kPng);
-        const Made made = make(folder,
-                               "mtllib m.mtl\n" + std::string(kQuad) +
-                                   "usemtl plain\nf 1/1 2/2 3/3\nusemtl rough\nf 1/1 3/3 4/4\n",
-                               {});
+        const Made made = make(
+            folder,
+            "mtllib m.mtl\n" + std::string(kQuad) + "usemtl plain\nf 1/1 2/2 3/3\nusemtl rough\nf 1/1 3/3 4/4\n", {});
         ASSERT_EQ(made.report.primitives.size(), 2U) << keyword;
         EXPECT_EQ(made.report.primitives[0].action, PrimitiveAction::notNeeded);
         EXPECT_EQ(made.report.primitives[1].action, PrimitiveAction::generated);
@@ -238,8 +231,9 @@ TEST(Obj, TangentsAreMadeWhereTheMaterialHasANormalMap) {
 
 /// -o, -s and -t take one, two or three numbers; the name of the file is no number.
 TEST(Obj, OptionsOfTexturesDoNotSwallowTheName) {
-    for (const char* options : {"-s 2", "-s 2 2", "-s 2 2 1", "-o 0.5 -s 2 2", "-t .5", "-o -1e-1 +2. -bm 0.5", "-mm 0.1 -clamp on",
-                                "-s 1 1", "-blendu off -imfchan l", "-texres 512", "-bm 0.5 -s 1 1 1"}) {
+    for (const char* options :
+         {"-s 2", "-s 2 2", "-s 2 2 1", "-o 0.5 -s 2 2", "-t .5", "-o -1e-1 +2. -bm 0.5", "-mm 0.1 -clamp on", "-s 1 1",
+          "-blendu off -imfchan l", "-texres 512", "-bm 0.5 -s 1 1 1"}) {
         for (const char* keyword : {"norm", "bump", "map_bump", "map_Bump"}) {
             for (const char* name : {"n.png", "my n.png", "7"}) {
                 const TempFolder folder;
@@ -260,9 +254,10 @@ TEST(Obj, TexturesThatAreMovedGiveAWarning) {
         folder.write("in/n.png", kPng);
         const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
         const auto& warnings = made.report.warnings;
-        EXPECT_EQ(std::any_of(warnings.begin(), warnings.end(),
-                              [](const std::string& text) { return text.find("not carried over") != std::string::npos; }),
-                  moves);
+        EXPECT_EQ(
+            std::any_of(warnings.begin(), warnings.end(),
+                        [](const std::string& text) { return text.find("not carried over") != std::string::npos; }),
+            moves);
     }
 }
 
@@ -280,8 +275,7 @@ TEST(Obj, ImagesBesideTheOutputAreNamedAndOthersAreEmbedded) {
     const auto image = embedded.document.buffers[0].bytes.range(range.begin, range.byte_count);
     EXPECT_EQ(std::string(image.begin(), image.end()), kPng);
 
-    ASSERT_TRUE(
-        generateFile((folder.path() / "in/model.obj").string(), (folder.path() / "in/model.gltf").string()));
+    ASSERT_TRUE(generateFile((folder.path() / "in/model.obj").string(), (folder.path() / "in/model.gltf").string()));
     const gltf::Document beside = gltf::loadDocument(folder.path() / "in/model.gltf", {});
     EXPECT_EQ(beside.json["images"][0]["uri"], "maps/base%20color.png");
     EXPECT_EQ(beside.json["images"][1]["uri"], "n.jpg");
@@ -295,20 +289,17 @@ TEST(Obj, TexturesThatAreMissingForbiddenOrNoImagesAreLeftOutWithAWarning) {
         folder.write("secret.png", kPng);
         folder.write("in/text.png", "no image");
         folder.write("in/m.mtl", "newmtl a\nnorm " + name + "\n");
-        const Made made =
-            make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
+        const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
         EXPECT_FALSE(made.document.json.contains("images")) << name;
         EXPECT_TRUE(mentions(made.report.warnings, "left out")) << name;
-        EXPECT_EQ(made.report.primitives[0].action, PrimitiveAction::generated)
-            << "the material still asks for them";
+        EXPECT_EQ(made.report.primitives[0].action, PrimitiveAction::generated) << "the material still asks for them";
     }
     const TempFolder folder;
     folder.write("secret.png", kPng);
     folder.write("in/m.mtl", "newmtl a\nnorm ../secret.png\n");
     GenerateOptions options;
     options.file.allow_external = true;
-    const Made made =
-        make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", options);
+    const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", options);
     EXPECT_TRUE(made.document.json.contains("images"));
 }
 
@@ -383,9 +374,8 @@ TEST(Obj, FacesThatNameUvsOrNormalsThatAreNotThereHaveNone) {
     const std::string rest = "f 2/2/1 3/3/1 4/4/1\n";
     const TempFolder expected;
     make(expected, vertices + "f 1 2 3\n" + rest);
-    for (const char* face :
-         {"f 1/5/2 2/2/1 3/3/1", "f 1/1/1 2/-5/1 3/3/-2", "f 1/9/9 2/9/9 3/9/9", "f 1/0/0 2/0/0 3/0/0",
-          "f 1/1/1 2/999999999/1 3/3/999999999", "f 1/0/1 2/2/0 3/3/1"}) {
+    for (const char* face : {"f 1/5/2 2/2/1 3/3/1", "f 1/1/1 2/-5/1 3/3/-2", "f 1/9/9 2/9/9 3/9/9",
+                             "f 1/0/0 2/0/0 3/0/0", "f 1/1/1 2/999999999/1 3/3/999999999", "f 1/0/1 2/2/0 3/3/1"}) {
         const TempFolder folder;
         make(folder, vertices + face + "\n" + rest);
         EXPECT_EQ(folder.read("out.glb"), expected.read("out.glb")) << face;
@@ -394,10 +384,9 @@ TEST(Obj, FacesThatNameUvsOrNormalsThatAreNotThereHaveNone) {
 
 TEST(Obj, IndicesThatNameNothingAreCountedAndSaid) {
     const TempFolder folder;
-    const Made made = make(
-        folder, std::string(kQuad) + "f 1/1/1 2/5/2 3/-9/3\nf 1/-5 2/2 3/3\n# ahead:\nf 1/5/1 3/3/1 4/4/1\n");
-    EXPECT_TRUE(
-        mentions(made.report.warnings, "texture coordinates that do not exist: 4, the first in line 9;"));
+    const Made made =
+        make(folder, std::string(kQuad) + "f 1/1/1 2/5/2 3/-9/3\nf 1/-5 2/2 3/3\n# ahead:\nf 1/5/1 3/3/1 4/4/1\n");
+    EXPECT_TRUE(mentions(made.report.warnings, "texture coordinates that do not exist: 4, the first in line 9;"));
     EXPECT_TRUE(mentions(made.report.warnings, "normals that do not exist: 6, the first in line 9;"));
     EXPECT_TRUE(make(folder, std::string(kQuad) + "f 1/0/0 2/0/0 3/0/0\n").report.warnings.empty())
         << "0 says that there is none";
@@ -449,16 +438,14 @@ TEST(Obj, EverySharedModelGoesThrough) {
     ASSERT_FALSE(files.empty());
     for (const std::string& file : files) {
         const TempFolder folder;
-        Result<GenerateReport> report =
-            generateFile(file, (folder.path() / "out.glb").string(), everything());
+        Result<GenerateReport> report = generateFile(file, (folder.path() / "out.glb").string(), everything());
         ASSERT_TRUE(report) << file << ": " << report.error().message;
         const gltf::Document document = gltf::loadDocument(folder.path() / "out.glb", {});
         for (const gltf::Primitive& primitive : gltf::readPrimitives(document)) {
             for (const Vec3& n : gltf::readVec3(document, primitive, "NORMAL")) {
                 EXPECT_NEAR(std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z), 1, 5e-4) << file;
             }
-            EXPECT_EQ(primitive.find("TANGENT").has_value(), primitive.find("TEXCOORD_0").has_value())
-                << file;
+            EXPECT_EQ(primitive.find("TANGENT").has_value(), primitive.find("TEXCOORD_0").has_value()) << file;
         }
     }
 }
@@ -467,8 +454,7 @@ TEST(Obj, BrokenSharedFilesAreReadOrRefused) {
     TSPACE_NEEDS_SHARED("bad");
     for (const std::string& file : sharedObjFiles("bad")) {
         const TempFolder folder;
-        Result<GenerateReport> report =
-            generateFile(file, (folder.path() / "out.glb").string(), everything());
+        Result<GenerateReport> report = generateFile(file, (folder.path() / "out.glb").string(), everything());
         if (report) continue;
         EXPECT_EQ(report.error().code, ErrorCode::invalidFile) << file;
         EXPECT_EQ(report.error().message.find('\n'), std::string::npos) << file;
@@ -477,12 +463,10 @@ TEST(Obj, BrokenSharedFilesAreReadOrRefused) {
 }
 
 TEST(Obj, EveryTruncationOfAFileIsReadOrRefused) {
-    const std::string whole =
-        "mtllib m.mtl\n" + folded("s 1\nusemtl a\nvn 0 0 1\n") + "o x\nf 1//1 2//1 3//1\n";
+    const std::string whole = "mtllib m.mtl\n" + folded("s 1\nusemtl a\nvn 0 0 1\n") + "o x\nf 1//1 2//1 3//1\n";
     for (std::size_t length = 0; length < whole.size(); ++length) {
         const TempFolder folder;
-        folder.write("in/m.mtl",
-                     std::string("newmtl a\nmap_Kd -clamp on -s 1 1 x.png\nnorm n.png").substr(0, length));
+        folder.write("in/m.mtl", std::string("newmtl a\nmap_Kd -clamp on -s 1 1 x.png\nnorm n.png").substr(0, length));
         Result<GenerateReport> report = tryMake(folder, whole.substr(0, length), everything());
         EXPECT_TRUE(report || report.error().code == ErrorCode::invalidFile) << length;
     }

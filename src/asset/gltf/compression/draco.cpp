@@ -134,7 +134,8 @@ bool copyValues(const draco::PointAttribute& values, const draco::PointAttribute
     for (std::size_t i = 0; i < point_count; ++i) {
         const draco::AttributeValueIndex value = mapping.mapped_index(draco::PointIndex(static_cast<std::uint32_t>(i)));
         if (value.value() >= values.size()) return false;
-        if (!values.ConvertValue<Component>(value, static_cast<std::int8_t>(to.component_count), one.data())) return false;
+        if (!values.ConvertValue<Component>(value, static_cast<std::int8_t>(to.component_count), one.data()))
+            return false;
         std::memcpy(to.values.data() + i * element, one.data(), element);
     }
     return true;
@@ -280,7 +281,8 @@ std::string decodeDraco(std::span<const std::uint8_t> data, const DracoLimits& l
     mesh.corners.reserve(std::size_t{decoded.num_faces()} * 3);
     for (std::uint32_t i = 0; i < decoded.num_faces(); ++i) {
         for (const draco::PointIndex& point : decoded.face(draco::FaceIndex(i))) {
-            if (point.value() >= mesh.point_count) return "a triangle of the Draco data has a point that does not exist";
+            if (point.value() >= mesh.point_count)
+                return "a triangle of the Draco data has a point that does not exist";
             mesh.corners.push_back(point.value());
         }
     }

@@ -17,7 +17,8 @@ namespace tspace::gltf {
 struct DracoRounding {
     int bits = 0;  ///< for each component; 0: values are stored exactly
     bool is_octahedral = false;
-    std::vector<float> origin = {};  ///< smallest value of each component, and the extent of all of them; empty: to be measured
+    std::vector<float> origin =
+        {};  ///< smallest value of each component, then the extent of all; empty: to be measured
     float range = 0;
 };
 
@@ -48,12 +49,12 @@ struct DracoLimits {
 /// Why this build cannot decode or encode; empty when it can. One sentence.
 std::string dracoMissing();
 
-/// Decodes the triangles, and the attributes of `mesh`, of which id, component and component_count say what is wanted; fills
-/// the rest. Returns what is wrong with the data, or nothing.
+/// Decodes the triangles, and the attributes of `mesh`, of which id, component and component_count say what is wanted;
+/// fills the rest. Returns what is wrong with the data, or nothing.
 std::string decodeDraco(std::span<const std::uint8_t> data, const DracoLimits& limits, DracoMesh& mesh);
 
-/// Encodes points and triangles in their order, and fills the ids. `exact`: an attribute whose rounding would change a value is
-/// stored without. False when the library cannot do it.
+/// Encodes points and triangles in their order, and fills the ids. `exact`: an attribute whose rounding would change a
+/// value is stored without. False when the library cannot do it.
 bool encodeDraco(DracoMesh& mesh, bool exact, Bytes& data);
 
 }  // namespace tspace::gltf

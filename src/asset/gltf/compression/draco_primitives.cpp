@@ -57,19 +57,21 @@ Packed readPacked(const Document& document, const Json& primitive, std::size_t m
     const std::string place = packed.place();
     const Json& extension = *findExtension(primitive, kDraco);
     const std::size_t accessor_count = rootArray(document, "accessors").size();
-    const auto view = readIndex(extension, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
+    const auto view =
+        readIndex(extension, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
     if (!view) failAt("the member 'bufferView' is missing", place);
     packed.view = *view;
     packed.mode = readSize(primitive, "mode", packed.primitivePlace(), kTriangles);
-    if (packed.mode < kTriangles) failAt("Draco data are triangles, not points or lines", join(packed.primitivePlace(), "mode"));
+    if (packed.mode < kTriangles)
+        failAt("Draco data are triangles, not points or lines", join(packed.primitivePlace(), "mode"));
     packed.indices = readIndex(primitive, "indices", packed.primitivePlace(), accessor_count, "accessor");
     const Json* ids = readObject(extension, "attributes", place);
     if (ids == nullptr) failAt("the member 'attributes' is missing", place);
     const Json* attributes = readObject(primitive, "attributes", packed.primitivePlace());
     if (attributes == nullptr) failAt("the member 'attributes' is missing", packed.primitivePlace());
     for (const auto& [name, id] : ids->items()) {
-        const auto accessor = readIndex(*attributes, name.c_str(), packed.primitivePlace() + "/attributes",
-                                        accessor_count, "accessor");
+        const auto accessor =
+            readIndex(*attributes, name.c_str(), packed.primitivePlace() + "/attributes", accessor_count, "accessor");
         if (!accessor) continue;
         const std::size_t number = readSize(*ids, name.c_str(), place + "/attributes");
         if (number > 0xffffffffu) failAt("the Draco id is out of range", join(place + "/attributes", name));
@@ -124,9 +126,7 @@ class Decoder {
 
   private:
     [[nodiscard]] bool hasPlainData(const Packed& packed) const {
-        const auto is_plain = [&](std::size_t accessor) {
-            return readAccessor(document_, accessor).view.has_value();
-        };
+        const auto is_plain = [&](std::size_t accessor) { return readAccessor(document_, accessor).view.has_value(); };
         return (!packed.indices || is_plain(*packed.indices)) &&
                std::all_of(packed.attributes.begin(), packed.attributes.end(),
                            [&](const Packed::Attribute& attribute) { return is_plain(attribute.accessor); });
@@ -134,7 +134,8 @@ class Decoder {
 
     void hide(const Packed& packed) {
         if (packed.indices) document_.hidden_accessors.insert(*packed.indices);
-        for (const Packed::Attribute& attribute : packed.attributes) document_.hidden_accessors.insert(attribute.accessor);
+        for (const Packed::Attribute& attribute : packed.attributes)
+            document_.hidden_accessors.insert(attribute.accessor);
     }
 
     /// Uses of accessors that have nothing to do with Draco.
@@ -146,12 +147,14 @@ class Decoder {
         }
     }
 
-    /// The accessor that stands for `source` in this primitive: the given one, or a copy where that one is something else too.
+    /// The accessor that stands for `source` in this primitive: the given one, or a copy where that one is something
+    /// else too.
     std::size_t own(std::size_t accessor, const Source& source) {
         const auto [entry, is_new] = sources_.try_emplace(accessor, source);
         const bool has_others = accessor < other_uses_.size() && other_uses_[accessor] > 0;
         if (entry->second == source && !has_others) return accessor;
-        const auto [copy, is_first] = copies_.try_emplace({accessor, source.view, source.id}, rootArray(document_, "accessors").size());
+        const auto [copy, is_first] =
+            copies_.try_emplace({accessor, source.view, source.id}, rootArray(document_, "accessors").size());
         if (is_first) {
             Json& accessors = editableRootArray(document_, "accessors");
             accessors.push_back(Json(accessors[accessor]));
@@ -170,10 +173,10 @@ class Decoder {
             if (owned != *packed.indices) json["indices"] = owned;
             packed.indices = owned;
         }
-        const bool is_known = packed.indices && document_.elements.count(*packed.indices) != 0 &&
-                              std::all_of(packed.attributes.begin(), packed.attributes.end(), [&](const auto& attribute) {
-                                  return document_.elements.count(attribute.accessor) != 0;
-                              });
+        const bool is_known =
+            packed.indices && document_.elements.count(*packed.indices) != 0 &&
+            std::all_of(packed.attributes.begin(), packed.attributes.end(),
+                        [&](const auto& attribute) { return document_.elements.count(attribute.accessor) != 0; });
         if (!is_known) takeElements(packed, decodeBlob(packed));
         if (packed.mode != kTriangles) json["mode"] = kTriangles;
     }
@@ -198,8 +201,8 @@ class Decoder {
         std::size_t bytes = 0;
         for (const Packed::Attribute& attribute : packed.attributes) {
             const Accessor accessor = readAccessor(document_, attribute.accessor);
-            mesh.attributes.push_back({.id = attribute.id, .component = accessor.component,
-                                       .component_count = accessor.component_count});
+            mesh.attributes.push_back(
+                {.id = attribute.id, .component = accessor.component, .component_count = accessor.component_count});
             limits.point_count = std::max(limits.point_count, accessor.count);
             bytes += accessor.count * accessor.element_bytes;
         }
@@ -234,7 +237,8 @@ class Decoder {
         if (!packed.indices) {
             Json& accessors = editableRootArray(document_, "accessors");
             packed.indices = accessors.size();
-            accessors.push_back({{"componentType", static_cast<std::uint32_t>(ComponentType::u32)}, {"count", 0}, {"type", "SCALAR"}});
+            accessors.push_back(
+                {{"componentType", static_cast<std::uint32_t>(ComponentType::u32)}, {"count", 0}, {"type", "SCALAR"}});
             primitiveJson(document_, packed)["indices"] = *packed.indices;
         }
         const Accessor indices = readAccessor(document_, *packed.indices);
@@ -242,7 +246,8 @@ class Decoder {
         if (indices.component_count != 1 || indices.component == ComponentType::f32)
             failAt("the indices are no unsigned scalars", indices.place());
         if (width < 4 && mesh.point_count > std::size_t{1} << (8 * width))
-            failAt("the points of the Draco data have no room in indices of " + std::to_string(width) + " bytes", packed.place());
+            failAt("the points of the Draco data have no room in indices of " + std::to_string(width) + " bytes",
+                   packed.place());
         Bytes elements(mesh.corners.size() * width);
         for (std::size_t i = 0; i < mesh.corners.size(); ++i)
             std::memcpy(elements.data() + i * width, &mesh.corners[i], width);  // little-endian, as the file
@@ -305,7 +310,8 @@ class Encoder {
         mesh.corners = decodeIndices(document_, readAccessor(document_, *first.indices), mesh.point_count,
                                      join(first.primitivePlace(), "indices"));
         Bytes data;
-        if (!encodeDraco(mesh, true, data)) failFile(ErrorCode::unsupportedFile, "Draco cannot encode the primitive", first.place());
+        if (!encodeDraco(mesh, true, data))
+            failFile(ErrorCode::unsupportedFile, "Draco cannot encode the primitive", first.place());
         const bool alone = view_uses_[first.view] == group.size();
         const std::size_t view = store_(std::move(data), alone ? std::optional(first.view) : std::nullopt);
         Json ids = Json::object();
@@ -324,8 +330,8 @@ class Encoder {
 
     /// Attributes without a view exist in the Draco data only; with one, those that were there, and frames.
     [[nodiscard]] bool belongs(const Packed& packed, const std::string& name, std::size_t accessor) const {
-        return document_.elements.count(accessor) != 0 || name == "TANGENT" || name == "NORMAL" || name == "_BITANGENT" ||
-               oldId(packed, name);
+        return document_.elements.count(accessor) != 0 || name == "TANGENT" || name == "NORMAL" ||
+               name == "_BITANGENT" || oldId(packed, name);
     }
 
     static std::optional<std::uint32_t> oldId(const Packed& packed, const std::string& name) {
@@ -335,7 +341,8 @@ class Encoder {
         return {};
     }
 
-    [[nodiscard]] DracoAttribute attributeOf(const Packed& packed, const std::string& name, const Accessor& accessor) const {
+    [[nodiscard]] DracoAttribute attributeOf(const Packed& packed, const std::string& name,
+                                             const Accessor& accessor) const {
         DracoAttribute attribute;
         attribute.kind = dracoKind(name);
         attribute.component = accessor.component;

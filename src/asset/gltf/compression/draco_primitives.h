@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Primitives that KHR_draco_mesh_compression compresses. Loading decodes them, so that their accessors have elements although
-// they have no buffer view; the editor asks to have changed primitives encoded.
+// Primitives that KHR_draco_mesh_compression compresses. Loading decodes them, so that their accessors have elements
+// although they have no buffer view; the editor asks to have changed primitives encoded.
 #pragma once
 
 #include <cstddef>
@@ -17,9 +17,9 @@ inline constexpr const char* kDraco = "KHR_draco_mesh_compression";
 /// What Draco takes an attribute of this name for.
 DracoKind dracoKind(const std::string& name);
 
-/// Decodes the primitives whose accessors have no data of their own. Accessors without data that stand for different data in
-/// different primitives are given to each of them; counts and modes are corrected to what the data hold. Fails with invalidFile
-/// at the extension's pointer. Without the library the accessors are marked as hidden.
+/// Decodes the primitives whose accessors have no data of their own. Accessors without data that stand for different
+/// data in different primitives are given to each of them; counts and modes are corrected to what the data hold. Fails
+/// with invalidFile at the extension's pointer. Without the library the accessors are marked as hidden.
 void decodeDracoPrimitives(Document& document);
 
 /// Puts data into a buffer view and returns its index; `replaces`: a view that nothing else uses any more.

@@ -25,7 +25,7 @@ constexpr int kVersion = 0;
 std::string attributeFault(const MeshoptCoding& coding) {
     if (coding.stride == 0 || coding.stride > 256 || coding.stride % 4 != 0)
         return "rows of compressed attributes have 4, 8, ... or 256 bytes, not " + std::to_string(coding.stride);
-    const bool fits = coding.filter == MeshoptFilter::quaternion  ? coding.stride == 8
+    const bool fits = coding.filter == MeshoptFilter::quaternion    ? coding.stride == 8
                       : coding.filter == MeshoptFilter::none        ? true
                       : coding.filter == MeshoptFilter::exponential ? true
                                                                     : coding.stride == 4 || coding.stride == 8;
@@ -117,23 +117,24 @@ bool comesBack(const MeshoptCoding& coding, std::span<const std::uint8_t> rows, 
 }
 
 Bytes encodeIndices(const MeshoptCoding& coding, const std::vector<unsigned>& indices) {
-    const std::size_t vertex_count = indices.empty() ? 0 : std::size_t{*std::max_element(indices.begin(), indices.end())} + 1;
+    const std::size_t vertex_count =
+        indices.empty() ? 0 : std::size_t{*std::max_element(indices.begin(), indices.end())} + 1;
     const bool triangles = coding.mode == MeshoptMode::triangles;
     // The extensions ask for version 1, which is not the default everywhere. The library keeps it in a global variable.
     static const bool version_is_set = (meshopt_encodeIndexVersion(1), true);
     static_cast<void>(version_is_set);
     Bytes data(triangles ? meshopt_encodeIndexBufferBound(indices.size(), vertex_count)
                          : meshopt_encodeIndexSequenceBound(indices.size(), vertex_count));
-    data.resize(triangles
-                    ? meshopt_encodeIndexBuffer(data.data(), data.size(), indices.data(), indices.size())
-                    : meshopt_encodeIndexSequence(data.data(), data.size(), indices.data(), indices.size()));
+    data.resize(triangles ? meshopt_encodeIndexBuffer(data.data(), data.size(), indices.data(), indices.size())
+                          : meshopt_encodeIndexSequence(data.data(), data.size(), indices.data(), indices.size()));
     return data;
 }
 
 }  // namespace
 
 bool decodeMeshopt(const MeshoptCoding& coding, std::span<const std::uint8_t> data, std::span<std::uint8_t> to) {
-    // The data itself may be hostile: the library checks every byte that it reads. Its counts are checked by meshoptFault.
+    // The data itself may be hostile: the library checks every byte that it reads. Its counts are checked by
+    // meshoptFault.
     int failure = 0;
     switch (coding.mode) {
         case MeshoptMode::attributes:
@@ -155,8 +156,8 @@ bool encodeMeshopt(MeshoptCoding& coding, std::span<const std::uint8_t> rows, By
         data.resize(meshopt_encodeVertexBufferBound(coding.count, coding.stride));
 #if MESHOPTIMIZER_VERSION >= 1000
         // Newer versions encode what only KHR_meshopt_compression allows, unless told not to.
-        data.resize(meshopt_encodeVertexBufferLevel(data.data(), data.size(), rows.data(), coding.count, coding.stride, 2,
-                                                    coding.is_khr ? 1 : 0));
+        data.resize(meshopt_encodeVertexBufferLevel(data.data(), data.size(), rows.data(), coding.count, coding.stride,
+                                                    2, coding.is_khr ? 1 : 0));
 #else
         data.resize(meshopt_encodeVertexBuffer(data.data(), data.size(), rows.data(), coding.count, coding.stride));
 #endif

@@ -39,8 +39,8 @@ std::string meshoptFault(const MeshoptCoding& coding, std::size_t byte_count);
 /// Decodes to coding.byteCount() bytes, and applies the filter. False when the data is broken.
 bool decodeMeshopt(const MeshoptCoding& coding, std::span<const std::uint8_t> data, std::span<std::uint8_t> to);
 
-/// Encodes rows to which the filter is still to be applied. Decoding gives the same bytes again; where three indices per
-/// triangle would come back turned, `coding.mode` becomes `indices`. False when the library cannot do it.
+/// Encodes rows to which the filter is still to be applied. Decoding gives the same bytes again; where three indices
+/// per triangle would come back turned, `coding.mode` becomes `indices`. False when the library cannot do it.
 bool encodeMeshopt(MeshoptCoding& coding, std::span<const std::uint8_t> rows, Bytes& data);
 
 }  // namespace tspace::gltf

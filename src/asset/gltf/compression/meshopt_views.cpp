@@ -13,19 +13,19 @@ namespace tspace::gltf {
 
 namespace {
 
-/// What a fallback buffer without data may have beyond its compressed views, whatever the file's size: gaps cost memory.
+/// What a fallback buffer without data may have beyond its compressed views, whatever the file's size: gaps cost
+/// memory.
 constexpr std::size_t kFreeGap = std::size_t{4} << 20;
 constexpr std::size_t kGapRatio = 16;
 
 constexpr std::array<std::pair<const char*, MeshoptMode>, 3> kModes = {{{"ATTRIBUTES", MeshoptMode::attributes},
                                                                         {"TRIANGLES", MeshoptMode::triangles},
                                                                         {"INDICES", MeshoptMode::indices}}};
-constexpr std::array<std::pair<const char*, MeshoptFilter>, 5> kFilters = {
-    {{"NONE", MeshoptFilter::none},
-     {"OCTAHEDRAL", MeshoptFilter::octahedral},
-     {"QUATERNION", MeshoptFilter::quaternion},
-     {"EXPONENTIAL", MeshoptFilter::exponential},
-     {"COLOR", MeshoptFilter::color}}};
+constexpr std::array<std::pair<const char*, MeshoptFilter>, 5> kFilters = {{{"NONE", MeshoptFilter::none},
+                                                                            {"OCTAHEDRAL", MeshoptFilter::octahedral},
+                                                                            {"QUATERNION", MeshoptFilter::quaternion},
+                                                                            {"EXPONENTIAL", MeshoptFilter::exponential},
+                                                                            {"COLOR", MeshoptFilter::color}}};
 
 template <class Value, std::size_t count>
 Value valueOf(const std::array<std::pair<const char*, Value>, count>& table, const std::string& name,
@@ -196,8 +196,7 @@ Bytes gatherUnfiltered(const Document& document, const Accessor& accessor, std::
     return rows;
 }
 
-void encodeMeshoptView(Document& document, std::size_t index, const MeshoptRequest& request,
-                       std::size_t data_buffer) {
+void encodeMeshoptView(Document& document, std::size_t index, const MeshoptRequest& request, std::size_t data_buffer) {
     const BufferView range = readBufferView(document, index);
     MeshoptCoding coding;
     coding.is_khr = request.extension == kKhrMeshopt;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Buffer views that EXT_meshopt_compression or KHR_meshopt_compression compresses. Loading fills the fallback buffers that
-// have no data, so that all other code finds plain bytes in every view; the editor asks to have changed views encoded.
+// Buffer views that EXT_meshopt_compression or KHR_meshopt_compression compresses. Loading fills the fallback buffers
+// that have no data, so that all other code finds plain bytes in every view; the editor asks to have changed views
+// encoded.
 #pragma once
 
 #include <cstddef>
@@ -31,13 +32,13 @@ const char* meshoptExtension(const Json& object);
 /// The checked extension of view `index`, or nothing.
 std::optional<MeshoptView> readMeshoptView(const Document& document, std::size_t index);
 
-/// Checks all extensions, and decodes the views whose fallback buffer has no data. The memory that this takes is at most
-/// meshoptRatio times the bytes of the file. Fails with invalidFile at the extension's pointer. Without the library those
-/// buffers stay absent.
+/// Checks all extensions, and decodes the views whose fallback buffer has no data. The memory that this takes is at
+/// most meshoptRatio times the bytes of the file. Fails with invalidFile at the extension's pointer. Without the
+/// library those buffers stay absent.
 void decodeMeshoptViews(Document& document);
 
-/// Elements sources[0], sources[1], ... of an accessor as they are before the filter of its view, in rows of a multiple of 4
-/// bytes; empty when there is no filter, or when it cannot be told which bytes belong to the accessor.
+/// Elements sources[0], sources[1], ... of an accessor as they are before the filter of its view, in rows of a multiple
+/// of 4 bytes; empty when there is no filter, or when it cannot be told which bytes belong to the accessor.
 Bytes gatherUnfiltered(const Document& document, const Accessor& accessor, std::span<const std::uint32_t> sources);
 
 /// The filter of the view that an accessor lies in.

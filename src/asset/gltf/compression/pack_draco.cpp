@@ -91,14 +91,15 @@ class Packer {
                            [&](const auto& use) { return editor_.accessorUses(use.first) == use.second; });
     }
 
-    /// Those that the corners use; the corners then go by the new numbers. Decoders refuse more points than corners, and later
-    /// splits could make so many where some are without a corner.
+    /// Those that the corners use; the corners then go by the new numbers. Decoders refuse more points than corners,
+    /// and later splits could make so many where some are without a corner.
     static std::vector<std::uint32_t> chooseVertices(std::vector<std::uint32_t>& corners) {
         std::vector<std::uint32_t> chosen = corners;
         std::sort(chosen.begin(), chosen.end());
         chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
         for (std::uint32_t& corner : corners) {
-            corner = static_cast<std::uint32_t>(std::lower_bound(chosen.begin(), chosen.end(), corner) - chosen.begin());
+            corner =
+                static_cast<std::uint32_t>(std::lower_bound(chosen.begin(), chosen.end(), corner) - chosen.begin());
         }
         return chosen;
     }
@@ -115,8 +116,10 @@ class Packer {
             const Accessor accessor = readAccessor(document_, index);
             elements.push_back(gatherElements(document_, accessor, chosen));
             if (elements.back().places) return;  // a custom attribute that is all but zero stays sparse
-            mesh.attributes.push_back({.kind = dracoKind(name), .component = accessor.component,
-                                       .normalized = accessor.normalized, .component_count = accessor.component_count,
+            mesh.attributes.push_back({.kind = dracoKind(name),
+                                       .component = accessor.component,
+                                       .normalized = accessor.normalized,
+                                       .component_count = accessor.component_count,
                                        .values = elements.back().bytes});
             mesh.attributes.back().rounding.bits = roundingOf(mesh.attributes.back());
         }
@@ -127,8 +130,8 @@ class Packer {
         requireExtension(document_, kDraco);
     }
 
-    void store(const std::vector<const Primitive*>& group, DracoMesh& mesh, std::vector<ElementData> elements, Bytes data,
-               const std::vector<std::uint32_t>& chosen, bool owns) {
+    void store(const std::vector<const Primitive*>& group, DracoMesh& mesh, std::vector<ElementData> elements,
+               Bytes data, const std::vector<std::uint32_t>& chosen, bool owns) {
         const Primitive& first = *group[0];
         const std::size_t indices = storeIndices(group, mesh);
         Json extension = Json::object();

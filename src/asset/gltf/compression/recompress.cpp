@@ -71,13 +71,14 @@ void unpackDraco(Document& document, Editor& editor) {
 struct ViewUse {
     std::set<std::size_t> accessors = {};
     bool by_indices = false, by_vertices = false;
-    std::size_t stride = 0;     ///< of all accessors; 0 where they differ
-    std::size_t byte_count = 0; ///< whole rows that they read
+    std::size_t stride = 0;      ///< of all accessors; 0 where they differ
+    std::size_t byte_count = 0;  ///< whole rows that they read
 };
 
 class ViewUses {
   public:
-    explicit ViewUses(const Document& document) : document_(document), uses_(rootArray(document, "bufferViews").size()) {
+    explicit ViewUses(const Document& document)
+        : document_(document), uses_(rootArray(document, "bufferViews").size()) {
         for (const Primitive& primitive : readPrimitives(document)) {
             if (primitive.indices) add(*primitive.indices, true);
             for (const auto& [name, accessor] : primitive.attributes) add(accessor, false);
@@ -93,7 +94,8 @@ class ViewUses {
     /// Whether the codec can hold the view: rows of one size, read by vertices or by indices and by nobody else.
     [[nodiscard]] bool canPack(std::size_t view) const {
         const ViewUse& use = uses_[view];
-        if (use.accessors.empty() || use.accessors.size() != all_[view] || use.by_indices == use.by_vertices) return false;
+        if (use.accessors.empty() || use.accessors.size() != all_[view] || use.by_indices == use.by_vertices)
+            return false;
         if (use.byte_count == 0 || rootArray(document_, "bufferViews")[view].contains("extensions")) return false;
         return use.by_indices ? use.stride == 2 || use.stride == 4
                               : use.stride != 0 && use.stride % 4 == 0 && use.stride <= 256;
