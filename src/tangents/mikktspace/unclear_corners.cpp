@@ -89,7 +89,8 @@ class CornerReader {
             const std::size_t first = 3 * std::size_t{to_.triangleOf(begin + t)};
             for (std::size_t k = 0; k < 3; ++k) vertices[3 * t + k] = vertexOf(first + k);
         }
-        std::fill(vertices + 3 * count, vertices + kTermCorners, vertices[0]);
+        // The rest of the block may be any vertex; a block has one triangle at least.
+        std::fill(vertices + 3 * count, vertices + kTermCorners, vertexOf(3 * std::size_t{to_.triangleOf(begin)}));
         readNodes(3 * begin, 3 * count, vertices);
         CornerTerms& terms = to_.terms[block];
         from_.terms(from_.source, vertices, count, terms);
