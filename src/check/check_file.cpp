@@ -2,15 +2,13 @@
 // checkFile: reads a scene, checks each geometry once, and puts the findings in order.
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <map>
-#include <span>
 
 #include "asset/file_error.h"
 #include "asset/scene.h"
+#include "asset/work_together.h"
 #include "check/check_images.h"
 #include "check/primitive_checks.h"
-#include "core/parallel.h"
 #include "tspace/check.h"
 
 namespace tspace {
@@ -60,35 +58,19 @@ Work collectWork(const Scene& scene) {
     return work;
 }
 
-/// How many of the primitives, one at least, may be worked on together.
-std::size_t countTogether(const Scene& scene, std::span<const std::size_t> primitives) {
-    if (!scene.memory) return primitives.size();
-    return scene.memory->countTogether(primitives.size(), [&](std::size_t i) {
-        const ScenePrimitive& primitive = scene.primitives[primitives[i]];
-        return checkBytes(primitive.corners.size(), primitive.positions.size(), !primitive.tangents.empty());
-    });
-}
-
 std::vector<std::vector<Finding>> checkAll(const Scene& scene, const Work& work, const CheckOptions& options) {
     std::vector<std::vector<Finding>> results(work.primitives.size());
-    std::vector<std::exception_ptr> failures(results.size());
     const bool is_gltf = scene.format == "glb" || scene.format == "gltf";
+    const auto primitiveAt = [&](std::size_t i) -> const ScenePrimitive& {
+        return scene.primitives[work.primitives[i]];
+    };
+    const auto bytesOf = [&](std::size_t i) {
+        const ScenePrimitive& primitive = primitiveAt(i);
+        return checkBytes(primitive.corners.size(), primitive.positions.size(), !primitive.tangents.empty());
+    };
     Parallel parallel(options.execution);
-    for (std::size_t begin = 0; begin < results.size();) {
-        const std::size_t count = countTogether(scene, std::span(work.primitives).subspan(begin));
-        parallel.forTasks(count, [&](std::size_t task) {
-            const std::size_t i = begin + task;
-            try {
-                results[i] = valueOrThrow(checkPrimitive(scene.primitives[work.primitives[i]], options, is_gltf));
-            } catch (...) {
-                failures[i] = std::current_exception();
-            }
-        });
-        begin += count;
-    }
-    for (const std::exception_ptr& failure : failures) {
-        if (failure) std::rethrow_exception(failure);
-    }
+    workTogether(scene.memory.get(), results.size(), parallel, bytesOf,
+                 [&](std::size_t i) { results[i] = valueOrThrow(checkPrimitive(primitiveAt(i), options, is_gltf)); });
     return results;
 }
 

@@ -2,11 +2,9 @@
 // Green channels that point down.
 #include "check/check_images.h"
 
-#include <exception>
-
+#include "asset/work_together.h"
 #include "check/findings.h"
 #include "check/normal_map.h"
-#include "core/parallel.h"
 
 namespace tspace {
 
@@ -36,13 +34,6 @@ std::vector<NormalMap> collectNormalMaps(const Scene& scene) {
         }
     }
     return maps;
-}
-
-/// How many of the images, one at least, may be in memory together.
-std::size_t countTogether(const Scene& scene, std::span<const NormalMap> maps) {
-    if (!scene.memory) return maps.size();
-    return scene.memory->countTogether(
-        maps.size(), [&](std::size_t i) { return imageWorkBytes(scene.images[maps[i].image].bytes); });
 }
 
 void lookAt(const Scene& scene, const CheckOptions& options, NormalMap& map) {
@@ -94,24 +85,14 @@ std::optional<Finding> describe(const Scene& scene, const NormalMap& map) {
 
 ImageFindings checkImages(const Scene& scene, const CheckOptions& options) {
     std::vector<NormalMap> maps = collectNormalMaps(scene);
-    std::vector<std::exception_ptr> failures(maps.size());
     Parallel parallel(options.execution);
-    for (std::size_t begin = 0; begin < maps.size();) {
-        const std::size_t count = countTogether(scene, std::span(maps).subspan(begin));
-        parallel.forTasks(count, [&](std::size_t task) {
-            const std::size_t i = begin + task;
-            try {
-                lookAt(scene, options, maps[i]);
-            } catch (...) {
-                failures[i] = std::current_exception();
-            }
-        });
-        begin += count;
-    }
+    workTogether(
+        scene.memory.get(), maps.size(), parallel,
+        [&](std::size_t i) { return imageWorkBytes(scene.images[maps[i].image].bytes); },
+        [&](std::size_t i) { lookAt(scene, options, maps[i]); });
     ImageFindings result;
     result.green_points_down.assign(scene.images.size(), false);
     for (std::size_t i = 0; i < maps.size(); ++i) {
-        if (failures[i]) std::rethrow_exception(failures[i]);
         result.looked_at += maps[i].test.has_value();
         result.green_points_down[maps[i].image] = maps[i].test && maps[i].test->verdict == GreenVerdict::down;
         std::optional<Finding> finding = describe(scene, maps[i]);

@@ -2,12 +2,11 @@
 // Judging the tangents of each pool.
 #include "asset/gltf/repair_plan.h"
 
-#include <exception>
 #include <utility>
 
 #include "asset/file_error.h"
 #include "asset/gltf/compute_pools.h"
-#include "core/parallel.h"
+#include "asset/work_together.h"
 #include "generate/judge_tangents.h"
 
 namespace tspace::gltf {
@@ -29,26 +28,16 @@ std::string whyWrong(const Document& document, std::span<const Primitive> primit
 void keepGoodPools(const Document& document, std::span<const Primitive> primitives, const GenerateOptions& options,
                    GeneratePlan& plan) {
     std::vector<std::string> reasons(plan.pools.size());
-    std::vector<std::exception_ptr> failures(plan.pools.size());
     GenerateOptions one_thread = options;
     one_thread.tangents.execution = {.thread_count = 1};
     Parallel parallel(options.tangents.execution);
-    for (std::size_t begin = 0; begin < plan.pools.size();) {
-        const std::size_t count = document.memory->countTogether(
-            plan.pools.size() - begin, [&](std::size_t i) { return plan.pools[begin + i].workBytes(); });
-        parallel.forTasks(count, [&](std::size_t task) noexcept {
-            const std::size_t i = begin + task;
-            try {
-                if (plan.pools[i].has_tangents) reasons[i] = whyWrong(document, primitives, plan.pools[i], one_thread);
-            } catch (...) {
-                failures[i] = std::current_exception();
-            }
+    workTogether(
+        document.memory.get(), plan.pools.size(), parallel, [&](std::size_t i) { return plan.pools[i].workBytes(); },
+        [&](std::size_t i) {
+            if (plan.pools[i].has_tangents) reasons[i] = whyWrong(document, primitives, plan.pools[i], one_thread);
         });
-        begin += count;
-    }
     std::vector<Pool> rest;
     for (std::size_t i = 0; i < plan.pools.size(); ++i) {
-        if (failures[i]) std::rethrow_exception(failures[i]);
         Pool& pool = plan.pools[i];
         for (const std::size_t number : pool.primitives) {
             PrimitiveReport& report = plan.reports[number];
