@@ -205,6 +205,7 @@ struct Inspection {
     std::vector<std::string> extensions_required = {};
     std::vector<std::string> variants = {};      ///< names of KHR_materials_variants
     std::vector<PrimitiveInfo> primitives = {};  ///< in file order
+    std::vector<std::string> warnings = {};      ///< about the file as a whole: one sentence each
 };
 
 /// Reads a model and says what is in it. Changes nothing. Errors as generateFile.

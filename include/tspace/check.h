@@ -54,8 +54,9 @@ enum class FindingCode : std::uint32_t {
     texturesDisagree = 26,     ///< two textures of one primitive need different frames
     greenFlipped = 27,         ///< a normal map whose green points down (DirectX)
     normalMapUnreadable = 28,  ///< the image could not be looked at
+    fileRemark = 29,           ///< what reading the file had to say: parts that were left out, or taken to be absent
 };
-inline constexpr std::uint32_t kFindingCodeCount = 29;
+inline constexpr std::uint32_t kFindingCodeCount = 30;
 
 /// Stable lowerCamelCase name: the name of the enumerator.
 const char* findingName(FindingCode code);
@@ -66,12 +67,12 @@ const char* findingRemedy(FindingCode code);
 struct Finding {
     FindingCode code = FindingCode::positionsNotFinite;
     Severity severity = Severity::note;
-    std::string place = {};  ///< JSON pointer (OBJ: "usemtl NAME")
+    std::string place = {};  ///< JSON pointer (OBJ: "usemtl NAME"); empty: the whole file
     std::uint32_t mesh = 0;
     std::uint32_t primitive = 0;     ///< in its mesh
     std::string mesh_name = {};      ///< may be empty
     std::string material_name = {};  ///< may be empty
-    std::string unit = {};           ///< what is counted: "vertices", "triangles", "blocks" (of an image), "primitives"
+    std::string unit = {};           ///< what is counted: "vertices", "triangles", "blocks" (of an image), ...
     std::uint64_t count = 0;         ///< how many have it
     std::uint64_t total = 0;         ///< of how many that could have it
     double surface_share = 0;        ///< their part of the primitive's surface, 0 to 1; 0 where that says nothing

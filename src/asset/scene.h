@@ -79,6 +79,7 @@ struct Scene {
     std::string generator = {};                   ///< may be empty
     std::vector<ScenePrimitive> primitives = {};  ///< in file order
     std::vector<SceneImage> images = {};          ///< TangentUse::image points here
+    std::vector<std::string> warnings = {};       ///< what reading had to say
     std::shared_ptr<MemoryBudget> memory = {};    ///< what looking at it may still take
 };
 

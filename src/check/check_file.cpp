@@ -8,6 +8,7 @@
 #include "asset/scene.h"
 #include "asset/work_together.h"
 #include "check/check_images.h"
+#include "check/findings.h"
 #include "check/primitive_checks.h"
 #include "tspace/check.h"
 
@@ -121,6 +122,12 @@ void softenWhatCancels(const Scene& scene, ImageFindings& images, const std::vec
     }
 }
 
+/// What reading the file had to say. It is about the file, so no primitive is named.
+Finding fileRemark(const std::string& warning) {
+    const Tally one{.count = 1, .total = 1};
+    return makeFinding(FindingCode::fileRemark, Severity::note, one, "files", warning);
+}
+
 CheckReport check(const std::string& input, const CheckOptions& options) {
     checkOptions(options);
     const Scene scene = readScene(input, options.file, options.images);
@@ -147,6 +154,7 @@ CheckReport check(const std::string& input, const CheckOptions& options) {
     for (const std::size_t at : inverted_at) inverted_signs.push_back(at == kNone ? nullptr : &report.findings[at]);
     softenWhatCancels(scene, images, inverted_signs);
     for (Finding& finding : images.findings) report.findings.push_back(std::move(finding));
+    for (const std::string& warning : scene.warnings) report.findings.push_back(fileRemark(warning));
     std::stable_sort(report.findings.begin(), report.findings.end(),
                      [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
     for (const Finding& finding : report.findings) {

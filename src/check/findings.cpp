@@ -67,6 +67,7 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "vertex."},
     {"greenFlipped", "Look at the map: if it was baked for DirectX, invert its green channel."},
     {"normalMapUnreadable", "Convert the image to PNG or JPEG to have it looked at."},
+    {"fileRemark", "Mend the file where that matters. The rest of this report is about what could be read."},
 }};
 
 }  // namespace

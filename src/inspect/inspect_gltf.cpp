@@ -170,7 +170,7 @@ std::uint32_t entryCount(const Document& document, const char* name) {
 }  // namespace
 
 Inspection inspectGltf(const std::string& input, const FileOptions& options) {
-    const Document document = loadDocument(input, options);
+    Document document = loadDocument(input, options);
     Inspection result;
     result.format = formatOf(document);
     if (const Json* asset = readObject(document.json, "asset", "")) {
@@ -185,6 +185,7 @@ Inspection inspectGltf(const std::string& input, const FileOptions& options) {
     result.extensions_used = readNames(document.json, "extensionsUsed");
     result.extensions_required = readNames(document.json, "extensionsRequired");
     checkRequiredExtensions(document);
+    result.warnings = document.warnings;
     result.variants = variantNames(document);
     const std::vector<MeshDraws> draws = meshDraws(document);
     for (const Primitive& primitive : readPrimitives(document)) {

@@ -67,6 +67,7 @@ Inspection inspectObj(const std::string& input, const FileOptions& options) {
     result.mesh_count = static_cast<std::uint32_t>(model.shape_names.size());
     for (const Material& material : model.materials) result.material_count += material.found;
     result.image_count = imageCount(model);
+    result.warnings = model.warnings;
     std::vector<std::uint32_t> next_in_mesh(model.shape_names.size(), 0);
     for (const ObjPrimitive& primitive : collectPrimitives(model)) {
         PrimitiveInfo info = describePrimitive(model, primitive);

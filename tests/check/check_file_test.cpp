@@ -187,6 +187,20 @@ TEST(CheckFile, LooksAtAnObjWithoutComplainingThatItHasNoTangents) {
     EXPECT_EQ(report->findings[0].place, "usemtl a");
 }
 
+TEST(CheckFile, PassesOnWhatReadingHadToSay) {
+    const TempFolder folder;
+    const std::string file = folder.write("a.obj",
+                                          "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\n"
+                                          "f 1/1/1 2/2/1 3/9/1\n");
+    const Result<CheckReport> report = checkFile(file);
+    ASSERT_TRUE(report);
+    ASSERT_EQ(codes(*report), Codes{"note fileRemark"});
+    EXPECT_NE(report->findings[0].message.find("texture coordinates that do not exist: 1, the first in line 7"),
+              std::string::npos)
+        << report->findings[0].message;
+    EXPECT_EQ(report->findings[0].place, "") << "it is about the whole file";
+}
+
 TEST(CheckFile, RefusesOptionsWithoutMeaning) {
     for (const CheckOptions& options : {CheckOptions{.direction_deg = -1}, CheckOptions{.error_share = NAN}}) {
         const Result<CheckReport> report = checkFile("unread.glb", options);

@@ -2,10 +2,14 @@
 // tspace inspect as a user meets it.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tool/run_tool.h"
 
 namespace tspace::test {
 namespace {
+
+using Json = nlohmann::json;
 
 TEST(Inspect, BeginsWithASummaryLine) {
     const TempFolder folder;
@@ -38,6 +42,19 @@ TEST(Inspect, OneBadFileDoesNotStopTheOthers) {
     EXPECT_EQ(run.exit_code, 4);
     EXPECT_EQ(run.errorLines(), 2) << run.err;
     EXPECT_NE(run.out.find("a.obj: 1 primitive"), std::string::npos);
+}
+
+TEST(Inspect, SaysWhatWasLeftOutAsAFileWasRead) {
+    const TempFolder folder;
+    folder.write("a.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_NE(runTool(folder, "inspect a.obj").out.find("  warning   there is no material library 'none.mtl'\n"),
+              std::string::npos);
+    const Json json = Json::parse(runTool(folder, "inspect --json a.obj").out);
+    EXPECT_EQ(json["files"][0]["warnings"], Json::array({"there is no material library 'none.mtl'"}));
+    const std::string checked = runTool(folder, "check a.obj").out;
+    EXPECT_NE(checked.find("  note     fileRemark\n        there is no material library 'none.mtl'\n      mend: "),
+              std::string::npos)
+        << checked;
 }
 
 TEST(Inspect, NamesFromFilesCannotBreakLinesOrTheTerminal) {

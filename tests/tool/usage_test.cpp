@@ -37,6 +37,7 @@ TEST(Usage, WrongCommandLinesExitWithTwoAndOneLine) {
         "generate a.obj -o out.glb --texture-transform rotate",
         "generate a.obj -o out.glb --in-place",
         "generate a.obj -o out.fbx",
+        "generate a.obj -o -",
         "generate a.obj b.obj -o out.glb",
         "generate a.obj b.obj -o a.obj",
         "generate . -o out.glb",

@@ -59,8 +59,9 @@ std::string groupText(std::span<const Finding* const> group, bool in_color) {
     if (group.size() > 1) text += fmt::format(", {} places", group.size());
     text += "\n";
     for (std::size_t i = 0; i < group.size() && i < kMostPlaces; ++i) {
-        text += fmt::format("      {} (at {})\n        {}\n", whereText(*group[i]), printable(group[i]->place),
-                            printable(group[i]->message));
+        if (!group[i]->place.empty())
+            text += fmt::format("      {} (at {})\n", whereText(*group[i]), printable(group[i]->place));
+        text += fmt::format("        {}\n", printable(group[i]->message));
         if (group.size() == 1) text += verticesText(first);
     }
     if (group.size() > kMostPlaces) text += fmt::format("      and {} more\n", group.size() - kMostPlaces);

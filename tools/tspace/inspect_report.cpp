@@ -82,6 +82,7 @@ std::string fileRows(const Inspection& file) {
     if (!file.extensions_used.empty()) table.addRow({"extensions", printable(joined(file.extensions_used))});
     if (!file.variants.empty()) table.addRow({"variants", printable(joined(file.variants))});
     if (!file.extensions_required.empty()) table.addRow({"required", printable(joined(file.extensions_required))});
+    for (const std::string& warning : file.warnings) table.addRow({"warning", printable(warning)});
     return table.text("  ");
 }
 
@@ -186,6 +187,7 @@ Json outcomeJson(const InspectOutcome& outcome) {
     json["extensionsUsed"] = file.extensions_used;
     json["extensionsRequired"] = file.extensions_required;
     json["variants"] = file.variants;
+    json["warnings"] = file.warnings;
     json["primitives"] = Json::array();
     for (const PrimitiveInfo& primitive : file.primitives) json["primitives"].push_back(primitiveJson(primitive));
     return json;

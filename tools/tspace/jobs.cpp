@@ -197,6 +197,7 @@ Result<std::vector<Job>> generateJobs(const GenerateArguments& arguments) {
     if (arguments.in_place && !output.empty()) return usage("--in-place and -o exclude each other");
     if (arguments.in_place) return jobsInPlace(arguments);
     if (output.empty()) return usage("say where to write: -o OUT, or --in-place to change the inputs themselves");
+    if (output == "-") return usage("models are not written to stdout; name a file with -o");
 
     const std::string& first = arguments.inputs.front();
     const bool several = arguments.inputs.size() > 1 || isFolder(first) || isPatternInput(first);

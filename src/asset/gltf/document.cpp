@@ -249,8 +249,7 @@ std::string formatOf(const Document& document) {
     return document.container == Container::glb ? "glb" : "gltf";
 }
 
-std::vector<std::string> checkRequiredExtensions(const Document& document) {
-    std::vector<std::string> warnings;
+void checkRequiredExtensions(Document& document) {
     const Json& required = readArray(document.json, "extensionsRequired", "", false);
     for (std::size_t i = 0; i < required.size(); ++i) {
         const std::string place = join("/extensionsRequired", i);
@@ -264,11 +263,10 @@ std::vector<std::string> checkRequiredExtensions(const Document& document) {
             continue;
         }
         if (std::find(kHarmless.begin(), kHarmless.end(), name) == kHarmless.end()) {
-            warnings.push_back("the file requires the extension " + inQuotes(name) +
-                               ", which tspace does not know; its data is kept as it is");
+            document.warnings.push_back("the file requires the extension " + inQuotes(name) +
+                                        ", which tspace does not know; its data is kept as it is");
         }
     }
-    return warnings;
 }
 
 }  // namespace tspace::gltf

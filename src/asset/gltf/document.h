@@ -67,7 +67,7 @@ struct Document {
     std::vector<std::string> input_files = {};  ///< what was read beside the model file
     bool imported = false;                      ///< made from a file of another format: `file_bytes` is not that file
     FileOptions options = {};
-    std::vector<std::string> warnings = {};                                   ///< about how the file is stored
+    std::vector<std::string> warnings = {};                                   ///< what reading had to say
     std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< what it may still take
 };
 
@@ -80,9 +80,9 @@ Document loadDocument(const std::filesystem::path& path, const FileOptions& opti
 /// The same from bytes in memory; `path` says where relative URIs start.
 Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, const FileOptions& options);
 
-/// Fails with unsupportedFile when a required extension hides the geometry and this build cannot decode it. Returns one
+/// Fails with unsupportedFile when a required extension hides the geometry and this build cannot decode it. Adds one
 /// warning for each other required extension that this program does not know; their data survives untouched.
-std::vector<std::string> checkRequiredExtensions(const Document& document);
+void checkRequiredExtensions(Document& document);
 
 /// "glb", "gltf", or the extension of a file of another format ("fbx"), for reports.
 std::string formatOf(const Document& document);

@@ -57,8 +57,8 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     tell(options, "reading", 0, 1);
     Document document = loadDocument(input, options.file, options.tangents.execution);
     const OutputTarget target = outputTarget(document, output_path);
+    checkRequiredExtensions(document);
     report.warnings = document.warnings;
-    for (std::string& warning : checkRequiredExtensions(document)) report.warnings.push_back(std::move(warning));
     std::vector<Primitive> primitives = readPrimitives(document);
     const auto makePlan = [&] {
         GeneratePlan made = planGenerate(document, primitives, options);

@@ -160,9 +160,10 @@ std::vector<SceneImage> readImages(const Document& document, const std::set<std:
 }  // namespace
 
 Scene readGltfScene(const std::string& input, const FileOptions& options, bool with_images) {
-    const Document document = loadDocument(input, options);
+    Document document = loadDocument(input, options);
     checkRequiredExtensions(document);
     Scene scene;
+    scene.warnings = document.warnings;
     scene.memory = document.memory;
     scene.format = formatOf(document);
     if (const Json* asset = readObject(document.json, "asset", "")) {

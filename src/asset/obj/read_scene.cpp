@@ -88,6 +88,7 @@ Scene readObjScene(const std::string& input, const FileOptions& options, bool wi
     Scene scene;
     scene.format = "obj";
     scene.memory = std::move(model.memory);
+    scene.warnings = model.warnings;
     NormalMaps maps(options, with_images, *scene.memory);
     std::vector<std::uint32_t> next_in_mesh(model.shape_names.size(), 0);
     for (const ObjPrimitive& primitive : collectPrimitives(model)) {

@@ -72,8 +72,8 @@ bool Links::linkUnambiguous(std::span<const UnclearCorner> around) {
         previous[i] = around[i].previous;
         right[i] = kNoLink;
     }
-    std::size_t lanes = count;
-    for (; lanes % 4 != 0; ++lanes) previous[lanes] = kNone;
+    const std::size_t lanes = (count + 3) / 4 * 4;
+    for (std::size_t i = count; i < lanes; ++i) previous[i] = kNone;
     std::uint32_t taken = 0, again = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const auto next = static_cast<std::int32_t>(around[i].next);
