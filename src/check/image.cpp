@@ -37,30 +37,32 @@ bool isTooLarge(std::uint64_t pixels, std::size_t byte_count, std::uint64_t most
     return true;
 }
 
-/// What stb_image holds: planes of each component, the coefficients of progressive files, and pixels; at the end pixels
-/// twice.
+/// What libjpeg-turbo holds: pixels; and the coefficients of all components where these come in several scans.
 std::uint64_t jpegWorkBytes(std::span<const std::uint8_t> bytes) {
     constexpr std::size_t kHeadBytes = 4, kFrameBytes = 8;
+    constexpr unsigned kProgressive = 2;  // the last two bits of a frame's marker
+    std::uint64_t pixels = 0, components = 0;
     for (std::size_t at = 2; at + kHeadBytes + kFrameBytes < bytes.size();) {
         if (bytes[at] != 0xff || bytes[at + 1] == 0xff) {
             ++at;
             continue;
         }
         const unsigned marker = bytes[at + 1];
-        const std::size_t length = std::size_t{bytes[at + 2]} << 8 | bytes[at + 3];
+        const std::uint8_t* data = bytes.data() + at + kHeadBytes;
         const bool is_frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
-        if (!is_frame) {
-            at += 2 + length;
-            continue;
+        const bool is_scan = marker == 0xda;
+        if (is_frame) {
+            const std::uint64_t height = std::uint64_t{data[1]} << 8 | data[2],
+                                width = std::uint64_t{data[3]} << 8 | data[4];
+            pixels = width * height;
+            components = std::min<std::uint64_t>(data[5], 4);
         }
-        const std::uint8_t* frame = bytes.data() + at + kHeadBytes;
-        const std::uint64_t height = std::uint64_t{frame[1]} << 8 | frame[2],
-                            width = std::uint64_t{frame[3]} << 8 | frame[4];
-        const std::uint64_t components = frame[5], is_progressive = marker == 0xc2;
-        const std::uint64_t planes = width * height * std::min<std::uint64_t>(components, 4);
-        return std::max(planes * (1 + 2 * is_progressive) + 3 * width * height, 6 * width * height);
+        const bool in_scans = is_frame ? (marker & 3) == kProgressive : is_scan && data[0] < components;
+        if (in_scans) return pixels * (3 + 2 * components);
+        if (is_scan) break;
+        at += 2 + (std::size_t{bytes[at + 2]} << 8 | bytes[at + 3]);
     }
-    return 0;
+    return 3 * pixels;
 }
 
 struct FreeContext {

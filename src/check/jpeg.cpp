@@ -1,50 +1,51 @@
 // SPDX-License-Identifier: MIT
-// The one file that holds the code of stb_image, of which only JPEG is compiled.
-#include <limits>
+// JPEG by libjpeg-turbo, through its TurboJPEG interface, which returns errors and prints nothing.
+#include <turbojpeg.h>
+
 #include <memory>
 
 #include "check/image.h"
-
-#define STB_IMAGE_STATIC
-#define STB_IMAGE_IMPLEMENTATION
-#define STBI_ONLY_JPEG
-#define STBI_NO_STDIO
-#define STBI_MAX_DIMENSIONS 65500
-#include <stb_image.h>
 
 namespace tspace {
 
 namespace {
 
-struct FreePixels {
-    void operator()(stbi_uc* pixels) const { stbi_image_free(pixels); }
+struct Destroy {
+    void operator()(void* decompressor) const { tjDestroy(decompressor); }
 };
+using Decompressor = std::unique_ptr<void, Destroy>;
 
-bool fits(std::span<const std::uint8_t> bytes) {
-    return bytes.size() <= static_cast<std::size_t>(std::numeric_limits<int>::max());
+bool readSize(const Decompressor& decompressor, std::span<const std::uint8_t> bytes, int& width, int& height) {
+    int subsampling = 0, color_space = 0;
+    return decompressor &&
+           tjDecompressHeader3(decompressor.get(), bytes.data(), bytes.size(), &width, &height, &subsampling,
+                               &color_space) == 0 &&
+           width > 0 && height > 0;
 }
 
 }  // namespace
 
 bool readJpegSize(std::span<const std::uint8_t> bytes, std::uint32_t& width, std::uint32_t& height) {
-    int x = 0, y = 0, channels = 0;
-    if (!fits(bytes) || stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &x, &y, &channels) == 0 ||
-        x <= 0 || y <= 0) {
-        return false;
-    }
+    int x = 0, y = 0;
+    if (!readSize(Decompressor(tjInitDecompress()), bytes, x, y)) return false;
     width = static_cast<std::uint32_t>(x);
     height = static_cast<std::uint32_t>(y);
     return true;
 }
 
 std::optional<RgbImage> decodeJpeg(std::span<const std::uint8_t> bytes) {
-    int x = 0, y = 0, channels = 0;
-    if (!fits(bytes)) return {};
-    const std::unique_ptr<stbi_uc, FreePixels> pixels(
-        stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &x, &y, &channels, 3));
-    if (!pixels || x <= 0 || y <= 0) return {};
-    RgbImage image{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), {}};
-    image.rgb.assign(pixels.get(), pixels.get() + std::size_t{3} * image.width * image.height);
+    // A progressive file may claim thousands of scans over all pixels. Where data are cut short the library would go on
+    // with grey.
+    constexpr int kFlags = TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS | TJFLAG_STOPONWARNING;
+    const Decompressor decompressor(tjInitDecompress());
+    int width = 0, height = 0;
+    if (!readSize(decompressor, bytes, width, height)) return {};
+    RgbImage image{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
+    image.rgb.resize(std::size_t{3} * image.width * image.height);
+    if (tjDecompress2(decompressor.get(), bytes.data(), bytes.size(), image.rgb.data(), width, 0, height, TJPF_RGB,
+                      kFlags) != 0) {
+        return {};
+    }
     return image;
 }
 

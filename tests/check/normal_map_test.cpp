@@ -110,6 +110,16 @@ TEST(DecodeImage, RefusesAFewBytesThatClaimManyPixels) {
     EXPECT_EQ(whyNot(jpeg, std::uint64_t{1} << 40), "it claims far more pixels than its bytes can hold");
 }
 
+/// A table of codes has 256 at most; its 16 counts may say 4080.
+TEST(DecodeImage, RefusesAJpegWhoseTableHasTooManyCodes) {
+    std::string jpeg = jpegFile(normalMapOf(64, bumps), 90);
+    const std::size_t table = jpeg.find("\xff\xc4");
+    ASSERT_NE(table, std::string::npos);
+    constexpr std::size_t kCountsAt = 5, kCountsFrom9 = 8;  // 255 each of 9 to 16 bits are codes that there can be
+    std::fill_n(jpeg.begin() + static_cast<std::ptrdiff_t>(table + kCountsAt + kCountsFrom9), 8, '\xff');
+    EXPECT_EQ(whyNot(jpeg), "it is a broken JPEG");
+}
+
 TEST(DecodeImage, SurvivesBrokenFiles) {
     const std::string files[] = {pngFile(normalMapOf(24, bumps)), jpegFile(normalMapOf(24, bumps), 80)};
     rc::check([&] {
