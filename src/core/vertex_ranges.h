@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "core/early_lines.h"
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "tspace/mesh.h"
@@ -63,7 +64,9 @@ class VertexRanges {
             std::uint32_t buffer[3 * kBlock];
             for (std::size_t block = begin; block < end; ++block) {
                 const std::size_t size = std::min(kBlock, triangle_count - block * kBlock);
-                marks_[block] = markOf(vertices(block * kBlock, size, buffer), 3 * size);
+                const std::uint32_t* const v = vertices(block * kBlock, size, buffer);
+                askForLines(v, 3 * kBlock * sizeof *v);
+                marks_[block] = markOf(v, 3 * size);
             }
         });
     }

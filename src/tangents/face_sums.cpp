@@ -71,6 +71,7 @@ TriangleCounts FaceSums::sum(unsigned index) const {
         if (!ranges_.names(b, index)) continue;
         block.count = std::min(Block::kMost, triangle_count - first);
         block.vertices = blockVertices(plan_.triangle_vertices, first, block.count, block.buffer);
+        askForLines(block.vertices, 3 * Block::kMost * sizeof(std::uint32_t));
         const bool is_whole = ranges_.namesOnly(b, index);
         if (!is_whole) block.select(range);
         block.vertices = fillGroup(block.vertices, block.count, kTermGroup, block.buffer);

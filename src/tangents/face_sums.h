@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/early_lines.h"
 #include "core/parallel.h"
 #include "core/vec_math.h"
 #include "core/vertex_ranges.h"
@@ -25,11 +26,21 @@ struct VertexSums {
     [[nodiscard]] float* tail(std::size_t vertex) const { return tails + 2 * vertex; }
     /// The sum of nothing. -0 + x is x, also when x is 0; and what is added to s.x is never -0.
     void clear(VertexRange range) const {
-        std::fill(head(range.begin), head(range.end), -0.0f);
-        std::fill(tail(range.begin), tail(range.end), -0.0f);
+        fill(head(range.begin), head(range.end), -0.0f);
+        fill(tail(range.begin), tail(range.end), -0.0f);
     }
     [[nodiscard]] bool isTouched(std::size_t vertex) const {
         return std::bit_cast<std::uint32_t>(*head(vertex)) != 0x80000000u;
+    }
+
+  private:
+    static void fill(float* begin, float* end, float value) {
+        constexpr std::ptrdiff_t kFloats = 16;  // a line
+        for (; end - begin >= kFloats; begin += kFloats) {
+            askForLines<true>(begin, kFloats * sizeof(float));
+            std::fill_n(begin, kFloats, value);
+        }
+        std::fill(begin, end, value);
     }
 };
 
