@@ -77,8 +77,7 @@ RC_GTEST_PROP(Fan, IsOneWhenPairingMakesOnePart, ()) {
 bool listIsOneFan(const Corners& corners) {
     FanList list;
     list.clear();
-    std::copy(corners.next.begin(), corners.next.end(), list.next);
-    std::copy(corners.previous.begin(), corners.previous.end(), list.previous);
+    for (std::uint32_t i = 0; i < corners.next.size(); ++i) list.set(i, corners.next[i], corners.previous[i]);
     return isOneFan(list, static_cast<std::uint32_t>(corners.next.size()));
 }
 
@@ -123,12 +122,24 @@ TEST(FanList, KnowsRingsAndPathsOfEightInAnyOrder) {
         do {
             FanList list;
             list.clear();
-            for (std::size_t i = 0; i < 8; ++i) {
-                list.next[i] = order[i];
-                list.previous[i] = (order[i] + 1) % neighbours;
-            }
+            for (std::uint32_t i = 0; i < 8; ++i) list.set(i, order[i], (order[i] + 1) % neighbours);
             ASSERT_TRUE(isOneFan(list, 8));
         } while (std::next_permutation(std::begin(order), std::end(order)));
+    }
+}
+
+TEST(FanList, HoldsTheDistancesThatItCanTellFromUnusedPlaces) {
+    for (std::int32_t distance = -70000; distance <= 70000; ++distance) {
+        const auto number = static_cast<std::uint32_t>(distance);
+        ASSERT_EQ(FanList::holds(number), FanList::kLeast <= distance && distance <= FanList::kLargest);
+        if (!FanList::holds(number)) continue;
+        FanList list;
+        list.clear();
+        list.set(0, number, number);
+        ASSERT_EQ(list.next[0], distance);
+        ASSERT_EQ(list.previous[0], distance);
+        ASSERT_NE(list.next[0], FanList::kNoPrevious);
+        ASSERT_NE(list.previous[0], FanList::kNoNext);
     }
 }
 

@@ -191,6 +191,24 @@ Shape soup(std::uint32_t seed) {
     return shape;
 }
 
+/// A flat ring of rows, the last of which meets the first: there neighbours have numbers that lie far apart.
+Shape ring(std::uint32_t rows, std::uint32_t columns) {
+    Shape shape;
+    for (std::uint32_t v = 0; v < rows * columns; ++v) {
+        const auto row = static_cast<float>(v / columns), column = static_cast<float>(v % columns);
+        const float turn = 6.2831853f * row / static_cast<float>(rows), radius = static_cast<float>(columns) + column;
+        const Vec2 at{radius * std::cos(turn), radius * std::sin(turn)};
+        shape.vertex({at.x, at.y, 0.3f * std::sin(column)}, kUp, at);
+    }
+    for (std::uint32_t a = 0; a < rows * columns; ++a) {
+        if ((a + 1) % columns == 0) continue;
+        const std::uint32_t d = (a + columns) % (rows * columns);
+        shape.triangle(a, a + 1, d + 1);
+        shape.triangle(a, d + 1, d);
+    }
+    return shape;
+}
+
 /// The outputs for one first look; nothing when all is left to the general steps. `bucket_shift`: take the
 /// triangles for scattered ones, with buckets of so many nodes.
 std::optional<Outputs> look(const Shape& shape, const TangentOptions& options, mikk::FirstLook first_look,
@@ -249,6 +267,8 @@ TEST(OnePass, AndALookAtEachNodeGiveTheSameBits) {
 TEST(OnePass, InBucketsOfNodesGivesTheSameBits) {
     std::vector<Shape> list = shapes();
     list.push_back(foldedSheet(200, 7));
+    list.push_back(ring(500, 70));  // farther apart than lists of fans can say
+    shuffleTriangles(list.back(), 8);
     for (std::uint32_t seed = 0; seed < 40; ++seed) {
         list.push_back(soup(seed + 3000));
         list.push_back(unrolledFan(seed + 3));

@@ -5,7 +5,9 @@
 #include "tangents/mikktspace/bucket_sums.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstring>
 
 #include "tangents/mikktspace/add_row.h"
 #include "tangents/mikktspace/fan_list.h"
@@ -14,13 +16,13 @@ namespace tspace::mikk {
 
 namespace {
 
-/// A node while its bucket is worked on.
-struct alignas(32) OpenNode {
+/// A node while its bucket is worked on: a cache line.
+struct alignas(64) OpenNode {
     float s[4];
+    FanList list;
     std::uint32_t marks;
     std::uint32_t listed;    ///< corners in `list`
-    std::uint32_t followed;  ///< 1: there were more; those before are in the node's fan
-    FanList list;
+    std::uint32_t followed;  ///< 1: there were more, or distant ones; those before are in the node's fan
 
     void clear() {
         for (float& x : s) x = 0;
@@ -35,13 +37,16 @@ enum class Sums { none, tangents, all };
 class BucketSummer {
   public:
     BucketSummer(const NodeBuckets& buckets, const Nodes& nodes, const CornerSource& source, CornerTermsFunction terms,
-                 NodeSums& sums, OpenNode* open, std::size_t open_count, FanRoom fan_room)
+                 NodeSums& sums, const FinishNodes& finish, OpenNode* open, Fan* fans, std::size_t open_count,
+                 FanRoom fan_room)
         : buckets_(buckets),
           nodes_(nodes),
           source_(source),
           compute_(terms),
           sums_(sums),
+          finish_(finish),
           open_(open),
+          fans_(fans),
           fan_room_(fan_room) {
         for (std::size_t i = 0; i < open_count; ++i) open_[i].clear();
     }
@@ -64,119 +69,151 @@ class BucketSummer {
                 add<Sums::all>(chunk, count);
             }
         });
-        for (std::size_t n = first; n < end; ++n) close(n);
+        for (std::uint32_t n = 0; n < node_count_; ++n) close(n);
+        finish_(first, end);
     }
 
     std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;
 
   private:
-    [[nodiscard]] bool owns(std::uint32_t node) const { return node - first_node_ < node_count_; }
-
     void compute(const BucketChunk& chunk, std::size_t count) {
-        if (nodes_.vertices.empty()) {
-            compute_(source_, chunk.nodes, count, terms_);
-        } else {
-            std::uint32_t vertices[kTermCorners];
-            for (std::size_t i = 0; i < kTermCorners; ++i) vertices[i] = nodes_.vertices[chunk.nodes[i]];
-            compute_(source_, vertices, count, terms_);
-        }
+        // Three numbers of each triangle, side by side. A fourth one is written, and written over by the next.
+        std::uint32_t vertices[kTermCorners + 1];
+        for (std::size_t i = 0; i < BucketChunk::kTriangles; ++i)
+            std::memcpy(vertices + 3 * i, &chunk.triangles[i], sizeof(BucketTriangle));
+        for (std::size_t i = 0; !nodes_.vertices.empty() && i < kTermCorners; ++i)
+            vertices[i] = nodes_.vertices[vertices[i]];
+        compute_(source_, vertices, count, terms_);
         degenerate_count += terms_.degenerate_count;
         no_uv_area_count += terms_.no_uv_area_count;
         mirrored_count += terms_.mirrored_count;
         std::uint32_t any = 0;
-        for (std::size_t t = 0; t < count; ++t) any |= chunk.triangles[t];
+        for (std::size_t t = 0; t < count; ++t) any |= chunk.triangles[t].number;
         if ((any & kMark) != 0) discount(chunk, count);
     }
 
     /// Each triangle is counted in the bucket of its first node only.
     void discount(const BucketChunk& chunk, std::size_t count) {
+        std::uint32_t degenerate = 0, flat = 0, mirrored = 0;
         for (std::size_t t = 0; t < count; ++t) {
-            if ((chunk.triangles[t] & kMark) == 0) continue;
-            const std::uint32_t m = terms_.marks[0][t];
-            const bool degenerate = (m & kDegenerateMark) != 0, flat = !degenerate && (m & kNoUvArea) != 0;
-            degenerate_count -= degenerate ? 1 : 0;
-            no_uv_area_count -= flat ? 1 : 0;
-            mirrored_count -= !degenerate && !flat && (m & kFacesDown) != 0 ? 1 : 0;
+            const std::uint32_t m = terms_.marks[0][t], counted_elsewhere = chunk.triangles[t].number / kMark;
+            const std::uint32_t is_degenerate = m / kDegenerateMark & counted_elsewhere;
+            const std::uint32_t is_flat = m / kNoUvArea & ~is_degenerate & counted_elsewhere;
+            degenerate += is_degenerate;
+            flat += is_flat;
+            mirrored += m / kFacesDown & ~is_degenerate & ~is_flat & counted_elsewhere;
         }
+        degenerate_count -= degenerate;
+        no_uv_area_count -= flat;
+        mirrored_count -= mirrored;
     }
 
     template <Sums kSums>
     void add(const BucketChunk& chunk, std::size_t count) {
         for (std::size_t t = 0; t < count; ++t) {
-            const std::uint32_t* n = chunk.nodes + 3 * t;
+            const std::uint32_t* n = chunk.triangles[t].nodes;
+            const std::uint32_t a = n[0] - first_node_, b = n[1] - first_node_, c = n[2] - first_node_;
             if ((terms_.marks[0][t] & (kDegenerateMark | kNoUvArea)) != 0) [[unlikely]] {
-                addUnusual(chunk, t);
-                continue;
+                addUnusual(chunk.triangles[t], t);
+            } else if (std::max({a, b, c}) < node_count_) [[likely]] {
+                addCorner<kSums>(t, 0, a, b, c);
+                addCorner<kSums>(t, 1, b, c, a);
+                addCorner<kSums>(t, 2, c, a, b);
+            } else {
+                addAtBorder<kSums>(t, {a, b, c});
             }
-            addCorner<kSums>(t, 0, n[0], n[1], n[2]);
-            addCorner<kSums>(t, 1, n[1], n[2], n[0]);
-            addCorner<kSums>(t, 2, n[2], n[0], n[1]);
         }
     }
 
     /// Triangles that add nothing to the sums. Nodes of degenerate ones are left to the general steps.
-    void addUnusual(const BucketChunk& chunk, std::size_t t) {
-        const std::uint32_t* n = chunk.nodes + 3 * t;
+    void addUnusual(const BucketTriangle& triangle, std::size_t t) {
         const bool degenerate = (terms_.marks[0][t] & kDegenerateMark) != 0;
+        std::uint32_t n[3];
+        for (std::size_t k = 0; k < 3; ++k) n[k] = triangle.nodes[k] - first_node_;
         for (std::size_t k = 0; k < 3; ++k) {
-            if (!owns(n[k])) continue;
-            OpenNode& node = open_[n[k] - first_node_];
+            if (n[k] >= node_count_) continue;
             if (degenerate) {
-                node.marks = 0;
+                open_[n[k]].marks = 0;
             } else {
-                list(node, n[k], n[(k + 1) % 3], n[(k + 2) % 3]);
+                link(n[k], n[(k + 1) % 3], n[(k + 2) % 3]);
             }
         }
-        if (!degenerate && owns(n[0])) sums_.flat[chunk.triangles[t]] = 1;
+        if (!degenerate && n[0] < node_count_) sums_.flat[triangle.number] = 1;
+    }
+
+    /// Triangles with nodes of other buckets. (All nodes are given by their distance from the bucket's first.)
+    template <Sums kSums>
+    void addAtBorder(std::size_t t, const std::array<std::uint32_t, 3>& n) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (n[k] >= node_count_) continue;
+            addTerms<kSums>(t, k, n[k]);
+            link(n[k], n[(k + 1) % 3], n[(k + 2) % 3]);
+        }
     }
 
     template <Sums kSums>
-    void addCorner(std::size_t t, std::size_t k, std::uint32_t number, std::uint32_t next, std::uint32_t previous) {
-        if (!owns(number)) return;
-        OpenNode& node = open_[number - first_node_];
+    void addCorner(std::size_t t, std::size_t k, std::uint32_t node, std::uint32_t next, std::uint32_t previous) {
+        addTerms<kSums>(t, k, node);
+        list(node, next, previous);
+    }
+
+    template <Sums kSums>
+    void addTerms(std::size_t t, std::size_t k, std::uint32_t node) {
+        OpenNode& to = open_[node];
         const std::size_t row = 3 * t + k;
-        if constexpr (kSums != Sums::none) addRow(node.s, terms_.s[row]);  // and the weight
-        node.marks &= terms_.marks[k][t];
-        list(node, number, next, previous);
+        if constexpr (kSums != Sums::none) addRow(to.s, terms_.s[row]);  // and the weight
+        to.marks &= terms_.marks[k][t];
         if constexpr (kSums == Sums::all) {
-            addRow(sums_.rest[number].t, terms_.t[row]);
-            sums_.lengths_t[number] += terms_.lengths_t[k][t];
+            addRow(sums_.rest[first_node_ + node].t, terms_.t[row]);
+            sums_.lengths_t[first_node_ + node] += terms_.lengths_t[k][t];
         }
     }
 
-    void list(OpenNode& node, std::uint32_t number, std::uint32_t next, std::uint32_t previous) {
-        if (node.listed == FanList::kMost) [[unlikely]]
-            follow(node, number);
-        node.list.next[node.listed] = next;
-        node.list.previous[node.listed++] = previous;
-    }
-
-    /// Nodes of many corners: a list that is full is followed as it lies, and begun anew.
-    [[gnu::noinline]] void follow(OpenNode& node, std::uint32_t number) {
-        Fan& fan = sums_.nodes[number].fan;
-        if (node.followed == 0) fan = Fan{};
-        node.followed = 1;
-        for (std::uint32_t i = 0; i < node.listed; ++i) {
-            if (!fan.add(node.list.next[i], node.list.previous[i], fan_room_)) node.marks &= ~kFanKnown;
-        }
-        node.listed = 0;
-    }
-
-    void close(std::size_t number) {
-        OpenNode& node = open_[number - first_node_];
-        NodeSum& sum = sums_.nodes[number];
-        if (node.followed != 0) [[unlikely]] {
-            follow(node, static_cast<std::uint32_t>(number));
+    /// As list(), for neighbours anywhere.
+    void link(std::uint32_t node, std::uint32_t next, std::uint32_t previous) {
+        if (FanList::holds(next) && FanList::holds(previous)) {
+            list(node, next, previous);
         } else {
-            sum.fan = Fan{};
-            if (node.listed != 0) {
-                sum.fan.leaves[0] = sum.fan.arrives[0] = Fan::kClosed;
-                if (!isOneFan(node.list, node.listed)) node.marks &= ~kFanKnown;
-            }
+            follow(node);
+            addToFan(node, next, previous);
         }
-        std::copy_n(node.s, 4, sum.s);
-        sums_.marks[number] = static_cast<std::uint16_t>(node.marks);
-        node.clear();
+    }
+
+    void list(std::uint32_t node, std::uint32_t next, std::uint32_t previous) {
+        OpenNode& to = open_[node];
+        if (to.listed == FanList::kMost) [[unlikely]]
+            follow(node);
+        to.list.set(to.listed++, next, previous);
+    }
+
+    /// Nodes of many corners, or with distant neighbours: what is listed is followed as it lies, and the list begun
+    /// anew.
+    [[gnu::noinline]] void follow(std::uint32_t node) {
+        OpenNode& from = open_[node];
+        if (from.followed == 0) fans_[node] = Fan{};
+        from.followed = 1;
+        for (std::uint32_t i = 0; i < from.listed; ++i) {
+            addToFan(node, static_cast<std::uint32_t>(std::int32_t{from.list.next[i]}),
+                     static_cast<std::uint32_t>(std::int32_t{from.list.previous[i]}));
+        }
+        from.listed = 0;
+    }
+
+    void addToFan(std::uint32_t node, std::uint32_t next, std::uint32_t previous) {
+        if (!fans_[node].add(first_node_ + next, first_node_ + previous, fan_room_)) open_[node].marks &= ~kFanKnown;
+    }
+
+    void close(std::uint32_t node) {
+        OpenNode& from = open_[node];
+        if (from.followed != 0) [[unlikely]] {
+            follow(node);
+            if (!fans_[node].isOne()) from.marks &= ~kFanKnown;
+        } else if (from.listed != 0 && !isOneFan(from.list, from.listed)) {
+            from.marks &= ~kFanKnown;
+        }
+        std::copy_n(from.s, 4, sums_.rows[first_node_ + node].s);
+        sums_.marks[first_node_ + node] = static_cast<std::uint16_t>(from.marks);
+        from.clear();
     }
 
     const NodeBuckets& buckets_;
@@ -184,7 +221,9 @@ class BucketSummer {
     const CornerSource& source_;
     CornerTermsFunction compute_;
     NodeSums& sums_;
+    const FinishNodes& finish_;
     OpenNode* open_;  // one for each node of a bucket
+    Fan* fans_;       // the same, of those that are followed
     FanRoom fan_room_;
     std::uint32_t first_node_ = 0, node_count_ = 0;
     CornerTerms terms_;
@@ -193,7 +232,7 @@ class BucketSummer {
 }  // namespace
 
 void sumBuckets(const NodeBuckets& buckets, const Nodes& nodes, const CornerSource& source, CornerTermsFunction terms,
-                NodeSums& sums, const Allocator* allocator, Parallel& parallel) {
+                NodeSums& sums, const FinishNodes& finish, const Allocator* allocator, Parallel& parallel) {
     constexpr std::size_t kFans = 256;  // of more than two paths at a time, in one bucket
     struct Counts {
         std::uint64_t degenerate, no_uv_area, mirrored;
@@ -202,11 +241,12 @@ void sumBuckets(const NodeBuckets& buckets, const Nodes& nodes, const CornerSour
     const std::size_t nodes_each = buckets.endNode(0);
     Buffer<Counts> counts(allocator, tasks);
     Buffer<OpenNode> open(allocator, tasks * nodes_each);
+    Buffer<Fan> fans(allocator, tasks * nodes_each);
     Buffer<ManyPaths> many_paths(allocator, tasks * kFans);
     std::atomic<std::size_t> next{0};
     parallel.forTasks(tasks, [&](std::size_t task) {
-        BucketSummer summer(buckets, nodes, source, terms, sums, open.data() + task * nodes_each, nodes_each,
-                            {many_paths.data() + task * kFans, kFans});
+        BucketSummer summer(buckets, nodes, source, terms, sums, finish, open.data() + task * nodes_each,
+                            fans.data() + task * nodes_each, nodes_each, {many_paths.data() + task * kFans, kFans});
         for (std::size_t bucket = next++; bucket < buckets.count(); bucket = next++) summer.run(bucket);
         counts[task] = {summer.degenerate_count, summer.no_uv_area_count, summer.mirrored_count};
     });

@@ -12,6 +12,6 @@ namespace tspace::mikk {
 /// Fills `sums`, whose buffers have their sizes, and whose marks of triangles are 0. nodes.vertex() must be
 /// valid.
 void sumBuckets(const NodeBuckets& buckets, const Nodes& nodes, const CornerSource& source, CornerTermsFunction terms,
-                NodeSums& sums, const Allocator* allocator, Parallel& parallel);
+                NodeSums& sums, const FinishNodes& finish, const Allocator* allocator, Parallel& parallel);
 
 }  // namespace tspace::mikk

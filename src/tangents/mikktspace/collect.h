@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "core/memory.h"
 #include "core/parallel.h"
@@ -150,14 +151,18 @@ class MarkedParts {
     Buffer<std::uint32_t> before_;  // how many parts before this one have marks
 };
 
+/// Of each block of kCollectBlock triangles, 0 when none is to be found there; empty: not known.
+using MarkedBlocks = std::span<const std::uint8_t>;
+
 /// The triangles t for which isMarked(3 * t + k) for some corner k, ascending. `parts`, where the nodes of blocks
 /// are known, those with marks: where triangles of a block use nodes that lie together, it is known without a
 /// look at them that none is marked.
 template <class IsMarked>
 Buffer<std::uint32_t> collectMarked(const TriangleList& triangles, const NodeBlocks& blocks,
                                     const std::optional<MarkedParts>& parts, const IsMarked& isMarked,
-                                    const Allocator* allocator, Parallel& parallel) {
+                                    MarkedBlocks marked_blocks, const Allocator* allocator, Parallel& parallel) {
     const auto anyMarked = [&](std::size_t begin, std::size_t) {
+        if (!marked_blocks.empty()) return marked_blocks[begin / kCollectBlock] != 0;
         if (!parts) return true;
         const NodeBlocks::Range range = blocks.ranges[begin / NodeBlocks::kTriangles];
         return parts->any(range.first, range.last);
@@ -168,32 +173,34 @@ Buffer<std::uint32_t> collectMarked(const TriangleList& triangles, const NodeBlo
 
 /// The triangles with a corner at a marked vertex, ascending.
 inline Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                                              const Marks& marks, const Allocator* allocator, Parallel& parallel) {
+                                              const Marks& marks, MarkedBlocks blocks, const Allocator* allocator,
+                                              Parallel& parallel) {
     std::optional<MarkedParts> parts;
     const auto nodeOf = [&](std::size_t v) { return nodes.ofVertex(static_cast<std::uint32_t>(v)); };
-    if (!nodes.blocks.ranges.empty()) parts.emplace(marks, nodes.count, nodeOf, allocator);
+    if (blocks.empty() && !nodes.blocks.ranges.empty()) parts.emplace(marks, nodes.count, nodeOf, allocator);
     return withListedVertices(mesh, triangles, [&](auto vertexOf) {
         const std::uint8_t* marked = marks.data();
         const auto isMarked = [=](std::size_t i) -> unsigned { return marked[vertexOf(i)]; };
-        return collectMarked(triangles, nodes.blocks, parts, isMarked, allocator, parallel);
+        return collectMarked(triangles, nodes.blocks, parts, isMarked, blocks, allocator, parallel);
     });
 }
 
 /// The triangles with a corner at a marked node, ascending. Nodes must be tame.
 inline Buffer<std::uint32_t> collectAround(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                                           Marks at_nodes, const Allocator* allocator, Parallel& parallel) {
+                                           Marks at_nodes, MarkedBlocks blocks, const Allocator* allocator,
+                                           Parallel& parallel) {
     if (mesh.indices.type != IndexType::none || !triangles.corners.empty() || nodes.of_vertex.empty()) {
         const Marks marks = marksOfVertices(std::move(at_nodes), nodes, allocator, parallel);
-        return collectTriangles(mesh, triangles, nodes, marks, allocator, parallel);
+        return collectTriangles(mesh, triangles, nodes, marks, blocks, allocator, parallel);
     }
     // Each vertex is looked at once, so there is nothing to gain from marks of vertices, which are six times as many.
     std::optional<MarkedParts> parts;
     const auto nodeOf = [](std::size_t node) { return node; };
-    if (!nodes.blocks.ranges.empty()) parts.emplace(at_nodes, nodes.count, nodeOf, allocator);
+    if (blocks.empty() && !nodes.blocks.ranges.empty()) parts.emplace(at_nodes, nodes.count, nodeOf, allocator);
     const std::uint8_t* marked = at_nodes.data();
     const std::uint32_t* node_of = nodes.of_vertex.data();
     const auto isMarked = [=](std::size_t i) -> unsigned { return marked[node_of[i]]; };
-    return collectMarked(triangles, nodes.blocks, parts, isMarked, allocator, parallel);
+    return collectMarked(triangles, nodes.blocks, parts, isMarked, blocks, allocator, parallel);
 }
 
 }  // namespace tspace::mikk

@@ -16,17 +16,27 @@
 
 namespace tspace::mikk {
 
-/// The corners at a node, in any order: each goes on to `next` and comes from `previous`. No node has the
-/// numbers that unused places hold.
+/// The corners at a node, in any order: each goes on to `next` and comes from `previous`, nodes that are given by
+/// their distance from some node.
 struct alignas(16) FanList {
     static constexpr std::uint32_t kMost = 8;
-    static constexpr std::uint32_t kNoNext = 0xffffffffu, kNoPrevious = 0xfffffffeu;
+    static constexpr std::int16_t kNoNext = -32768, kNoPrevious = -32767;  ///< what unused places hold
+    static constexpr std::int32_t kLeast = -32766, kLargest = 32767;       ///< distances
 
-    std::uint32_t next[kMost], previous[kMost];
+    std::int16_t next[kMost], previous[kMost];
 
     void clear() {
         for (std::uint32_t i = 0; i < kMost; ++i) next[i] = kNoNext;
         for (std::uint32_t i = 0; i < kMost; ++i) previous[i] = kNoPrevious;
+    }
+    /// Whether a list can hold a distance, which may have passed below zero.
+    static bool holds(std::uint32_t distance) {
+        constexpr auto kBelow = static_cast<std::uint32_t>(-kLeast);
+        return distance + kBelow <= kBelow + kLargest;
+    }
+    void set(std::uint32_t place, std::uint32_t to_next, std::uint32_t to_previous) {
+        next[place] = static_cast<std::int16_t>(to_next);
+        previous[place] = static_cast<std::int16_t>(to_previous);
     }
 };
 
@@ -36,57 +46,55 @@ struct FanLinks {
     std::uint64_t counts;  ///< how many there are
 };
 
-using FourNumbers = std::uint32_t __attribute__((vector_size(16)));
+using EightNumbers = std::uint16_t __attribute__((vector_size(16)));
 
 /// From 256 times a count plus 8 times a place, which are below 256 each.
-inline FanLinks splitLinks(FourNumbers low, FourNumbers high) {
+inline FanLinks splitLinks(EightNumbers links) {
 #if defined(TSPACE_SIMD_X86)
-    const __m128i both = _mm_packs_epi32(std::bit_cast<__m128i>(low), std::bit_cast<__m128i>(high));
+    const __m128i both = std::bit_cast<__m128i>(links);
     const __m128i bytes = _mm_packus_epi16(_mm_and_si128(both, _mm_set1_epi16(0xff)), _mm_srli_epi16(both, 8));
     return {static_cast<std::uint64_t>(_mm_cvtsi128_si64(bytes)),
             static_cast<std::uint64_t>(_mm_cvtsi128_si64(_mm_unpackhi_epi64(bytes, bytes)))};
 #elif defined(TSPACE_SIMD_ARM64)
-    const uint16x8_t both =
-        vcombine_u16(vmovn_u32(std::bit_cast<uint32x4_t>(low)), vmovn_u32(std::bit_cast<uint32x4_t>(high)));
+    const auto both = std::bit_cast<uint16x8_t>(links);
     return {std::bit_cast<std::uint64_t>(vmovn_u16(both)), std::bit_cast<std::uint64_t>(vshrn_n_u16(both, 8))};
 #else
-    FanLinks links{0, 0};
+    FanLinks split{0, 0};
     for (std::uint32_t i = 0; i < FanList::kMost; ++i) {
-        const std::uint64_t link = i < 4 ? low[i] : high[i - 4];
-        links.places |= (link & 0xff) << 8 * i;
-        links.counts |= (link >> 8) << 8 * i;
+        const std::uint64_t link = links[i];
+        split.places |= (link & 0xff) << 8 * i;
+        split.counts |= (link >> 8) << 8 * i;
     }
-    return links;
+    return split;
 #endif
 }
 
-/// Lane by lane, with one half of the other list turned by 0 to 3 lanes: each match adds its place, and 1 to
-/// the byte above.
+/// Lane by lane, with the other list turned by 0 to 7 lanes: each match adds its place, and 1 to the byte above.
 inline FanLinks linksOf(const FanList& list) {
-    const auto load = [](const std::uint32_t* from) {
-        FourNumbers numbers;
+    using FourPairs = std::uint32_t __attribute__((vector_size(16)));
+    const auto load = [](const std::int16_t* from) {
+        EightNumbers numbers;
         std::memcpy(&numbers, __builtin_assume_aligned(from, sizeof numbers), sizeof numbers);
         return numbers;
     };
-    const FourNumbers next_low = load(list.next), next_high = load(list.next + 4);
-    FourNumbers low = {}, high = {};
-    const auto match = [&](FourNumbers previous, FourNumbers places) {
-        low += std::bit_cast<FourNumbers>(next_low == previous) & places;
-        high += std::bit_cast<FourNumbers>(next_high == previous) & places;
+    const EightNumbers next = load(list.next), even = load(list.previous);
+    const EightNumbers odd = __builtin_shufflevector(even, even, 1, 2, 3, 4, 5, 6, 7, 0);
+    const auto even_pairs = std::bit_cast<FourPairs>(even), odd_pairs = std::bit_cast<FourPairs>(odd);
+    EightNumbers links = {};
+    const auto match = [&](auto previous, std::uint16_t first) {
+        const auto place = [=](unsigned i) { return static_cast<std::uint16_t>(0x100 + 8 * ((first + i) % 8)); };
+        const EightNumbers places{place(0), place(1), place(2), place(3), place(4), place(5), place(6), place(7)};
+        links += std::bit_cast<EightNumbers>(next == std::bit_cast<EightNumbers>(previous)) & places;
     };
-    const auto matchHalf = [&](FourNumbers previous, std::uint32_t first) {
-        const auto place = [=](std::uint32_t i) { return 0x100 + 8 * (first + i % 4); };
-        match(previous, FourNumbers{place(0), place(1), place(2), place(3)});
-        match(__builtin_shufflevector(previous, previous, 1, 2, 3, 0),
-              FourNumbers{place(1), place(2), place(3), place(4)});
-        match(__builtin_shufflevector(previous, previous, 2, 3, 0, 1),
-              FourNumbers{place(2), place(3), place(4), place(5)});
-        match(__builtin_shufflevector(previous, previous, 3, 0, 1, 2),
-              FourNumbers{place(3), place(4), place(5), place(6)});
-    };
-    matchHalf(load(list.previous), 0);
-    matchHalf(load(list.previous + 4), 4);
-    return splitLinks(low, high);
+    match(even, 0);
+    match(odd, 1);
+    match(__builtin_shufflevector(even_pairs, even_pairs, 1, 2, 3, 0), 2);
+    match(__builtin_shufflevector(odd_pairs, odd_pairs, 1, 2, 3, 0), 3);
+    match(__builtin_shufflevector(even_pairs, even_pairs, 2, 3, 0, 1), 4);
+    match(__builtin_shufflevector(odd_pairs, odd_pairs, 2, 3, 0, 1), 5);
+    match(__builtin_shufflevector(even_pairs, even_pairs, 3, 0, 1, 2), 6);
+    match(__builtin_shufflevector(odd_pairs, odd_pairs, 3, 0, 1, 2), 7);
+    return splitLinks(links);
 }
 
 /// Whether the `count` corners of a list are one fan: each half-edge is there once, and the links of

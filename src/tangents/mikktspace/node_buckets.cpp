@@ -50,12 +50,7 @@ class NodeBuckets::Filler {
         List& list = lists_[bucket];
         if (list.used % BucketChunk::kTriangles == 0 && !addChunk(list)) [[unlikely]]
             return false;
-        BucketChunk& chunk = to_.chunks_[list.last];
-        std::uint32_t* nodes = chunk.nodes + 3 * std::size_t{list.used};
-        nodes[0] = a;
-        nodes[1] = b;
-        nodes[2] = c;
-        chunk.triangles[list.used++] = number;
+        to_.chunks_[list.last].triangles[list.used++] = {{a, b, c}, number};
         return true;
     }
 
@@ -72,8 +67,8 @@ class NodeBuckets::Filler {
             const List& list = lists_[bucket];
             if (list.first == kNone) continue;
             links_[list.last] = kNone;
-            std::uint32_t* nodes = to_.chunks_[list.last].nodes;
-            std::fill(nodes + 3 * std::size_t{list.used}, nodes + 3 * BucketChunk::kTriangles, 0u);
+            BucketTriangle* triangles = to_.chunks_[list.last].triangles;
+            std::fill(triangles + list.used, triangles + BucketChunk::kTriangles, BucketTriangle{});
         }
     }
 

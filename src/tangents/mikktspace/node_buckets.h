@@ -16,12 +16,16 @@
 
 namespace tspace::mikk {
 
+struct alignas(16) BucketTriangle {
+    std::uint32_t nodes[3];
+    std::uint32_t number;  ///< plus kMark where the bucket of its first node is another one
+};
+
 /// Some triangles of a bucket, as many as a kernel takes. Unused places at the end hold valid nodes too.
 struct BucketChunk {
     static constexpr std::size_t kTriangles = kTermTriangles;
 
-    std::uint32_t nodes[3 * kTriangles];
-    std::uint32_t triangles[kTriangles];  ///< plus kMark where the bucket of its first node is another one
+    BucketTriangle triangles[kTriangles];
 };
 
 class NodeBuckets {

@@ -32,11 +32,13 @@ bool areOneFan(std::span<const UnclearCorner> around) {
     if (around.size() > FanList::kMost) return false;
     FanList list;
     list.clear();
-    for (std::size_t i = 0; i < around.size(); ++i) {
-        list.next[i] = around[i].next;
-        list.previous[i] = around[i].previous;
+    bool holds = true;
+    for (std::uint32_t i = 0; i < around.size(); ++i) {
+        const std::uint32_t next = around[i].next - around[0].next, previous = around[i].previous - around[0].next;
+        list.set(i, next, previous);
+        holds &= FanList::holds(next) && FanList::holds(previous);
     }
-    return isOneFan(list, static_cast<std::uint32_t>(around.size()));
+    return holds && isOneFan(list, static_cast<std::uint32_t>(around.size()));
 }
 
 }  // namespace

@@ -380,9 +380,9 @@ class Summer {
 
 bool NodeSums::isOneGroup(std::size_t node, const Vec3& normal, bool may_split) const {
     const std::uint32_t m = marks[node];
-    const NodeSum& sum = nodes[node];
-    if ((m & (kFacesUp | kFacesDown)) == 0 || (m & kFanKnown) == 0 || !sum.fan.isOne()) return false;
-    return !may_split || sumCannotSplit(sum.s, m, normal);
+    if ((m & (kFacesUp | kFacesDown)) == 0 || (m & kFanKnown) == 0) return false;
+    if (!nodes.empty() && !nodes[node].fan.isOne()) return false;
+    return !may_split || sumCannotSplit(row(node), m, normal);
 }
 
 bool sumCannotSplit(const float* sum, std::uint32_t marks, const Vec3& normal) {
@@ -398,29 +398,39 @@ bool sumCannotSplit(const float* sum, std::uint32_t marks, const Vec3& normal) {
     return square > least * least && sum[3] < 1024 * lightest && normal_square > 0.98f && normal_square < 1.02f;
 }
 
-NodeSums sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const CornerSource& source,
-                  CornerTermsFunction terms, ScratchBlock& brief, const Allocator* allocator, Parallel& parallel) {
-    NodeSums sums;
-    sums.nodes = Buffer<NodeSum>(allocator, nodes.count);
-    sums.marks = Buffer<std::uint16_t>(allocator, nodes.count, std::uint16_t{kAllMarks});
+void finishInRanges(std::size_t count, const FinishNodes& finish, Parallel& parallel) {
+    constexpr std::size_t kStep = 64, kGrain = 128;  // nodes; steps
+    parallel.forRanges((count + kStep - 1) / kStep, kGrain, [&](std::size_t begin, std::size_t end) {
+        finish(begin * kStep, std::min(end * kStep, count));
+    });
+}
+
+void sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const CornerSource& source,
+              CornerTermsFunction terms, ScratchBlock& brief, const Allocator* allocator, Parallel& parallel,
+              NodeSums& sums, const FinishNodes& finish) {
     if (!source.tangents_only) {
         sums.rest = Buffer<NodeRest>(allocator, nodes.count);
         sums.lengths_t = Buffer<float>(allocator, nodes.count);
-    }
-    if (triangles.count == 0) {
-        std::fill(sums.nodes.begin(), sums.nodes.end(), NodeSum{});
-        std::fill(sums.rest.begin(), sums.rest.end(), NodeRest{});
-        std::fill(sums.lengths_t.begin(), sums.lengths_t.end(), 0.0f);
-        return sums;
     }
     sums.flat = Buffer<std::uint8_t>(brief.allocator(), triangles.count, std::uint8_t{0});
     sums.scattered = nodes.blocks.scattered;
     if (sums.scattered && triangles.faces.empty()) {
         NodeBuckets buckets(mesh, triangles, nodes, allocator, parallel);
         if (buckets.fill(brief)) {
-            sumBuckets(buckets, nodes, source, terms, sums, allocator, parallel);
-            return sums;
+            sums.makeRows(allocator, nodes.count);
+            sums.marks = Buffer<std::uint16_t>(allocator, nodes.count);
+            sumBuckets(buckets, nodes, source, terms, sums, finish, allocator, parallel);
+            return;
         }
+    }
+    sums.makeNodes(allocator, nodes.count);
+    sums.marks = Buffer<std::uint16_t>(allocator, nodes.count, std::uint16_t{kAllMarks});
+    if (triangles.count == 0) {
+        std::fill(sums.nodes.begin(), sums.nodes.end(), NodeSum{});
+        std::fill(sums.rest.begin(), sums.rest.end(), NodeRest{});
+        std::fill(sums.lengths_t.begin(), sums.lengths_t.end(), 0.0f);
+        finishInRanges(nodes.count, finish, parallel);
+        return;
     }
     Summer::Setting setting{mesh, triangles, nodes, source, terms};
     setting.scattered = sums.scattered;
@@ -450,7 +460,7 @@ NodeSums sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nod
         sums.no_uv_area_count += c.no_uv_area;
         sums.mirrored_count += c.mirrored;
     }
-    return sums;
+    finishInRanges(nodes.count, finish, parallel);
 }
 
 }  // namespace tspace::mikk

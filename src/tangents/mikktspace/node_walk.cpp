@@ -35,9 +35,10 @@ class NodeWalk {
           corners_(allocator_),
           groups_(mesh, options, triangles, nodes, chosen, out, corners_) {}
 
-    WalkedNodes run(CornerSource source, CornerTermsFunction terms, NodeSums* sums) {
+    WalkedNodes run(CornerSource source, CornerTermsFunction terms, NodeSums* sums, MarkedBlocks blocks) {
         source.tangents_only = !groups_.isFull() && !groups_.maySplit();
-        corners_ = readCorners({mesh_, triangles_, nodes_, chosen_, source, terms, sums, allocator_, parallel_});
+        corners_ =
+            readCorners({mesh_, triangles_, nodes_, chosen_, source, terms, sums, blocks, allocator_, parallel_});
         state_ = Buffer<std::uint8_t>(allocator_, chosen_.size(), std::uint8_t{kDone});
         if (findContested()) groupContested();
         std::atomic<std::uint64_t> groups{0}, defaults{0};
@@ -207,8 +208,9 @@ class NodeWalk {
 
 WalkedNodes walkNodes(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
                       const Nodes& nodes, std::span<const std::uint32_t> chosen, const CornerSource& source,
-                      CornerTermsFunction terms, NodeSums* sums, const TangentOutput& out, Parallel& parallel) {
-    return NodeWalk(mesh, options, triangles, nodes, chosen, out, parallel).run(source, terms, sums);
+                      CornerTermsFunction terms, NodeSums* sums, MarkedBlocks blocks, const TangentOutput& out,
+                      Parallel& parallel) {
+    return NodeWalk(mesh, options, triangles, nodes, chosen, out, parallel).run(source, terms, sums, blocks);
 }
 
 }  // namespace tspace::mikk

@@ -6,6 +6,7 @@
 
 #include <span>
 
+#include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/growing.h"
 #include "tangents/mikktspace/node_sums.h"
 #include "tspace/tangents.h"
@@ -26,11 +27,11 @@ struct WalkedNodes {
 /// Writes the results of all corners at `chosen` nodes (ascending), but for those of nodes that are left.
 /// `chosen` must have the nodes of triangles without UV area whose three nodes may have both orientations,
 /// unless no other triangle is there, and those of degenerate triangles and of faces whose triangles do not
-/// simply agree (node_sums.cpp). `source` is that of the sums, by vertices. Uses the places of second paths
-/// in `sums`; without sums `chosen` must have all nodes. Takes about 210 bytes per triangle around these
-/// nodes. Throws OutOfMemory.
+/// simply agree (node_sums.cpp). `source` is that of the sums, by vertices. Uses the rows of `sums`; without sums
+/// `chosen` must have all nodes. Takes about 210 bytes per triangle around these nodes. Throws OutOfMemory.
 WalkedNodes walkNodes(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
                       const Nodes& nodes, std::span<const std::uint32_t> chosen, const CornerSource& source,
-                      CornerTermsFunction terms, NodeSums* sums, const TangentOutput& out, Parallel& parallel);
+                      CornerTermsFunction terms, NodeSums* sums, MarkedBlocks blocks, const TangentOutput& out,
+                      Parallel& parallel);
 
 }  // namespace tspace::mikk

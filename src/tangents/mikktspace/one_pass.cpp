@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "core/float4.h"
 #include "core/streamed_rows.h"
 #include "core/typed_indices.h"
 #include "tangents/estimators/group_estimates.h"
@@ -27,10 +28,13 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kNodeGrain = 8192, kCornerGrain = 16384, kTriangleGrain = 16384;
+constexpr std::size_t kCornerGrain = 16384, kTriangleGrain = 16384;
+constexpr std::size_t kBlockCorners = 3 * kCollectBlock;
 constexpr std::uint32_t kBothFacings = kFacesUp | kFacesDown;
 /// In NodeSums::flat: nothing shows that the triangle's nodes agree.
 constexpr std::uint8_t kDoubtful = 2;
+/// In the place of the sign, with a bit that no sign has.
+constexpr float kUnclearSign = 2.0f;
 constexpr std::size_t kAlwaysSmall = 1024;  // faces left to the general steps that are never too many
 
 /// The mesh's triangles, as estimators read them: each node is a group. Triangles without UV area add
@@ -97,10 +101,13 @@ class OnePass {
         const bool walks = first_look == FirstLook::eachNode ||
                            (first_look == FirstLook::asItSeems && mostNodesSeemUnclear(mesh_, triangles_));
         if (walks && !estimates_) return walkAll(source, terms);
-        sums_ = sumNodes(mesh_, triangles_, nodes_, source, terms, brief_, allocator_, parallel_);
-        checkFlatTriangles();
+        unclear_ = Buffer<std::uint64_t>(allocator_, nodes_.count / 64 + 1, std::uint64_t{0});
+        sumNodes(mesh_, triangles_, nodes_, source, terms, brief_, allocator_, parallel_, sums_,
+                 [&](std::size_t first, std::size_t end) {
+                     if (!estimates_) finishNodes(first, end);
+                 });
         if (estimates_) estimateNodes();
-        finishNodes();
+        checkFlatTriangles();
         writeCorners();
         // Only the nodes' own places are read from here on.
         sums_.marks = {};
@@ -118,7 +125,7 @@ class OnePass {
             Sink(out_, sign_factor_, signFactor(options_.convention)).clear(c);
         const Buffer<std::uint32_t> all = numbersBelow(nodes_.count, allocator_);
         const WalkedNodes walked = walkNodes(mesh_, options_, triangles_, nodes_, {all.data(), all.size()}, source,
-                                             terms, nullptr, out_, parallel_);
+                                             terms, nullptr, {}, out_, parallel_);
         unclear_count_ = walked.left_count;
         group_count_ = walked.group_count;
         default_corner_count_ = walked.default_corner_count;
@@ -156,13 +163,15 @@ class OnePass {
         }
         const MeshTriangles triangles(mesh_, triangles_, nodes_, sums_);
         scale_ = estimators::inputScale(triangles, mesh_.positions, mesh_.uvs);
-        const estimators::GroupEstimates to{reinterpret_cast<std::byte*>(sums_.nodes.data()),     sizeof(NodeSum),
+        const estimators::GroupEstimates to{reinterpret_cast<std::byte*>(sums_.row(0)),           sums_.rowBytes(),
                                             reinterpret_cast<std::byte*>(sums_.rest.data()),      sizeof(NodeRest),
                                             reinterpret_cast<std::byte*>(sums_.lengths_t.data()), sizeof(float)};
         Execution execution = options_.execution;
         execution.allocator = brief_.allocator();
         estimators::estimateGroups(options_.method, triangles, nodes_.count, {mesh_.positions, mesh_.normals},
                                    mesh_.uvs, scale_, to, execution, parallel_);
+        finishInRanges(
+            nodes_.count, [&](std::size_t first, std::size_t end) { finishNodes(first, end); }, parallel_);
     }
 
     /// A triangle without UV area takes the orientation of the first group that reaches it, at any of its
@@ -211,9 +220,20 @@ class OnePass {
             if (sums_.flat[triangle] != kDoubtful) return;
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t node = nodeAt(3 * triangle + k);
-                if (!sums_.isEmpty(node)) sums_.marks[node] = 0;
+                if (!sums_.isEmpty(node)) leaveNode(node);
             }
         });
+    }
+
+    /// Takes back what was finished.
+    void leaveNode(std::uint32_t node) {
+        std::uint64_t& word = unclear_[node / 64];
+        const std::uint64_t bit = std::uint64_t{1} << (node % 64);
+        if ((word & bit) != 0) return;
+        word |= bit;
+        sums_.row(node)[3] = kUnclearSign;
+        ++unclear_count_;
+        --group_count_;
     }
 
     [[nodiscard]] std::uint32_t nodeAt(std::size_t i) const {
@@ -243,28 +263,25 @@ class OnePass {
         }
     }
 
-    /// Turns the sums of clear nodes into results, in place.
-    void finishNodes() {
-        unclear_ = Buffer<std::uint64_t>(allocator_, nodes_.count / 64 + 1);
-        std::atomic<std::uint64_t> unclear{0}, groups{0};
-        parallel_.forRanges(unclear_.size(), kNodeGrain / 64, [&](std::size_t begin, std::size_t end) {
-            std::uint64_t unclear_here = 0, groups_here = 0;
-            for (std::size_t word = begin; word < end; ++word) {
-                std::uint64_t bits = 0;
-                const std::size_t first = 64 * word, last = std::min(first + 64, nodes_.count);
-                for (std::size_t n = first; n < last; ++n) {
-                    const bool clear = finishNode(n);
-                    bits |= std::uint64_t{!clear} << (n - first);
-                    groups_here += clear && !sums_.isEmpty(n) ? 1 : 0;
+    /// Turns the sums of clear nodes into results, in place. `first`: a multiple of 64.
+    void finishNodes(std::size_t first, std::size_t end) {
+        std::uint64_t unclear_here = 0, groups_here = 0;
+        for (; first < end; first += 64) {
+            std::uint64_t bits = 0;
+            const std::size_t last = std::min(first + 64, end);
+            for (std::size_t n = first; n < last; ++n) {
+                const bool clear = finishNode(n);
+                if (!clear) [[unlikely]] {
+                    bits |= std::uint64_t{1} << (n - first);
+                    sums_.row(n)[3] = kUnclearSign;
                 }
-                unclear_[word] = bits;
-                unclear_here += static_cast<std::uint64_t>(std::popcount(bits));
+                groups_here += clear && !sums_.isEmpty(n) ? 1 : 0;
             }
-            unclear += unclear_here;
-            groups += groups_here;
-        });
-        unclear_count_ = unclear.load();
-        group_count_ = groups.load();
+            unclear_[first / 64] = bits;
+            unclear_here += static_cast<std::uint64_t>(std::popcount(bits));
+        }
+        unclear_count_ += unclear_here;
+        group_count_ += groups_here;
     }
 
     /// A second look at the nodes that are not clear.
@@ -273,7 +290,7 @@ class OnePass {
         std::size_t count = 0;
         forEachUnclear([&](std::uint32_t node) { chosen[count++] = node; });
         const WalkedNodes walked = walkNodes(mesh_, options_, triangles_, nodes_, {chosen.data(), count}, source, terms,
-                                             &sums_, out_, parallel_);
+                                             &sums_, unclearBlocks(), out_, parallel_);
         for (std::size_t i = 0; i < count; ++i) {
             if (walked.left[i] == 0) unclear_[chosen[i] / 64] &= ~(std::uint64_t{1} << (chosen[i] % 64));
         }
@@ -286,17 +303,17 @@ class OnePass {
     bool finishNode(std::size_t n) {
         const bool empty = sums_.isEmpty(n), splits = options_.method == Method::mikktspace;
         if (!empty && !sums_.isOneGroup(n, mesh_.normals[nodes_.vertex(n)], splits)) return false;
-        NodeSum& sum = sums_.nodes[n];
-        const Vec3 sum_s{sum.s[0], sum.s[1], sum.s[2]};
+        float* sum = sums_.row(n);
+        const Vec3 sum_s{sum[0], sum[1], sum[2]};
         const Vec3 s = empty ? Vec3{1, 0, 0} : estimates_ ? sum_s : unit(sum_s);
         // The other methods replace a sum that vanishes; the general steps see to that.
         if (!splits && !notZero(s)) return false;
-        if (!sums_.rest.empty()) finishRest(n, empty, sum.s[3]);
+        if (!sums_.rest.empty()) finishRest(n, empty, sum[3]);
         const bool positive = !empty && (sums_.marks[n] & kFacesUp) != 0;
-        sum.s[0] = s.x;
-        sum.s[1] = s.y;
-        sum.s[2] = s.z;
-        sum.s[3] = positive ? sign_factor_ : -sign_factor_;  // from here on the sign
+        sum[0] = s.x;
+        sum[1] = s.y;
+        sum[2] = s.z;
+        sum[3] = positive ? sign_factor_ : -sign_factor_;  // from here on the sign
         return true;
     }
 
@@ -317,13 +334,15 @@ class OnePass {
     }
 
     void writeCorners() {
+        const std::size_t blocks = (mesh_.cornerCount() + kBlockCorners - 1) / kBlockCorners;
+        has_unclear_ = Marks(allocator_, blocks);
         withIndices(mesh_.indices, [&](auto vertexOf) {
-            parallel_.forRanges(mesh_.cornerCount(), kCornerGrain, [&](std::size_t begin, std::size_t end) {
-                if (nodes_.of_vertex.empty()) {
-                    writeRange(begin, end, vertexOf);
+            parallel_.forRanges(blocks, kCornerGrain / kBlockCorners, [&](std::size_t begin, std::size_t end) {
+                const std::uint32_t* node_of = nodes_.of_vertex.data();
+                if (node_of != nullptr) {
+                    writeBlocks(begin, end, [&](std::size_t c) { return node_of[vertexOf(c)]; });
                 } else {
-                    const std::uint32_t* node_of = nodes_.of_vertex.data();
-                    writeRange(begin, end, [&](std::size_t c) { return node_of[vertexOf(c)]; });
+                    writeBlocks(begin, end, vertexOf);
                 }
             });
         });
@@ -333,44 +352,66 @@ class OnePass {
         }
     }
 
-    /// Nodes of one block are looked up, and asked for, before the block before it is written.
+    /// Nodes of one part are looked up, and asked for, before the part before it is written.
     template <class NodeOf>
-    void writeRange(std::size_t begin, std::size_t end, const NodeOf& nodeOf) const {
-        constexpr std::size_t kBlock = 64;
+    void writeBlocks(std::size_t first_block, std::size_t end_block, const NodeOf& nodeOf) {
+        constexpr std::size_t kPart = 64;
+        static_assert(kBlockCorners % kPart == 0);
+        const std::size_t end = std::min(end_block * kBlockCorners, mesh_.cornerCount());
         const bool streamed = out_.tangents.stride_bytes == sizeof(Vec4) &&
                               areStreamed(out_.tangents.data, out_.tangents.count * sizeof(Vec4));
-        std::uint32_t nodes[2][kBlock];
-        const auto lookUp = [&](std::size_t first, std::uint32_t* to) {
-            const std::size_t count = std::min(kBlock, end - first);
-            for (std::size_t i = 0; i < count; ++i) to[i] = nodeOf(first + i);
-            if (!sums_.scattered) return;
-            for (std::size_t i = 0; i < count; ++i) __builtin_prefetch(&sums_.nodes[to[i]]);
-        };
-        lookUp(begin, nodes[0]);
-        std::size_t current = 0;
-        for (std::size_t first = begin; first < end; first += kBlock, current ^= 1) {
-            if (first + kBlock < end) lookUp(first + kBlock, nodes[current ^ 1]);
-            const std::size_t count = std::min(kBlock, end - first);
-            writeTangents(first, nodes[current], count, streamed);
-            if (sums_.rest.empty()) continue;
-            for (std::size_t i = 0; i < count; ++i) {
-                const std::uint32_t node = nodes[current][i];
-                writeRest(first + i, sums_.rest[node], sums_.lengths_t[node]);
+        const bool are_indices = mesh_.indices.type == IndexType::u32 && nodes_.of_vertex.empty();
+        std::uint32_t rooms[2][kPart];
+        const auto lookUp = [&](std::size_t first, std::uint32_t* room) -> const std::uint32_t* {
+            const std::size_t count = std::min(kPart, end - first);
+            const std::uint32_t* nodes = room;
+            if (are_indices) {
+                nodes = static_cast<const std::uint32_t*>(mesh_.indices.data) + first;
+            } else {
+                for (std::size_t i = 0; i < count; ++i) room[i] = nodeOf(first + i);
             }
+            if (!sums_.scattered) return nodes;
+            for (std::size_t i = 0; i < count; ++i) __builtin_prefetch(sums_.row(nodes[i]));
+            return nodes;
+        };
+        std::fill(has_unclear_.data() + first_block, has_unclear_.data() + end_block, std::uint8_t{0});
+        std::size_t first = first_block * kBlockCorners, other = 1;
+        const std::uint32_t* nodes = lookUp(first, rooms[0]);
+        for (; first < end; first += kPart, other ^= 1) {
+            const std::uint32_t* following = first + kPart < end ? lookUp(first + kPart, rooms[other]) : nullptr;
+            const std::size_t count = std::min(kPart, end - first);
+            if (writeTangents(first, nodes, count, streamed)) has_unclear_[first / kBlockCorners] = 1;
+            for (std::size_t i = 0; !sums_.rest.empty() && i < count; ++i)
+                writeRest(first + i, sums_.rest[nodes[i]], sums_.lengths_t[nodes[i]]);
+            nodes = following;
         }
         if (streamed) endOfRows();
     }
 
-    void writeTangents(std::size_t first, const std::uint32_t* nodes, std::size_t count, bool streamed) const {
+    /// Returns whether some node is unclear, whose corners get what nobody needs.
+    bool writeTangents(std::size_t first, const std::uint32_t* nodes, std::size_t count, bool streamed) const {
+        Float4 any = {};
         if (streamed) {
             auto* to = reinterpret_cast<float*>(out_.tangents.data + first);
-            for (std::size_t i = 0; i < count; ++i) streamRow(to + 4 * i, sums_.nodes[nodes[i]].s);
-            return;
+            for (std::size_t i = 0; i < count; ++i) {
+                const float* row = sums_.row(nodes[i]);
+                any = or4(any, loadFloat4(row));
+                streamRow(to + 4 * i, row);
+            }
+        } else {
+            for (std::size_t i = 0; i < count; ++i) {
+                const float* row = sums_.row(nodes[i]);
+                any = or4(any, loadFloat4(row));
+                out_.tangents[first + i] = {row[0], row[1], row[2], row[3]};
+            }
         }
-        for (std::size_t i = 0; i < count; ++i) {
-            const float* s = sums_.nodes[nodes[i]].s;
-            out_.tangents[first + i] = {s[0], s[1], s[2], s[3]};
-        }
+        return (std::bit_cast<std::uint32_t>(any[3]) & std::bit_cast<std::uint32_t>(kUnclearSign)) != 0;
+    }
+
+    /// Corners of the mesh are those of its triangles only where no polygon was cut and none left out.
+    [[nodiscard]] MarkedBlocks unclearBlocks() const {
+        if (!triangles_.corners.empty()) return {};
+        return {has_unclear_.data(), has_unclear_.size()};
     }
 
     void writeRest(std::size_t c, const NodeRest& rest, float length_t) const {
@@ -383,7 +424,7 @@ class OnePass {
         Marks at_nodes = noMarks(allocator_, nodes_.count);
         forEachUnclear([&](std::uint32_t node) { at_nodes[node] = 1; });
         const Buffer<std::uint32_t> found =
-            collectAround(mesh_, triangles_, nodes_, std::move(at_nodes), allocator_, parallel_);
+            collectAround(mesh_, triangles_, nodes_, std::move(at_nodes), unclearBlocks(), allocator_, parallel_);
         collectRest({found.data(), found.size()});
     }
 
@@ -425,22 +466,22 @@ class OnePass {
         rest_sizes_.push(size);
         for (std::uint32_t k = 0; k < size; ++k) {
             const std::uint32_t node = nodes_.ofVertex(mesh_.indices[first + k]);
-            std::uint32_t number = restNumber(node);
+            std::uint32_t number = numbers_.empty() ? sums_.number(node) : numbers_[node];
             if (number >= rest_node_of_.size() || rest_node_of_[number] != node) number = numberNode(node);
             rest_corners_.push(static_cast<std::uint32_t>(first + k));
             rest_nodes_.push(number);
         }
     }
 
-    /// Where a node's number in the smaller mesh is. After a pass the place of its second path holds it from
-    /// here on; what it held before is no such number, or that of another node.
-    std::uint32_t& restNumber(std::uint32_t node) {
-        return numbers_.empty() ? sums_.nodes[node].fan.leaves[1] : numbers_[node];
-    }
-
+    /// Its number in the smaller mesh. After a pass the node's row holds it from here on; what that held before is no
+    /// such number, or that of another node.
     std::uint32_t numberNode(std::uint32_t node) {
         const auto number = static_cast<std::uint32_t>(rest_node_of_.size());
-        restNumber(node) = number;
+        if (numbers_.empty()) {
+            sums_.setNumber(node, number);
+        } else {
+            numbers_[node] = number;
+        }
         rest_node_of_.push(node);
         return number;
     }
@@ -506,11 +547,13 @@ class OnePass {
 
     NodeSums sums_;
     Buffer<std::uint64_t> unclear_;  // one bit per node
-    std::size_t unclear_count_ = 0;
-    std::uint64_t group_count_ = 0, default_corner_count_ = 0;
+    Marks has_unclear_;              // one per block of corners
+    std::atomic<std::size_t> unclear_count_{0};
+    std::atomic<std::uint64_t> group_count_{0};
+    std::uint64_t default_corner_count_ = 0;
 
     // The mesh that is left to the general steps.
-    Buffer<std::uint32_t> numbers_;  // without sums: one per node, see restNumber
+    Buffer<std::uint32_t> numbers_;  // without sums: one per node, see numberNode
     bool too_much_rest_ = false;
     Growing<std::uint32_t> rest_sizes_{allocator_};    // one per face
     Growing<std::uint32_t> rest_corners_{allocator_};  // its corners, as corners of the mesh

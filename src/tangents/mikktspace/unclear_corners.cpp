@@ -46,16 +46,17 @@ class CornerReader {
 
     Buffer<std::uint32_t> aroundChosen() {
         for (std::size_t i = 0; i < from_.chosen.size(); ++i)
-            from_.sums->nodes[from_.chosen[i]].fan.leaves[1] = static_cast<std::uint32_t>(i);
+            from_.sums->setNumber(from_.chosen[i], static_cast<std::uint32_t>(i));
         Marks at_nodes = noMarks(from_.allocator, from_.nodes.count);
         for (const std::uint32_t node : from_.chosen) at_nodes[node] = 1;
-        return collectAround(mesh_, triangles_, from_.nodes, std::move(at_nodes), from_.allocator, from_.parallel);
+        return collectAround(mesh_, triangles_, from_.nodes, std::move(at_nodes), from_.blocks, from_.allocator,
+                             from_.parallel);
     }
 
-    /// The place of a node's second path holds its number in `chosen` from here on; what it held before is no
-    /// such number, or that of another node.
+    /// A node's row holds its number in `chosen` from here on; what it held before is no such number, or that of
+    /// another node.
     [[nodiscard]] std::uint32_t placeOf(std::uint32_t node) const {
-        const std::uint32_t number = from_.sums->nodes[node].fan.leaves[1];
+        const std::uint32_t number = from_.sums->number(node);
         return number < from_.chosen.size() && from_.chosen[number] == node
                    ? number
                    : static_cast<std::uint32_t>(from_.chosen.size());

@@ -91,7 +91,8 @@ struct CornerReading {
     std::span<const std::uint32_t> chosen;  ///< nodes, ascending
     CornerSource source;                    ///< tangents_only: terms without t and lengths_t
     CornerTermsFunction terms = nullptr;
-    NodeSums* sums;  ///< the places of second paths are used; null: `chosen` are all nodes
+    NodeSums* sums;       ///< the rows are used; null: `chosen` are all nodes
+    MarkedBlocks blocks;  ///< those with a triangle at a chosen node
     const Allocator* allocator = nullptr;
     Parallel& parallel;
 };

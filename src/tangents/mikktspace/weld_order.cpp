@@ -218,7 +218,8 @@ void WeldOrder::findSome(std::span<const std::uint32_t> vertices, std::uint32_t*
         if (number == 0) number = cell_count + 1u < kCellNumber ? ++cell_count : kCellNumber;
     }
     const Marks in_cells = verticesInCells(numbers, wanted);
-    const Buffer<std::uint32_t> found = collectTriangles(mesh_, triangles_, nodes_, in_cells, allocator_, parallel_);
+    const Buffer<std::uint32_t> found =
+        collectTriangles(mesh_, triangles_, nodes_, in_cells, {}, allocator_, parallel_);
     std::array<std::uint32_t, kCellNumber + 2> next = {};  // first how many, then where the next one is put
     withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
         for (const std::uint32_t t : found) {
