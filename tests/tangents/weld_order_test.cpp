@@ -9,6 +9,7 @@
 #include <random>
 
 #include "tangents/mikktspace/grouped_plan.h"
+#include "tangents/mikktspace/long_cell.h"
 #include "tangents/shapes.h"
 
 namespace tspace::mikk {
@@ -137,6 +138,60 @@ TEST(WeldOrder, IsTheReferencesForNodesInManyCells) {
     const Shape shape = soup(5000, 64.0f, 4);
     const Found found = representatives(shape.view(), 1000, 2);
     for (std::size_t n = 0; n < 1000; ++n) EXPECT_EQ(found.some[n], found.wanted[n]);
+}
+
+TEST(WeldOrder, IsTheReferencesForAFewNodesOfALongCell) {
+    for (const std::uint32_t seed : {6u, 7u, 8u}) {
+        Shape shape = soup(10000, 30000000.0f, seed);   // 60,000 corners, nearly all in one cell
+        shape.vertex({0, -500, 0}, {0, 0, 1}, {0, 0});  // no triangle's: not in any box
+        for (const unsigned threads : {1u, 3u}) {
+            const Found found = representatives(shape.view(), 20, threads);
+            for (std::size_t n = 0; n < 20; ++n) EXPECT_EQ(found.some[n], found.wanted[n]);
+        }
+    }
+}
+
+TEST(WeldOrder, IsTheReferencesWhereManyCutsTakeLittleOff) {
+    std::mt19937 random(9);
+    Shape shape;
+    const auto power = [&] { return std::ldexp(1.0f, -static_cast<int>(random() % 120)); };
+    for (int v = 0; v < 12000; ++v) shape.vertex({power(), power(), power()}, {0, 0, 1}, {0, 0});
+    shape.vertex({3000, 0, 0}, {0, 0, 1}, {0, 0});
+    for (std::uint32_t t = 0; t < 12000; ++t)
+        shape.triangle(t, static_cast<std::uint32_t>(random() % 12000), t == 0 ? 12000u : (t * 7) % 12000);
+    const Found found = representatives(shape.view(), 200, 2);
+    for (std::size_t n = 0; n < 200; ++n) EXPECT_EQ(found.some[n], found.wanted[n]);
+}
+
+TEST(NumberedCorners, ArePartitionedAsByTheReferencesLoop) {
+    std::mt19937 random(10);
+    for (int round = 0; round < 400; ++round) {
+        const std::size_t count = 1 + random() % (round % 4 == 0 ? 1000 : 150);
+        const std::size_t begin = random() % count, end = begin + 1 + random() % (count - begin);
+        const auto first_right = static_cast<std::uint8_t>(1 + random() % 254);
+        const bool in_runs = random() % 2 == 0, keep_left = random() % 2 == 0, keep_right = random() % 2 == 0;
+        NumberedCorners corners(count, nullptr);
+        std::vector<std::pair<std::uint8_t, std::uint32_t>> wanted;
+        for (std::uint32_t n = 0; n < count; ++n) {
+            corners.parts[n] = in_runs && n % 20 != 0 ? corners.parts[n - 1] : static_cast<std::uint8_t>(random());
+            corners.entries[n] = n;
+            wanted.emplace_back(corners.parts[n], n);
+        }
+        std::size_t i = begin, j = end - 1;
+        const auto goesLeft = [&](std::size_t n) { return wanted[n].first < first_right; };
+        while (i < j) {
+            while (i < j && goesLeft(i)) ++i;
+            while (i < j && !goesLeft(j)) --j;
+            if (i < j) std::swap(wanted[i++], wanted[j--]);
+        }
+        const std::size_t cut = i == j && goesLeft(i) ? i + 1 : i;
+        ASSERT_EQ(corners.partition(begin, end, first_right, keep_left, keep_right), cut);
+        for (std::size_t n = 0; n < count; ++n) {
+            if (n >= begin && n < end && !(n < cut ? keep_left : keep_right)) continue;
+            ASSERT_EQ(corners.entries[n], wanted[n].second);
+            ASSERT_EQ(corners.parts[n], wanted[n].first);
+        }
+    }
 }
 
 TEST(WeldOrder, PassesOverVerticesThatNoTriangleUses) {

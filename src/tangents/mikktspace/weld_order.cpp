@@ -15,8 +15,10 @@
 
 #include "core/float4.h"
 #include "core/vec_math.h"
+#include "tangents/mikktspace/cell_places.h"
 #include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/grouped_plan.h"
+#include "tangents/mikktspace/long_cell.h"
 #include "tangents/mikktspace/weld_cell.h"
 
 namespace tspace::mikk {
@@ -27,9 +29,8 @@ constexpr std::size_t kCells = kWeldCells;
 constexpr std::size_t kFewVertices = 512;          // so few are looked at without NearCells
 constexpr std::size_t kFewEntries = 4096;          // of the corner list: one node of theirs is found without lists
 constexpr std::size_t kElementsForThreads = 4096;  // of cells: fewer are done sooner than threads are started
-/// Marks of vertices in wanted cells: the cell's number, from 1, and whether their nodes are wanted. All
-/// cells that get none of their own share the last number.
-constexpr std::uint8_t kCellNumber = 0x7f, kAtNode = 0x80;
+constexpr std::size_t kLongCell = 16384;           // corners
+constexpr std::size_t kFewNodes = 1024;            // wanted; with more of them most parts of a long cell are
 
 /// The float-to-int conversion of x86: what does not fit becomes the smallest int, which lands in cell 0.
 std::size_t cellOf(float low, float high, float x) {
@@ -220,44 +221,72 @@ void WeldOrder::findSome(std::span<const std::uint32_t> vertices, std::uint32_t*
     const Marks in_cells = verticesInCells(numbers, wanted);
     const Buffer<std::uint32_t> found =
         collectTriangles(mesh_, triangles_, nodes_, in_cells, {}, allocator_, parallel_);
-    std::array<std::uint32_t, kCellNumber + 2> next = {};  // first how many, then where the next one is put
     withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
-        for (const std::uint32_t t : found) {
-            unsigned at_nodes = 0;
-            for (std::uint32_t i = 3 * t; i < 3 * t + 3; ++i) {
-                const std::uint8_t mark = in_cells[vertexOf(i)];
-                ++next[(mark & kCellNumber) + 1u];
-                at_nodes += mark / kAtNode;
-            }
-            if (at_nodes > 1 && shared != nullptr) shared->push(t);
+        Marks used;
+        if (3 * found.size() >= kLongCell && vertices.size() <= kFewNodes)
+            used = noMarks(allocator_, mesh_.vertexCount());
+        const CellPlaces places(found, vertexOf, in_cells, shared, used, allocator_, parallel_);
+        std::array<std::uint32_t, kCellNumber + 1> begin = {};  // where the elements of a cell begin
+        for (std::uint8_t cell = 1; cell < kCellNumber; ++cell) {
+            const bool is_long = places.count(cell) >= kLongCell && !used.empty();
+            if (is_long) followLong(cell, places, in_cells, used, vertices, representatives);
+            begin[cell + 1] = begin[cell] + (is_long ? 0 : places.count(cell));
         }
-        next[1] = 0;  // those in no wanted cell
-        Buffer<std::uint32_t> others(allocator_, next[kCellNumber + 1u]);
-        for (std::size_t cell = 1; cell < kCellNumber; ++cell) next[cell + 1] += next[cell];
-        Buffer<CellElement> elements(allocator_, next[kCellNumber]);
-        std::uint32_t other_count = 0;
-        for (const std::uint32_t t : found) {
-            for (std::uint32_t i = 3 * t; i < 3 * t + 3; ++i) {
-                const std::uint32_t vertex = vertexOf(i), mark = in_cells[vertex], cell = mark & kCellNumber;
-                if (cell == 0) continue;
-                if (cell == kCellNumber) {
-                    others[other_count++] = i;
-                } else {
-                    elements[next[cell]++] = {mesh_.positions[vertex], i | (mark >= kAtNode ? kMark : 0)};
-                }
-            }
-        }
-        // Now the elements of a cell end where it had been said that those of the next one begin.
-        const std::size_t grain = elements.size() < kElementsForThreads ? cell_count : 1;
-        parallel_.forRanges(cell_count, grain, [&](std::size_t first, std::size_t end) {
-            for (std::size_t cell = first; cell < end; ++cell) {
-                const std::uint32_t begin = cell == 0 ? 0 : next[cell];
-                if (begin < next[cell + 1])
-                    follow(elements.data() + begin, next[cell + 1] - begin, representatives, nullptr);
+        Buffer<CellElement> elements(allocator_, begin[kCellNumber]);
+        Buffer<std::uint32_t> others(allocator_, places.count(kCellNumber));
+        if (elements.empty() && others.empty()) return;
+        places.forAll([&](std::uint8_t cell, std::uint32_t place, std::uint32_t entry, std::uint32_t vertex) {
+            if (cell == kCellNumber) {
+                others[place] = entry;
+            } else if (begin[cell] != begin[cell + 1]) {
+                elements[begin[cell] + place] = elementOf(entry, vertex, in_cells);
             }
         });
-        if (other_count != 0) find(others, wanted, representatives, nullptr);
+        const std::size_t grain = elements.size() < kElementsForThreads ? cell_count : 1;
+        parallel_.forRanges(cell_count, grain, [&](std::size_t first, std::size_t end) {
+            for (std::size_t cell = first + 1; cell < end + 1; ++cell) {
+                if (begin[cell] < begin[cell + 1])
+                    follow(elements.data() + begin[cell], begin[cell + 1] - begin[cell], representatives, nullptr);
+            }
+        });
+        if (!others.empty()) find(others, wanted, representatives, nullptr);
     });
+}
+
+/// A cell with many corners. `vertices`: one of each wanted node.
+template <class Places>
+void WeldOrder::followLong(std::uint8_t cell, const Places& places, const Marks& in_cells, const Marks& used,
+                           std::span<const std::uint32_t> vertices, std::uint32_t* representatives) const {
+    const std::size_t vertex_count = mesh_.vertexCount();
+    Growing<Vec3> wanted(allocator_);
+    for (const std::uint32_t vertex : vertices) {
+        if ((in_cells[vertex] & kCellNumber) == cell) wanted.push(mesh_.positions[vertex]);
+    }
+    const auto isInCell = [&](std::size_t v) { return used[v] != 0 && (in_cells[v] & kCellNumber) == cell; };
+    const auto mayBe = [](std::size_t, std::size_t) { return true; };
+    const LongCell long_cell(mesh_.positions, collect(vertex_count, isInCell, mayBe, allocator_, parallel_),
+                             {wanted.begin(), wanted.size()}, vertex_count, allocator_, parallel_);
+    NumberedCorners corners(places.count(cell), allocator_);
+    places.forCell(cell, [&](std::uint32_t place, std::uint32_t entry, std::uint32_t vertex) {
+        const std::uint8_t part = long_cell.partOf(vertex);
+        if (part == LongCell::kOutside) return false;
+        corners.entries[place] = entry;
+        corners.parts[place] = part;
+        return true;
+    });
+    long_cell.order(corners, [&](std::size_t begin, std::size_t end) {
+        Buffer<CellElement> elements(allocator_, end - begin);
+        for (std::size_t n = begin; n < end; ++n) {
+            const std::uint32_t entry = corners.entries[n];
+            elements[n - begin] = elementOf(entry, mesh_.indices[triangles_.corner(entry)], in_cells);
+        }
+        follow(elements.data(), elements.size(), representatives, nullptr);
+    });
+}
+
+/// `in_cells`: marks of vertices.
+CellElement WeldOrder::elementOf(std::uint32_t entry, std::uint32_t vertex, const Marks& in_cells) const {
+    return {mesh_.positions[vertex], entry | (in_cells[vertex] >= kAtNode ? kMark : 0)};
 }
 
 /// The same for one node of a small mesh: looks at all entries in turn.

@@ -47,6 +47,10 @@ class WeldOrder {
     [[nodiscard]] std::size_t cellOf(std::uint32_t vertex) const;
     [[nodiscard]] Marks verticesInCells(const CellNumbers& numbers, const Marks& wanted) const;
     [[nodiscard]] CellElement elementOf(std::uint32_t entry, const Marks& wanted) const;
+    [[nodiscard]] CellElement elementOf(std::uint32_t entry, std::uint32_t vertex, const Marks& in_cells) const;
+    template <class Places>
+    void followLong(std::uint8_t cell, const Places& places, const Marks& in_cells, const Marks& used,
+                    std::span<const std::uint32_t> vertices, std::uint32_t* representatives) const;
     void follow(CellElement* elements, std::size_t count, std::uint32_t* representatives,
                 std::uint8_t* not_welded) const;
     void find(const Buffer<std::uint32_t>& entries, const Marks& wanted, std::uint32_t* representatives,
