@@ -15,7 +15,7 @@ namespace tspace::bench {
 namespace {
 
 Mesh gltfMesh(const std::string& path) {
-    const gltf::Document document = gltf::loadDocument(path, {});
+    gltf::Document document = gltf::loadDocument(path, {});
     gltf::checkRequiredExtensions(document);
     Mesh mesh;
     for (const gltf::Primitive& primitive : gltf::readPrimitives(document)) {
