@@ -117,7 +117,8 @@ class CellPlaces {
     template <class Body>
     void forCorners(std::size_t first, std::size_t end, const Body& body) const {
         for (std::size_t n = first; n < end; ++n) {
-            for (std::uint32_t i = 3 * found_[n]; i < 3 * found_[n] + 3; ++i) body(i, vertexOf_(i));
+            const std::uint32_t i = 3 * found_[n];
+            for (std::uint32_t k = 0; k < 3; ++k) body(i + k, vertexOf_(i + k));
         }
     }
 

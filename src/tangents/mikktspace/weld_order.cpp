@@ -39,6 +39,11 @@ std::size_t cellOf(float low, float high, float x) {
     return q < static_cast<float>(kCells) ? static_cast<std::size_t>(q) : kCells - 1;
 }
 
+/// `mark`: of its vertex.
+CellElement markedElement(const Vec3& position, std::uint32_t entry, std::uint8_t mark) {
+    return {position, entry | (mark >= kAtNode ? kMark : 0)};
+}
+
 /// What the reference computes: the box of the corner list but for its first entry, starting from corner 0 of
 /// the mesh.
 Box listedBox(const MeshView& mesh, const TriangleList& triangles) {
@@ -226,7 +231,8 @@ void WeldOrder::findSome(std::span<const std::uint32_t> vertices, std::uint32_t*
         if (3 * found.size() >= kLongCell && vertices.size() <= kFewNodes)
             used = noMarks(allocator_, mesh_.vertexCount());
         const CellPlaces places(found, vertexOf, in_cells, shared, used, allocator_, parallel_);
-        std::array<std::uint32_t, kCellNumber + 1> begin = {};  // where the elements of a cell begin
+        std::array<std::uint32_t, kCellNumber + 1> begin = {};       // where the elements of a cell begin
+        std::array<CellElement*, kCellNumber + 1> elements_of = {};  // null: not wanted, or done
         for (std::uint8_t cell = 1; cell < kCellNumber; ++cell) {
             const bool is_long = places.count(cell) >= kLongCell && !used.empty();
             if (is_long) followLong(cell, places, in_cells, used, vertices, representatives);
@@ -235,11 +241,14 @@ void WeldOrder::findSome(std::span<const std::uint32_t> vertices, std::uint32_t*
         Buffer<CellElement> elements(allocator_, begin[kCellNumber]);
         Buffer<std::uint32_t> others(allocator_, places.count(kCellNumber));
         if (elements.empty() && others.empty()) return;
+        for (std::size_t cell = 1; cell < kCellNumber; ++cell) {
+            if (begin[cell] < begin[cell + 1]) elements_of[cell] = elements.data() + begin[cell];
+        }
         places.forAll([&](std::uint8_t cell, std::uint32_t place, std::uint32_t entry, std::uint32_t vertex) {
-            if (cell == kCellNumber) {
+            if (CellElement* const to = elements_of[cell]) {
+                to[place] = markedElement(mesh_.positions[vertex], entry, in_cells[vertex]);
+            } else if (cell == kCellNumber) {
                 others[place] = entry;
-            } else if (begin[cell] != begin[cell + 1]) {
-                elements[begin[cell] + place] = elementOf(entry, vertex, in_cells);
             }
         });
         const std::size_t grain = elements.size() < kElementsForThreads ? cell_count : 1;
@@ -278,15 +287,11 @@ void WeldOrder::followLong(std::uint8_t cell, const Places& places, const Marks&
         Buffer<CellElement> elements(allocator_, end - begin);
         for (std::size_t n = begin; n < end; ++n) {
             const std::uint32_t entry = corners.entries[n];
-            elements[n - begin] = elementOf(entry, mesh_.indices[triangles_.corner(entry)], in_cells);
+            const std::uint32_t vertex = mesh_.indices[triangles_.corner(entry)];
+            elements[n - begin] = markedElement(mesh_.positions[vertex], entry, in_cells[vertex]);
         }
         follow(elements.data(), elements.size(), representatives, nullptr);
     });
-}
-
-/// `in_cells`: marks of vertices.
-CellElement WeldOrder::elementOf(std::uint32_t entry, std::uint32_t vertex, const Marks& in_cells) const {
-    return {mesh_.positions[vertex], entry | (in_cells[vertex] >= kAtNode ? kMark : 0)};
 }
 
 /// The same for one node of a small mesh: looks at all entries in turn.

@@ -47,7 +47,6 @@ class WeldOrder {
     [[nodiscard]] std::size_t cellOf(std::uint32_t vertex) const;
     [[nodiscard]] Marks verticesInCells(const CellNumbers& numbers, const Marks& wanted) const;
     [[nodiscard]] CellElement elementOf(std::uint32_t entry, const Marks& wanted) const;
-    [[nodiscard]] CellElement elementOf(std::uint32_t entry, std::uint32_t vertex, const Marks& in_cells) const;
     template <class Places>
     void followLong(std::uint8_t cell, const Places& places, const Marks& in_cells, const Marks& used,
                     std::span<const std::uint32_t> vertices, std::uint32_t* representatives) const;
