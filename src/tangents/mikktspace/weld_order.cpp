@@ -29,8 +29,9 @@ constexpr std::size_t kCells = kWeldCells;
 constexpr std::size_t kFewVertices = 512;          // so few are looked at without NearCells
 constexpr std::size_t kFewEntries = 4096;          // of the corner list: one node of theirs is found without lists
 constexpr std::size_t kElementsForThreads = 4096;  // of cells: fewer are done sooner than threads are started
-constexpr std::size_t kLongCell = 16384;           // corners
-constexpr std::size_t kFewNodes = 1024;            // wanted; with more of them most parts of a long cell are
+constexpr std::size_t kLongCell = 16384;           // corners: and
+constexpr std::size_t kLongPart = 16;    // one in so many of all corners, since each such cell is a pass over the mesh
+constexpr std::size_t kFewNodes = 1024;  // wanted; with more of them most parts of a long cell are
 
 /// The float-to-int conversion of x86: what does not fit becomes the smallest int, which lands in cell 0.
 std::size_t cellOf(float low, float high, float x) {
@@ -39,9 +40,8 @@ std::size_t cellOf(float low, float high, float x) {
     return q < static_cast<float>(kCells) ? static_cast<std::size_t>(q) : kCells - 1;
 }
 
-/// `mark`: of its vertex.
-CellElement markedElement(const Vec3& position, std::uint32_t entry, std::uint8_t mark) {
-    return {position, entry | (mark >= kAtNode ? kMark : 0)};
+CellElement makeElement(const Vec3& position, std::uint32_t entry, bool is_wanted) {
+    return {position, entry | (is_wanted ? kMark : 0)};
 }
 
 /// What the reference computes: the box of the corner list but for its first entry, starting from corner 0 of
@@ -227,14 +227,15 @@ void WeldOrder::findSome(std::span<const std::uint32_t> vertices, std::uint32_t*
     const Buffer<std::uint32_t> found =
         collectTriangles(mesh_, triangles_, nodes_, in_cells, {}, allocator_, parallel_);
     withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
+        const std::size_t long_part = 3 * triangles_.count / kLongPart;
         Marks used;
-        if (3 * found.size() >= kLongCell && vertices.size() <= kFewNodes)
+        if (3 * found.size() >= std::max(kLongCell, long_part) && vertices.size() <= kFewNodes)
             used = noMarks(allocator_, mesh_.vertexCount());
         const CellPlaces places(found, vertexOf, in_cells, shared, used, allocator_, parallel_);
         std::array<std::uint32_t, kCellNumber + 1> begin = {};       // where the elements of a cell begin
         std::array<CellElement*, kCellNumber + 1> elements_of = {};  // null: not wanted, or done
         for (std::uint8_t cell = 1; cell < kCellNumber; ++cell) {
-            const bool is_long = places.count(cell) >= kLongCell && !used.empty();
+            const bool is_long = !used.empty() && places.count(cell) >= std::max(kLongCell, long_part);
             if (is_long) followLong(cell, places, in_cells, used, vertices, representatives);
             begin[cell + 1] = begin[cell] + (is_long ? 0 : places.count(cell));
         }
@@ -246,7 +247,7 @@ void WeldOrder::findSome(std::span<const std::uint32_t> vertices, std::uint32_t*
         }
         places.forAll([&](std::uint8_t cell, std::uint32_t place, std::uint32_t entry, std::uint32_t vertex) {
             if (CellElement* const to = elements_of[cell]) {
-                to[place] = markedElement(mesh_.positions[vertex], entry, in_cells[vertex]);
+                to[place] = makeElement(mesh_.positions[vertex], entry, in_cells[vertex] >= kAtNode);
             } else if (cell == kCellNumber) {
                 others[place] = entry;
             }
@@ -288,7 +289,7 @@ void WeldOrder::followLong(std::uint8_t cell, const Places& places, const Marks&
         for (std::size_t n = begin; n < end; ++n) {
             const std::uint32_t entry = corners.entries[n];
             const std::uint32_t vertex = mesh_.indices[triangles_.corner(entry)];
-            elements[n - begin] = markedElement(mesh_.positions[vertex], entry, in_cells[vertex]);
+            elements[n - begin] = makeElement(mesh_.positions[vertex], entry, in_cells[vertex] >= kAtNode);
         }
         follow(elements.data(), elements.size(), representatives, nullptr);
     });
@@ -311,7 +312,7 @@ void WeldOrder::findOne(std::uint32_t vertex, std::uint32_t* representatives) co
         for (std::size_t i = 0; i < 3 * triangles_.count; ++i) {
             const std::uint32_t v = vertexOf(i), mark = in_cell[v];
             if (mark == 0) continue;
-            elements[count++] = {mesh_.positions[v], static_cast<std::uint32_t>(i) | (mark == 2 ? kMark : 0)};
+            elements[count++] = makeElement(mesh_.positions[v], static_cast<std::uint32_t>(i), mark == 2);
         }
     });
     follow(elements.data(), count, representatives, nullptr);
@@ -334,7 +335,7 @@ void WeldOrder::follow(CellElement* elements, std::size_t count, std::uint32_t* 
 CellElement WeldOrder::elementOf(std::uint32_t entry, const Marks& wanted) const {
     const std::uint32_t corner = triangles_.corner(entry);
     const bool want = wanted.empty() || wanted[nodes_.of(mesh_, corner)] != 0;
-    return {mesh_.positions[mesh_.indices[corner]], entry | (want ? kMark : 0)};
+    return makeElement(mesh_.positions[mesh_.indices[corner]], entry, want);
 }
 
 void WeldOrder::findAll(std::uint32_t* representatives, std::uint8_t* not_welded) const {
