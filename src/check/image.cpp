@@ -125,7 +125,7 @@ std::optional<RgbImage> decodeImage(std::span<const std::uint8_t> bytes, std::ui
     why = "it is a broken JPEG";
     if (!readJpegSize(bytes, width, height)) return {};
     if (isTooLarge(std::uint64_t{width} * height, bytes.size(), most_pixels, why)) return {};
-    return decodeJpeg(bytes);
+    return decodeJpeg(bytes, width, height);
 #else
     (void)most_pixels;
     why = "tspace was built without decoders for images";

@@ -24,7 +24,7 @@ std::uint64_t imageWorkBytes(std::span<const std::uint8_t> bytes);
 std::optional<RgbImage> decodeImage(std::span<const std::uint8_t> bytes, std::uint64_t most_pixels, std::string& why);
 
 /// The same for bytes that are known to be a JPEG of that size. No image: broken.
-std::optional<RgbImage> decodeJpeg(std::span<const std::uint8_t> bytes);
+std::optional<RgbImage> decodeJpeg(std::span<const std::uint8_t> bytes, std::uint32_t width, std::uint32_t height);
 /// Width and height of a JPEG; false: broken.
 bool readJpegSize(std::span<const std::uint8_t> bytes, std::uint32_t& width, std::uint32_t& height);
 

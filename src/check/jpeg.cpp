@@ -15,35 +15,30 @@ struct Destroy {
 };
 using Decompressor = std::unique_ptr<void, Destroy>;
 
-bool readSize(const Decompressor& decompressor, std::span<const std::uint8_t> bytes, int& width, int& height) {
-    int subsampling = 0, color_space = 0;
-    return decompressor &&
-           tjDecompressHeader3(decompressor.get(), bytes.data(), bytes.size(), &width, &height, &subsampling,
-                               &color_space) == 0 &&
-           width > 0 && height > 0;
-}
-
 }  // namespace
 
 bool readJpegSize(std::span<const std::uint8_t> bytes, std::uint32_t& width, std::uint32_t& height) {
-    int x = 0, y = 0;
-    if (!readSize(Decompressor(tjInitDecompress()), bytes, x, y)) return false;
+    const Decompressor decompressor(tjInitDecompress());
+    int x = 0, y = 0, subsampling = 0, color_space = 0;
+    if (!decompressor ||
+        tjDecompressHeader3(decompressor.get(), bytes.data(), bytes.size(), &x, &y, &subsampling, &color_space) != 0 ||
+        x <= 0 || y <= 0) {
+        return false;
+    }
     width = static_cast<std::uint32_t>(x);
     height = static_cast<std::uint32_t>(y);
     return true;
 }
 
-std::optional<RgbImage> decodeJpeg(std::span<const std::uint8_t> bytes) {
+std::optional<RgbImage> decodeJpeg(std::span<const std::uint8_t> bytes, std::uint32_t width, std::uint32_t height) {
     // A progressive file may claim thousands of scans over all pixels. Where data are cut short the library would go on
     // with grey.
     constexpr int kFlags = TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS | TJFLAG_STOPONWARNING;
     const Decompressor decompressor(tjInitDecompress());
-    int width = 0, height = 0;
-    if (!readSize(decompressor, bytes, width, height)) return {};
-    RgbImage image{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
-    image.rgb.resize(std::size_t{3} * image.width * image.height);
-    if (tjDecompress2(decompressor.get(), bytes.data(), bytes.size(), image.rgb.data(), width, 0, height, TJPF_RGB,
-                      kFlags) != 0) {
+    if (!decompressor) return {};
+    RgbImage image{width, height, std::vector<std::uint8_t>(std::size_t{3} * width * height)};
+    if (tjDecompress2(decompressor.get(), bytes.data(), bytes.size(), image.rgb.data(), static_cast<int>(width), 0,
+                      static_cast<int>(height), TJPF_RGB, kFlags) != 0) {
         return {};
     }
     return image;
