@@ -29,8 +29,8 @@ constexpr std::size_t kCells = kWeldCells;
 constexpr std::size_t kFewVertices = 512;          // so few are looked at without NearCells
 constexpr std::size_t kFewEntries = 4096;          // of the corner list: one node of theirs is found without lists
 constexpr std::size_t kElementsForThreads = 4096;  // of cells: fewer are done sooner than threads are started
-constexpr std::size_t kLongCell = 16384;           // corners: and
-constexpr std::size_t kLongPart = 16;    // one in so many of all corners, since each such cell is a pass over the mesh
+// A cell is long from so many corners on, if it also has one in kLongPart of all: each costs a pass over the mesh.
+constexpr std::size_t kLongCell = 16384, kLongPart = 16;
 constexpr std::size_t kFewNodes = 1024;  // wanted; with more of them most parts of a long cell are
 
 /// The float-to-int conversion of x86: what does not fit becomes the smallest int, which lands in cell 0.
