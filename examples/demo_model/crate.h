@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The crate: a rounded cube whose left half mirrors the right one's texture. What its mesh and its textures
-// agree on.
+// The crate: a rounded cube whose left half mirrors the right one's texture. What its mesh and its textures agree on.
 //
 // Layout of the texture (u right, v down), in units of the cube's edge; one edge is half of the texture:
 //
 //     0    0.25   0.5          1
 //     +-----+-----+-----------+
-//     | top |under|           |     top, front, under, back: half a side each. u is the distance from the
-//     plane |     |     |   right   |     x = 0, so the halves x > 0 and x < 0 share it, the second one
-//     mirrored.
+//     | top |under|           |     top, front, under, back: half a side each. u is the distance from the plane
+//     |     |     |   right   |     x = 0, so the halves x > 0 and x < 0 share it, the second one mirrored.
 //     +-----+-----+-----------+     top runs on into front, under into back; right and left stand alone.
 //     |front| back|           |
 //     |     |     |   left    |
@@ -24,8 +22,7 @@ namespace crate {
 inline constexpr double kHalfEdge = 0.5;
 /// Radius of the rounded edges, in metres.
 inline constexpr double kBevelRadius = 0.08;
-/// Length of the bevel's cross section from a flat side to the middle of the edge: an eighth of a circle,
-/// pi/4 * r.
+/// Length of the bevel's cross section from a flat side to the middle of the edge: an eighth of a circle, pi/4 * r.
 inline constexpr double kBevelArc = 0.78539816339744831 * kBevelRadius;
 /// Half of a side unrolled: the flat part and the bevel up to its middle.
 inline constexpr double kHalfUnrolled = kHalfEdge - kBevelRadius + kBevelArc;

@@ -89,8 +89,7 @@ void addStrip(Mesh& mesh, const std::vector<Axes>& sides) {
 }  // namespace
 
 Mesh makeMesh() {
-    // Space: x right, y up, z to the viewer. down = right x out, so that u, -v, out are right-handed for x >
-    // 0.
+    // Space: x right, y up, z to the viewer. down = right x out, so that u, -v, out are right-handed for x > 0.
     constexpr Vec x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, left{-1, 0, 0}, down{0, -1, 0}, away{0, 0, -1};
     Mesh mesh;
     addStrip(mesh, {{Side::top, y, x, z}, {Side::front, z, x, down}});

@@ -28,15 +28,12 @@ enum class Method : std::uint32_t {
     /// No UVs: an orthonormal basis from N alone (Duff et al. 2017). No such basis is continuous over a closed surface.
     basis = 6,
     /// Two weighted sums of dP/du in the groups of `angle`: one that is accurate on smooth surfaces (Max 1999), one
-    /// that
-    /// is robust on bevels and noise, mixed by the angle between them. More accurate than all weighted means, and
-    /// hardly
-    /// dearer than `uniform`.
+    /// that is robust on bevels and noise, mixed by the angle between them. More accurate than all weighted means,
+    /// and hardly dearer than `uniform`.
     fast = 7,
     /// A quadratic map from UVs to the tangent plane, fitted to the edges around each vertex (polynomial preserving
     /// recovery, Zhang and Naga 2005), in the groups of `angle`; where the fit is doubtful it becomes a robust mean.
-    /// The
-    /// error of its tangents falls with the square of the edge length, not with the length as that of all others.
+    /// The error of its tangents falls with the square of the edge length, not with the length as that of all others.
     best = 8,
 };
 
@@ -68,8 +65,7 @@ enum class FrameShape : std::uint32_t {
     /// T is the direction of dP/du, and the shader's `sign * cross(N, T)` is off from dP/dv by the shear.
     gramSchmidt = 0,
     /// T is the bisector of dP/du and of the direction perpendicular to dP/dv (Löwdin 1950): both are off by half of
-    /// the
-    /// shear. Nearer to what the UVs say, but not what a baker or an engine with another tangent space expects.
+    /// the shear. Nearer to what the UVs say, but not what a baker or an engine with another tangent space expects.
     symmetric = 1,
 };
 

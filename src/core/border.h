@@ -28,8 +28,8 @@ auto atBorder(Body&& body) -> std::invoke_result_t<Body> {
     }
 }
 
-/// Checks pointer, stride, alignment and length of one span. `name` is how messages call it. With `count` ==
-/// kNoElement any length is right. Returns an Error with code ok when all is well.
+/// Checks pointer, stride, alignment and length of one span. `name` is how messages call it. With
+/// `count` == kNoElement any length is right. Returns an Error with code ok when all is well.
 Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, std::size_t element_bytes,
                 std::size_t expected_count, const char* name);
 

@@ -14,8 +14,7 @@ namespace tspace {
 ///
 /// corners           three vertices per triangle, each smaller than positions.size()
 /// uvs               one per vertex, or empty: then only degenerate_triangle_count is filled
-/// v_runs_down       v = 0 is the top row of the image (glTF): an ordinary map then has negative area in (u,
-/// v)
+/// v_runs_down       v = 0 is the top row of the image (glTF): an ordinary map then has negative area in (u, v)
 ///
 /// Two triangles belong to one island when they share an edge whose ends are equal in position and in UV,
 /// however the vertices are indexed. An island is mirrored when the sum of its signed areas is negative with

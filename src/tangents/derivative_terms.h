@@ -36,8 +36,8 @@ struct SumArrays {
 
 /// The functions for one CPU.
 struct DerivativeKernel {
-    /// `vertices`: three per triangle, and valid ones up to the end of the last group. count <=
-    /// kTermTriangles.
+    /// `vertices`: three per triangle, and valid ones up to the end of the last group.
+    /// count <= kTermTriangles.
     void (*compute)(const TriangleSource& source, const std::uint32_t* vertices, std::size_t count,
                     DerivativeTerms& terms);
     /// Adds the rows of triangles `begin` to before `end` to the sums of their vertices.

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The method `best`: around each vertex the surface is taken as a quadratic map of the UVs, P = P0 + J d +
-// H(d, d) / 2, and fitted to the edges that leave the vertex; J has dP/du and dP/dv. The fit doubts itself:
+// The method `best`: around each vertex the surface is taken as a quadratic map of the UVs,
+//   P = P0 + J d + H(d, d) / 2,
+// and fitted to the edges that leave the vertex; J has dP/du and dP/dv. The fit doubts itself:
 // the larger, or the less able to explain the edges, its quadratic part is, the more that part is held down
 // (a ridge), and the more a plain robust mean of the triangles' tangents is mixed in.
 //
-// For both edges of each corner, with d = (u, v) and e the differences in UVs and in space, and N the normals
-// of length 1:
-//   p = e across N,  l = p |e|/|p| (1 + c^2/24),  c = (N' - N).e/|e|     the edge as an arc, laid into the
-//   tangent plane w = sqrt(A) / |e|^2,  f = (u^2/2, u v, v^2/2) M += w d d^T,  C += w d f^T,  Q += w f f^T,
-//   R += w d l^T,  P += w f l^T,  L += w l.l b += g/|g| A^2 / (|e1|^2 + |e2|^2 + |e3|^2)^(3/4) g: dP/du, or
-//   dP/dv, of the triangle
+// For both edges of each corner, with d = (u, v) and e the differences in UVs and in space, N and N' the normals
+// of its two ends, of length 1, and A the area of the triangle:
+//   p = e across N,  l = p |e|/|p| (1 + c^2/24),  c = (N' - N).e/|e|
+//                                            l: the edge as an arc, laid into the tangent plane
+//   w = sqrt(A) / |e|^2,  f = (u^2/2, u v, v^2/2)
+//   M += w d d^T,  C += w d f^T,  Q += w f f^T,  R += w d l^T,  P += w f l^T,  L += w l.l
+//   b += g/|g| A^2 / (|e1|^2 + |e2|^2 + |e3|^2)^(3/4)
+//                                            g: dP/du, or dP/dv, of the triangle
 // Then per group, with UVs scaled so that M has ones on its diagonal:
 //   q(k) = (Q - C^T M^-1 C + k D)^-1 (P - C^T M^-1 R),  J(k) = M^-1 (R - C q(k)),  D = 0.3 trace(Q) diag(1, 2, 1)
 //   from k0 = 0.0003:  bend = (energy of the quadratic part) / (energy of the linear part)
@@ -44,8 +47,8 @@ constexpr float kRoundingShare = 1e-9f;
 constexpr float kLongestArc = 2.0f;  // an edge that climbs more than 60 degrees from the tangent plane is no arc in it
 // The ridge weighs the second derivatives as their Frobenius norm does: uu, uv, vv as 1, 2, 1. This is the share of
 // trace(Q) that Q's entries for uu and vv have where edges point everywhere. Q's own diagonal will not do: where four
-// edges make a cross, which leaves the part uv open, it hardly holds that part, and u^2 v^2 then explains what it must
-// not.
+// edges make a cross, which leaves the part uv open, it hardly holds that part, and u^2 v^2 then explains what
+// it must not.
 constexpr float kRidgeShare = 0.3f;
 constexpr float kSmallestDeterminant = 1e-6f;
 

@@ -36,12 +36,10 @@ inline constexpr std::size_t kTermCorners = 3 * kTermTriangles;
 /// in the plane across the normal, W the sum of all weights, w the smallest and S the sum of all weighted
 /// tangents:
 ///
-/// 1. Were two tangents a right angle or more apart, |S| <= W - (2 - sqrt(2)) w. So |S| > W - 0.4 w (see
-/// node_sums.h)
-///    shows that all are less than a right angle apart; by that margin, less than 74 degrees.
+/// 1. Were two tangents a right angle or more apart, |S| <= W - (2 - sqrt(2)) w. So |S| > W - 0.4 w
+///    (see node_sums.h) shows that all are less than a right angle apart; by that margin, less than 74 degrees.
 /// 2. A bitangent that turns left (right) lies on that side of its tangent, 45 to 135 degrees from it. If all
-/// turn to
-///    one side, then no two are further apart than 74 + 90 degrees.
+///    turn to one side, then no two are further apart than 74 + 90 degrees.
 ///
 /// Normals need a length near 1 for this (node_sums.h), and tangents must not be so close to the normal that
 /// what is left of them is mostly error: kSmallestSquare. A NaN sets no mark.

@@ -3,12 +3,10 @@
 //
 // node        a welded vertex: all corners with equal position, normal and UV (see weld.h)
 // triangle    after cutting faces, and unless said otherwise only the good ones: those without two corners at
-// one
-//             position, numbered in face order
+//             one position, numbered in face order
 // tricorner   3 * triangle + k: corner k of a triangle, and also the half-edge from corner k to corner k+1
 // slot        the corner of the mesh that a tricorner's result belongs to; the two corners at a quad's
-// diagonal are
-//             slots of two tricorners each
+//             diagonal are slots of two tricorners each
 //
 // The reference names these "tri info", "group" and "tangent space"; its results are described in terms of
 // faces and recursion. Here every node is worked on alone: see pairing.h for why that gives the same result.
