@@ -2,6 +2,9 @@
 // What the tool says about itself, and what it says to a wrong command line.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+#include <sstream>
 #include <vector>
 
 #include "tool/run_tool.h"
@@ -73,16 +76,135 @@ TEST(Usage, AnOutputIsAskedForInWords) {
 }
 
 TEST(Usage, ACommandThatDoesNotExistIsNamed) {
-    for (const std::string name : {"help", "chek", "a.glb"}) {
+    for (const std::string name : {"a.glb", "bake", "x"}) {
         EXPECT_EQ(runTool(TempFolder(), name).err, "tspace: there is no command '" + name + "' (see tspace --help)\n");
     }
 }
 
+TEST(Usage, AMistypedWordIsAnsweredWithTheOneThatIsNear) {
+    struct Case {
+        const char* arguments;
+        const char* meant;
+    };
+    const std::vector<Case> cases = {
+        {"chek", "'check'"},
+        {"ispect a.glb", "'inspect'"},
+        {"identfy", "'identify'"},
+        {"generaet", "'generate'"},
+        {"help gnerate", "'generate'"},
+        {"--verison", "'--version'"},
+        {"generate a.obj -o out.glb --overwrit", "'--overwrite'"},
+        {"generate a.obj -o out.glb --al", "'--all'"},
+        {"generate a.obj -o out.glb --texture", "'--texture-transform'"},
+        {"generate a.obj -o out.glb --methd lengyel", "'--method'"},
+        {"generate a.obj -o out.glb --method mikktspce", "'mikktspace'"},
+        {"generate a.obj --outptu=out.glb", "'--output'"},
+        {"inspect a.obj -json", "'--json'"},
+        {"check a.obj --fail-on warn", "'warning'"},
+    };
+    for (const Case& wrong : cases) {
+        const ToolRun run = runTool(TempFolder(), wrong.arguments);
+        EXPECT_EQ(run.exit_code, 2) << wrong.arguments;
+        EXPECT_EQ(run.errorLines(), 1) << run.err;
+        EXPECT_NE(run.err.find(std::string("did you mean ") + wrong.meant), std::string::npos) << run.err;
+    }
+    for (const char* far : {"a.glb", "check a.obj -z", "check a.obj --no-such-option", "help x"}) {
+        EXPECT_EQ(runTool(TempFolder(), far).err.find("did you mean"), std::string::npos) << far;
+    }
+}
+
+TEST(Usage, ValuesMayStandInEveryUsualPlace) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    for (const char* spelling : {"-o out.glb", "-oout.glb", "--output out.glb", "--output=out.glb", "-qo out.glb",
+                                 "-q -q -o out.glb", "--threads=1 -o out.glb"}) {
+        std::filesystem::remove(folder.path() / "out.glb");
+        const ToolRun run = runTool(folder, std::string("generate a.obj ") + spelling);
+        EXPECT_EQ(run.exit_code, 0) << spelling << "\n" << run.err;
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / "out.glb")) << spelling;
+    }
+    writeFoldedObj(folder, "-a.obj");
+    EXPECT_EQ(runTool(folder, "inspect -- -a.obj").exit_code, 0);
+    EXPECT_EQ(runTool(folder, "inspect ./-a.obj").exit_code, 0);
+}
+
+TEST(Usage, AWrongLineSaysWhatIsWrongWithIt) {
+    struct Case {
+        const char* arguments;
+        const char* says;
+    };
+    const std::vector<Case> cases = {
+        {"", "a command is missing"},
+        {"--json check a.obj", "a command comes first"},
+        {"inspect", "IN... is missing"},
+        {"diff a.obj", "B is missing"},
+        {"diff a.obj b.obj c.obj", "'c.obj' is one too many"},
+        {"inspect a.obj --jobs", "--jobs needs a value: N"},
+        {"generate a.obj -o --all", "--output needs a value: OUT"},
+        {"inspect a.obj --json=yes", "--json takes no value"},
+        {"inspect a.obj --jobs 1 --jobs 2", "--jobs is given twice"},
+        {"inspect a.obj --jobs 1025", "--jobs 1025: must be a whole number from 0 to 1024"},
+        {"generate a.obj -o b.glb --resume", "--resume needs --manifest"},
+        {"generate a.obj -o b.glb --all --strip", "--strip and --all exclude each other"},
+        {"generate a.obj -o b.glb --crease 1e3", "--crease 1e3: must be a number of degrees from 0 to 180"},
+    };
+    for (const Case& wrong : cases) {
+        const ToolRun run = runTool(TempFolder(), wrong.arguments);
+        EXPECT_EQ(run.exit_code, 2) << wrong.arguments;
+        EXPECT_NE(run.err.find(wrong.says), std::string::npos) << wrong.arguments << "\n" << run.err;
+    }
+}
+
 TEST(Usage, VersionIsPrinted) {
-    const ToolRun run = runTool(TempFolder(), "--version");
-    EXPECT_EQ(run.exit_code, 0);
-    EXPECT_EQ(run.out.rfind("tspace ", 0), 0U);
-    EXPECT_EQ(run.err, "");
+    for (const char* name : {"--version", "-V"}) {
+        const ToolRun run = runTool(TempFolder(), name);
+        EXPECT_EQ(run.exit_code, 0);
+        EXPECT_EQ(run.out.rfind("tspace ", 0), 0U);
+        EXPECT_EQ(run.err, "");
+    }
+}
+
+TEST(Usage, TheHelpCommandPrintsWhatTheHelpOptionPrints) {
+    const TempFolder folder;
+    EXPECT_EQ(runTool(folder, "help").out, runTool(folder, "--help").out);
+    EXPECT_EQ(runTool(folder, "-h").out, runTool(folder, "--help").out);
+    for (const std::string command : {"generate", "inspect", "check", "diff", "identify", "help"}) {
+        const ToolRun run = runTool(folder, "help " + command);
+        EXPECT_EQ(run.exit_code, 0);
+        EXPECT_EQ(run.out.rfind("tspace " + command + " - ", 0), 0U) << run.out;
+        EXPECT_EQ(run.out, runTool(folder, command + " --help").out);
+        EXPECT_EQ(run.out, runTool(folder, command + " --no-such-option -h").out);
+    }
+    EXPECT_EQ(runTool(folder, "help nonsense").exit_code, 2);
+}
+
+/// The options that the help of a command names, without their values.
+std::set<std::string> optionsInHelp(const std::string& command) {
+    std::set<std::string> names;
+    std::istringstream lines(runTool(TempFolder(), command + " --help").out);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t begin = line.find("--");
+        if (line.rfind("  -", 0) == 0 && begin != std::string::npos)
+            names.insert(line.substr(begin, line.find(' ', begin) - begin));
+    }
+    return names;
+}
+
+TEST(Usage, TheDocumentationNamesEveryOption) {
+    std::string pages;
+    for (const char* page : {"tool.md", "batch.md", "check.md", "diff.md", "identify.md"}) {
+        std::ifstream file(std::filesystem::path(TSPACE_DOCS_DIR) / page);
+        ASSERT_TRUE(file) << page;
+        pages.append(std::istreambuf_iterator<char>(file), {});
+    }
+    std::size_t count = 0;
+    for (const std::string command : {"generate", "inspect", "check", "diff", "identify"}) {
+        for (const std::string& option : optionsInHelp(command)) {
+            ++count;
+            EXPECT_NE(pages.find("`" + option), std::string::npos) << command << " " << option;
+        }
+    }
+    EXPECT_GT(count, 50U);
 }
 
 TEST(Usage, HelpNamesCommandsAndExitCodes) {

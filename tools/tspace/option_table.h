@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// The table of commands and options: one description of each, from which the command line is read (parse.h), and --help
+// (help.h), man pages and completions (pages/) are made.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tspace::tool {
+
+/// What takes a value: stores it, and returns what is wrong with it ("must be ..."), or nothing.
+using Take = std::function<std::string(const std::string& value)>;
+
+/// An option, or an operand (what stands on the command line without a name, such as input files).
+struct Option {
+    std::vector<std::string> names = {};    ///< {"-o", "--output"}; none: an operand
+    std::string value = {};                 ///< what stands for the value in help, "DEG"; empty: a flag
+    std::string help = {};                  ///< a sentence or more
+    std::string default_text = {};          ///< printed behind the help; empty: the help says it, or there is none
+    std::string group = {};                 ///< its heading in help
+    std::vector<std::string> choices = {};  ///< the values that it may have; empty: any that `take` takes
+    bool is_file = false;                   ///< the value is a path, for completions
+    bool is_required = false;
+    bool is_repeatable = false;
+    bool is_list = false;                    ///< the value is a list of choices with commas between them
+    std::vector<std::string> excludes = {};  ///< options that it cannot be given with
+    std::string needs = {};                  ///< an option that it cannot be given without
+    Take take = {};
+
+    /// The name that stands in messages: the last, which is the long one; that of an operand is its value's.
+    [[nodiscard]] const std::string& name() const { return names.empty() ? value : names.back(); }
+};
+
+/// What a command line gave: options in its order, with their values (empty for flags).
+struct Given {
+    struct Item {
+        const Option* option = nullptr;
+        std::string value = {};
+    };
+    std::vector<Item> items = {};
+
+    /// `name` as in Option::name.
+    [[nodiscard]] bool has(const std::string& name) const;
+};
+
+struct Command {
+    std::string name = {};
+    std::string summary = {};                ///< "add the tangents that normal maps need"
+    std::string operands = {};               ///< "IN... -o OUT", for the usage line
+    std::string description = {};            ///< a paragraph
+    std::vector<std::string> examples = {};  ///< whole command lines
+    std::vector<Option> options = {};
+    /// Called when everything is taken. Returns what makes no sense together, or nothing.
+    std::function<std::string(const Given& given)> finish = {};
+
+    Option& add(const char* group, Option option);
+};
+
+/// What stands in `tspace --help` in place of a description.
+inline constexpr const char* kToolSummary = "exact tangent frames for the normal maps of 3D models";
+
+/// The whole tool.
+struct ToolTable {
+    std::vector<Command> commands = {};
+    std::vector<Option> options = {};  ///< those in the place of a command: --help, --version
+};
+
+/// A name on the command line and what it stands for.
+template <class Value>
+struct Named {
+    const char* name;
+    Value value;
+};
+
+/// `names` as they stand in help: "-q, --quiet"; empty for an operand. Without a `value_name` it is a flag.
+Option option(const char* names, const char* value_name, Take take, std::string help);
+/// A file, or several where `target` is a list.
+Option operand(const char* value_name, std::string& target, std::string help);
+Option operand(const char* value_name, std::vector<std::string>& target, std::string help);
+
+/// Sets `target` to `value`.
+template <class Value>
+Option setting(const char* names, Value& target, Value value, std::string help) {
+    const auto take = [&target, value](const std::string&) {
+        target = value;
+        return std::string();
+    };
+    return option(names, "", take, std::move(help));
+}
+inline Option flag(const char* names, bool& target, std::string help) {
+    return setting(names, target, true, std::move(help));
+}
+
+Option numberOption(const char* names, std::uint64_t default_value, unsigned most,
+                    std::function<void(std::uint64_t)> store, std::string help);
+Option degreesOption(const char* names, double default_value, int most, std::function<void(double)> store,
+                     std::string help);
+
+Option text(const char* names, const char* value_name, std::string& target, std::string help);
+/// A whole number from 0 to `most`. The default is what `target` holds.
+template <class Unsigned>
+Option number(const char* names, Unsigned& target, unsigned most, std::string help) {
+    const auto store = [&target](std::uint64_t given) { target = static_cast<Unsigned>(given); };
+    return numberOption(names, target, most, store, std::move(help));
+}
+/// A number of degrees from 0 to `most`. The default is what `target` holds.
+template <class Float>
+Option degrees(const char* names, Float& target, int most, std::string help) {
+    const auto store = [&target](double given) { target = static_cast<Float>(given); };
+    return degreesOption(names, static_cast<double>(target), most, store, std::move(help));
+}
+
+/// One of the names of a table. The default is the name of what `target` holds.
+template <class Value, std::size_t count>
+Option choice(const char* names, const char* value_name, const Named<Value> (&table)[count], Value& target,
+              std::string help) {
+    const auto take = [&target, &table](const std::string& name) {
+        for (const Named<Value>& entry : table) {
+            if (name == entry.name) target = entry.value;
+        }
+        return std::string();
+    };
+    Option chosen = option(names, value_name, take, std::move(help));
+    for (const Named<Value>& entry : table) {
+        chosen.choices.emplace_back(entry.name);
+        if (entry.value == target && chosen.default_text.empty()) chosen.default_text = entry.name;
+    }
+    return chosen;
+}
+
+/// The whole text as a whole number. false: it is none, or too large.
+bool parseNumber(const std::string& text, std::uint64_t& number);
+
+}  // namespace tspace::tool

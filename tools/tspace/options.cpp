@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// The options of the commands that only read; those of generate have a file of their own.
+#include "options.h"
+
+#include "common_options.h"
+
+namespace tspace::tool {
+namespace {
+
+constexpr Named<Severity> kSeverities[] = {
+    {"note", Severity::note},
+    {"warning", Severity::warning},
+    {"error", Severity::error},
+};
+
+Command helpCommand(std::string& topic, const std::vector<Command>& others) {
+    Command command{
+        .name = "help",
+        .summary = "print what a command does, and its options",
+        .operands = "[COMMAND]",
+        .description = "Prints the page of a command, as its --help does; without one, the list of commands.",
+        .examples = {"tspace help", "tspace help generate"},
+    };
+    Option about = text("", "COMMAND", topic, "The command that the page is about.");
+    for (const Command& other : others) about.choices.push_back(other.name);
+    about.choices.push_back(command.name);
+    command.add("Input and output", about);
+    command.add("Reporting", helpOption());
+    return command;
+}
+
+}  // namespace
+
+Command inspectCommand(InspectArguments& arguments) {
+    Command command{
+        .name = "inspect",
+        .summary = "say what is in model files",
+        .operands = "IN...",
+        .description =
+            "Per primitive: triangles, vertices, attributes, UV sets, material, whether it needs tangents and why, "
+            "triangles without UV area, and islands of the UV map that are mirrored. Changes nothing.",
+        .examples = {"tspace inspect helmet.glb", "tspace inspect --json models/ > models.json"},
+    };
+    addInputs(command, arguments.inputs);
+    addAllowExternal(command, arguments.file);
+    addMemoryLimit(command, arguments.file);
+    addBatch(command, arguments.batch, false);
+    addReporting(command, arguments.json, arguments.quiet);
+    return command;
+}
+
+Command checkCommand(CheckArguments& arguments) {
+    Command command{
+        .name = "check",
+        .summary = "find what is wrong with normals, tangents and UVs",
+        .operands = "IN...",
+        .description =
+            "Compares tangents with the UVs that the material's textures are read with: signs, directions, seams, UV "
+            "sets, texture transforms; also values that are not finite or not unit, normals, morph targets, and normal "
+            "maps whose green points down. Every finding says how to mend it. An error surely renders wrong; a warning "
+            "renders wrong in some renderers, in a small part, or only perhaps; a note is worth knowing. Changes "
+            "nothing.",
+        .examples = {"tspace check helmet.glb", "tspace check --fail-on warning --jobs 0 models/",
+                     "tspace check --json models/ > findings.json"},
+    };
+    const char* group = "Checking";
+    CheckOptions& options = arguments.options;
+    addInputs(command, arguments.inputs);
+    addAllowExternal(command, options.file);
+    command.add(group, choice("--fail-on", "LEVEL", kSeverities, arguments.fail_on,
+                              "Exit with code 1 when there is a finding of this severity or above: note, warning or "
+                              "error."));
+    command.add(group, degrees("--angle", options.direction_deg, 180,
+                               "How far a tangent may lie outside the directions that the triangles around it give. In "
+                               "degrees, 0 to 180."));
+    command.add(group, choice("--convention", "NAME", kConventions, options.convention,
+                              "Whose signs are right: gltf, opengl, directx, unreal, unity, blender or godot, as for "
+                              "generate."));
+    command.add(group, setting("--no-images", options.images, false, "Do not look at the pixels of normal maps."));
+    addThreads(command, options.execution, "Number of threads for each file; 0: as many as there are cores.");
+    addMemoryLimit(command, options.file);
+    addBatch(command, arguments.batch, false);
+    addReporting(command, arguments.json, arguments.quiet);
+    return command;
+}
+
+Command diffCommand(DiffArguments& arguments) {
+    Command command{
+        .name = "diff",
+        .summary = "compare the frames of two models",
+        .operands = "A B",
+        .description =
+            "Pairs the primitives and triangles of two models that show the same surface, also when vertices are "
+            "split, merged or in another order, and prints the angles between their tangents (T), normals (N) and "
+            "rebuilt bitangents (B), signs that differ, and the worst places. Changes nothing.",
+        .examples = {"tspace diff before.glb after.glb",
+                     "tspace diff mine.glb theirs.gltf --tolerance 0.5 --json > diff.json"},
+    };
+    const char* group = "Comparing";
+    command.add(kInputAndOutput, operand("A", arguments.a, "A model file."));
+    command.add(kInputAndOutput, operand("B", arguments.b, "Another one."));
+    addAllowExternal(command, arguments.options.file);
+    command.add(group, degrees("--tolerance", arguments.tolerance_deg, 180,
+                               "Exit with 1 when an angle is above this, a sign differs, or a triangle has no partner. "
+                               "In degrees, 0 to 180."));
+    command.add(group,
+                number("--worst", arguments.options.worst_count, 10000, "How many of the worst places are listed."));
+    addMemoryLimit(command, arguments.options.file);
+    addReporting(command, arguments.json, arguments.quiet);
+    return command;
+}
+
+Command identifyCommand(IdentifyArguments& arguments) {
+    Command command{
+        .name = "identify",
+        .summary = "say which method made the tangents of a model",
+        .operands = "IN...",
+        .description =
+            "Runs every method on the model's own positions, normals and UVs, along every UV set, and says how many of "
+            "the stored tangents each one explains, and whether the signs are those that glTF wants or all inverted. "
+            "Changes nothing.",
+        .examples = {"tspace identify helmet.glb", "tspace identify --json models/ > methods.json"},
+    };
+    addInputs(command, arguments.inputs);
+    addAllowExternal(command, arguments.options.file);
+    command.add("Comparing", degrees("--tolerance", arguments.options.tolerance_deg, 180,
+                                     "Tangents nearer than this count as the same. In degrees, 0 to 180."));
+    addThreads(command, arguments.options.execution,
+               "Number of threads; 0: as many as there are cores. Changes no bit of the result.");
+    addMemoryLimit(command, arguments.options.file);
+    addBatch(command, arguments.batch, false);
+    addReporting(command, arguments.json, arguments.quiet);
+    return command;
+}
+
+ToolTable toolTable(AllArguments& arguments) {
+    ToolTable tool;
+    tool.commands = {generateCommand(arguments.generate), diffCommand(arguments.diff),
+                     identifyCommand(arguments.identify), inspectCommand(arguments.inspect),
+                     checkCommand(arguments.check)};
+    tool.commands.push_back(helpCommand(arguments.help_topic, tool.commands));
+    Option help = helpOption();
+    help.group = "Options";
+    Option version = option("-V, --version", "", help.take, "Print the version.");
+    version.group = "Options";
+    tool.options = {help, version};
+    return tool;
+}
+
+}  // namespace tspace::tool

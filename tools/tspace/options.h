@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// The commands' parts of the table of options. Each fills the struct that it is given when its options are taken; the
+// struct must outlive the command.
+#pragma once
+
+#include "arguments.h"
+#include "option_table.h"
+
+namespace tspace::tool {
+
+/// What every command is asked to do, until it is known which one it is.
+struct AllArguments {
+    GenerateArguments generate = {};
+    InspectArguments inspect = {};
+    CheckArguments check = {};
+    DiffArguments diff = {};
+    IdentifyArguments identify = {};
+    std::string help_topic = {};  ///< of `tspace help`
+};
+
+Command generateCommand(GenerateArguments& arguments);
+Command inspectCommand(InspectArguments& arguments);
+Command checkCommand(CheckArguments& arguments);
+Command diffCommand(DiffArguments& arguments);
+Command identifyCommand(IdentifyArguments& arguments);
+
+/// All commands, in the order in which help lists them.
+ToolTable toolTable(AllArguments& arguments);
+
+}  // namespace tspace::tool
