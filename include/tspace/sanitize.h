@@ -23,6 +23,7 @@ struct SanitizeReport {
     std::uint64_t zero_count = 0;            ///< length 0 (or too small to be normalised)
     std::uint64_t not_unit_count = 0;        ///< length off by more than 5e-4 (the glTF validator's tolerance)
     std::uint64_t parallel_count = 0;        ///< within 1 degree of +N or -N: no frame can be built
+    std::uint64_t placeholder_count = 0;     ///< exactly (1, 0, 0), and not in the plane across N
     std::uint64_t bad_sign_count = 0;        ///< sign not exactly +1 or -1
     std::uint64_t mixed_sign_count = 0;      ///< sign changed because the face's corners disagreed
     std::uint64_t orthogonalized_count = 0;  ///< sound ones changed by orthogonalize_all
@@ -35,14 +36,18 @@ struct SanitizeReport {
 
     /// All corners that were written.
     [[nodiscard]] std::uint64_t mendedCount() const {
-        return not_finite_count + zero_count + not_unit_count + parallel_count + bad_sign_count + mixed_sign_count +
-               orthogonalized_count;
+        return not_finite_count + zero_count + not_unit_count + parallel_count + placeholder_count + bad_sign_count +
+               mixed_sign_count + orthogonalized_count;
     }
 };
 
 /// Mends tangents in place. A tangent is broken when it is not finite, zero, not unit (beyond 5e-4), within 1 degree
-/// of +-N, when its sign is not +-1, or when the signs inside its face differ. What is written is unit and
-/// orthogonal to the corner's N (normalised) within 1e-6, with sign +1 or -1. Sound tangents keep every bit.
+/// of +-N, a placeholder that leans out of the surface, when its sign is not +-1, or when the signs inside its face
+/// differ. What is written is unit and orthogonal to the corner's N (normalised) within 1e-6, with sign +1 or -1. Sound
+/// tangents keep every bit.
+///
+/// Placeholder: the reference gives exactly (1, 0, 0) to corners around which no triangle has UV area, wherever N
+/// points. What UVs give has been projected along N, so that with these bits it lies in the plane.
 ///
 /// Cures, in this order: the tangent's own direction, when it has one that is not parallel to N; the tangent of the
 /// first sound corner of the same face; of the first sound corner at the same position (in corner order); a basis

@@ -454,10 +454,12 @@ typedef struct tspace_SanitizeReport {
     uint64_t from_basis_count;     /* cure: basis from N alone (Duff et al. 2017) */
     uint64_t bad_normal_count;     /* corners whose N is zero or not finite */
     uint64_t mended_count;         /* all corners that were written: the sum of the causes */
+    uint64_t placeholder_count;    /* cause: exactly (1, 0, 0), and not in the plane across N; after parallel */
 } tspace_SanitizeReport;
 
-/* Mends tangents in place: those that are not finite, zero, not unit, parallel to N, or whose sign is not +-1
- * or differs inside a face. What is written is unit and orthogonal to the corner's N within 1e-6. Sound
+/* Mends tangents in place: those that are not finite, zero, not unit, parallel to N, placeholders that lean
+ * out of the surface (the (1, 0, 0) of corners around which no triangle has UV area), or whose sign is not +-1 or
+ * differs inside a face. What is written is unit and orthogonal to the corner's N within 1e-6. Sound
  * tangents keep every bit.
  * mesh      not null; positions and normals are used
  * tangents  4 floats per corner, read and written

@@ -88,6 +88,7 @@ void writeReport(const SanitizeReport& from, tspace_SanitizeReport* to) {
     to->zero_count = from.zero_count;
     to->not_unit_count = from.not_unit_count;
     to->parallel_count = from.parallel_count;
+    to->placeholder_count = from.placeholder_count;
     to->bad_sign_count = from.bad_sign_count;
     to->mixed_sign_count = from.mixed_sign_count;
     to->orthogonalized_count = from.orthogonalized_count;

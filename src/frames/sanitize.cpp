@@ -39,8 +39,18 @@ constexpr std::size_t kFacesPerBlock = 4;
 constexpr std::size_t kBlocksPerTask = 1024;
 constexpr std::uint32_t kNone = 0xffffffffu;
 
-enum class Cause : std::uint8_t { sound, notFinite, zero, notUnit, parallel, badSign, mixedSign, notOrthogonal };
-constexpr std::size_t kCauseCount = 8;
+enum class Cause : std::uint8_t {
+    sound,
+    notFinite,
+    zero,
+    notUnit,
+    parallel,
+    placeholder,
+    badSign,
+    mixedSign,
+    notOrthogonal
+};
+constexpr std::size_t kCauseCount = 9;
 enum class Cure : std::uint8_t { own, neighbor, basis };
 
 /// What is counted. Added up from all tasks; sums of integers do not depend on their order.
@@ -75,6 +85,7 @@ class SharedCounts {
         report.zero_count = of(Cause::zero);
         report.not_unit_count = of(Cause::notUnit);
         report.parallel_count = of(Cause::parallel);
+        report.placeholder_count = of(Cause::placeholder);
         report.bad_sign_count = of(Cause::badSign);
         report.mixed_sign_count = of(Cause::mixedSign);
         report.orthogonalized_count = of(Cause::notOrthogonal);
@@ -112,12 +123,18 @@ bool isUsable(const Vec3& direction, const DVec3& n) {
     return size >= double{FLT_MIN} && length(cross(n, t)) >= (isZero(n) ? 0.0 : kParallelSine * size);
 }
 
+/// Whether nobody chose this direction: see sanitize.h.
+bool isPlaceholder(const Vec4& tangent, const DVec3& n) {
+    return xyz(tangent) == Vec3{1, 0, 0} && std::abs(n.x) > kOrthogonalTolerance;
+}
+
 Cause causeOf(const Vec4& tangent, const DVec3& n) {
     if (!isFinite(xyz(tangent))) return Cause::notFinite;
     const double size = length(toDouble(xyz(tangent)));
     if (size < double{FLT_MIN}) return Cause::zero;
     if (std::abs(size - 1) > kUnitTolerance) return Cause::notUnit;
     if (!isUsable(xyz(tangent), n)) return Cause::parallel;
+    if (isPlaceholder(tangent, n)) return Cause::placeholder;
     return isSign(tangent.w) ? Cause::sound : Cause::badSign;
 }
 
@@ -144,19 +161,22 @@ bool isOrthonormal(const Vec3& tangent, const DVec3& n) {
 struct SurelySound {
     static constexpr float kSquareTolerance = 9.9e-4f;      // below 2 * kUnitTolerance
     static constexpr float kSquareCosine = 0.99f;           // of 5.7 degrees
+    static constexpr float kSquareLean = 1e-13f;            // below kOrthogonalTolerance^2
     static constexpr float kLeast = 1e-20f, kMost = 1e20f;  // squares of components neither vanish nor overflow
 
     static bool of(const Vec4& tangent, const Vec3& n) {
         const Vec3 t = xyz(tangent);
         const float nn = dot(n, n), nt = dot(n, t);
         const bool is_unit = std::fabs(dot(t, t) - 1) <= kSquareTolerance, has_sign = std::fabs(tangent.w) == 1.0f;
-        return is_unit & has_sign & (nn >= kLeast) & (nn <= kMost) & (nt * nt <= kSquareCosine * nn);
+        const float most = (t.y == 0) & (t.z == 0) ? kSquareLean : kSquareCosine;
+        return is_unit & has_sign & (nn >= kLeast) & (nn <= kMost) & (nt * nt <= most * nn);
     }
     /// The same of four, with their signs apart.
     static Mask4 of(const Vec3x4& t, Float4 w, const Vec3x4& n) {
         const Float4 nn = dot(n, n), nt = dot(n, t);
+        const Float4 most = select4(or4(t.y, t.z) == splat(0), splat(kSquareLean), splat(kSquareCosine));
         return (abs4(dot(t, t) - splat(1)) <= splat(kSquareTolerance)) & (nn >= splat(kLeast)) & (nn <= splat(kMost)) &
-               (nt * nt <= splat(kSquareCosine) * nn) & (abs4(w) == splat(1));
+               (nt * nt <= most * nn) & (abs4(w) == splat(1));
     }
 };
 

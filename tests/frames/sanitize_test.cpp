@@ -184,6 +184,43 @@ TEST(Sanitize, DrawsTheLineForParallelAtOneDegree) {
     EXPECT_TRUE(sameBits(scene.tangents[1], sound));
 }
 
+TEST(Sanitize, LaysPlaceholdersIntoTheSurface) {
+    Scene scene = twoTriangles();
+    scene.normals[1] = {0.6f, 0, 0.8f};
+    scene.normals[3] = {3, 0, 0.1f};  // 2 degrees from the placeholder
+    const SanitizeReport report = scene.sanitize();
+    EXPECT_EQ(report.placeholder_count, 3u);
+    EXPECT_EQ(report.mendedCount(), 3u);
+    EXPECT_EQ(report.normalized_count, 3u);
+    for (const std::size_t c : {1u, 4u}) {
+        expectMended(scene.tangents[c], scene.normals[1]);
+        EXPECT_GT(scene.tangents[c].x, 0);
+    }
+    expectMended(scene.tangents[5], scene.normals[3]);
+    for (const std::size_t c : {0u, 2u, 3u}) EXPECT_TRUE(sameBits(scene.tangents[c], {1, 0, 0, 1}));
+}
+
+TEST(Sanitize, LeavesOtherTangentsAsFarFromTheSurfaceAsTheyAre) {
+    Scene scene = twoTriangles();
+    scene.normals[1] = {0.6f, 0, 0.8f};
+    for (const std::size_t c : {1u, 4u}) scene.tangents[c] = {0.99999994f, 1e-8f, 0, 1};
+    const std::vector<Vec4> before = scene.tangents;
+    EXPECT_EQ(scene.sanitize().mendedCount(), 0u);
+    EXPECT_TRUE(sameBits(scene.tangents, before));
+}
+
+TEST(Sanitize, AsksNoPlaceholderForTheSignOfAFace) {
+    Scene scene = twoTriangles();
+    scene.normals[0] = scene.normals[1] = {0.6f, 0, 0.8f};
+    scene.tangents[0].w = scene.tangents[1].w = -1;
+    const Vec4 real{0, 1, 0, 1};
+    scene.tangents[2] = real;
+    scene.sanitize();
+    EXPECT_TRUE(sameBits(scene.tangents[2], real));
+    EXPECT_EQ(scene.tangents[0].w, 1);
+    EXPECT_EQ(scene.tangents[1].w, 1);
+}
+
 TEST(Sanitize, MakesAllFramesOrthogonalOnlyWhenAsked) {
     Scene scene = twoTriangles();
     scene.normals[0] = {0, 0, 0.98f};
@@ -278,6 +315,7 @@ RC_GTEST_PROP(Sanitize, KeepsItsPromisesOnGarbage, ()) {
             if (size2 > 0 && size2 < std::numeric_limits<double>::infinity()) {
                 RC_ASSERT(std::abs(unitDot(n, t)) <=
                           (is_same ? lengthOf(t) * std::cos(0.99 * 3.14159265358979 / 180) : 1e-6));
+                if (t.x == 1 && t.y == 0 && t.z == 0) RC_ASSERT(std::abs(unitDot(n, t)) <= 1e-6);
             }
             if (!is_same) ++changed;
         }

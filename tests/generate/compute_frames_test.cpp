@@ -97,6 +97,24 @@ TEST(ComputeFrames, StoresTheSignOfTheConvention) {
     }
 }
 
+TEST(ComputeFrames, LaysTangentsIntoTheSurfaceWhereUvsHaveNoArea) {
+    VertexPool pool = square();
+    const Vec3 tilted{0.8f, 0, 0.6f};
+    for (const float x : {5.0f, 6.0f, 7.0f}) {
+        pool.positions.push_back({x, x * x, 0});
+        pool.normals.push_back(tilted);
+        pool.uvs.push_back({0.5f, 0.5f});
+    }
+    const std::vector<PrimitiveGeometry> primitives{{.indices = {0, 1, 2, 2, 1, 3, 4, 5, 6}}};
+    const Outcome mended = compute(pool, primitives, {}), raw = compute(pool, primitives, {.sanitize = false});
+    EXPECT_EQ(mended.reports[0].sanitize.placeholder_count, 3u);
+    for (std::size_t v = 0; v < 4; ++v) EXPECT_EQ(mended.frames.tangents[v], raw.frames.tangents[v]);
+    for (std::size_t v = 4; v < 7; ++v) {
+        EXPECT_EQ(xyz(raw.frames.tangents[v]), (Vec3{1, 0, 0}));
+        EXPECT_NEAR(dot(xyz(mended.frames.tangents[v]), tilted), 0, 1e-6);
+    }
+}
+
 TEST(ComputeFrames, SplitsTheVerticesOfAMirroredSeam) {
     VertexPool pool = square();
     pool.positions.push_back({2, 0, 0});

@@ -23,6 +23,7 @@ constexpr NamedCount kCauses[] = {
     {"zero", "zero", &SanitizeReport::zero_count},
     {"notUnit", "not unit", &SanitizeReport::not_unit_count},
     {"parallel", "parallel to the normal", &SanitizeReport::parallel_count},
+    {"placeholder", "without a direction", &SanitizeReport::placeholder_count},
     {"badSign", "sign not +1 or -1", &SanitizeReport::bad_sign_count},
     {"mixedSign", "mixed signs in a face", &SanitizeReport::mixed_sign_count},
     {"orthogonalized", "made orthogonal as asked", &SanitizeReport::orthogonalized_count},
