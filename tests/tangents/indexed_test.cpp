@@ -91,6 +91,27 @@ TEST(Lengyel, GivesMirroredFacesTheSignMinusOne) {
     }
 }
 
+TEST(Lengyel, GivesTheNumbersOfItsPage) {
+    // docs/methods/lengyel.md works this triangle through.
+    SimpleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {4, 1, 0}, {0, 2, 0}};
+    mesh.normals = {{0.6f, 0, 0.8f}, {0, 0, 1}, {0, 0, 1}};
+    mesh.uvs = {{0, 0}, {0.5f, 0.25f}, {0, 0.5f}};
+    mesh.addFace({0, 1, 2});
+    const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel});
+    expectNear(xyz(out.tangents[0]), {0.8f, 0, -0.6f}, 1e-7);
+    EXPECT_EQ(out.tangents[0].w, 1);
+    EXPECT_EQ(out.tangents[1], (Vec4{1, 0, 0, 1}));
+    EXPECT_EQ(out.tangents[2], (Vec4{1, 0, 0, 1}));
+    EXPECT_EQ(out.magnitudes_s[1], 8);
+    EXPECT_EQ(out.magnitudes_t[1], 4);
+
+    mesh.uvs[1].x = -0.5f;
+    for (const Vec4& t : tangentsOf(mesh.view(), {.method = Method::lengyel}).tangents) EXPECT_EQ(t.w, -1);
+    const TangentOptions gltf{.method = Method::lengyel, .convention = conventions::gltf};
+    for (const Vec4& t : tangentsOf(mesh.view(), gltf).tangents) EXPECT_EQ(t.w, 1);
+}
+
 TEST(Lengyel, SumsUnnormalisedDerivatives) {
     // At vertex 0 one face has T = (1, 0, 0), the other T = (0, 3, 0): the longer one counts three times.
     SimpleMesh mesh;
