@@ -61,6 +61,9 @@ inline constexpr std::uint32_t kFindingCodeCount = 30;
 /// Stable lowerCamelCase name: the name of the enumerator.
 const char* findingName(FindingCode code);
 
+/// What it is, in a short sentence that holds for every finding of the code: "Every sign is inverted."
+const char* findingSummary(FindingCode code);
+
 /// How to mend it: one or two sentences.
 const char* findingRemedy(FindingCode code);
 

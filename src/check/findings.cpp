@@ -89,6 +89,45 @@ const char* findingName(FindingCode code) {
     return number < kCodes.size() ? kCodes[number].name : "";
 }
 
+const char* findingSummary(FindingCode code) {
+    // In the order of FindingCode.
+    static constexpr std::array kSummaries{
+        "Positions are not finite.",
+        "A texture is read with a UV set that is not there.",
+        "UVs are not finite.",
+        "Triangles have no UV area.",
+        "There are no normals.",
+        "Normals are not finite.",
+        "Normals are not unit.",
+        "Normals point to the back of their triangles.",
+        "A material needs tangents, and there are none.",
+        "No material asks for the tangents.",
+        "There are tangents without normals.",
+        "Tangents are not finite.",
+        "Tangents are not unit.",
+        "Tangents lean out of the surface.",
+        "Signs are neither +1 nor -1.",
+        "Signs differ between the corners of a triangle.",
+        "Every sign is inverted.",
+        "Some signs are inverted.",
+        "One tangent serves both sides of a mirrored seam.",
+        "One tangent serves both sides of a seam in the UV map.",
+        "Tangents do not point where u grows.",
+        "Tangents follow another UV set than the texture.",
+        "Tangents follow the UVs before the texture transform.",
+        "Equal vertices have different tangents.",
+        "Morph targets lack tangent deltas.",
+        "Tangent deltas of morph targets are wrong.",
+        "Two textures need different tangents.",
+        "Green points down in a normal map.",
+        "A normal map could not be looked at.",
+        "Reading the file left something out.",
+    };
+    static_assert(kSummaries.size() == kFindingCodeCount);
+    const auto number = static_cast<std::size_t>(code);
+    return number < kSummaries.size() ? kSummaries[number] : "";
+}
+
 const char* findingRemedy(FindingCode code) {
     const auto number = static_cast<std::size_t>(code);
     return number < kCodes.size() ? kCodes[number].remedy : "";

@@ -2,30 +2,21 @@
 // tspace check as a user meets it.
 #include <gtest/gtest.h>
 
-#include <cstdint>
-
 #include "tool/run_tool.h"
 
 namespace tspace::test {
 namespace {
 
-/// One pixel of a flat normal map.
-constexpr std::uint8_t kPng[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48,
-                                 0x44, 0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00,
-                                 0x00, 0x90, 0x77, 0x53, 0xde, 0x00, 0x00, 0x00, 0x0c, 0x49, 0x44, 0x41, 0x54, 0x78,
-                                 0x9c, 0x63, 0x68, 0x68, 0xf8, 0x0f, 0x00, 0x03, 0x83, 0x02, 0x00, 0x00, 0xa5, 0xfb,
-                                 0x89, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
-
 /// Tangents of another convention are inverted signs to glTF.
 void writeInverted(const TempFolder& folder, const std::string& name) {
     writeFoldedObj(folder, "folded.obj");
-    folder.write("bump.png", kPng);
+    writeBumpMap(folder);
     ASSERT_EQ(runTool(folder, "generate folded.obj -q --convention opengl -o " + name).exit_code, 0);
 }
 
 void writeGood(const TempFolder& folder, const std::string& name) {
     writeFoldedObj(folder, "folded.obj");
-    folder.write("bump.png", kPng);
+    writeBumpMap(folder);
     ASSERT_EQ(runTool(folder, "generate folded.obj -q -o " + name).exit_code, 0);
 }
 
@@ -80,7 +71,7 @@ TEST(CheckCommand, GroupsWhatManyPrimitivesHave) {
     std::string obj = "mtllib folded.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl skin\n";
     for (int i = 0; i < 8; ++i) obj += "o part" + std::to_string(i) + "\nf 1/1 2/2 3/3\n";
     folder.write("parts.obj", obj);
-    folder.write("bump.png", kPng);
+    writeBumpMap(folder);
     ASSERT_EQ(runTool(folder, "generate parts.obj -q --convention opengl -o parts.glb").exit_code, 0);
     const ToolRun run = runTool(folder, "check parts.glb");
     EXPECT_NE(run.out.find("signsInverted, 8 places"), std::string::npos) << run.out;

@@ -23,12 +23,16 @@ struct Shard {
     unsigned count = 1;
 };
 
+/// When severities are coloured. automatic: on a terminal, unless the user said no by NO_COLOR.
+enum class Color { automatic, always, never };
+
 /// How many files are worked through.
 struct BatchArguments {
     unsigned jobs = 1;  ///< files at one time; 0: as many as there are cores
     Shard shard = {};
     std::string manifest = {};  ///< empty: none
     bool resume = false;        ///< leave out what the manifest says is done and unchanged
+    bool verbose = false;       ///< the details of every file, also where there are several
 };
 
 struct GenerateArguments {
@@ -54,7 +58,11 @@ struct InspectArguments {
 struct CheckArguments {
     std::vector<std::string> inputs = {};
     CheckOptions options = {};
-    Severity fail_on = Severity::error;  ///< findings from here on make exit code 1
+    Severity fail_on = Severity::error;        ///< findings from here on make exit code 1
+    Severity least_severity = Severity::note;  ///< findings below are left out
+    std::vector<FindingCode> ignored = {};     ///< these too
+    std::string sarif = {};                    ///< a file for the findings in SARIF; empty: none
+    Color color = Color::automatic;
     BatchArguments batch = {};
     bool json = false;
     bool quiet = false;

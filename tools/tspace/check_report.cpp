@@ -2,6 +2,7 @@
 // Results of tspace check as text and JSON. The JSON is described in docs/json.md.
 #include <fmt/format.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "console.h"
@@ -128,8 +129,13 @@ std::string checkText(const CheckOutcome& outcome, bool in_color) {
     return text;
 }
 
-std::string checkSummary(const std::vector<CheckOutcome>& outcomes) {
+std::string checkSummary(const std::vector<CheckOutcome>& outcomes, bool in_color) {
     std::uint64_t errors = 0, warnings = 0, notes = 0, clean = 0, unread = 0;
+    struct Occurrence {
+        std::uint64_t file_count = 0, finding_count = 0;
+        const CheckOutcome* last_file = nullptr;
+    };
+    std::map<std::pair<int, FindingCode>, Occurrence> codes;  // worst first
     for (const CheckOutcome& outcome : outcomes) {
         if (!outcome.result) {
             ++unread;
@@ -139,11 +145,23 @@ std::string checkSummary(const std::vector<CheckOutcome>& outcomes) {
         warnings += outcome.result->warning_count;
         notes += outcome.result->note_count;
         clean += outcome.result->error_count == 0;
+        for (const Finding& finding : outcome.result->findings) {
+            Occurrence& code = codes[{-static_cast<int>(finding.severity), finding.code}];
+            ++code.finding_count;
+            code.file_count += code.last_file != &outcome;
+            code.last_file = &outcome;
+        }
     }
     std::string text = fmt::format("\n{}: {}; {} without errors", counted(outcomes.size(), "file"),
                                    countsText(errors, warnings, notes), clean);
     if (unread > 0) text += fmt::format(", {} could not be read", unread);
-    return text + "\n";
+    text += "\n";
+    for (const auto& [key, code] : codes) {
+        text += fmt::format("  {}  {:<24} {} in {}\n", severityText(static_cast<Severity>(-key.first), in_color),
+                            findingName(key.second), counted(code.finding_count, "finding"),
+                            counted(code.file_count, "file"));
+    }
+    return text;
 }
 
 std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, Severity fail_on) {

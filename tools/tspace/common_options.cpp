@@ -56,6 +56,9 @@ void addBatch(Command& command, BatchArguments& batch, bool with_manifest) {
     command.add(group, option("--shard", "I/N", take_shard,
                               "Work on share I of N alone (I from 1), for several machines. A file's name below its "
                               "input decides, so a file stays in its share when others come or go."));
+    command.add(kReporting, flag("-v, --verbose", batch.verbose,
+                                 "Print the details of every file. By default there is a line for each where there are "
+                                 "several."));
     if (!with_manifest) return;
     Option& manifest =
         command.add(group, text("--manifest", "FILE", batch.manifest,

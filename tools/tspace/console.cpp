@@ -44,7 +44,8 @@ bool printResult(std::string_view text) {
     return written;
 }
 
-bool wantsColor() {
+bool wantsColor(Color color) {
+    if (color != Color::automatic) return color == Color::always;
     const char* refused = std::getenv("NO_COLOR");
     const char* terminal = std::getenv("TERM");
     const bool is_dumb = terminal == nullptr || std::string_view(terminal) == "dumb";

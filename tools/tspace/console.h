@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "exit_code.h"
+#include "arguments.h"
 #include "tspace/asset.h"
 
 namespace tspace::tool {
@@ -23,8 +23,8 @@ ExitCode printUsageError(const std::string& message);
 /// Writes text to stdout. false when stdout cannot take it (closed pipe, full disk).
 bool printResult(std::string_view text);
 
-/// true when stdout is a terminal that shows colours, and the user did not say no by NO_COLOR.
-bool wantsColor();
+/// Whether stdout gets colours. automatic: it is a terminal that shows them, and the user did not say no by NO_COLOR.
+bool wantsColor(Color color);
 
 /// The text with control characters replaced, so that a name from a file can break neither lines nor the
 /// terminal.

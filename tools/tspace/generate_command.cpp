@@ -142,7 +142,8 @@ class GenerateRun {
             const std::lock_guard lock(mutex_);
             exit_code_ = worse(exit_code_, code);
         } else if (wants_text_ && !output_is_closed_) {
-            output_is_closed_ = !printResult(generateText(outcome));
+            const bool wants_details = jobs_.size() == 1 || arguments_.batch.verbose;
+            output_is_closed_ = !printResult(wants_details ? generateText(outcome) : generateLine(outcome));
         }
     }
 

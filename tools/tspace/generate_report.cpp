@@ -141,6 +141,20 @@ bool nothingNeeded(const Totals& totals) {
            totals.actions[static_cast<std::size_t>(PrimitiveAction::notNeeded)] != 0;
 }
 
+std::vector<std::string> warningsOf(const GenerateReport& report, const Totals& totals) {
+    std::vector<std::string> warnings = report.warnings;
+    if (totals.morph_sign_flip_count != 0) {
+        warnings.push_back(fmt::format("morph targets turn the sign of the frame at {}, which glTF cannot express",
+                                       counted(totals.morph_sign_flip_count, "corner")));
+    }
+    if (totals.reference_order_abandoned) {
+        warnings.emplace_back(
+            "the reference's neighbour search would take quadratic time here; the corrected one was used for its last "
+            "part");
+    }
+    return warnings;
+}
+
 std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     const GenerateReport& report = *outcome.result;
     Table table;
@@ -166,17 +180,7 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     if (totals.morph_deltas_computed != 0) {
         table.addRow({"morph targets", "tangent deltas computed for " + std::to_string(totals.morph_deltas_computed)});
     }
-    for (const std::string& warning : report.warnings) table.addRow({"warning", printable(warning)});
-    if (totals.morph_sign_flip_count != 0) {
-        table.addRow(
-            {"warning", fmt::format("morph targets turn the sign of the frame at {}, which glTF cannot express",
-                                    counted(totals.morph_sign_flip_count, "corner"))});
-    }
-    if (totals.reference_order_abandoned) {
-        table.addRow({"warning",
-                      "the reference's neighbour search would take quadratic time here; the corrected one "
-                      "was used for its last part"});
-    }
+    for (const std::string& warning : warningsOf(report, totals)) table.addRow({"warning", printable(warning)});
     table.addRow({"time", fmt::format("{:.2f} s", outcome.seconds)});
     const std::string first = report.output_files.empty() ? outcome.job.output : report.output_files.front();
     const std::string others = report.output_files.size() > 1
@@ -322,11 +326,23 @@ std::string generateText(const GenerateOutcome& outcome) {
                        summaryRows(outcome, totals), primitiveRows(*outcome.result));
 }
 
+std::string generateLine(const GenerateOutcome& outcome) {
+    std::string line = fmt::format("{} -> {}: ", printable(outcome.job.input), printable(outcome.job.output));
+    if (outcome.was_done_before) return line + "done before, and nothing has changed\n";
+    const Totals totals = totalsOf(*outcome.result);
+    line += actionsText(totals);
+    if (totals.sanitize.mendedCount() != 0) line += fmt::format("; mended {}", mendedText(totals.sanitize));
+    const std::size_t warnings = warningsOf(*outcome.result, totals).size();
+    if (warnings != 0) line += fmt::format("; {} (--verbose says which)", counted(warnings, "warning"));
+    return line + "\n";
+}
+
 std::string generateSummary(const std::vector<GenerateOutcome>& outcomes, double seconds) {
     std::uint64_t done = 0;
     std::uint64_t skipped = 0;
     std::uint64_t triangles = 0;
     std::uint64_t mended = 0;
+    Totals all;
     for (const GenerateOutcome& outcome : outcomes) {
         if (!outcome.result) continue;
         if (outcome.was_done_before) {
@@ -337,11 +353,13 @@ std::string generateSummary(const std::vector<GenerateOutcome>& outcomes, double
         ++done;
         triangles += totals.triangle_count;
         mended += totals.sanitize.mendedCount();
+        all.primitive_count += totals.primitive_count;
+        for (std::size_t i = 0; i < std::size(kActions); ++i) all.actions[i] += totals.actions[i];
     }
     const std::string before = skipped == 0 ? "" : fmt::format("{} done before, ", skipped);
-    return fmt::format("{} of {} written, {}{} failed; {}, {} mended, {:.2f} s\n", done,
+    return fmt::format("{} of {} written, {}{} failed; {}, {} mended, {:.2f} s\n  {}\n", done,
                        counted(outcomes.size(), "file"), before, outcomes.size() - done - skipped,
-                       counted(triangles, "triangle"), counted(mended, "corner"), seconds);
+                       counted(triangles, "triangle"), counted(mended, "corner"), seconds, actionsText(all));
 }
 
 std::string generateJson(const std::vector<GenerateOutcome>& outcomes, ExitCode exit_code, double seconds) {

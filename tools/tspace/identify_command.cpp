@@ -12,7 +12,7 @@ ExitCode runIdentify(const IdentifyArguments& arguments) {
     IdentifyOptions options = arguments.options;
     options.execution.thread_count = threadsPerFile(options.execution.thread_count, workers);
     const auto files = readFiles<Identification>(
-        jobs, workers, !arguments.json && !arguments.quiet,
+        jobs, arguments.batch, !arguments.json && !arguments.quiet,
         [&](const std::string& input) { return identifyFile(input, options); }, identifyText);
     if (files.output_is_closed) return ExitCode::cannotReadOrWrite;
     if (!arguments.json) return files.exit_code;

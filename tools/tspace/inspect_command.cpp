@@ -9,7 +9,7 @@ ExitCode runInspect(const InspectArguments& arguments) {
     std::vector<Job> jobs = inputJobs(arguments.inputs);
     takeShard(jobs, arguments.batch.shard);
     const auto files = readFiles<Inspection>(
-        jobs, workerCount(arguments.batch, jobs.size()), !arguments.json && !arguments.quiet,
+        jobs, arguments.batch, !arguments.json && !arguments.quiet,
         [&](const std::string& input) { return inspectFile(input, arguments.file); }, inspectText);
     if (files.output_is_closed) return ExitCode::cannotReadOrWrite;
     if (!arguments.json) return files.exit_code;

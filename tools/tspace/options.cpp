@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The options of the commands that only read; those of generate have a file of their own.
+// The options of the commands that only read; those of check and generate have files of their own.
 #include "options.h"
 
 #include "common_options.h"
 
 namespace tspace::tool {
 namespace {
-
-constexpr Named<Severity> kSeverities[] = {
-    {"note", Severity::note},
-    {"warning", Severity::warning},
-    {"error", Severity::error},
-};
 
 Command helpCommand(std::string& topic, const std::vector<Command>& others) {
     Command command{
@@ -44,41 +38,6 @@ Command inspectCommand(InspectArguments& arguments) {
     addInputs(command, arguments.inputs);
     addAllowExternal(command, arguments.file);
     addMemoryLimit(command, arguments.file);
-    addBatch(command, arguments.batch, false);
-    addReporting(command, arguments.json, arguments.quiet);
-    return command;
-}
-
-Command checkCommand(CheckArguments& arguments) {
-    Command command{
-        .name = "check",
-        .summary = "find what is wrong with normals, tangents and UVs",
-        .operands = "IN...",
-        .description =
-            "Compares tangents with the UVs that the material's textures are read with: signs, directions, seams, UV "
-            "sets, texture transforms; also values that are not finite or not unit, normals, morph targets, and normal "
-            "maps whose green points down. Every finding says how to mend it. An error surely renders wrong; a warning "
-            "renders wrong in some renderers, in a small part, or only perhaps; a note is worth knowing. Changes "
-            "nothing.",
-        .examples = {"tspace check helmet.glb", "tspace check --fail-on warning --jobs 0 models/",
-                     "tspace check --json models/ > findings.json"},
-    };
-    const char* group = "Checking";
-    CheckOptions& options = arguments.options;
-    addInputs(command, arguments.inputs);
-    addAllowExternal(command, options.file);
-    command.add(group, choice("--fail-on", "LEVEL", kSeverities, arguments.fail_on,
-                              "Exit with code 1 when there is a finding of this severity or above: note, warning or "
-                              "error."));
-    command.add(group, degrees("--angle", options.direction_deg, 180,
-                               "How far a tangent may lie outside the directions that the triangles around it give. In "
-                               "degrees, 0 to 180."));
-    command.add(group, choice("--convention", "NAME", kConventions, options.convention,
-                              "Whose signs are right: gltf, opengl, directx, unreal, unity, blender or godot, as for "
-                              "generate."));
-    command.add(group, setting("--no-images", options.images, false, "Do not look at the pixels of normal maps."));
-    addThreads(command, options.execution, "Number of threads for each file; 0: as many as there are cores.");
-    addMemoryLimit(command, options.file);
     addBatch(command, arguments.batch, false);
     addReporting(command, arguments.json, arguments.quiet);
     return command;

@@ -115,7 +115,10 @@ class Reader {
         const auto& choices = option.choices;
         std::string wrong;
         if (!choices.empty() && std::find(choices.begin(), choices.end(), value) == choices.end()) {
-            wrong = "must be one of " + joined(choices) + didYouMean(value, choices);
+            constexpr std::size_t kMostListed = 12;
+            wrong = choices.size() <= kMostListed ? "must be one of " + joined(choices)
+                                                  : "there is no such " + option.value;
+            wrong += didYouMean(value, choices);
         } else {
             wrong = option.take(value);
         }

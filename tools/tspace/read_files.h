@@ -21,9 +21,11 @@ struct ReadFiles {
 };
 
 /// Calls read(path) for each job, which gives a Result<Value>. Errors are printed, and textOf(outcome) of what was read
-/// if `wants_text`.
+/// if `wants_text`: of several files the first line, where the user did not ask for all.
 template <class Value, class Read, class TextOf>
-ReadFiles<Value> readFiles(const std::vector<Job>& jobs, unsigned workers, bool wants_text, Read read, TextOf textOf) {
+ReadFiles<Value> readFiles(const std::vector<Job>& jobs, const BatchArguments& batch, bool wants_text, Read read,
+                           TextOf textOf) {
+    const bool wants_details = jobs.size() == 1 || batch.verbose;
     ReadFiles<Value> files;
     files.outcomes.resize(jobs.size());
     std::atomic<bool> output_is_closed = false;
@@ -37,11 +39,13 @@ ReadFiles<Value> readFiles(const std::vector<Job>& jobs, unsigned workers, bool 
         if (!outcome.result) {
             files.exit_code = worse(files.exit_code, printError(outcome.job.input, outcome.result.error()));
         } else if (wants_text && !output_is_closed) {
-            const std::string gap = number > 0 ? "\n" : "";
-            output_is_closed = !printResult(gap + textOf(outcome));
+            std::string text = wants_details && number > 0 ? "\n" : "";
+            text.append(textOf(outcome));
+            if (!wants_details) text.erase(text.find('\n') + 1);
+            output_is_closed = !printResult(text);
         }
     };
-    runBatch(jobs.size(), workers, work, finished, [&] { return output_is_closed.load(); });
+    runBatch(jobs.size(), workerCount(batch, jobs.size()), work, finished, [&] { return output_is_closed.load(); });
     files.output_is_closed = output_is_closed;
     return files;
 }

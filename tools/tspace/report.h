@@ -26,6 +26,8 @@ using InspectOutcome = Outcome<Inspection>;
 using CheckOutcome = Outcome<CheckReport>;
 
 std::string generateText(const GenerateOutcome& outcome);
+/// The same in one line, for one of several files.
+std::string generateLine(const GenerateOutcome& outcome);
 std::string generateJson(const std::vector<GenerateOutcome>& outcomes, ExitCode exit_code, double seconds);
 /// One line over several files.
 std::string generateSummary(const std::vector<GenerateOutcome>& outcomes, double seconds);
@@ -41,8 +43,9 @@ std::string inspectJson(const std::vector<InspectOutcome>& outcomes, ExitCode ex
 
 std::string checkText(const CheckOutcome& outcome, bool in_color);
 std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, Severity fail_on);
-/// One line over several files.
-std::string checkSummary(const std::vector<CheckOutcome>& outcomes);
+/// A line over several files, and one for each code that was found.
+std::string checkSummary(const std::vector<CheckOutcome>& outcomes, bool in_color);
+std::string checkSarif(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code);
 
 /// null, or the error as docs/json.md describes it.
 nlohmann::ordered_json errorJson(const Error* error);
