@@ -16,10 +16,6 @@ install(EXPORT tspace_core NAMESPACE tspace:: FILE tspace-core.cmake DESTINATION
         COMPONENT tspace_core)
 
 if(TARGET tspace_asset)
-    # A header-only library that is used inside leaves nothing to link: consumers need not have it.
-    get_target_property(links tspace_asset INTERFACE_LINK_LIBRARIES)
-    list(FILTER links EXCLUDE REGEX nlohmann_json)
-    set_target_properties(tspace_asset PROPERTIES INTERFACE_LINK_LIBRARIES "${links}")
     install(TARGETS tspace_asset EXPORT tspace_asset
             ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT tspace_asset
             LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT tspace_asset)

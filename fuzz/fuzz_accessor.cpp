@@ -47,7 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const Bytes bytes(first_byte, data + size);
         root["buffers"] = Json::array({Json{{"byteLength", bytes.size()}}});
         if (!bytes.empty()) root["buffers"][0]["uri"] = encodeDataUri("application/octet-stream", bytes);
-        const std::string text = root.dump(-1, ' ', false, Json::error_handler_t::replace);
+        const std::string text = root.dump(-1, ' ', BadUtf8::replace);
         const Document document = parseDocument(Bytes(text.begin(), text.end()), "model.gltf", {});
         for (std::size_t i = 0; i < rootArray(document, "accessors").size(); ++i) decode(document, i);
     });

@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -15,12 +14,13 @@
 #include <stb/stb_image_write.h>
 
 #include "crate.h"
+#include "json/json.h"
 
 static_assert(std::endian::native == std::endian::little, "a GLB is little-endian and is written as it lies");
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using tspace::Json;
 
 // glTF's own numbers.
 constexpr int kFloat = 5126, kUnsignedShort = 5123, kArrayBuffer = 34962, kElementArrayBuffer = 34963;

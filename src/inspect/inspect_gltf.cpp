@@ -133,9 +133,9 @@ std::uint64_t instanceCount(const Document& document, const Json& node, const st
     const Json* attributes = instancing == nullptr ? nullptr : findMember(*instancing, "attributes");
     if (attributes == nullptr || !attributes->is_object() || attributes->empty()) return 1;
     const std::string attribute_place = place + "/extensions/EXT_mesh_gpu_instancing/attributes";
-    const auto first = attributes->begin();
+    const auto [name, first] = *attributes->items().begin();
     const std::size_t accessor =
-        toIndex(first.value(), join(attribute_place, first.key()), rootArray(document, "accessors").size(), "accessor");
+        toIndex(first, join(attribute_place, name), rootArray(document, "accessors").size(), "accessor");
     return readAccessor(document, accessor).count;
 }
 

@@ -3,12 +3,20 @@
 #pragma once
 
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
 #include "asset/file_error.h"
 #include "asset/gltf/document.h"
 #include "asset/uri.h"
+
+namespace tspace {
+
+/// For the messages of tests.
+inline std::ostream& operator<<(std::ostream& stream, const Json& json) { return stream << json.dump(); }
+
+}  // namespace tspace
 
 namespace tspace::test {
 

@@ -222,7 +222,7 @@ class Comparison {
             const auto bytes = document.buffers[view.buffer].bytes.range(view.begin, view.byte_count);
             return Bytes(bytes.begin(), bytes.end());
         }
-        const auto& uri = image.at("uri").get_ref<const std::string&>();
+        const auto& uri = image.at("uri").text();
         if (uriKind(uri) == UriKind::data) return decodeDataUri(uri, "").bytes;
         const auto path = resolveUri(document.folder, uri, false, "");
         return std::filesystem::exists(path) ? readFile(path) : Bytes{};

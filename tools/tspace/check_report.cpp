@@ -3,15 +3,12 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "console.h"
 #include "report.h"
 
 namespace tspace::tool {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Places listed of one kind of finding; the JSON has all of them.
 constexpr std::size_t kMostPlaces = 5;

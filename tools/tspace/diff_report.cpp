@@ -3,15 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
-
 #include "console.h"
 #include "report.h"
 
 namespace tspace::tool {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Few digits, and as many as a small angle needs.
 std::string degrees(double value) { return fmt::format("{:.{}f}", value, value != 0 && value < 0.1 ? 4 : 2); }

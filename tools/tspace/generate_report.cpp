@@ -3,15 +3,11 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
-
 #include "console.h"
 #include "report.h"
 
 namespace tspace::tool {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct NamedCount {
     const char* json_name;

@@ -2,15 +2,11 @@
 // Results of tspace identify as text and JSON. The JSON is described in docs/json.md.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "console.h"
 #include "report.h"
 
 namespace tspace::tool {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string percent(std::uint64_t count, std::uint64_t total) {
     if (total == 0) return "-";

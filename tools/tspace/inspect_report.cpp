@@ -2,15 +2,11 @@
 // Results of tspace inspect as text and JSON. The JSON is described in docs/json.md.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "console.h"
 #include "report.h"
 
 namespace tspace::tool {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -205,9 +201,7 @@ Json errorJson(const Error* error) {
     };
 }
 
-std::string jsonText(const Json& document) {
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+std::string jsonText(const Json& document) { return document.dump(2, ' ', BadUtf8::replace) + "\n"; }
 
 std::string inspectText(const InspectOutcome& outcome) {
     std::string text = summaryLine(outcome) + fileRows(*outcome.result);

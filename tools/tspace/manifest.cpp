@@ -7,14 +7,11 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "report.h"
 
 namespace tspace::tool {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "tspace.manifest/1";
 
@@ -46,7 +43,7 @@ std::vector<HashedFile> filesFromJson(const Json& list) {
     return files;
 }
 
-/// Throws Json::exception where something is missing or of another type.
+/// Throws JsonError where something is missing or of another type.
 ManifestEntry entryFromJson(const Json& line) {
     ManifestEntry entry;
     entry.version = line.at("version").get<std::string>();
@@ -90,12 +87,12 @@ Result<ManifestRecord> ManifestRecord::read(const std::string& path) {
         return fileError(ErrorCode::cannotRead, path);
     }
     for (std::string text; std::getline(file, text);) {
-        const Json line = Json::parse(text, nullptr, false);
-        if (!line.is_object() || line.value("schema", Json()) != kSchema) continue;
         try {
+            const Json line = Json::parse(text);
+            if (line.at("schema") != kSchema) continue;
             ManifestEntry entry = entryFromJson(line);
             record.entries_[keyOf(entry.job)] = std::move(entry);
-        } catch (const Json::exception&) {
+        } catch (const JsonError&) {
             continue;
         }
     }
@@ -138,7 +135,7 @@ Result<Done> ManifestWriter::append(const ManifestEntry& entry) {
         {"inputs", filesJson(entry.inputs)},
         {"outputs", filesJson(entry.outputs)},
     };
-    const std::string text = line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    const std::string text = line.dump(-1, ' ', BadUtf8::replace) + "\n";
     if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size() || std::fflush(file_.get()) != 0) {
         return fileError(ErrorCode::cannotWrite, path_);
     }

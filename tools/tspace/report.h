@@ -2,13 +2,13 @@
 // Results as text for people and as JSON for programs.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "arguments.h"
 #include "exit_code.h"
 #include "jobs.h"
+#include "json/json.h"
 
 namespace tspace::tool {
 
@@ -48,8 +48,8 @@ std::string checkSummary(const std::vector<CheckOutcome>& outcomes, bool in_colo
 std::string checkSarif(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code);
 
 /// null, or the error as docs/json.md describes it.
-nlohmann::ordered_json errorJson(const Error* error);
+Json errorJson(const Error* error);
 /// The document as text. Bytes that are not UTF-8 (from file names) become U+FFFD.
-std::string jsonText(const nlohmann::ordered_json& document);
+std::string jsonText(const Json& document);
 
 }  // namespace tspace::tool

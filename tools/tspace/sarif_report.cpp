@@ -2,14 +2,10 @@
 // Findings of tspace check in SARIF 2.1.0 (Static Analysis Results Interchange Format, OASIS 2020). docs/check.md says
 // what stands where.
 #include <filesystem>
-#include <nlohmann/json.hpp>
-
 #include "report.h"
 
 namespace tspace::tool {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Bytes that may not stand in a path of a URI (RFC 3986) as "%xx". A colon too: before the first slash it would end a
 /// scheme.

@@ -79,7 +79,7 @@ std::size_t GlbBuilder::addIndices(std::span<const std::uint32_t> indices, std::
 std::vector<std::uint8_t> GlbBuilder::finish() {
     bin_.resize((bin_.size() + 3) / 4 * 4, 0);
     if (!bin_.empty()) json_["buffers"] = Json::array({Json{{"byteLength", bin_.size()}}});
-    std::string text = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string text = json_.dump(-1, ' ', BadUtf8::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const std::uint64_t total = 12 + 8 + text.size() + (bin_.empty() ? 0 : 8 + bin_.size());
     if (total > 0xffffffffu) throw std::length_error("the model does not fit into the 4 GiB of a GLB");

@@ -3,16 +3,14 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "json/json.h"
 #include "mend.h"
 
 namespace tspace::import {
-
-using Json = nlohmann::ordered_json;
 
 class GlbBuilder {
   public:

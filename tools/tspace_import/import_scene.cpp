@@ -141,15 +141,15 @@ class SceneWriter {
         bool changed = false;
         const auto leaveOut = [&](Json& object, const char* name) {
             if (!object.contains(name)) return;
-            const std::string set = std::to_string(object[name].value("texCoord", 0));
+            const Json* uv_set = object[name].find("texCoord");
+            const std::string set = std::to_string(uv_set == nullptr ? 0 : uv_set->get<int>());
             changed = changed || !primitive["attributes"].contains("TEXCOORD_" + set);
             if (!primitive["attributes"].contains("TEXCOORD_" + set)) object.erase(name);
         };
         leaveOut(material["pbrMetallicRoughness"], "baseColorTexture");
         leaveOut(material, "normalTexture");
         if (!changed) return number;
-        const auto [entry, is_new] =
-            reduced_materials_.try_emplace(material.dump(-1, ' ', false, Json::error_handler_t::replace), 0);
+        const auto [entry, is_new] = reduced_materials_.try_emplace(material.dump(-1, ' ', BadUtf8::replace), 0);
         if (is_new) entry->second = builder_.append("materials", std::move(material));
         return entry->second;
     }

@@ -276,7 +276,7 @@ void convertContainer(Document& document, const OutputTarget& target, bool will_
         } else if (buffer.source == BufferSource::dataUri) {
             buffer.own = true;
         } else if (buffer.source == BufferSource::file && (target.in_place || !target.same_folder) &&
-                   pathOfUri(entry["uri"].get_ref<const std::string&>()) == own_name) {
+                   pathOfUri(entry["uri"].text()) == own_name) {
             // An earlier run made this file for a model of this name.
             buffer.own = true;
             buffer.path = own_name;
@@ -301,7 +301,7 @@ void writeDocument(Document& document, const OutputTarget& target, AtomicOutput&
             const Buffer& buffer = document.buffers[i];
             if (buffer.source != BufferSource::dataUri || !buffer.edited) continue;
             Json& uri = document.json["buffers"][i]["uri"];
-            const auto& old = uri.get_ref<const std::string&>();
+            const auto& old = uri.text();
             const std::string mime = old.substr(5, old.find_first_of(";,") - 5);
             uri = encodeDataUri(mime.empty() ? "application/octet-stream" : mime, buffer.bytes.joined());
         }

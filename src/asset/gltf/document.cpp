@@ -119,7 +119,7 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
         return buffer;
     }
     if (!uri->is_string()) failFile(ErrorCode::invalidFile, "'uri' is not a string", join(place, "uri"));
-    const auto& text = uri->get_ref<const std::string&>();
+    const auto& text = uri->text();
     Bytes bytes;
     if (uriKind(text) == UriKind::data) {
         buffer.source = BufferSource::dataUri;
@@ -255,7 +255,7 @@ void checkRequiredExtensions(Document& document) {
         const std::string place = join("/extensionsRequired", i);
         if (!required[i].is_string())
             failFile(ErrorCode::invalidFile, "the name of an extension is not a string", place);
-        const auto& name = required[i].get_ref<const std::string&>();
+        const auto& name = required[i].text();
         if (isCompression(name)) {
             const std::string missing = compressionMissing(name);
             if (!missing.empty())

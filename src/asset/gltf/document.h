@@ -16,6 +16,7 @@
 #include "asset/gltf/compression/draco.h"
 #include "asset/gltf/glb.h"
 #include "asset/gltf/json.h"
+#include "asset/memory_budget.h"
 #include "tspace/asset.h"
 
 namespace tspace::gltf {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Parsing of hostile JSON into a DOM, and checked access to it.
+// Errors of JSON with their places, and checked access.
 #include "asset/gltf/json.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string_view>
-#include <unordered_set>
-#include <vector>
 
 #include "asset/file_error.h"
+#include "asset/memory_budget.h"
 
 namespace tspace::gltf {
 
@@ -18,103 +17,24 @@ namespace {
     failFile(ErrorCode::invalidFile, std::move(message), std::move(place));
 }
 
-/// Builds the DOM from parser events. The library's own builder searches an ordered object for every new
-/// member, which is quadratic; here members are appended, and repeated ones are found once, when the object
-/// closes.
-class Builder {
+/// What values take is asked of the budget of the file.
+class BudgetMemory final : public JsonMemory {
   public:
-    Builder(Json& root, MemoryBudget* budget) : root_(root), budget_(budget) {}
-
-    bool null() { return put(nullptr); }
-    bool boolean(bool value) { return put(value); }
-    bool number_integer(Json::number_integer_t value) { return put(value); }
-    bool number_unsigned(Json::number_unsigned_t value) { return put(value); }
-    bool number_float(Json::number_float_t value, const Json::string_t&) { return put(value); }
-    bool string(Json::string_t& value) {
-        take(kBlockBytes + value.size());
-        return put(std::move(value));
-    }
-    bool binary(Json::binary_t&) { return false; }
-    bool start_object(std::size_t) { return open(Json::object()); }
-    bool start_array(std::size_t) { return open(Json::array()); }
-    bool key(Json::string_t& name) {
-        Members& object = members(*stack_.back());
-        takeGrowth(object);
-        object.emplace_back(std::move(name), nullptr);
-        return true;
-    }
-    bool end_object() {
-        checkRepeated(members(*stack_.back()));
-        stack_.pop_back();
-        return true;
-    }
-    bool end_array() {
-        stack_.pop_back();
-        return true;
-    }
-    bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& failure) {
-        const bool range = failure.id == 406;
-        failJson(range ? "the JSON has a number that is too large" : "the JSON has a syntax error",
-                 "JSON byte " + std::to_string(position));
-    }
+    explicit BudgetMemory(MemoryBudget& budget) : budget_(budget) {}
+    void take(std::size_t bytes) override { budget_.take(bytes, {}); }
 
   private:
-    using Members = Json::object_t::Container;
-    static Members& members(Json& object) { return object.get_ref<Json::object_t&>(); }
-
-    template <class Value>
-    bool put(Value&& value) {
-        slot() = std::forward<Value>(value);
-        return true;
-    }
-    bool open(Json&& container) {
-        if (stack_.size() >= kMaxJsonDepth) {
-            failJson("the JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels", {});
-        }
-        take(kBlockBytes);
-        Json& place = slot();
-        place = std::move(container);
-        stack_.push_back(&place);
-        return true;
-    }
-    Json& slot() {
-        if (stack_.empty()) return root_;
-        Json& parent = *stack_.back();
-        if (parent.is_object()) return members(parent).back().second;
-        auto& elements = parent.get_ref<Json::array_t&>();
-        takeGrowth(elements);
-        elements.emplace_back(nullptr);
-        return elements.back();
-    }
-
-    /// A small block of the heap: a string, or the head of an array or object.
-    static constexpr std::size_t kBlockBytes = 64;
-
-    void take(std::size_t bytes) {
-        if (budget_ != nullptr) budget_->take(bytes, {});
-    }
-    /// Before an element is added. The old memory of long lists is not always of use to others, and the parser's
-    /// library copies them once more when it lets go of them: hence three times. That of short ones serves the next.
-    template <class List>
-    void takeGrowth(const List& list) {
-        if (list.size() < list.capacity()) return;
-        constexpr std::size_t kShortBytes = 1024, kAround = 32;
-        const std::size_t more = std::max<std::size_t>(list.size(), 1) * sizeof(typename List::value_type);
-        take(more < kShortBytes ? more + kAround : 3 * more);
-    }
-    void checkRepeated(const Members& object) {
-        names_.clear();
-        for (const auto& [name, value] : object) {
-            if (!names_.insert(name).second)
-                failJson("the JSON has the member " + inQuotes(name) + " twice in one object", {});
-        }
-    }
-
-    Json& root_;
-    MemoryBudget* budget_;
-    std::vector<Json*> stack_;
-    std::unordered_set<std::string_view> names_;
+    MemoryBudget& budget_;
 };
+
+Json parseText(std::string_view text, MemoryBudget* budget) try {
+    if (budget == nullptr) return Json::parse(text);
+    BudgetMemory memory(*budget);
+    return Json::parse(text, &memory);
+} catch (const JsonError& error) {
+    if (error.repeated) failJson("the JSON has the member " + inQuotes(*error.repeated) + " twice in one object", {});
+    failJson(error.message, error.byte ? "JSON byte " + std::to_string(*error.byte) : std::string());
+}
 
 JsonStyle styleOf(std::string_view text) {
     JsonStyle style;
@@ -144,13 +64,10 @@ std::optional<std::size_t> wholeNumber(const Json& value) {
 
 }  // namespace
 
-ParsedJson parseJson(std::span<const std::uint8_t> text, MemoryBudget* budget) {
-    ParsedJson result;
-    const auto* begin = reinterpret_cast<const char*>(text.data());
-    Builder builder(result.root, budget);
-    Json::sax_parse(begin, begin + text.size(), &builder);
+ParsedJson parseJson(std::span<const std::uint8_t> bytes, MemoryBudget* budget) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    ParsedJson result{parseText(text, budget), styleOf(text)};
     if (!result.root.is_object()) failJson("the JSON is not an object", {});
-    result.style = styleOf({begin, text.size()});
     return result;
 }
 
@@ -160,11 +77,7 @@ std::string writeJson(const Json& root, const JsonStyle& style) {
     return text;
 }
 
-const Json* findMember(const Json& object, const char* key) {
-    if (!object.is_object()) return nullptr;
-    const auto found = object.find(key);
-    return found == object.end() ? nullptr : &*found;
-}
+const Json* findMember(const Json& object, const char* key) { return object.find(key); }
 
 std::size_t readSize(const Json& object, const char* key, const std::string& place,
                      std::optional<std::size_t> fallback) {

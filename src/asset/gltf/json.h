@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
-// The JSON of a glTF file as a DOM that keeps the order of members and everything unknown, with checked
-// access.
+// The JSON of a glTF file: reading and writing of its text, and checked access that says where a value is wrong.
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
 
-#include "asset/memory_budget.h"
+#include "json/json.h"
+
+namespace tspace {
+class MemoryBudget;
+}
 
 namespace tspace::gltf {
 
-using Json = nlohmann::ordered_json;
+using tspace::Json;
 
 /// How the text was laid out, so that an edited file looks like the one that was read.
 struct JsonStyle {
@@ -26,10 +28,6 @@ struct ParsedJson {
     Json root;
     JsonStyle style;
 };
-
-/// Objects and arrays may be nested this deep. Deeper files are refused, so no later step can run out of
-/// stack.
-inline constexpr std::size_t kMaxJsonDepth = 256;
 
 /// Fails with invalidFile: syntax, numbers that no double can hold, repeated members, nesting. What the values take is
 /// asked for in `budget`, which may be null.

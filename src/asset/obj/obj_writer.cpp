@@ -278,7 +278,7 @@ void writeFiles(Json& root, const Bytes& bytes, const fs::path& output, AtomicOu
     fs::path bin = output;
     bin.replace_extension(".bin");
     if (!is_glb) root["buffers"][0]["uri"] = percentEncode(bin.filename().string());
-    const std::string json = root.dump(is_glb ? -1 : 2, ' ', false, Json::error_handler_t::replace);
+    const std::string json = root.dump(is_glb ? -1 : 2, ' ', BadUtf8::replace);
     if (is_glb) {
         const gltf::GlbFrame frame = gltf::frameGlb(json, bytes.size(), {});
         files.add(output, {frame.head, bytes, frame.tail});

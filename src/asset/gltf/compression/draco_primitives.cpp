@@ -284,10 +284,9 @@ class Encoder {
     [[nodiscard]] bool isChanged(const Packed& packed) const {
         const Json& json = document_.json["meshes"][packed.mesh]["primitives"][packed.index];
         if (packed.indices && changed_.count(*packed.indices) != 0) return true;
-        const auto& attributes = json["attributes"].items();
-        return std::any_of(attributes.begin(), attributes.end(), [&](const auto& attribute) {
-            return changed_.count(attribute.value().template get<std::size_t>()) != 0;
-        });
+        const Json& attributes = json["attributes"];
+        return std::any_of(attributes.begin(), attributes.end(),
+                           [&](const Json& accessor) { return changed_.count(accessor.get<std::size_t>()) != 0; });
     }
 
     void encodeGroup(const std::vector<Packed>& group) {
