@@ -1,5 +1,5 @@
 # Installation and packages. Component tspace_core is the core library and needs nothing else; tspace_asset is there when
-# it was built. Consumers: find_package(tspace [COMPONENTS core asset]) and pkg-config.
+# it is part of the build; tspace_tool the programs. Consumers: find_package(tspace [COMPONENTS core asset]) and pkg-config.
 include(CMakePackageConfigHelpers)
 
 set(TSPACE_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/tspace")
@@ -24,6 +24,18 @@ if(TARGET tspace_asset)
     install(EXPORT tspace_asset NAMESPACE tspace:: FILE tspace-asset.cmake DESTINATION "${TSPACE_CMAKE_DIR}"
             COMPONENT tspace_asset)
 endif()
+
+# A program that was not built, as scripts/demo does not build tspace-import, is left out, and said so.
+foreach(program tspace_tool tspace_import)
+    if(TARGET ${program})
+        install(CODE "if(NOT EXISTS \"$<TARGET_FILE:${program}>\")
+            message(STATUS \"Left out, because it was not built: $<TARGET_FILE_NAME:${program}>\")
+        endif()" COMPONENT tspace_tool)
+        install(TARGETS ${program} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tspace_tool OPTIONAL)
+    endif()
+endforeach()
+
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/tspace" COMPONENT tspace_core)
 
 # The library is static, so a C program has to name the C++ runtime as well.
 set(TSPACE_PC_CXX_RUNTIME "")

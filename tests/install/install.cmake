@@ -1,4 +1,5 @@
-# Installs COMPONENTS of BUILD into an empty PREFIX and looks whether the headers are there, and no others.
+# Installs COMPONENTS of BUILD into an empty PREFIX and looks whether the headers are there, and no others; with tspace_tool
+# also whether all PROGRAMS are.
 cmake_minimum_required(VERSION 3.22)
 file(REMOVE_RECURSE "${PREFIX}")
 foreach(component IN LISTS COMPONENTS)
@@ -6,9 +7,17 @@ foreach(component IN LISTS COMPONENTS)
                     COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
 
+if(NOT EXISTS "${PREFIX}/share/doc/tspace/LICENSE")
+    message(FATAL_ERROR "share/doc/tspace/LICENSE was not installed")
+endif()
 foreach(header tspace.h tspace_frame.h tspace.hpp version.h tangents.h compat/mikktspace.h)
     if(NOT EXISTS "${PREFIX}/include/tspace/${header}")
         message(FATAL_ERROR "include/tspace/${header} was not installed")
+    endif()
+endforeach()
+foreach(program IN LISTS PROGRAMS)
+    if("tspace_tool" IN_LIST COMPONENTS AND NOT EXISTS "${PREFIX}/bin/${program}")
+        message(FATAL_ERROR "bin/${program} was not installed")
     endif()
 endforeach()
 if(EXISTS "${PREFIX}/include/tspace/asset.h")

@@ -2,6 +2,7 @@
 // Findings of tspace check in SARIF 2.1.0 (Static Analysis Results Interchange Format, OASIS 2020). docs/check.md says
 // what stands where.
 #include <filesystem>
+
 #include "report.h"
 
 namespace tspace::tool {

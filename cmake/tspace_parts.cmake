@@ -1,0 +1,50 @@
+# The parts of the build: each is on where tspace is built for itself and the libraries are there. What is left out is said
+# in one line; with -DTSPACE_BUILD_...=ON a part is demanded, and a missing library is an error.
+include_guard(GLOBAL)
+
+# tspace_part(NAME "what it is" NEEDS...): option TSPACE_BUILD_NAME. A need is PACKAGE=DEBIAN, by find_package, or
+# HEADER.h=DEBIAN.
+macro(tspace_part name what)
+    if(PROJECT_IS_TOP_LEVEL AND NOT DEFINED TSPACE_BUILD_${name})
+        tspace_find_missing(TSPACE_MISSING ${ARGN})
+    else()
+        set(TSPACE_MISSING "")
+    endif()
+    if(TSPACE_MISSING)
+        # No cache entry: it is looked for again when cmake runs again.
+        set(TSPACE_BUILD_${name} OFF)
+        list(APPEND TSPACE_LEFT_OUT "${what}")
+        list(APPEND TSPACE_NEEDED ${TSPACE_MISSING})
+    else()
+        option(TSPACE_BUILD_${name} "${what}" ${PROJECT_IS_TOP_LEVEL})
+    endif()
+endmacro()
+
+# The Debian packages of those needs that are not there.
+function(tspace_find_missing result)
+    set(missing "")
+    foreach(need IN LISTS ARGN)
+        string(REGEX MATCH "^[^=]+" name "${need}")
+        string(REGEX REPLACE "^[^=]+=" "" debian "${need}")
+        if(name MATCHES "\\.h$")
+            unset(found)
+            find_path(found "${name}" PATH_SUFFIXES stb NO_CACHE)
+        else()
+            find_package(${name} QUIET)
+            set(found "${${name}_FOUND}")
+        endif()
+        if(NOT found)
+            list(APPEND missing "${debian}")
+        endif()
+    endforeach()
+    set(${result} "${missing}" PARENT_SCOPE)
+endfunction()
+
+function(tspace_report_parts)
+    if(TSPACE_LEFT_OUT)
+        list(REMOVE_DUPLICATES TSPACE_NEEDED)
+        string(REPLACE ";" ", " left_out "${TSPACE_LEFT_OUT}")
+        string(REPLACE ";" " " needed "${TSPACE_NEEDED}")
+        message(STATUS "tspace: left out: ${left_out} (not found, as Debian packages: ${needed})")
+    endif()
+endfunction()
