@@ -28,7 +28,9 @@ struct FileOptions {
     std::uint64_t import_max_file_bytes = std::uint64_t{2} << 30;
     /// Address space of the importer; a file gets 192 MiB and 256 times its size at most.
     std::uint64_t import_max_memory_bytes = std::uint64_t{16} << 30;
-    std::uint32_t import_max_seconds = 120;  ///< wall clock and processor time
+    /// What the importer may take of processor time, and on the clock. 0: by the size of the file, 2 s and one more for
+    /// each MiB of it, and twice that on the clock.
+    std::uint32_t import_max_seconds = 0;
     /// What working on one file may take of memory, about; what it would take is estimated first, and more is
     /// refused (tooLarge). 0: 64 MB, and 16 times the bytes of the file, of those it names, and of what its
     /// compressed geometry unpacks to. Other values stand for that, and for import_max_memory_bytes;
@@ -177,6 +179,7 @@ struct PrimitiveInfo {
     bool skinned = false;
     bool has_normals = false;
     bool has_tangents = false;
+    bool tangents_not_read = false;  ///< has_tangents is false, but the importer cannot tell that there are none
     bool needs_tangents = false;
     std::string needed_by = {};                     ///< "normalTexture", "anisotropy", ... or empty
     std::vector<TangentUseInfo> tangent_uses = {};  ///< everything that needs tangents; they follow the first
@@ -207,6 +210,11 @@ struct Inspection {
     std::vector<PrimitiveInfo> primitives = {};  ///< in file order
     std::vector<std::string> warnings = {};      ///< about the file as a whole: one sentence each
 };
+
+/// Removes the temporary files that killed runs of generateFile left in a folder and below it. Their names tell which
+/// process on which machine made them; only those of processes of this machine that are gone are removed. Returns how
+/// many. What cannot be read or removed is passed over. Linear in the number of files there; thread-safe.
+std::uint64_t removeAbandonedFiles(const std::string& folder);
 
 /// Reads a model and says what is in it. Changes nothing. Errors as generateFile.
 Result<Inspection> inspectFile(const std::string& input, const FileOptions& options = {});

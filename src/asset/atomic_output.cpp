@@ -2,16 +2,14 @@
 // Temporary files beside their targets, renamed together at the end.
 #include "asset/atomic_output.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 
 #include "asset/file_error.h"
+#include "asset/temporary_name.h"
 #include "core/parallel.h"
 
 namespace tspace {
@@ -26,16 +24,6 @@ struct CloseFile {
 
 [[noreturn]] void failWrite(const fs::path& target, const std::string& why) {
     failFile(ErrorCode::cannotWrite, "cannot write " + pathInQuotes(target) + ": " + why);
-}
-
-/// A name beside `target` that no other run and no other thread uses; `kind` tells the temporary file from the
-/// set-aside old one. Two models that share an image may copy it at the same time.
-fs::path besideName(const fs::path& target, const char* kind) {
-    static std::atomic<unsigned> next_number = 0;
-    fs::path name = target;
-    name += std::string(".").append(std::to_string(::getpid())).append("-");
-    name += std::to_string(next_number++).append(kind);
-    return name;
 }
 
 /// What is written at one time: bytes that are there, and a block of bytes that were made.
@@ -132,7 +120,7 @@ void AtomicOutput::add(const fs::path& requested, std::span<const OutputPiece> p
         if (fs::create_directory(*folder, error)) created_folders_.push_back(*folder);
         if (error) failWrite(target, "cannot make its folder: " + error.message());
     }
-    const fs::path temporary = besideName(target, ".tmp");
+    const fs::path temporary = besideName(target, kTemporaryEnding);
     std::unique_ptr<std::FILE, CloseFile> file(std::fopen(temporary.c_str(), "wb"));
     if (!file) failWrite(target, std::strerror(errno));
     files_.push_back({temporary, target});

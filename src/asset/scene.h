@@ -55,6 +55,7 @@ struct ScenePrimitive {
     SharedArray<Vec3> positions = {};
     SharedArray<Vec3> normals = {};               ///< one per vertex, or empty: absent
     SharedArray<Vec4> tangents = {};              ///< one per vertex, or empty: absent
+    bool tangents_not_read = false;               ///< they are empty, but the importer cannot tell that there are none
     std::vector<SharedArray<Vec2>> uv_sets = {};  ///< entry n: TEXCOORD_n, empty where absent; v runs down
     std::vector<SceneMorphTarget> morph_targets = {};
     /// Everything in the primitive's materials (variants too) that needs tangents; the first decides which UV set the

@@ -80,9 +80,13 @@ void demote(std::span<Finding> findings) {
 void checkMissing(PrimitiveFacts& facts) {
     if (facts.primitive.uses.empty()) return;
     Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
+    const char* state =
+        facts.primitive.tangents_not_read ? "were not read (the importer cannot give them)" : "are missing";
+    const std::string& user = facts.primitive.uses.front().needed_by;
     facts.add(FindingCode::tangentsMissing, facts.is_gltf ? Severity::warning : Severity::note, all, "vertices",
-              facts.primitive.uses.front().needed_by + " needs tangents, and there are none" +
-                  (facts.is_gltf ? "" : "; tspace generate writes a glTF file that has them"));
+              facts.is_gltf
+                  ? user + " needs tangents, and there are none"
+                  : user + " needs tangents, and they " + state + "; tspace generate writes a glTF file that has them");
 }
 
 }  // namespace

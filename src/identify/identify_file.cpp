@@ -19,6 +19,9 @@ constexpr double kLikelyShare = 0.5;
 /// Methods this near to the best cannot be told apart from it.
 constexpr double kTieShare = 0.005;
 
+/// An importer cannot give all that a file has.
+constexpr const char* kNotRead = "its tangents were not read";
+
 std::string percent(double share) {
     std::array<char, 16> text = {};
     std::snprintf(text.data(), text.size(), "%.1f %%", share * 100);
@@ -27,7 +30,7 @@ std::string percent(double share) {
 
 std::string whyNot(const ScenePrimitive& primitive) {
     if (primitive.corners.empty()) return "it has no triangles";
-    if (primitive.tangents.empty()) return "it has no tangents";
+    if (primitive.tangents.empty()) return primitive.tangents_not_read ? kNotRead : "it has no tangents";
     if (primitive.normals.empty()) return "it has no normals";
     const bool has_uvs = std::any_of(primitive.uv_sets.begin(), primitive.uv_sets.end(),
                                      [](const SharedArray<Vec2>& set) { return !set.empty(); });
@@ -139,7 +142,11 @@ std::string verdictOf(const Identification& result) {
             std::all_of(result.primitives.begin(), result.primitives.end(), [](const PrimitiveIdentity& p) {
                 return p.skipped == "it has no tangents" || p.skipped == "it has no triangles";
             });
-        return none ? "There are no tangents in this file." : "No primitive has all that is needed to tell.";
+        if (none) return "There are no tangents in this file.";
+        const bool not_read = std::any_of(result.primitives.begin(), result.primitives.end(),
+                                          [](const PrimitiveIdentity& p) { return p.skipped == kNotRead; });
+        return not_read ? "The tangents of this file, if it has any, were not read: the importer cannot give them."
+                        : "No primitive has all that is needed to tell.";
     }
     const Explanation& best = result.explanations.front();
     const std::string name = methodName(best.method);

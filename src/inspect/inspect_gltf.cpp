@@ -54,6 +54,7 @@ void describeAttributes(const Document& document, const Primitive& primitive, Pr
     }
     info.has_normals = primitive.find("NORMAL").has_value();
     info.has_tangents = primitive.find("TANGENT").has_value();
+    info.tangents_not_read = !info.has_tangents && document.may_hide_tangents;
     info.skinned = primitive.find("JOINTS_0").has_value();
     while (primitive.find("TEXCOORD_" + std::to_string(info.uv_set_count))) ++info.uv_set_count;
 }
@@ -173,9 +174,7 @@ Inspection inspectGltf(const std::string& input, const FileOptions& options) {
     Document document = loadDocument(input, options);
     Inspection result;
     result.format = formatOf(document);
-    if (const Json* asset = readObject(document.json, "asset", "")) {
-        result.generator = readString(*asset, "generator", "/asset");
-    }
+    result.generator = generatorOf(document);
     result.file_bytes = document.input_bytes;
     result.mesh_count = entryCount(document, "meshes");
     result.material_count = entryCount(document, "materials");

@@ -89,7 +89,7 @@ Command checkCommand(CheckArguments& arguments) {
     addAllowExternal(command, options.file);
     addChecking(command, arguments);
     addThreads(command, options.execution, "Number of threads for each file; 0: as many as there are cores.");
-    addMemoryLimit(command, options.file);
+    addLimits(command, options.file);
     addBatch(command, arguments.batch, false);
     addCheckReporting(command, arguments);
     addReporting(command, arguments.json, arguments.quiet);

@@ -28,7 +28,7 @@ void addBatch(Command& command, BatchArguments& batch, bool with_manifest);
 void addReporting(Command& command, bool& json, bool& quiet);
 void addAllowExternal(Command& command, FileOptions& file);
 void addThreads(Command& command, Execution& execution, std::string help);
-void addMemoryLimit(Command& command, FileOptions& file);
+void addLimits(Command& command, FileOptions& file);
 Option helpOption();
 
 /// The options given that decide about results: "--all --method=angle", in the order of their names, so that the

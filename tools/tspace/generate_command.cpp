@@ -63,6 +63,7 @@ class GenerateRun {
             Result<ManifestRecord> record = ManifestRecord::read(batch.manifest);
             if (!record) return record.error();
             record_ = std::move(*record);
+            for (const std::string& folder : outputFolders(jobs_)) removeAbandonedFiles(folder);
         }
         Result<ManifestWriter> writer = ManifestWriter::open(batch.manifest);
         if (!writer) return writer.error();

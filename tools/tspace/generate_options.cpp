@@ -148,7 +148,7 @@ void addOtherOptions(Command& command, GenerateOptions& options) {
                                "longer matches bakes exactly where normals are not unit."));
     addThreads(command, options.tangents.execution,
                "Number of threads; 0: as many as there are cores. Changes no bit of the result.");
-    addMemoryLimit(command, options.file);
+    addLimits(command, options.file);
 }
 
 /// What options mean together. Returns what makes no sense.

@@ -13,8 +13,15 @@ constexpr double kPi = 3.14159265358979323846;
 std::string joined(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, ", ")); }
 
 std::string needText(const PrimitiveInfo& primitive) {
-    if (!primitive.needs_tangents) return primitive.has_tangents ? "not needed, but there" : "not needed";
-    return fmt::format("{} ({}{})", primitive.has_tangents ? "needed and there" : "needed, missing",
+    if (!primitive.needs_tangents) {
+        return primitive.has_tangents        ? "not needed, but there"
+               : primitive.tangents_not_read ? "not needed; not read"
+                                             : "not needed";
+    }
+    return fmt::format("{} ({}{})",
+                       primitive.has_tangents        ? "needed and there"
+                       : primitive.tangents_not_read ? "needed, not read"
+                                                     : "needed, missing",
                        primitive.needed_by, primitive.tangent_uses[0].only_in_variant ? " of a variant" : "");
 }
 
@@ -149,6 +156,7 @@ Json primitiveJson(const PrimitiveInfo& primitive) {
         {"skinned", primitive.skinned},
         {"hasNormals", primitive.has_normals},
         {"hasTangents", primitive.has_tangents},
+        {"tangentsNotRead", primitive.tangents_not_read},
         {"needsTangents", primitive.needs_tangents},
         {"neededBy", primitive.needed_by},
         {"tangentUses", uses},

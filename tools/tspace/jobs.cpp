@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "glob.h"
 
@@ -184,6 +185,19 @@ bool isModelFile(const std::string& path) {
     static const bool has_importer = !importerPath().empty();
     constexpr std::array kImported = {".fbx", ".ply", ".stl", ".dae", ".3ds"};
     return has_importer && std::find(kImported.begin(), kImported.end(), extension) != kImported.end();
+}
+
+std::vector<std::string> outputFolders(const std::vector<Job>& jobs) {
+    std::set<std::string> sorted;
+    for (const Job& job : jobs) {
+        if (!job.output.empty()) sorted.insert((fs::path(canonicalName(job.output)).parent_path() / "").string());
+    }
+    // What lies in a folder comes right behind it.
+    std::vector<std::string> folders;
+    for (const std::string& folder : sorted) {
+        if (folders.empty() || !folder.starts_with(folders.back())) folders.push_back(folder);
+    }
+    return folders;
 }
 
 std::vector<Job> inputJobs(const std::vector<std::string>& inputs) {

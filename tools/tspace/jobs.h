@@ -32,4 +32,7 @@ std::vector<Job> inputJobs(const std::vector<std::string>& inputs);
 /// invalidOption says what is wrong with the command line.
 Result<std::vector<Job>> generateJobs(const GenerateArguments& arguments);
 
+/// The folders that the jobs write into, without those that lie in another one of them.
+std::vector<std::string> outputFolders(const std::vector<Job>& jobs);
+
 }  // namespace tspace::tool

@@ -37,7 +37,7 @@ Command inspectCommand(InspectArguments& arguments) {
     };
     addInputs(command, arguments.inputs);
     addAllowExternal(command, arguments.file);
-    addMemoryLimit(command, arguments.file);
+    addLimits(command, arguments.file);
     addBatch(command, arguments.batch, false);
     addReporting(command, arguments.json, arguments.quiet);
     return command;
@@ -64,7 +64,7 @@ Command diffCommand(DiffArguments& arguments) {
                                "In degrees, 0 to 180."));
     command.add(group,
                 number("--worst", arguments.options.worst_count, 10000, "How many of the worst places are listed."));
-    addMemoryLimit(command, arguments.options.file);
+    addLimits(command, arguments.options.file);
     addReporting(command, arguments.json, arguments.quiet);
     return command;
 }
@@ -86,7 +86,7 @@ Command identifyCommand(IdentifyArguments& arguments) {
                                      "Tangents nearer than this count as the same. In degrees, 0 to 180."));
     addThreads(command, arguments.options.execution,
                "Number of threads; 0: as many as there are cores. Changes no bit of the result.");
-    addMemoryLimit(command, arguments.options.file);
+    addLimits(command, arguments.options.file);
     addBatch(command, arguments.batch, false);
     addReporting(command, arguments.json, arguments.quiet);
     return command;

@@ -25,7 +25,7 @@ void append32(std::vector<std::uint8_t>& out, std::uint64_t value) {
 
 }  // namespace
 
-GlbBuilder::GlbBuilder() { json_["asset"] = {{"version", "2.0"}, {"generator", "tspace"}}; }
+GlbBuilder::GlbBuilder() { json_["asset"] = {{"version", "2.0"}}; }
 
 std::size_t GlbBuilder::append(const char* array, Json entry) {
     json_[array].push_back(std::move(entry));

@@ -2,6 +2,7 @@
 // Assimp's scene as glTF: nodes, meshes with their skins, animations.
 #include "import_scene.h"
 
+#include <assimp/commonMetaData.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include "materials.h"
 #include "mend.h"
 #include "meshes.h"
+#include "stored_tangents.h"
 
 namespace tspace::import {
 
@@ -21,9 +23,14 @@ namespace {
 
 class SceneWriter {
   public:
-    explicit SceneWriter(const aiScene& scene) : scene_(scene) {}
+    SceneWriter(const aiScene& scene, bool takes_tangents) : scene_(scene), takes_tangents_(takes_tangents) {}
 
     std::vector<std::uint8_t> write() {
+        aiString generator;
+        if (scene_.mMetaData != nullptr && scene_.mMetaData->Get(AI_METADATA_SOURCE_GENERATOR, generator) &&
+            generator.length > 0) {
+            builder_.json()["asset"]["generator"] = generator.C_Str();
+        }
         listNodes();
         addMaterials(builder_, scene_);
         for (std::size_t i = 0; i < nodes_.size(); ++i) builder_.append("nodes", nodeJson(i));
@@ -110,7 +117,7 @@ class SceneWriter {
             std::vector<std::uint16_t> joints;
             for (unsigned b = 0; b < mesh.mNumBones && !skin.joints.empty(); ++b)
                 joints.push_back(skin.place_of.at(mesh.mBones[b]->mName.C_Str()));
-            std::optional<Json> primitive = addPrimitive(builder_, mesh, joints);
+            std::optional<Json> primitive = addPrimitive(builder_, mesh, joints, takes_tangents_);
             if (!primitive) continue;
             if (mesh.mMaterialIndex < scene_.mNumMaterials)
                 (*primitive)["material"] = materialFor(mesh.mMaterialIndex, *primitive);
@@ -236,6 +243,7 @@ class SceneWriter {
     }
 
     const aiScene& scene_;
+    bool takes_tangents_;
     GlbBuilder builder_;
     std::vector<const aiNode*> nodes_ = {};
     std::vector<std::size_t> first_child_ = {};
@@ -258,9 +266,11 @@ Imported importScene(const std::string& path) {
     bool has_faces = false;
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) has_faces = has_faces || scene->mMeshes[i]->HasFaces();
     if (!has_faces) return {.error = "it has no faces"};
-    SceneWriter writer(*scene);
+    const StoredTangents stored = storedTangents(path);
+    SceneWriter writer(*scene, stored == StoredTangents::withBitangents);
     Imported imported{.glb = writer.write()};
     imported.warnings = writer.warnings();
+    imported.has_no_tangents = stored == StoredTangents::none;
     return imported;
 }
 

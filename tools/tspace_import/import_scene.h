@@ -10,7 +10,8 @@ namespace tspace::import {
 
 struct Imported {
     std::vector<std::uint8_t> glb = {};
-    std::string error = {};  ///< one sentence; empty: it was read
+    std::string error = {};        ///< one sentence; empty: it was read
+    bool has_no_tangents = false;  ///< the file has none, as far as its text says
     std::vector<std::string> warnings = {};
 };
 

@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: MIT
-// tspace-import IN OUT.glb MAX_BYTES MAX_SECONDS: reads FBX, PLY, STL, DAE, 3DS and what else Assimp knows, and writes
-// a GLB that tspace goes on with. A program of its own, because Assimp's parsers may crash or run away on broken files:
-// memory and time are limited, and whatever happens ends with this process. Not meant to be called by hand.
+// tspace-import IN MAX_BYTES MAX_PROCESSOR_SECONDS MAX_SECONDS PARENT: reads FBX, PLY, STL, DAE, 3DS and what else Assimp
+// knows, and writes to stdout a GLB that tspace goes on with. A program of its own, because Assimp's parsers may crash or
+// run away on broken files: memory and time are limited, and whatever happens ends with this process. It writes no file,
+// and ends when the process PARENT does. Not meant to be called by hand.
+#include <fcntl.h>
+#include <signal.h>
 #include <sys/resource.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#endif
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -18,25 +27,68 @@ constexpr int kBadInput = 3;
 constexpr int kCannotWrite = 4;
 constexpr int kOutOfMemory = 5;
 
-void limit(int resource, rlim_t value) {
-    const rlimit limits = {value, value};
-    setrlimit(static_cast<__rlimit_resource>(resource), &limits);
+/// The type of `resource` is another one on each system.
+template <class Resource>
+void limit(Resource resource, rlim_t soft, rlim_t hard) {
+    const rlimit limits = {soft, hard};
+    setrlimit(resource, &limits);
 }
 
-int run(const char* input, const char* output) {
+void limitAll(rlim_t bytes, rlim_t processor_seconds, unsigned seconds) {
+    limit(RLIMIT_CORE, 0, 0);
+    limit(RLIMIT_FSIZE, 0, 0);  // pipes are no files
+    // The signal of the soft limit tells the parent why. At the hard one there is no way around.
+    limit(RLIMIT_CPU, processor_seconds, processor_seconds + 1);
+    // One second after the parent would have ended it: for a parent that is not there to do it.
+    alarm(seconds + 1);
+#if defined(RLIMIT_AS) && !defined(__SANITIZE_ADDRESS__)  // which reserves terabytes of addresses
+    limit(RLIMIT_AS, bytes, bytes);
+#else
+    static_cast<void>(bytes);
+#endif
+}
+
+/// From now on this process ends when the thread that started it does: in tspace that thread waits here for it. False:
+/// it has ended before.
+bool endWithParent([[maybe_unused]] pid_t parent) {
+#ifdef __linux__
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+    return getppid() == parent;
+}
+
+/// Files that whoever started tspace had open are no business of a parser.
+void closeOtherFiles() {
+    constexpr unsigned kFirst = 3;
+#if defined(__linux__) && defined(SYS_close_range)
+    if (syscall(SYS_close_range, kFirst, ~0U, 0U) == 0) return;
+#endif
+    constexpr long kMost = 65536;
+    for (long i = kFirst; i < std::min(sysconf(_SC_OPEN_MAX), kMost); ++i) close(static_cast<int>(i));
+}
+
+/// Stdout for the result alone: what a library prints goes nowhere.
+int takeStdout() {
+    const int result = dup(STDOUT_FILENO);
+    const int nowhere = open("/dev/null", O_WRONLY);
+    if (nowhere >= 0) dup2(nowhere, STDOUT_FILENO);
+    return result;
+}
+
+int run(const char* input, std::FILE* output) {
     const tspace::import::Imported imported = tspace::import::importScene(input);
     if (!imported.error.empty()) {
         std::fprintf(stderr, "%s\n", imported.error.c_str());
         return kBadInput;
     }
-    std::FILE* file = std::fopen(output, "wb");
     const bool written =
-        file != nullptr && std::fwrite(imported.glb.data(), 1, imported.glb.size(), file) == imported.glb.size();
-    if (file == nullptr || std::fclose(file) != 0 || !written) {
-        std::fprintf(stderr, "cannot write the temporary file\n");
+        output != nullptr && std::fwrite(imported.glb.data(), 1, imported.glb.size(), output) == imported.glb.size();
+    if (output == nullptr || std::fclose(output) != 0 || !written) {
+        std::fprintf(stderr, "cannot write the result\n");
         return kCannotWrite;
     }
     // importDocument takes these lines from others that a library may print.
+    if (imported.has_no_tangents) std::fprintf(stderr, "tangents: none\n");
     for (const std::string& warning : imported.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     return 0;
 }
@@ -44,17 +96,18 @@ int run(const char* input, const char* output) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 5) {
-        std::fprintf(stderr, "usage: tspace-import IN OUT.glb MAX_BYTES MAX_SECONDS (a helper of tspace)\n");
+    if (argc != 6) {
+        std::fprintf(stderr,
+                     "usage: tspace-import IN MAX_BYTES MAX_PROCESSOR_SECONDS MAX_SECONDS PARENT (a helper of "
+                     "tspace)\n");
         return 2;
     }
-    limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_CPU, std::strtoull(argv[4], nullptr, 10));
-#if !defined(__SANITIZE_ADDRESS__)  // which reserves terabytes of addresses
-    limit(RLIMIT_AS, std::strtoull(argv[3], nullptr, 10));
-#endif
+    const auto number = [argv](int i) { return std::strtoull(argv[i], nullptr, 10); };
+    if (!endWithParent(static_cast<pid_t>(number(5)))) return kCannotWrite;
+    closeOtherFiles();
+    limitAll(number(2), number(3), static_cast<unsigned>(number(4)));
     try {
-        return run(argv[1], argv[2]);
+        return run(argv[1], fdopen(takeStdout(), "wb"));
     } catch (const std::bad_alloc&) {
         std::fprintf(stderr, "reading it takes more memory than is allowed (--memory-limit allows more)\n");
         return kOutOfMemory;

@@ -42,6 +42,7 @@ std::vector<std::string> Mended::warnings() const {
     add(positions, "positions that are not finite and were moved to the origin");
     add(uvs, "texture coordinates that are not finite and were set to 0");
     add(normals, "normals that are zero or not finite and were taken from a face");
+    add(tangents, "tangents that are not finite and were set to 0");
     add(transforms, "matrices of nodes or joints that are not finite and were left out");
     return list;
 }

@@ -13,7 +13,7 @@ namespace tspace::import {
 
 /// How many were mended.
 struct Mended {
-    std::size_t positions = 0, uvs = 0, normals = 0, transforms = 0;
+    std::size_t positions = 0, uvs = 0, normals = 0, tangents = 0, transforms = 0;
 
     /// A sentence for each kind that occurred.
     [[nodiscard]] std::vector<std::string> warnings() const;

@@ -94,8 +94,21 @@ void addWeights(const aiMesh& mesh, const std::vector<std::uint16_t>& joints, st
     }
 }
 
+/// T as it is, and which side of cross(N, T) the bitangent is on. It points where v grows, upwards here; that is where
+/// glTF wants the bitangent too, although its v runs down: so w is that side, as it comes.
+Attribute tangentsOf(const aiMesh& mesh) {
+    Attribute tangents{"TANGENT", 4};
+    tangents.values.reserve(std::size_t{4} * mesh.mNumVertices);
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+        const aiVector3D& t = mesh.mTangents[i];
+        const float side = (mesh.mNormals[i] ^ t) * mesh.mBitangents[i];
+        tangents.values.insert(tangents.values.end(), {t.x, t.y, t.z, side < 0 ? -1.0F : 1.0F});
+    }
+    return tangents;
+}
+
 std::vector<Attribute> attributesOf(const aiMesh& mesh, const std::vector<std::uint16_t>& joints,
-                                    const std::vector<std::uint32_t>& triangles, Mended& mended) {
+                                    const std::vector<std::uint32_t>& triangles, bool takes_tangents, Mended& mended) {
     const std::size_t count = mesh.mNumVertices;
     std::vector<Attribute> attributes;
     attributes.push_back({"POSITION", 3, vectors(mesh.mVertices, count, 3)});
@@ -104,6 +117,10 @@ std::vector<Attribute> attributesOf(const aiMesh& mesh, const std::vector<std::u
         Attribute normals{"NORMAL", 3, vectors(mesh.mNormals, count, 3)};
         mended.normals += mendNormals(normals.values, attributes.back().values, triangles);
         attributes.push_back(std::move(normals));
+        if (takes_tangents && mesh.HasTangentsAndBitangents()) {
+            attributes.push_back(tangentsOf(mesh));
+            mended.tangents += zeroNotFinite(attributes.back().values, 4);
+        }
     }
     std::size_t uv_set = 0;
     for (unsigned set = 0; set < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++set) {
@@ -211,10 +228,11 @@ std::size_t addAttribute(GlbBuilder& builder, const Attribute& attribute, const 
 
 }  // namespace
 
-std::optional<Json> addPrimitive(GlbBuilder& builder, const aiMesh& mesh, const std::vector<std::uint16_t>& joints) {
+std::optional<Json> addPrimitive(GlbBuilder& builder, const aiMesh& mesh, const std::vector<std::uint16_t>& joints,
+                                 bool takes_tangents) {
     std::vector<std::uint32_t> triangles = trianglesOf(mesh);
     if (triangles.empty()) return {};
-    const std::vector<Attribute> attributes = attributesOf(mesh, joints, triangles, builder.mended());
+    const std::vector<Attribute> attributes = attributesOf(mesh, joints, triangles, takes_tangents, builder.mended());
     const Joined joined = joinEqual(attributes, mesh.mNumVertices);
     for (std::uint32_t& vertex : triangles) vertex = joined.place[vertex];
 

@@ -239,14 +239,21 @@ Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, cons
     return document;
 }
 
-Document loadDocument(const std::filesystem::path& path, const FileOptions& options, const Execution& execution) {
-    if (isImportedFormat(path)) return importDocument(path, options);
+Document loadDocument(const std::filesystem::path& path, const FileOptions& options, const Execution& execution,
+                      const Progress& progress) {
+    if (isImportedFormat(path)) return importDocument(path, options, progress);
     return parseDocument(readFile(path, {}, execution), path, options);
 }
 
 std::string formatOf(const Document& document) {
     if (document.imported) return lowerExtension(document.path).substr(1);
     return document.container == Container::glb ? "glb" : "gltf";
+}
+
+std::string generatorOf(const Document& document) {
+    if (document.imported) return document.source_generator;
+    const Json* asset = readObject(document.json, "asset", "");
+    return asset != nullptr ? readString(*asset, "generator", "/asset") : std::string();
 }
 
 void checkRequiredExtensions(Document& document) {

@@ -67,6 +67,8 @@ struct Document {
     std::uint64_t input_bytes = 0;              ///< the model file and its buffer files
     std::vector<std::string> input_files = {};  ///< what was read beside the model file
     bool imported = false;                      ///< made from a file of another format: `file_bytes` is not that file
+    bool may_hide_tangents = false;             ///< that file may have tangents which the importer did not read
+    std::string source_generator = {};          ///< what made that file; may be empty
     FileOptions options = {};
     std::vector<std::string> warnings = {};                                   ///< what reading had to say
     std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< what it may still take
@@ -74,9 +76,9 @@ struct Document {
 
 /// Reads a .glb or .gltf (told apart by content) and its buffers. Checks asset.version, buffers, buffer views
 /// and accessors (types, ranges), and that no URI of a buffer or image leads out of the folder. Images are
-/// not read.
+/// not read. `progress` is called while the importer reads a file of another format.
 Document loadDocument(const std::filesystem::path& path, const FileOptions& options,
-                      const Execution& execution = {.thread_count = 1});
+                      const Execution& execution = {.thread_count = 1}, const Progress& progress = {});
 
 /// The same from bytes in memory; `path` says where relative URIs start.
 Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, const FileOptions& options);
@@ -87,6 +89,9 @@ void checkRequiredExtensions(Document& document);
 
 /// "glb", "gltf", or the extension of a file of another format ("fbx"), for reports.
 std::string formatOf(const Document& document);
+
+/// The program that made the file, in its own words; empty: it does not say.
+std::string generatorOf(const Document& document);
 
 /// Array of the root, whose entries are objects; only the names that loading checks ("meshes", "accessors");
 /// empty when absent.

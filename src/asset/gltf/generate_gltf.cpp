@@ -52,10 +52,13 @@ void noteMissingBitangents(std::span<const Primitive> primitives, std::span<Prim
     }
 }
 
-GenerateReport generate(const std::string& input, const std::string& output_path, const GenerateOptions& options) {
+GenerateReport generate(const std::string& input, const std::string& output_path, const GenerateOptions& requested) {
     GenerateReport report;
-    tell(options, "reading", 0, 1);
-    Document document = loadDocument(input, options.file, options.tangents.execution);
+    tell(requested, "reading", 0, 1);
+    Document document = loadDocument(input, requested.file, requested.tangents.execution, requested.progress);
+    GenerateOptions options = requested;
+    // Other formats leave open whose conventions their tangents follow: only those stay that are right in glTF.
+    if (document.imported && options.existing == ExistingTangents::keep) options.existing = ExistingTangents::repair;
     const OutputTarget target = outputTarget(document, output_path);
     checkRequiredExtensions(document);
     report.warnings = document.warnings;

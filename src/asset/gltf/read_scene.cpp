@@ -59,6 +59,7 @@ class PrimitiveLoader {
         result.mode = modeName(primitive.mode);
         result.uses = tangentUses(document_, primitive);
         loadAttributes(primitive, result);
+        result.tangents_not_read = result.tangents.empty() && document_.may_hide_tangents;
         for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
             const AttributeList& list = primitive.targets[i];
             const std::string place = join(join(result.place, "targets"), i);
@@ -166,9 +167,7 @@ Scene readGltfScene(const std::string& input, const FileOptions& options, bool w
     scene.warnings = document.warnings;
     scene.memory = document.memory;
     scene.format = formatOf(document);
-    if (const Json* asset = readObject(document.json, "asset", "")) {
-        scene.generator = readString(*asset, "generator", "/asset");
-    }
+    scene.generator = generatorOf(document);
     PrimitiveLoader loader(document);
     std::set<std::size_t> images;
     for (const Primitive& primitive : readPrimitives(document)) {

@@ -13,8 +13,9 @@ namespace tspace {
 bool isImportedFormat(const std::filesystem::path& path);
 
 /// Runs the importer on the file, with limits on memory and time, and parses what it wrote. `path` and `folder` are
-/// those of the file. Fails with unsupportedFile when there is no importer; with invalidFile when it cannot read the
-/// file, crashes, or passes a limit.
-gltf::Document importDocument(const std::filesystem::path& path, const FileOptions& options);
+/// those of the file. `progress` is called while the importer works, and may end it by throwing. Fails with
+/// unsupportedFile when there is no importer; with invalidFile when it cannot read the file, crashes, or passes a limit.
+gltf::Document importDocument(const std::filesystem::path& path, const FileOptions& options,
+                              const Progress& progress = {});
 
 }  // namespace tspace

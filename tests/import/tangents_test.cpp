@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// Tangents of other formats: those of FBX are read, with their signs; where a format or the importer cannot give them,
+// nothing claims that there are none.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "asset/scene.h"
+#include "support/temp_folder.h"
+#include "tspace/asset.h"
+#include "tspace/check.h"
+#include "tspace/identify.h"
+
+namespace tspace::test {
+namespace {
+
+const FileOptions kWithImporter{.importer = TSPACE_IMPORTER};
+
+std::string layer(const std::string& kind, const std::string& values_name, const std::string& values,
+                  std::size_t count) {
+    return "LayerElement" + kind +
+           ": 0 {\n Version: 101\n Name: \"\"\n MappingInformationType: \"ByPolygonVertex\"\n"
+           " ReferenceInformationType: \"Direct\"\n " +
+           values_name + ": *" + std::to_string(count) + " {\n a: " + values + "\n }\n}\n";
+}
+
+std::string list(const std::vector<std::string>& values) {
+    std::string text;
+    for (const std::string& value : values) text += (text.empty() ? "" : ",") + value;
+    return text;
+}
+
+std::vector<std::string> times(const std::string& a, const std::string& b) { return {a, a, a, a, b, b, b, b}; }
+
+/// What the text of an FBX file has of frames.
+struct Stored {
+    std::string tangents = list(times("1,0,0", "-1,0,0"));
+    std::string bitangents = list(times("0,1,0", "0,1,0"));
+};
+
+/// Two squares side by side. The texture is mirrored on the second, and has a normal map. Text, as Autodesk's SDK writes
+/// it.
+std::string writeSquares(const TempFolder& folder, const Stored& stored) {
+    std::string layers = layer("Normal", "Normals", list(times("0,0,1", "0,0,1")), 24);
+    std::vector<std::string> kinds = {"Normal", "UV"};
+    if (!stored.bitangents.empty()) {
+        layers += layer("Binormal", "Binormals", stored.bitangents, 24);
+        kinds.emplace_back("Binormal");
+    }
+    if (!stored.tangents.empty()) {
+        layers += layer("Tangent", "Tangents", stored.tangents, 24);
+        kinds.emplace_back("Tangent");
+    }
+    layers += layer("UV", "UV", "0,0,1,0,1,1,0,1,1,0,0,0,0,1,1,1", 16);
+    layers +=
+        "LayerElementMaterial: 0 {\n Version: 101\n Name: \"\"\n MappingInformationType: \"AllSame\"\n"
+        " ReferenceInformationType: \"IndexToDirect\"\n Materials: *1 {\n a: 0\n }\n}\n";
+    kinds.emplace_back("Material");
+    layers += "Layer: 0 {\n Version: 100\n";
+    for (const std::string& kind : kinds)
+        layers += " LayerElement:  {\n Type: \"LayerElement" + kind + "\"\n TypedIndex: 0\n }\n";
+    layers += "}\n";
+    return folder.write(
+        "squares.fbx",
+        "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n FBXHeaderVersion: 1003\n FBXVersion: 7400\n"
+        " Creator: \"A modeller 1.0\"\n}\nObjects:  {\nGeometry: 1, \"Geometry::g\", \"Mesh\" {\n"
+        "Vertices: *18 {\n a: 0,0,0,1,0,0,2,0,0,0,1,0,1,1,0,2,1,0\n}\n"
+        "PolygonVertexIndex: *8 {\n a: 0,1,4,-4,1,2,5,-5\n}\n" +
+            layers +
+            "}\nModel: 2, \"Model::m\", \"Mesh\" {\n Version: 232\n}\n"
+            "Material: 3, \"Material::skin\", \"\" {\n Version: 102\n}\n"
+            "Texture: 4, \"Texture::t\", \"\" {\n Type: \"TextureVideoClip\"\n Version: 202\n"
+            " FileName: \"bump.png\"\n RelativeFilename: \"bump.png\"\n}\n}\n"
+            "Connections:  {\n C: \"OO\",1,2\n C: \"OO\",2,0\n C: \"OO\",3,2\n C: \"OP\",4,3, \"NormalMap\"\n}\n");
+}
+
+std::string writePly(const TempFolder& folder) {
+    return folder.write("a.ply",
+                        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+                        "z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                        "0 0 0\n3 0 0\n1 1 0\n3 0 1 2\n");
+}
+
+TEST(ImportTangents, OfFbxAreReadWithTheirSigns) {
+    const TempFolder folder;
+    const Scene scene = readScene(writeSquares(folder, {}), kWithImporter, false);
+    ASSERT_EQ(scene.primitives.size(), 1U);
+    const ScenePrimitive& primitive = scene.primitives[0];
+    EXPECT_FALSE(primitive.tangents_not_read);
+    ASSERT_EQ(primitive.tangents.size(), primitive.positions.size());
+    ASSERT_EQ(primitive.tangents.size(), 8U) << "vertices with other tangents stay apart";
+    std::size_t plain = 0, mirrored = 0;
+    for (const Vec4& t : primitive.tangents) {
+        plain += t == Vec4{1, 0, 0, 1};
+        mirrored += t == Vec4{-1, 0, 0, -1};
+    }
+    EXPECT_EQ(plain, 4U);
+    EXPECT_EQ(mirrored, 4U);
+}
+
+TEST(ImportTangents, OfFbxAreJudgedLikeThoseOfGltf) {
+    const TempFolder folder;
+    const std::string path = writeSquares(folder, {});
+    const Result<Identification> identified = identifyFile(path, {.file = kWithImporter});
+    ASSERT_TRUE(identified.ok()) << identified.error().message;
+    ASSERT_FALSE(identified->explanations.empty()) << identified->verdict;
+    EXPECT_EQ(identified->explanations[0].nearShare(), 1.0);
+    EXPECT_EQ(identified->explanations[0].signs(), SignReading::gltf);
+    const Result<CheckReport> good = checkFile(path, {.file = kWithImporter});
+    ASSERT_TRUE(good.ok());
+    EXPECT_EQ(good->error_count, 0U);
+    EXPECT_EQ(good->tangents_count, 1U);
+    const std::string inverted = writeSquares(folder, {.bitangents = list(times("0,-1,0", "0,-1,0"))});
+    const Result<CheckReport> bad = checkFile(inverted, {.file = kWithImporter});
+    ASSERT_TRUE(bad.ok());
+    ASSERT_GT(bad->error_count, 0U);
+    EXPECT_EQ(bad->findings[0].code, FindingCode::signsInverted);
+}
+
+TEST(ImportTangents, GoodOnesStayAndWrongOnesAreMadeAnew) {
+    const TempFolder folder;
+    const auto actionFor = [&](const Stored& stored) {
+        const Result<GenerateReport> report =
+            generateFile(writeSquares(folder, stored), folder.path("out.glb").string(), {.file = kWithImporter});
+        EXPECT_TRUE(report.ok()) << report.error().message;
+        return std::string(actionName(report->primitives[0].action));
+    };
+    EXPECT_EQ(actionFor({}), "kept");
+    EXPECT_EQ(actionFor({.bitangents = list(times("0,-1,0", "0,-1,0"))}), "replaced");
+    EXPECT_EQ(actionFor({.tangents = list(times("nan,0,0", "-1,0,0"))}), "replaced");
+    EXPECT_EQ(actionFor({.tangents = "", .bitangents = ""}), "generated");
+}
+
+TEST(ImportTangents, WithoutBitangentsTheirSignIsNotMadeUp) {
+    const TempFolder folder;
+    const std::string path = writeSquares(folder, {.bitangents = ""});
+    const Scene scene = readScene(path, kWithImporter, false);
+    EXPECT_TRUE(scene.primitives[0].tangents.empty());
+    EXPECT_TRUE(scene.primitives[0].tangents_not_read);
+}
+
+std::string verdictOn(const std::string& path) {
+    const Result<Identification> result = identifyFile(path, {.file = kWithImporter});
+    return result ? result->verdict : result.error().message;
+}
+
+TEST(ImportTangents, NobodySaysThatThereAreNoneWhereTheyWereNotRead) {
+    const TempFolder folder;
+    const std::string not_read =
+        "The tangents of this file, if it has any, were not read: the importer cannot give them.";
+    EXPECT_EQ(verdictOn(writePly(folder)), not_read);
+    EXPECT_EQ(verdictOn(writeSquares(folder, {.bitangents = ""})), not_read);
+    EXPECT_EQ(verdictOn(writeSquares(folder, {.tangents = "", .bitangents = ""})),
+              "There are no tangents in this file.");
+    const std::string unsigned_ones = writeSquares(folder, {.bitangents = ""});
+    const Result<Inspection> inspected = inspectFile(unsigned_ones, kWithImporter);
+    ASSERT_TRUE(inspected.ok());
+    EXPECT_FALSE(inspected->primitives[0].has_tangents);
+    EXPECT_TRUE(inspected->primitives[0].tangents_not_read);
+    const Result<CheckReport> checked = checkFile(unsigned_ones, {.images = false, .file = kWithImporter});
+    ASSERT_TRUE(checked.ok());
+    ASSERT_EQ(checked->findings.size(), 1U);
+    EXPECT_EQ(checked->findings[0].code, FindingCode::tangentsMissing);
+    EXPECT_NE(checked->findings[0].message.find("not read"), std::string::npos) << checked->findings[0].message;
+}
+
+TEST(ImportTangents, TheGeneratorIsTheProgramThatWroteTheFile) {
+    const TempFolder folder;
+    const auto generatorOf = [](const std::string& path) {
+        const Result<Inspection> result = inspectFile(path, kWithImporter);
+        return result ? result->generator : result.error().message;
+    };
+    const std::string fbx = writeSquares(folder, {}), made = folder.path("out.glb").string();
+    EXPECT_EQ(generatorOf(fbx), "A modeller 1.0");
+    EXPECT_EQ(generatorOf(writePly(folder)), "");
+    ASSERT_TRUE(generateFile(fbx, made, {.file = kWithImporter}).ok());
+    EXPECT_EQ(generatorOf(made), "tspace");
+    EXPECT_EQ(identifyFile(fbx, {.file = kWithImporter})->generator, "A modeller 1.0");
+    EXPECT_EQ(checkFile(fbx, {.file = kWithImporter})->generator, "A modeller 1.0");
+}
+
+}  // namespace
+}  // namespace tspace::test

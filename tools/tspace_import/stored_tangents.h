@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Whether a file has tangents of its own, which Assimp alone does not tell.
+#pragma once
+
+#include <string>
+
+namespace tspace::import {
+
+enum class StoredTangents {
+    none,            ///< the format names its tangents, and the file does not have that name
+    withBitangents,  ///< what Assimp gives is what the file has
+    unknown,  ///< Assimp does not read them from this format, or the file lacks the bitangents: then their sign is
+              ///< not known, and Assimp makes one up
+};
+
+/// Looks for names in the bytes of the file.
+StoredTangents storedTangents(const std::string& path);
+
+}  // namespace tspace::import
