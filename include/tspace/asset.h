@@ -55,6 +55,17 @@ enum class TextureTransform : std::uint32_t {
     ignore = 1,  ///< before it: for viewers that turn tangents by the transform themselves
 };
 
+/// The faces that tangents are computed on. glTF has only triangles, but Blender and many bakers compute MikkTSpace on
+/// the quads that these were cut from, along another diagonal in part; docs/quads.md has the whole story.
+enum class Faces : std::uint32_t {
+    triangles = 0,  ///< the triangles of the file
+    quads = 1,      ///< two triangles that follow each other and share an edge are a quad, as far as they look like it
+    /// Quads where the file's own tangents show it, or where it has none and Blender wrote it; else triangles.
+    automatic = 2,
+};
+/// "triangles", "quads" or "auto".
+const char* facesName(Faces faces);
+
 /// How the geometry of a written glTF file is packed.
 enum class Compression : std::uint32_t {
     keep = 0,     ///< what came in compressed goes out compressed the same way, new data in it; the rest stays plain

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names of what can be done to a primitive.
+// Names of what can be done to a primitive, and of the faces that it can be done on.
 #include "tspace/asset.h"
 
 namespace tspace {
@@ -22,6 +22,18 @@ const char* actionName(PrimitiveAction action) {
             return "impossible";
         case PrimitiveAction::removed:
             return "removed";
+    }
+    return "unknown";
+}
+
+const char* facesName(Faces faces) {
+    switch (faces) {
+        case Faces::triangles:
+            return "triangles";
+        case Faces::quads:
+            return "quads";
+        case Faces::automatic:
+            return "auto";
     }
     return "unknown";
 }

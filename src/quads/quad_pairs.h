@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Quads out of a list of triangles. Exporters cut a polygon into triangles that follow each other in the list, so a
+// quad can only be triangle t with triangle t + 1, across an edge that both have. Knows topology and shape, no tangents.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tspace/mesh.h"
+
+namespace tspace {
+
+/// Which triangles can be one quad with the next. Linear in the triangles; one byte for each.
+class QuadCandidates {
+  public:
+    /// Triangles t and t + 1 can be a quad when they share one edge, in opposite directions, and do not fold back on
+    /// each other. An edge is shared when its ends are the same vertices, or equal in position, normal, UV and (where
+    /// there are any) tangent: a corner of a quad has one of each.
+    ///
+    /// triangles   valid; three corners a face
+    /// tangents    one per vertex, or empty
+    explicit QuadCandidates(const MeshView& triangles, std::span<const Vec4> tangents = {});
+
+    [[nodiscard]] std::size_t triangleCount() const { return seams_.size(); }
+    [[nodiscard]] std::size_t count() const { return count_; }
+    [[nodiscard]] bool has(std::size_t t) const { return seams_[t] != 0; }
+    /// The quad of triangles t and t + 1: four corners of the triangle list, in the triangles' winding. The first and
+    /// the third are the ends of the edge between the two; turned: the second and the fourth.
+    void cornersOf(std::size_t t, bool is_turned, std::uint32_t quad[4]) const;
+    /// Which edge of t is which of t + 1: 0 to 8.
+    [[nodiscard]] unsigned patternOf(std::size_t t) const { return seams_[t] - 1u; }
+
+  private:
+    std::vector<std::uint8_t> seams_;  ///< 0: none; 1 + 3 * edge of t + edge of t + 1
+    std::size_t count_ = 0;
+};
+
+/// What triangle t is. Where both diagonals of a quad are equally long MikkTSpace cuts it between its first and third
+/// corner, so there it matters with which one it began: with an end of the triangles' common edge, as Blender writes
+/// them since 2.80, or with another corner.
+enum class PairKind : std::uint8_t {
+    none = 0,    ///< a triangle, or the second of a quad
+    quad = 1,    ///< one quad with triangle t + 1
+    turned = 2,  ///< the same, begun one corner later
+};
+using QuadPairs = std::vector<PairKind>;
+
+/// Quads and triangles over the corners of a list of triangles, in its order.
+struct QuadFaces {
+    std::vector<std::uint32_t> sizes = {};    ///< 3 or 4 per face
+    std::vector<std::uint32_t> corners = {};  ///< per corner of a face: the corner of the list that it is
+    /// Per corner of the list: the corner of a face that it is. The ends of a quad's diagonal are two corners of the
+    /// list each.
+    std::vector<std::uint32_t> face_corners = {};
+    std::size_t quad_count = 0;
+};
+
+/// The pairs of which no two share a triangle and whose gains add up to most. `gains`: one per triangle t, for making
+/// one quad of t and t + 1; 0 or less: not. Of equal sums the one with the earlier pairs. None is turned. Linear.
+QuadPairs choosePairs(const QuadCandidates& candidates, std::span<const float> gains);
+
+/// The pairs that look most like the quads that somebody modelled: as many as there can be, and of those first the ones
+/// whose triangles meet as most in this list do, and whose corners are nearest to square.
+QuadPairs pairsByShape(const MeshView& triangles, const QuadCandidates& candidates);
+
+/// Whether MikkTSpace cuts one of these quads otherwise when it is turned.
+bool hasTies(const MeshView& triangles, const QuadCandidates& candidates, const QuadPairs& pairs);
+
+/// `pairs`: one per triangle.
+QuadFaces facesOfPairs(const QuadCandidates& candidates, const QuadPairs& pairs);
+
+}  // namespace tspace
