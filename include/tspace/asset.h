@@ -103,6 +103,10 @@ struct GenerateOptions {
     VectorFormat format = VectorFormat::float32;
     FileOptions file = {};
     Progress progress = {};
+    /// What mikktspace is computed on; other methods take triangles. Which pairs are quads is chosen by the file's own
+    /// tangents where these show it, else by shape. Polygons of an OBJ file are known: `quads` takes them as they are.
+    /// `repair` keeps tangents that are right on either, whatever is asked for here.
+    Faces faces = Faces::triangles;
 };
 
 /// What was done to one primitive.
@@ -140,6 +144,8 @@ struct PrimitiveReport {
     NormalReport normals = {};
     TangentReport tangents = {};
     SanitizeReport sanitize = {};
+    Faces faces = Faces::triangles;  ///< what its tangents were computed on: triangles or quads
+    std::uint64_t quad_count = 0;    ///< of those, the ones with four corners or more
 };
 
 struct GenerateReport {

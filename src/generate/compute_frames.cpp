@@ -3,6 +3,7 @@
 #include <numeric>
 #include <utility>
 
+#include "check/uv_votes.h"
 #include "core/border.h"
 #include "core/memory.h"
 #include "generate/local_mesh.h"
@@ -11,6 +12,7 @@
 #include "generate/morph_normals.h"
 #include "generate/primitive.h"
 #include "generate/unit_lattice.h"
+#include "quads/choose_faces.h"
 #include "tspace/frame.h"
 #include "tspace/triangulate.h"
 
@@ -34,6 +36,21 @@ std::size_t cornersOfTriangles(const PrimitiveGeometry& primitive) {
     std::size_t triangle_count = 0;
     for (const std::uint32_t size : primitive.face_sizes) triangle_count += size < 3 ? 0 : size - 2;
     return 3 * triangle_count;
+}
+
+template <class T>
+std::vector<T> copyOf(StridedSpan<const T> values) {
+    std::vector<T> copy;
+    copy.reserve(values.count);
+    for (std::size_t i = 0; i < values.count; ++i) copy.push_back(values[i]);
+    return copy;
+}
+
+/// One byte per triangle: 0 where its UVs say nothing.
+std::vector<std::uint8_t> votesOf(const LocalMesh& mesh) {
+    const std::vector<Vec3> positions = copyOf(mesh.positions);
+    const std::vector<Vec2> uvs = copyOf(mesh.uvs);
+    return uvVotes({.positions = positions, .uvs = uvs, .corners = mesh.indices});
 }
 
 class FrameComputer {
@@ -79,6 +96,7 @@ class FrameComputer {
             return Done{};
         }
         LocalMesh mesh = local_meshes_.make(primitive);
+        QuadFaces faces;
         std::vector<std::uint32_t> cut_vertices;
         std::vector<Vec3> normals;
         if (generates_normals_) {
@@ -87,6 +105,7 @@ class FrameComputer {
         if (!mesh.face_sizes.empty()) {
             Result<Triangulation> triangles = triangulate(mesh.view());
             if (!triangles) return std::move(triangles).error();
+            if (options_.faces == Faces::quads && takesQuads()) faces = facesOfPolygons(mesh.face_sizes, *triangles);
             mesh.own_indices = gather(mesh.indices, triangles->corners);
             mesh.useOwnIndices();
             cut_vertices = gather(spanOf(primitive.indices), triangles->corners);
@@ -94,8 +113,8 @@ class FrameComputer {
             mesh.face_sizes = {};
         }
         if (generates_tangents_) {
-            const std::span<Vec4> tangents = this->tangents().subspan(corners_.size(), mesh.indices.size());
-            if (Result<Done> done = computeTangents(mesh, tangents, report); !done) return done;
+            if (Result<Done> done = chooseQuads(std::move(faces), mesh, report); !done) return done;
+            if (Result<Done> done = computeTangents(mesh, report); !done) return done;
         }
         const bool is_cut = !primitive.face_sizes.empty();
         const std::vector<std::uint32_t>& vertices = is_cut ? cut_vertices : primitive.indices;
@@ -133,12 +152,59 @@ class FrameComputer {
         return Done{};
     }
 
-    /// `tangents`: those of the mesh, of which bitangents() has the counterpart.
-    Result<Done> computeTangents(const LocalMesh& mesh, std::span<Vec4> tangents, PrimitiveReport& report) {
+    [[nodiscard]] bool takesQuads() const { return options_.tangents.method == Method::mikktspace; }
+
+    /// Makes the triangles of the mesh quads where these are asked for and there are any; `polygons` are those of the
+    /// file. What morph targets add to tangents that stay is computed on the faces that these were made on.
+    Result<Done> chooseQuads(QuadFaces&& polygons, LocalMesh& mesh, PrimitiveReport& report) const {
+        if (!takesQuads()) return Done{};
+        QuadFaces faces = std::move(polygons);
+        if (faces.quad_count == 0) {
+            Result<QuadFaces> chosen = chooseFaces(mesh);
+            if (!chosen) return std::move(chosen).error();
+            faces = *std::move(chosen);
+        }
+        if (faces.quad_count == 0) return Done{};
+        report.faces = Faces::quads;
+        report.quad_count = faces.quad_count;
+        takeFaces(std::move(faces), mesh);
+        return Done{};
+    }
+
+    [[nodiscard]] Result<QuadFaces> chooseFaces(const LocalMesh& mesh) const {
+        const bool keeps = !pool_.kept_tangents.empty();
+        const Faces faces = keeps ? Faces::automatic : options_.faces;
+        StoredTangents stored{.triangles = mesh.view()};
+        std::vector<Vec4> own;
+        std::vector<std::uint8_t> votes;
+        if (faces != Faces::triangles && !generates_normals_) {
+            stored.tangents = keeps ? pool_.kept_tangents : pool_.old_tangents;
+            if (!mesh.sources.empty()) stored.tangents = own = gather(stored.tangents, mesh.sources);
+        }
+        if (!stored.tangents.empty()) stored.votes = votes = votesOf(mesh);
+        return tspace::chooseFaces(stored, pool_.is_blenders, faces, options_.tangents.execution);
+    }
+
+    /// The next ones of tangents() and bitangents().
+    Result<Done> computeTangents(const LocalMesh& mesh, PrimitiveReport& report) {
+        const std::size_t first = corners_.size(), count = mesh.triangleCornerCount();
+        const std::span<Vec4> tangents = this->tangents().subspan(first, count);
+        const std::span<Vec3> bitangents =
+            generates_bitangents_ ? this->bitangents().subspan(first, count) : std::span<Vec3>();
+        if (mesh.face_corners.empty()) return computeTangents(mesh, tangents, bitangents, report);
+        std::vector<Vec4> of_faces(mesh.indices.size());
+        std::vector<Vec3> bitangents_of_faces(bitangents.empty() ? 0 : mesh.indices.size());
+        if (Result<Done> done = computeTangents(mesh, of_faces, bitangents_of_faces, report); !done) return done;
+        toTriangles<Vec4>(mesh, of_faces, tangents);
+        toTriangles<Vec3>(mesh, bitangents_of_faces, bitangents);
+        return Done{};
+    }
+
+    /// `bitangents` may be empty.
+    Result<Done> computeTangents(const LocalMesh& mesh, std::span<Vec4> tangents, std::span<Vec3> bitangents,
+                                 PrimitiveReport& report) const {
         TangentOutput out{.tangents = tangents};
-        std::span<Vec3> bitangents;
         if (generates_bitangents_) {
-            bitangents = this->bitangents().subspan(corners_.size(), tangents.size());
             out.bitangents = bitangents;
             report.bitangents_generated = true;
         }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "generate/local_mesh.h"
 
+#include <utility>
+
 #include "tspace/split.h"
 
 namespace tspace {
@@ -19,6 +21,14 @@ MeshView viewInPool(const PoolView& pool, const PrimitiveGeometry& primitive) {
     mesh.indices = IndexView(spanOf(primitive.indices));
     mesh.face_sizes = primitive.face_sizes;
     return mesh;
+}
+
+void takeFaces(QuadFaces&& faces, LocalMesh& mesh) {
+    mesh.own_indices = gather(mesh.indices, faces.corners);
+    mesh.useOwnIndices();
+    mesh.own_face_sizes = std::move(faces.sizes);
+    mesh.face_sizes = mesh.own_face_sizes;
+    mesh.face_corners = std::move(faces.face_corners);
 }
 
 LocalMesh LocalMeshes::make(const PrimitiveGeometry& primitive) {

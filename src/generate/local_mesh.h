@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "generate/primitive.h"
+#include "quads/quad_pairs.h"
 #include "tspace/mesh.h"
 
 namespace tspace {
@@ -24,6 +25,10 @@ struct LocalMesh {
     std::vector<std::uint32_t> own_indices;
     /// The vertex of the pool that each vertex was when the mesh was made; empty: the same.
     std::vector<std::uint32_t> sources;
+    std::vector<std::uint32_t> own_face_sizes;
+    /// Where the faces are quads that triangles were paired to: per corner of the triangles, the corner of a face that
+    /// it is. Empty: corners are those of the triangles.
+    std::vector<std::uint32_t> face_corners;
 
     LocalMesh() = default;
     LocalMesh(LocalMesh&&) = default;
@@ -36,6 +41,11 @@ struct LocalMesh {
         uvs = own_uvs;
     }
 
+    /// Corners of its triangles.
+    [[nodiscard]] std::size_t triangleCornerCount() const {
+        return face_corners.empty() ? indices.size() : face_corners.size();
+    }
+
     [[nodiscard]] MeshView view() const {
         MeshView mesh;
         mesh.positions = positions;
@@ -46,6 +56,15 @@ struct LocalMesh {
         return mesh;
     }
 };
+
+/// Turns a mesh of triangles into one of these faces over them.
+void takeFaces(QuadFaces&& faces, LocalMesh& mesh);
+
+/// values[face corner] for each corner of the mesh's triangles.
+template <class T>
+void toTriangles(const LocalMesh& mesh, std::span<const T> values, std::span<T> of_triangles) {
+    for (std::size_t c = 0; c < of_triangles.size(); ++c) of_triangles[c] = values[mesh.face_corners[c]];
+}
 
 /// The whole pool with the corners of one primitive.
 MeshView viewInPool(const PoolView& pool, const PrimitiveGeometry& primitive);

@@ -125,17 +125,29 @@ Result<Done> MorphTangents::compute(std::span<const Vec4> tangents, MorphSplit& 
         if (!moved) return moved.error();
         std::size_t first = 0;
         for (const Piece& piece : pieces_) {
-            const std::size_t count = piece.mesh.indices.size();
+            const std::size_t count = piece.mesh.triangleCornerCount();
             const std::span<Vec3> own = std::span<Vec3>(offsets).subspan(first, count);
             if (!pose_.take(piece.mesh, *moved)) {
                 std::fill(own.begin(), own.end(), Vec3{});
-            } else if (Result<Done> done = evaluate(piece, tangents.subspan(first, count), own); !done) {
+            } else if (Result<Done> done = evaluateFaces(piece, tangents.subspan(first, count), own); !done) {
                 return done;
             }
             first += count;
         }
         if (Result<Done> done = split.add(offsets, 0, options_.tangents.execution); !done) return done;
     }
+    return Done{};
+}
+
+/// `base` and `offsets` are of the corners of triangles.
+Result<Done> MorphTangents::evaluateFaces(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets) {
+    const std::vector<std::uint32_t>& face_corners = piece.mesh.face_corners;
+    if (face_corners.empty()) return evaluate(piece, base, offsets);
+    std::vector<Vec4> base_of_faces(piece.mesh.indices.size());
+    for (std::size_t c = 0; c < base.size(); ++c) base_of_faces[face_corners[c]] = base[c];
+    std::vector<Vec3> offsets_of_faces(base_of_faces.size());
+    if (Result<Done> done = evaluate(piece, base_of_faces, offsets_of_faces); !done) return done;
+    toTriangles<Vec3>(piece.mesh, offsets_of_faces, offsets);
     return Done{};
 }
 

@@ -38,7 +38,7 @@ class MorphTangents {
   public:
     MorphTangents(const PoolView& pool, const GenerateOptions& options) : pool_(pool), options_(options) {}
 
-    /// The next primitive as it was computed: triangles, with normals. `report` gets its counts later.
+    /// The next primitive as it was computed: triangles or quads, with normals. `report` gets its counts later.
     Result<Done> add(LocalMesh&& mesh, PrimitiveReport& report);
 
     /// One target after the other. `tangents`: of the base, one per corner of all primitives. Goes on with the split.
@@ -52,6 +52,7 @@ class MorphTangents {
         std::vector<bool> has_direction;  ///< per corner: the base has a tangent there that needs no substitute
         PrimitiveReport* report = nullptr;
     };
+    Result<Done> evaluateFaces(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets);
     Result<Done> evaluate(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets);
     Result<Done> regroup(const Piece& piece, const MeshView& posed);
     void carryOver(const Piece& piece, std::span<const Vec4> base);

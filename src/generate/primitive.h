@@ -41,6 +41,9 @@ struct PoolView {
     UvMatrix uv_matrix = {};
     MorphTargets targets = {};
     std::span<const Vec4> kept_tangents = {};
+    /// Tangents that are computed anew, one per vertex, or empty: they may tell on which faces they were made.
+    std::span<const Vec4> old_tangents = {};
+    bool is_blenders = false;  ///< Blender wrote the file
 
     PoolView() = default;
     PoolView(const VertexPool& pool)

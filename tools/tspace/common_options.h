@@ -15,6 +15,11 @@ inline constexpr Named<Convention> kConventions[] = {
     {"unreal", conventions::unreal}, {"unity", conventions::unity},   {"blender", conventions::blender},
     {"godot", conventions::godot},
 };
+inline constexpr Named<Faces> kFaces[] = {
+    {"triangles", Faces::triangles},
+    {"quads", Faces::quads},
+    {"auto", Faces::automatic},
+};
 
 /// Headings in help. What stands under the last three decides how a command runs, not what it finds or writes.
 inline constexpr const char* kInputAndOutput = "Input and output";

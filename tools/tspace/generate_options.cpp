@@ -104,6 +104,12 @@ void addTangentOptions(Command& command, GenerateOptions& options) {
                               "lengyel: one per vertex, no splits; uniform, angle, area: plain weighted means; fast, "
                               "best: more accurate, for maps that were not baked; flat: one per face; basis: from the "
                               "normals alone, without UVs."));
+    command.add(group, choice("--faces", "FACES", kFaces, options.faces,
+                              "What mikktspace is computed on. triangles: those of the file, which fit bakes of "
+                              "triangulated models; quads: pairs of triangles that follow each other, as Blender does "
+                              "before it writes triangles; auto: quads where the file's tangents show it, or where it "
+                              "has none, comes from Blender and its triangles are cut quads. --repair takes auto where "
+                              "nothing else is given. See docs/quads.md."));
     command.add(group, choice("--pairing", "NAME", kPairings, tangents.pairing,
                               "For mikktspace. reference: neighbours as the reference implementation finds them, with "
                               "its known defect; corrected: without it, so that the order of faces does not matter."));
@@ -159,6 +165,9 @@ std::string finish(const Given& given, GenerateArguments& arguments) {
         return "--frame symmetric is not for --method mikktspace";
     if (options.tangents.frame == FrameShape::symmetric && method == Method::basis)
         return "--frame symmetric is not for --method basis";
+    if (options.faces == Faces::quads && method != Method::mikktspace)
+        return "--faces quads is only for --method mikktspace";
+    if (options.existing == ExistingTangents::repair && !given.has("--faces")) options.faces = Faces::automatic;
     if (given.has("--normals")) {
         options.use_smoothing_groups = false;
     } else if (given.has("--crease")) {

@@ -69,6 +69,7 @@ struct Totals {
     std::uint64_t vertices_before = 0;
     std::uint64_t vertices_after = 0;
     std::uint64_t normals_generated = 0;
+    std::uint64_t on_quads = 0, quad_count = 0;  ///< primitives, and their quads
     std::uint64_t bitangents_generated = 0;
     std::uint64_t morph_deltas_computed = 0;
     std::uint64_t morph_sign_flip_count = 0;
@@ -84,6 +85,8 @@ Totals totalsOf(const GenerateReport& report) {
         ++totals.primitive_count;
         ++totals.actions[static_cast<std::size_t>(primitive.action)];
         totals.normals_generated += primitive.normals_generated;
+        totals.on_quads += primitive.faces == Faces::quads ? 1 : 0;
+        totals.quad_count += primitive.quad_count;
         totals.bitangents_generated += primitive.bitangents_generated;
         totals.morph_deltas_computed += primitive.morph_deltas_computed;
         totals.morph_sign_flip_count += primitive.morph_sign_flip_count;
@@ -160,6 +163,10 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     }
     if (totals.triangle_count != 0) {
         table.addRow({"computed", counted(totals.triangle_count, "triangle")});
+        if (totals.on_quads != 0) {
+            table.addRow({"faces", fmt::format("{} in {}, the rest triangles", counted(totals.quad_count, "quad"),
+                                               counted(totals.on_quads, "primitive"))});
+        }
         const std::uint64_t split = totals.vertices_after - std::min(totals.vertices_before, totals.vertices_after);
         table.addRow(
             {"vertices", fmt::format("{} -> {} ({} split)", totals.vertices_before, totals.vertices_after, split)});
@@ -214,6 +221,12 @@ std::string notesText(const GenerateReport& report) {
     return text.empty() ? text : "\n" + text;
 }
 
+/// How many there are, and how many quads they were paired to.
+std::string trianglesText(const PrimitiveReport& primitive) {
+    const std::string count = std::to_string(primitive.triangle_count);
+    return primitive.faces == Faces::quads ? fmt::format("{} ({} quads)", count, primitive.quad_count) : count;
+}
+
 std::string primitiveRows(const GenerateReport& report) {
     Table table;
     table.addRow({"mesh", "prim", "name", "material", "tangents", "UV set", "triangles", "vertices", "why"});
@@ -226,7 +239,7 @@ std::string primitiveRows(const GenerateReport& report) {
                       primitive.mesh_name.empty() ? "-" : printable(primitive.mesh_name),
                       primitive.material_name.empty() ? "-" : printable(primitive.material_name),
                       actionWords(primitive.action), primitive.uv_set < 0 ? "-" : std::to_string(primitive.uv_set),
-                      std::to_string(primitive.triangle_count), vertices, printable(primitive.reason)});
+                      trianglesText(primitive), vertices, printable(primitive.reason)});
     }
     return table.text("  ") + notesText(report);
 }
@@ -250,6 +263,8 @@ Json primitiveJson(const PrimitiveReport& primitive) {
         {"reason", primitive.reason},
         {"notes", primitive.notes},
         {"uvSet", primitive.uv_set},
+        {"faces", facesName(primitive.faces)},
+        {"quads", primitive.quad_count},
         {"triangles", primitive.triangle_count},
         {"verticesBefore", primitive.vertices_before},
         {"verticesAfter", primitive.vertices_after},

@@ -51,6 +51,8 @@ void copyReport(const PrimitiveReport& computed, bool keeps_tangents, PrimitiveR
     report.normals = computed.normals;
     report.tangents = computed.tangents;
     report.sanitize = computed.sanitize;
+    report.faces = computed.faces;
+    report.quad_count = computed.quad_count;
 }
 
 void setExecution(GenerateOptions& options, const Execution& execution) {
@@ -138,6 +140,13 @@ PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& executi
     vertices.targets = targetsOf(document_, first);
     if (pool.keeps_tangents) copies.kept_tangents = readTangents(document_, first);
     vertices.kept_tangents = copies.kept_tangents;
+    std::vector<Vec4> old_tangents;
+    if (pool.tries_quads && pool.has_tangents && !pool.keeps_tangents) {
+        if (readAccessor(document_, *first.find("TANGENT")).component_count == 4)
+            old_tangents = readTangents(document_, first);
+    }
+    vertices.old_tangents = old_tangents;
+    vertices.is_blenders = pool.is_blenders;
     const std::vector<PrimitiveGeometry> geometries = readGeometries(document_, primitives_, pool);
     std::vector<PrimitiveReport> computed;
     for (const PoolGeometry& geometry : pool.geometries) computed.push_back(reports[geometry.primitives[0]]);

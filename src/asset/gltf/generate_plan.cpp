@@ -105,6 +105,11 @@ std::string poolKey(const Primitive& primitive, std::int32_t uv_set, const UvMat
     return key;
 }
 
+bool comesFromBlender(const Document& document) {
+    const Json* asset = readObject(document.json, "asset", "");
+    return asset != nullptr && readString(*asset, "generator", "/asset").find("Blender") != std::string::npos;
+}
+
 }  // namespace
 
 bool lacksDeltas(const Primitive& primitive) {
@@ -117,6 +122,7 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
                           const GenerateOptions& options) {
     GeneratePlan plan;
     const std::set<std::string> animated = animatedPointers(document);
+    const bool is_blenders = comesFromBlender(document);
     plan.reports.resize(primitives.size());
     std::map<std::string, std::size_t> pool_of;
     std::map<std::tuple<std::size_t, std::size_t, Mode>, std::size_t> geometry_of;
@@ -152,6 +158,8 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
             created.has_normals = primitive.find("NORMAL").has_value();
             created.has_tangents = hasUsableTangents(primitive);
             created.keeps_tangents = report.action == PrimitiveAction::kept;
+            created.tries_quads = options.tangents.method == Method::mikktspace && options.faces != Faces::triangles;
+            created.is_blenders = is_blenders;
         }
         Pool& pool = plan.pools[pool_number];
         pool.primitives.push_back(i);

@@ -30,6 +30,8 @@ struct Pool {
     bool has_normals = false;
     bool has_tangents = false;    ///< there are tangents with normals; others do not count
     bool keeps_tangents = false;  ///< they stay, and morph targets without tangent deltas get some
+    bool tries_quads = false;     ///< tangents may be computed on quads, if those that are there show it
+    bool is_blenders = false;     ///< Blender wrote the file
     std::size_t corner_count = 0;
     std::size_t vertex_count = 0;
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Which triangles say by their UVs where a tangent points.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "check/tangent_view.h"
+
+namespace tspace {
+
+/// One byte per triangle: 1 where its UVs have an orientation; 0 where they have no area, or so little that rounding
+/// decides, or where the triangle itself has none. Positions, UVs and corners of the view are looked at. Linear.
+std::vector<std::uint8_t> uvVotes(const TangentView& mesh);
+
+}  // namespace tspace
