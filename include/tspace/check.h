@@ -109,6 +109,9 @@ struct CheckOptions {
     FileOptions file = {};
     /// Primitives are checked at the same time. An allocator is not used.
     Execution execution = {};
+    /// What the tangents are compared with. automatic: triangles, and quads where the tangents fit clearly better to
+    /// those; quads: pairs of triangles that look like one. Blender computes tangents on quads.
+    Faces faces = Faces::automatic;
 };
 
 struct CheckReport {

@@ -89,6 +89,20 @@ void checkMissing(PrimitiveFacts& facts) {
                   : user + " needs tangents, and they " + state + "; tspace generate writes a glTF file that has them");
 }
 
+/// Goes on with the quads on which the tangents were made, where they were.
+Result<Done> readOnQuads(PrimitiveFacts& facts, FrameHealth& health) {
+    Result<std::optional<QuadReading>> quads = findQuads(facts.mesh, facts.surface, health, facts.options);
+    if (!quads) return std::move(quads).error();
+    if (!*quads) return Done{};
+    facts.quads = **std::move(quads);
+    facts.mesh.corners = facts.quads.corners;
+    facts.surface = facts.quads.surface;
+    Result<FrameHealth> found = examineTangents(facts.mesh, facts.surface, facts.options);
+    if (!found) return std::move(found).error();
+    health = *std::move(found);
+    return Done{};
+}
+
 }  // namespace
 
 Result<Done> checkTangents(PrimitiveFacts& facts) {
@@ -104,6 +118,7 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
     const std::size_t first = facts.findings.size();
     Result<FrameHealth> health = examineTangents(facts.mesh, facts.surface, facts.options);
     if (!health) return health.error();
+    if (Result<Done> done = readOnQuads(facts, *health); !done) return done;
     Result<std::optional<Explanation>> other = explain(facts, *health);
     if (!other) return other.error();
     if (*other) {

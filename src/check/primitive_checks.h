@@ -7,6 +7,7 @@
 
 #include "asset/scene.h"
 #include "check/frame_health.h"
+#include "check/quad_reading.h"
 #include "check/surface.h"
 #include "tspace/check.h"
 
@@ -33,6 +34,7 @@ struct PrimitiveFacts {
     UvReading reading = {};  ///< what the tangents should follow
     TangentView mesh = {};   ///< over `reading`
     Surface surface = {};    ///< of `mesh`
+    QuadReading quads = {};  ///< holds the corners of `mesh` where its tangents were made on quads
     std::vector<Finding> findings = {};
 
     void add(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message);
@@ -41,8 +43,8 @@ struct PrimitiveFacts {
 /// Everything there is to say about a primitive, but for its images. Fails for lack of memory only.
 Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf);
 
-// The families, in the order in which they run. checkTangents may find that tangents follow other UVs: `facts` then
-// has those.
+// The families, in the order in which they run. checkTangents may find that tangents follow other UVs, or that they
+// were made on quads: `facts` then has those.
 void checkPositions(PrimitiveFacts& facts);
 void checkNormals(PrimitiveFacts& facts);
 void checkUvs(PrimitiveFacts& facts);

@@ -3,7 +3,7 @@
 #include "generate/judge_tangents.h"
 
 #include "check/findings.h"
-#include "check/frame_health.h"
+#include "check/quad_reading.h"
 
 namespace tspace {
 
@@ -38,8 +38,17 @@ Result<std::string> whyTangentsCannotStay(const VertexPool& pool, std::span<cons
     CheckOptions check;
     check.convention = options.tangents.convention;
     check.execution = options.tangents.execution;
-    const Result<FrameHealth> health = examineTangents(mesh, check);
+    const Surface surface = describeSurface(mesh);
+    Result<FrameHealth> health = examineTangents(mesh, surface, check);
     if (!health) return health.error();
+    const Result<std::optional<QuadReading>> quads = findQuads(mesh, surface, *health, check);
+    if (!quads) return quads.error();
+    if (*quads) {
+        TangentView on_quads = mesh;
+        on_quads.corners = (*quads)->corners;
+        health = examineTangents(on_quads, (*quads)->surface, check);
+        if (!health) return health.error();
+    }
     std::string why = whyForbidden(*health);
     return why.empty() ? whyTangentsAreWrong(*health, check) : why;
 }

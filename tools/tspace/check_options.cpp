@@ -51,6 +51,9 @@ void addChecking(Command& command, CheckArguments& arguments) {
     command.add(group, choice("--convention", "NAME", kConventions, options.convention,
                               "Whose signs are right: gltf, opengl, directx, unreal, unity, blender or godot, as for "
                               "generate."));
+    command.add(group, choice("--faces", "FACES", kFaces, options.faces,
+                              "What tangents are compared with. auto: triangles, and quads where the tangents fit "
+                              "clearly better to those, as Blender's do; triangles, quads: only those."));
     command.add(group, setting("--no-images", options.images, false, "Do not look at the pixels of normal maps."));
 }
 
