@@ -4,8 +4,10 @@
 
 #include <algorithm>
 
+#include "check/uv_votes.h"
 #include "core/angle.h"
 #include "generate/uv_matrix.h"
+#include "quads/fit_quads.h"
 
 namespace tspace {
 
@@ -55,22 +57,31 @@ std::vector<Reading> readingsOf(const ScenePrimitive& primitive) {
     return readings;
 }
 
-/// Whether each vertex has a corner whose tangent is near the stored one.
-std::vector<char> nearVertices(const ScenePrimitive& primitive, const std::vector<char>& near_corners) {
-    std::vector<char> near(primitive.positions.size(), 0);
-    for (std::size_t c = 0; c < near_corners.size(); ++c) near[primitive.corners[c]] |= near_corners[c];
-    return near;
+/// One byte per triangle: 0 where the UVs say nothing. Empty: they do nowhere.
+std::vector<std::uint8_t> votesOf(const ScenePrimitive& primitive, std::span<const Vec2> uvs) {
+    std::vector<std::uint8_t> votes = uvVotes({.positions = primitive.positions.span(),
+                                               .normals = primitive.normals.span(),
+                                               .tangents = primitive.tangents.span(),
+                                               .uvs = uvs,
+                                               .corners = primitive.corners.span()});
+    return std::find(votes.begin(), votes.end(), 1) == votes.end() ? std::vector<std::uint8_t>{} : votes;
 }
 
 /// `computed` has the raw sign, one per corner.
-void compare(const ScenePrimitive& primitive, const std::vector<Vec4>& computed, double tolerance_deg,
-             Explanation& explanation) {
-    std::vector<char> is_near(computed.size(), 0);
+void compare(const ScenePrimitive& primitive, std::span<const std::uint8_t> votes, std::span<const Vec4> computed,
+             double tolerance_deg, Explanation& explanation) {
+    std::vector<char> is_near_at(primitive.positions.size(), 0);
+    std::vector<std::uint32_t> counted;
     double sum_deg = 0;
     for (std::size_t c = 0; c < computed.size(); ++c) {
-        const Vec4& stored = primitive.tangents[primitive.corners[c]];
+        const std::uint32_t vertex = primitive.corners[c];
+        const Vec4& stored = primitive.tangents[vertex];
         if (!isDirection(directionOf(stored))) continue;
-        ++explanation.corner_count;
+        if (votes[c / 3] == 0) {
+            ++explanation.undecided_count;
+            continue;
+        }
+        counted.push_back(vertex);
         if (!isDirection(directionOf(computed[c]))) {
             sum_deg += 180;
             continue;
@@ -78,17 +89,89 @@ void compare(const ScenePrimitive& primitive, const std::vector<Vec4>& computed,
         const double angle =
             angleBetween(toDouble(directionOf(stored)), toDouble(directionOf(computed[c]))) * (180 / kPi);
         sum_deg += angle;
-        is_near[c] = angle <= tolerance_deg;
-        explanation.near_count += static_cast<unsigned char>(is_near[c]);
+        if (angle <= tolerance_deg) {
+            ++explanation.near_count;
+            is_near_at[vertex] = 1;
+        }
         // glTF's v runs down, so it wants the opposite of the raw orientation.
         explanation.gltf_sign_count += stored.w * computed[c].w < 0;
         explanation.inverted_sign_count += stored.w * computed[c].w > 0;
     }
-    if (explanation.corner_count != 0) explanation.mean_deg = sum_deg / static_cast<double>(explanation.corner_count);
-    const std::vector<char> near_at_vertex = nearVertices(primitive, is_near);
-    for (std::size_t c = 0; c < computed.size(); ++c) {
-        explanation.near_any_count += static_cast<unsigned char>(near_at_vertex[primitive.corners[c]]);
+    explanation.corner_count = counted.size();
+    if (!counted.empty()) explanation.mean_deg = sum_deg / static_cast<double>(counted.size());
+    for (const std::uint32_t vertex : counted)
+        explanation.near_any_count += static_cast<unsigned char>(is_near_at[vertex]);
+}
+
+/// Along one reading of the UVs.
+class Explainer {
+  public:
+    Explainer(const ScenePrimitive& primitive, const Reading& reading, std::vector<std::uint8_t> votes,
+              const IdentifyOptions& options)
+        : primitive_(primitive),
+          reading_(reading),
+          votes_(std::move(votes)),
+          options_(options),
+          mesh_({.positions = primitive.positions.span(),
+                 .normals = primitive.normals.span(),
+                 .uvs = reading.uvs,
+                 .indices = primitive.corners.span()}) {}
+
+    Result<Done> tryMethods(std::vector<Explanation>& explanations) const {
+        std::vector<Vec4> computed(primitive_.corners.size());
+        for (const Method method : knownMethods()) {
+            const TangentOptions how{.method = method, .execution = options_.execution};
+            const Result<TangentReport> done = generateTangents(mesh_, how, {.tangents = std::span(computed)});
+            if (!done) return done.error();
+            add(method, Faces::triangles, computed, explanations);
+            if (method != Method::mikktspace) continue;
+            if (const Result<Done> tried = tryQuads(computed, explanations); !tried) return tried;
+        }
+        return Done{};
     }
+
+  private:
+    Result<Done> tryQuads(std::span<const Vec4> on_triangles, std::vector<Explanation>& explanations) const {
+        const StoredTangents stored{.triangles = mesh_,
+                                    .tangents = primitive_.tangents.span(),
+                                    .votes = votes_,
+                                    .tolerance_deg = options_.tolerance_deg};
+        const Result<QuadFit> fit = fitQuads(stored, on_triangles, options_.execution);
+        if (!fit) return fit.error();
+        if (fit->wins()) add(Method::mikktspace, Faces::quads, fit->tangents, explanations);
+        return Done{};
+    }
+
+    void add(Method method, Faces faces, std::span<const Vec4> computed, std::vector<Explanation>& explanations) const {
+        Explanation& explanation = explanations.emplace_back();
+        explanation.method = method;
+        explanation.faces = faces;
+        explanation.uv_set = static_cast<std::int32_t>(reading_.uv_set);
+        explanation.is_textures_set = reading_.uv_set == texturesSet(primitive_);
+        explanation.is_transformed = reading_.is_transformed;
+        compare(primitive_, votes_, computed, options_.tolerance_deg, explanation);
+    }
+
+    const ScenePrimitive& primitive_;
+    const Reading& reading_;
+    std::vector<std::uint8_t> votes_;
+    const IdentifyOptions& options_;
+    MeshView mesh_;
+};
+
+/// Near corners, and half of those that are near to another corner of their vertex; less what a method that only tspace
+/// has must be better by. Among the corners of a vertex `flat` has so many directions that one is near by chance.
+double scoreOf(const Explanation& entry) {
+    constexpr double kOwnMethodsShare = 0.05;
+    const bool is_own = entry.method == Method::fast || entry.method == Method::best;
+    const std::uint64_t near_any = entry.method == Method::flat ? entry.near_count : entry.near_any_count;
+    return 0.5 * static_cast<double>(entry.near_count + near_any) -
+           (is_own ? kOwnMethodsShare * static_cast<double>(entry.corner_count) : 0.0);
+}
+
+std::size_t rankOf(const Explanation& entry) {
+    const std::vector<Method> known = knownMethods();
+    return static_cast<std::size_t>(std::find(known.begin(), known.end(), entry.method) - known.begin());
 }
 
 }  // namespace
@@ -100,31 +183,46 @@ std::vector<Method> knownMethods() {
 
 Result<std::vector<Explanation>> explainTangents(const ScenePrimitive& primitive, const IdentifyOptions& options) {
     std::vector<Explanation> explanations;
-    std::vector<Vec4> computed(primitive.corners.size());
     for (const Reading& reading : readingsOf(primitive)) {
-        const MeshView mesh{.positions = primitive.positions.span(),
-                            .normals = primitive.normals.span(),
-                            .uvs = reading.uvs,
-                            .indices = primitive.corners.span()};
-        for (const Method method : knownMethods()) {
-            const TangentOptions how{.method = method, .execution = options.execution};
-            const Result<TangentReport> done = generateTangents(mesh, how, {.tangents = std::span(computed)});
-            if (!done) return done.error();
-            Explanation& explanation = explanations.emplace_back();
-            explanation.method = method;
-            explanation.uv_set = static_cast<std::int32_t>(reading.uv_set);
-            explanation.is_textures_set = reading.uv_set == texturesSet(primitive);
-            explanation.is_transformed = reading.is_transformed;
-            compare(primitive, computed, options.tolerance_deg, explanation);
-        }
+        std::vector<std::uint8_t> votes = votesOf(primitive, reading.uvs);
+        if (votes.empty()) continue;
+        const Explainer explainer(primitive, reading, std::move(votes), options);
+        if (const Result<Done> done = explainer.tryMethods(explanations); !done) return done.error();
     }
     return explanations;
 }
 
 void sortExplanations(std::vector<Explanation>& explanations) {
+    if (explanations.empty()) return;
     std::stable_sort(explanations.begin(), explanations.end(), [](const Explanation& a, const Explanation& b) {
-        return a.near_count != b.near_count ? a.near_count > b.near_count : a.near_any_count > b.near_any_count;
+        const double score_a = scoreOf(a), score_b = scoreOf(b);
+        return score_a != score_b ? score_a > score_b : a.near_count > b.near_count;
     });
+    const Explanation top = explanations.front();
+    const double least = scoreOf(top) - kTieShare * static_cast<double>(top.corner_count);
+    auto first = explanations.begin();
+    for (auto entry = first + 1; entry != explanations.end(); ++entry) {
+        if (scoreOf(*entry) < least || entry->is_transformed != top.is_transformed) continue;
+        if (entry->is_textures_set == first->is_textures_set ? rankOf(*entry) < rankOf(*first)
+                                                             : entry->is_textures_set) {
+            first = entry;
+        }
+    }
+    std::rotate(explanations.begin(), first, first + 1);
+}
+
+const Explanation* bestReading(const PrimitiveIdentity& primitive, bool is_transformed) {
+    const auto found = std::find_if(
+        primitive.explanations.begin(), primitive.explanations.end(),
+        [&](const Explanation& entry) { return entry.is_textures_set && entry.is_transformed == is_transformed; });
+    return found == primitive.explanations.end() ? nullptr : &*found;
+}
+
+bool followsTransform(const PrimitiveIdentity& primitive) {
+    const Explanation *turned = bestReading(primitive, true), *plain = bestReading(primitive, false);
+    if (turned == nullptr || plain == nullptr) return turned != nullptr;
+    if (turned->near_count != plain->near_count) return turned->near_count > plain->near_count;
+    return turned->gltf_sign_count >= plain->gltf_sign_count;
 }
 
 }  // namespace tspace

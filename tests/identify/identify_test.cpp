@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/vec_math.h"
+#include "quads/quad_meshes.h"
 #include "support/scene_file.h"
 #include "support/shared_data.h"
 
@@ -125,6 +127,97 @@ TEST(Identify, FindsTheUvSetThatWasFollowed) {
     EXPECT_NE(result.verdict.find("another UV set"), std::string::npos) << result.verdict;
 }
 
+TEST(Identify, NamesQuadsWhereTangentsWereMadeOnThem) {
+    const ModelData on_quads = withTangentsOnQuads(hills(14), kFan);
+    const Identification result = identityOf({on_quads});
+    ASSERT_FALSE(result.explanations.empty());
+    EXPECT_EQ(result.explanations[0].method, Method::mikktspace);
+    EXPECT_EQ(result.explanations[0].faces, Faces::quads);
+    EXPECT_EQ(result.explanations[0].near_count, result.explanations[0].corner_count);
+    EXPECT_EQ(result.explanations[0].signs(), SignReading::gltf);
+    EXPECT_EQ(result.verdict.rfind("Made by mikktspace on quads:", 0), 0U) << result.verdict;
+    ASSERT_FALSE(result.primitives[0].explanations.empty());
+    EXPECT_EQ(result.primitives[0].explanations[0].faces, Faces::quads);
+}
+
+TEST(Identify, DoesNotNameQuadsWhereTrianglesExplainAsMuch) {
+    for (const Method method : {Method::mikktspace, Method::area, Method::uniform, Method::lengyel}) {
+        const Identification result = identityOf({withTangents(trianglesOf(hills(14), kFan), method)});
+        for (const Explanation& entry : result.explanations) EXPECT_EQ(entry.faces, Faces::triangles);
+        for (const Explanation& entry : result.primitives[0].explanations) EXPECT_EQ(entry.faces, Faces::triangles);
+        EXPECT_EQ(result.verdict.find("quads"), std::string::npos) << result.verdict;
+    }
+}
+
+TEST(Identify, CountsThePrimitivesOnTrianglesWithThoseOnQuads) {
+    const Identification result = identityOf(
+        {withTangentsOnQuads(hills(14), kFan), withTangents(trianglesOf(hills(6), kFan), Method::mikktspace)});
+    EXPECT_EQ(result.explanations[0].faces, Faces::quads);
+    EXPECT_EQ(result.explanations[0].near_count, result.explanations[0].corner_count);
+    EXPECT_EQ(result.primitives[0].explanations[0].faces, Faces::quads);
+    EXPECT_EQ(result.primitives[1].explanations[0].faces, Faces::triangles);
+}
+
+TEST(Identify, LetsCornersWithoutUvAreaVoteInNothing) {
+    ModelData data = withTangents(bentSheet(6), Method::mikktspace);
+    // As many triangles again whose UVs are one point, with tangents and signs that mean nothing.
+    ModelData flat = unwelded(bentSheet(6));
+    const auto first = static_cast<std::uint32_t>(data.positions.size());
+    for (std::size_t v = 0; v < flat.positions.size(); ++v) {
+        data.positions.push_back(flat.positions[v] + Vec3{2, 0, 0});
+        data.normals.push_back(flat.normals[v]);
+        data.uvs.push_back({0.5F, 0.5F});
+        data.tangents.push_back({0, 1, 0, v % 2 == 0 ? 1.0F : -1.0F});
+        data.indices.push_back(first + static_cast<std::uint32_t>(v));
+    }
+    const Explanation best = identityOf({data}).explanations[0];
+    EXPECT_EQ(best.method, Method::mikktspace);
+    EXPECT_EQ(best.corner_count, flat.positions.size());
+    EXPECT_EQ(best.undecided_count, flat.positions.size());
+    EXPECT_EQ(best.near_count, best.corner_count);
+    EXPECT_EQ(best.near_any_count, best.corner_count);
+    EXPECT_EQ(best.signs(), SignReading::gltf);
+}
+
+TEST(Identify, FollowsNoUvSetThatHasNoArea) {
+    ModelData data = withTangents(bentSheet(5), Method::mikktspace);
+    data.other_uvs.assign(data.uvs.size(), Vec2{0.25F, 0.75F});
+    // What a method gives where there is nothing to follow, against growing u of the real set.
+    for (Vec4& tangent : data.tangents) tangent = {-tangent.x, -tangent.y, -tangent.z, tangent.w};
+    const Identification result = identityOf({data});
+    for (const Explanation& entry : result.primitives[0].explanations) EXPECT_EQ(entry.uv_set, 0);
+    EXPECT_EQ(result.verdict.find("another UV set"), std::string::npos) << result.verdict;
+    data.uvs = data.other_uvs;
+    EXPECT_EQ(identityOf({data}).primitives[0].skipped, "its UVs have no area");
+}
+
+TEST(Identify, SaysWhichMethodsMadeWhichPrimitives) {
+    ModelData sheet = trianglesOf(hills(10), kCuts[3]);
+    const Identification result = identityOf(
+        {withTangents(sheet, Method::mikktspace), withTangents(sheet, Method::area), withTangents(sheet, Method::area)},
+        {.tolerance_deg = 0.05});
+    EXPECT_EQ(result.verdict.rfind("Made by different methods: mikktspace in 1 primitive, area in 2.", 0), 0U)
+        << result.verdict;
+}
+
+TEST(Identify, PutsMethodsOfTheWorldBeforeThoseThatOnlyTspaceHas) {
+    // Nine of ten tangents are those of all methods, and the rest those of `best`.
+    ModelData flat = bentSheet(12);
+    for (std::size_t v = 0; v < flat.positions.size(); ++v) {
+        flat.positions[v].z = 0;
+        flat.normals[v] = {0, 0, 1};
+        flat.uvs[v] = {flat.positions[v].x, flat.positions[v].y};
+    }
+    ModelData bent = trianglesOf(hills(2), kCuts[3]);
+    bent.tangents = {};
+    const Identification result =
+        identityOf({withTangents(flat, Method::best), withTangents(bent, Method::best)}, {.tolerance_deg = 0.01});
+    EXPECT_EQ(result.explanations[0].method, Method::mikktspace) << result.verdict;
+    const auto best = std::find_if(result.explanations.begin(), result.explanations.end(),
+                                   [](const Explanation& entry) { return entry.method == Method::best; });
+    EXPECT_GT(best->near_count, result.explanations[0].near_count);
+}
+
 TEST(Identify, SaysWhyAPrimitiveWasNotLookedAt) {
     const ModelData data = withTangents(bentSheet(2), Method::mikktspace);
     ModelData no_tangents = data, no_normals = data, no_uvs = data;
@@ -166,27 +259,28 @@ struct Known {
     SignReading signs;
 };
 
-/// The shares of mikktspace are those that the reference implementation reached on these files; the others were
-/// measured once, far above what chance gives.
+/// The shares of mikktspace are those that the reference implementation reached on these files, among the corners whose
+/// UVs say something (four fifths of Ghost's); the others were measured once, far above what chance gives.
 TEST(Identify, AgreesWithTheReferenceOnPublicModels) {
     const Known known[] = {
         {"khronos/TwoSidedPlane.glb", Method::mikktspace, 100, 100, SignReading::inverted},
         {"khronos/Lantern.glb", Method::mikktspace, 93.6, 93.8, SignReading::gltf},
         {"khronos/FlightHelmet/FlightHelmet.gltf", Method::mikktspace, 73.5, 74, SignReading::gltf},
         {"khronos/FlightHelmet/FlightHelmet.gltf", Method::uniform, 94, 96, SignReading::gltf},
-        {"khronos/BoomBoxWithAxes.glb", Method::mikktspace, 96.3, 96.5, SignReading::gltf},
+        {"khronos/BoomBoxWithAxes.glb", Method::mikktspace, 95.9, 96.1, SignReading::gltf},
         {"khronos/SciFiHelmet.glb", Method::mikktspace, 2.5, 2.7, SignReading::mixed},
         {"khronos/ClearCoatTest.glb", Method::mikktspace, 99.9, 100, SignReading::gltf},
         {"assets/Cat.glb", Method::lengyel, 99, 100, SignReading::inverted},
-        {"assets/Ghost.glb", Method::mikktspace, 71.6, 71.8, SignReading::mixed},
+        {"assets/Ghost.glb", Method::mikktspace, 91.2, 91.5, SignReading::gltf},
     };
     for (const Known& entry : known) {
         const std::string path = std::string("models/") + entry.file;
         TSPACE_NEEDS_SHARED(path);
         const Result<Identification> result = identifyFile(shared(path));
         ASSERT_TRUE(result.ok()) << entry.file;
-        const auto found = std::find_if(result->explanations.begin(), result->explanations.end(),
-                                        [&](const Explanation& e) { return e.method == entry.method; });
+        const auto found =
+            std::find_if(result->explanations.begin(), result->explanations.end(),
+                         [&](const Explanation& e) { return e.method == entry.method && e.faces == Faces::triangles; });
         ASSERT_NE(found, result->explanations.end());
         EXPECT_GE(100 * found->nearShare(), entry.least) << entry.file;
         EXPECT_LE(100 * found->nearShare(), entry.most) << entry.file;

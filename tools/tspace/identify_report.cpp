@@ -27,11 +27,15 @@ const char* signWords(SignReading reading) {
     return "-";
 }
 
+std::string methodWords(const Explanation& entry) {
+    return std::string(methodName(entry.method)) + (entry.faces == Faces::quads ? " on quads" : "");
+}
+
 std::string methodTable(const Identification& result) {
     Table table;
     table.addRow({"method", "near", "near at vertex", "mean angle", "signs as glTF", "signs inverted"});
     for (const Explanation& entry : result.explanations) {
-        table.addRow({methodName(entry.method), percent(entry.near_count, entry.corner_count),
+        table.addRow({methodWords(entry), percent(entry.near_count, entry.corner_count),
                       percent(entry.near_any_count, entry.corner_count), fmt::format("{:.2f}", entry.mean_deg),
                       percent(entry.gltf_sign_count, entry.corner_count),
                       percent(entry.inverted_sign_count, entry.corner_count)});
@@ -58,10 +62,9 @@ std::string primitiveTable(const Identification& result) {
             row.push_back(primitive.skipped);
         } else {
             const Explanation& best = primitive.explanations.front();
-            row.insert(
-                row.end(),
-                {methodName(best.method), std::to_string(best.uv_set), percent(best.near_count, best.corner_count),
-                 percent(best.near_any_count, best.corner_count), signWords(best.signs()), remarkOn(primitive)});
+            row.insert(row.end(),
+                       {methodWords(best), std::to_string(best.uv_set), percent(best.near_count, best.corner_count),
+                        percent(best.near_any_count, best.corner_count), signWords(best.signs()), remarkOn(primitive)});
         }
         table.addRow(std::move(row));
     }
@@ -69,11 +72,18 @@ std::string primitiveTable(const Identification& result) {
 }
 
 Json explanationJson(const Explanation& entry) {
-    return {{"method", methodName(entry.method)},     {"uvSet", entry.uv_set},
-            {"isTexturesSet", entry.is_textures_set}, {"isTransformed", entry.is_transformed},
-            {"corners", entry.corner_count},          {"near", entry.near_count},
-            {"nearAtVertex", entry.near_any_count},   {"meanDeg", entry.mean_deg},
-            {"gltfSigns", entry.gltf_sign_count},     {"invertedSigns", entry.inverted_sign_count},
+    return {{"method", methodName(entry.method)},
+            {"faces", facesName(entry.faces)},
+            {"uvSet", entry.uv_set},
+            {"isTexturesSet", entry.is_textures_set},
+            {"isTransformed", entry.is_transformed},
+            {"corners", entry.corner_count},
+            {"undecidedCorners", entry.undecided_count},
+            {"near", entry.near_count},
+            {"nearAtVertex", entry.near_any_count},
+            {"meanDeg", entry.mean_deg},
+            {"gltfSigns", entry.gltf_sign_count},
+            {"invertedSigns", entry.inverted_sign_count},
             {"signs", signReadingName(entry.signs())}};
 }
 
