@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Normal maps: what their heads claim, and their pixels.
+// Images: what their heads claim, their pixels, and their green channel inverted.
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 
-#include "check/image.h"
+#include "maps/image.h"
+#include "tspace/maps.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     constexpr std::uint64_t kMostPixels = 1 << 20;
@@ -13,5 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::string why;
     const auto image = tspace::decodeImage(bytes, kMostPixels, why);
     if (image && image->rgb.size() != std::size_t{3} * image->width * image->height) std::abort();
+    if (tspace::claimedSize(bytes).pixels() > kMostPixels) return 0;
+    const auto flipped = tspace::flipGreen(bytes);
+    if (flipped && !tspace::decodeImage(flipped->bytes, kMostPixels, why)) std::abort();
     return 0;
 }

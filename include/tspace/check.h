@@ -55,8 +55,9 @@ enum class FindingCode : std::uint32_t {
     greenFlipped = 27,         ///< a normal map whose green points down (DirectX)
     normalMapUnreadable = 28,  ///< the image could not be looked at
     fileRemark = 29,           ///< what reading the file had to say: parts that were left out, or taken to be absent
+    greenMixed = 30,           ///< a normal map whose green points down in one part and up in another
 };
-inline constexpr std::uint32_t kFindingCodeCount = 30;
+inline constexpr std::uint32_t kFindingCodeCount = 31;
 
 /// Stable lowerCamelCase name: the name of the enumerator.
 const char* findingName(FindingCode code);
@@ -102,7 +103,7 @@ struct CheckOptions {
     double error_share = 0.001;
     /// Whose signs are right for the data as they are in the file.
     Convention convention = conventions::gltf;
-    /// Look at normal maps (PNG and JPEG, where tspace was built with their decoders).
+    /// Look at normal maps (PNG, JPEG and WebP, where tspace was built with their decoders).
     bool images = true;
     /// Larger images are not looked at.
     std::uint64_t most_pixels = std::uint64_t{1} << 26;

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "maps/texture_wrap.h"
+
 namespace tspace {
 
 /// KHR_texture_transform: uv' = translation * rotation * scale * uv. `rotation` in radians, counter-clockwise as the
@@ -26,6 +28,7 @@ struct TangentUse {
     std::size_t uv_set = 0;      ///< n of TEXCOORD_n; KHR_texture_transform's own texCoord goes first
     UvTransform transform = {};
     std::optional<std::size_t> image = {};  ///< index into the file's images
+    TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
     std::size_t material = 0;
     bool only_in_variant = false;  ///< the material is one of KHR_materials_variants, not the primitive's own
 };

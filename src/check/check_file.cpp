@@ -104,7 +104,7 @@ void softenWhatCancels(const Scene& scene, ImageFindings& images, const std::vec
     for (std::size_t i = 0; i < inverted_signs.size(); ++i) {
         if (inverted_signs[i] == nullptr) continue;
         is_inverted[i] = true;
-        if (!isGreenDown(scene.primitives[i], images)) continue;
+        if (i >= images.primitive_green.size() || images.primitive_green[i] != GreenSide::down) continue;
         inverted_signs[i]->severity = std::min(inverted_signs[i]->severity, Severity::warning);
         inverted_signs[i]->message += "; but green points down in its normal map too, and the two cancel out";
     }

@@ -66,8 +66,12 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "Give both textures the same UV set and the same rotation and mirroring; a mesh can hold only one tangent per "
      "vertex."},
     {"greenFlipped", "Look at the map: if it was baked for DirectX, invert its green channel."},
-    {"normalMapUnreadable", "Convert the image to PNG or JPEG to have it looked at."},
+    {"normalMapUnreadable", "Convert the image to PNG, JPEG or WebP to have it looked at."},
     {"fileRemark", "Mend the file where that matters. The rest of this report is about what could be read."},
+    {"greenMixed",
+     "Bake the map anew, all of it one way; or invert green with an image editor where it points down, and nowhere "
+     "else. "
+     "To invert the whole map would spoil the other part."},
 }};
 
 }  // namespace
@@ -122,6 +126,7 @@ const char* findingSummary(FindingCode code) {
         "Green points down in a normal map.",
         "A normal map could not be looked at.",
         "Reading the file left something out.",
+        "Green points down in one part of a normal map and up in another.",
     };
     static_assert(kSummaries.size() == kFindingCodeCount);
     const auto number = static_cast<std::size_t>(code);

@@ -24,6 +24,9 @@ struct Tally {
         worst_deg = std::max(worst_deg, deg);
         if (vertices.size() < kMostVertices) vertices.push_back(vertex);
     }
+    [[nodiscard]] double share() const {
+        return total == 0 ? 0 : static_cast<double>(count) / static_cast<double>(total);
+    }
     void finish(double whole_area) { surface_share = whole_area > 0 ? std::min(1.0, area / whole_area) : 0; }
 };
 

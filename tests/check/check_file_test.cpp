@@ -6,8 +6,8 @@
 #include <set>
 
 #include "asset/gltf_builder.h"
-#include "check/images.h"
 #include "check/patch.h"
+#include "maps/images.h"
 #include "support/temp_folder.h"
 
 namespace tspace::test {
@@ -130,6 +130,89 @@ TEST(CheckFile, KnowsThatInvertedSignsAndGreenDownCancelOut) {
     addPatch(mixed.builder, goodPatch());
     EXPECT_EQ(codes(mixed.check()), (Codes{"warning signsInverted", "warning greenFlipped"}))
         << "not in the other patch";
+}
+
+TEST(CheckFile, NamesTheFormatOfAnImageThatIsNotRead) {
+    TestModel model;
+    model.folder.write("normal.png", "\xabKTX 20\xbb\r\n\x1a\n");
+    model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
+    const CheckReport report = model.check();
+    ASSERT_EQ(codes(report), Codes{"note normalMapUnreadable"});
+    EXPECT_NE(report.findings[0].message.find("it is KTX2, which is not read"), std::string::npos);
+}
+
+TEST(CheckFile, LooksAtWebp) {
+    TestModel model;
+    model.folder.write("normal.png", webpFile(normalMapOf(256, bumps, true), false));
+    model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"EXT_texture_webp":{"source":0}}}])");
+    EXPECT_EQ(codes(model.check()), Codes{"warning greenFlipped"});
+}
+
+/// A map whose left half points up and whose right half points down.
+RgbImage halfFlipped() {
+    RgbImage map = normalMapOf(512, bumps);
+    for (std::size_t y = 0; y < 512; ++y) {
+        for (std::size_t x = 256; x < 512; ++x) map.rgb[3 * (512 * y + x) + 1] ^= 0xff;
+    }
+    return map;
+}
+
+/// Half of a square, left or right, with UVs of the same half of the image, moved by whole repeats.
+void addHalf(GltfBuilder& builder, bool is_right, float move = 0) {
+    const float left = is_right ? 0.5f : 0, right = left + 0.5f;
+    std::vector<float> normals, tangents;
+    for (int i = 0; i < 4; ++i) {
+        normals.insert(normals.end(), {0, 0, 1});
+        tangents.insert(tangents.end(), {1, 0, 0, 1});
+    }
+    const std::size_t indices = builder.addAccessor(std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}, 5125, "SCALAR", 6);
+    Json& primitive = builder.addPrimitive(
+        {{"POSITION", builder.addFloats({left, 0, 0, right, 0, 0, right, 1, 0, left, 1, 0}, 3)},
+         {"NORMAL", builder.addFloats(normals, 3)},
+         {"TANGENT", builder.addFloats(tangents, 4)},
+         {"TEXCOORD_0",
+          builder.addFloats({left + move, 1 - move, right + move, 1 - move, right + move, -move, left + move, -move},
+                            2)}});
+    primitive["indices"] = indices;
+    primitive["material"] = 0;
+}
+
+CheckReport checkHalves(const TempFolder& folder, bool with_left, bool with_right, const char* transform = nullptr) {
+    folder.write("normal.png", pngFile(halfFlipped()));
+    GltfBuilder builder;
+    if (with_left) addHalf(builder, false, 3);
+    if (with_right) addHalf(builder, true, -2);
+    builder.json()["images"] = Json::parse(R"([{"uri":"normal.png"}])");
+    builder.json()["textures"] = Json::parse(R"([{"source":0}])");
+    builder.json()["materials"] = Json::parse(R"([{"normalTexture":{"index":0}}])");
+    if (transform != nullptr) {
+        builder.json()["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"] = Json::parse(transform);
+    }
+    const Result<CheckReport> report = checkFile(folder.write("model.gltf", builder.gltfText()));
+    EXPECT_TRUE(report) << report.error().message;
+    return report ? *report : CheckReport{};
+}
+
+TEST(CheckFile, ReadsTheTexelsOfAMapThatTrianglesShow) {
+    const TempFolder folder;
+    EXPECT_EQ(codes(checkHalves(folder, true, false)), Codes{}) << "the other half may hold anything";
+    EXPECT_EQ(codes(checkHalves(folder, false, true)), Codes{"warning greenFlipped"});
+    EXPECT_EQ(codes(checkHalves(folder, false, true, R"({"offset":[0.5,0]})")), Codes{})
+        << "which moves to the left half";
+    EXPECT_EQ(codes(checkHalves(folder, true, false, R"({"offset":[-0.5,7]})")), Codes{"warning greenFlipped"});
+}
+
+TEST(CheckFile, SaysWhichPartOfAMixedMapPointsDown) {
+    const TempFolder folder;
+    const CheckReport report = checkHalves(folder, true, true);
+    ASSERT_EQ(codes(report), Codes{"warning greenMixed"});
+    const Finding& finding = report.findings[0];
+    EXPECT_EQ(finding.primitive, 1u) << "the right half";
+    EXPECT_EQ(finding.place, "/materials/0/normalTexture");
+    EXPECT_NE(finding.message.find("columns 256 to 511, rows 0 to 511"), std::string::npos) << finding.message;
+    EXPECT_NE(finding.message.find("columns 0 to 255, rows 0 to 511"), std::string::npos) << finding.message;
+    EXPECT_NEAR(static_cast<double>(finding.count) / static_cast<double>(finding.total), 0.5, 0.1);
+    EXPECT_NE(finding.message.find(" %"), std::string::npos) << finding.message;
 }
 
 TEST(CheckFile, SaysThatAnImageWasNotLookedAt) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Which way green points, and images that must not be trusted.
+// Which way green points, in a map and in parts of it.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <cmath>
 
-#include "check/images.h"
 #include "check/normal_map.h"
+#include "maps/images.h"
 
 namespace tspace::test {
 namespace {
@@ -16,9 +16,17 @@ std::optional<RgbImage> decode(const std::string& file, std::uint64_t most_pixel
     return decodeImage(bytesOf(file), most_pixels, why);
 }
 
-std::string whyNot(const std::string& file, std::uint64_t most_pixels = 1 << 22) {
-    std::string why;
-    return decodeImage(bytesOf(file), most_pixels, why) ? "" : why;
+GreenTest testGreen(const RgbImage& image) {
+    TexelMask all(image.width, image.height);
+    all.fillAll();
+    return GreenBlocks(image, all).all();
+}
+
+/// Green is inverted in a rectangle.
+void flip(RgbImage& image, const TexelRect& rect) {
+    for (std::size_t y = rect.top; y < rect.bottom; ++y) {
+        for (std::size_t x = rect.left; x < rect.right; ++x) image.rgb[3 * (y * image.width + x) + 1] ^= 0xff;
+    }
 }
 
 TEST(GreenTest, TellsUpFromDown) {
@@ -79,57 +87,58 @@ TEST(GreenTest, SeesThroughJpeg) {
     }
 }
 
-TEST(DecodeImage, GivesThePixelsOfAPng) {
-    const RgbImage image = normalMapOf(33, bumps);
-    const std::optional<RgbImage> decoded = decode(pngFile(image));
-    ASSERT_TRUE(decoded);
-    EXPECT_EQ(decoded->width, 33u);
-    EXPECT_EQ(decoded->rgb, image.rgb);
+TEST(GreenTest, ReadsTexelsInsideOfTheMaskAlone) {
+    // As padding that was made otherwise than the islands.
+    RgbImage map = normalMapOf(256, bumps);
+    flip(map, {0, 0, 256, 160});
+    TexelMask lower(256, 256), upper = lower;
+    for (std::uint32_t y = 0; y < 256; ++y) (y < 160 ? upper : lower).fill(y, 0, 256);
+    EXPECT_EQ(GreenBlocks(map, lower).all().verdict, GreenVerdict::up);
+    EXPECT_EQ(GreenBlocks(map, upper).all().verdict, GreenVerdict::down);
+    EXPECT_EQ(GreenBlocks(map, TexelMask(256, 256)).all().verdict, GreenVerdict::unknown);
 }
 
-TEST(DecodeImage, SaysWhyItDoesNotLook) {
-    const std::string png = pngFile(normalMapOf(64, bumps)), jpeg = jpegFile(normalMapOf(64, bumps), 90);
-    EXPECT_EQ(whyNot(png), "");
-    EXPECT_EQ(whyNot(png, 1000), "it has more pixels than are looked at");
-    EXPECT_EQ(whyNot(jpeg, 1000), "it has more pixels than are looked at");
-    EXPECT_EQ(whyNot("RIFF????WEBP"), "it is neither PNG nor JPEG");
-    EXPECT_EQ(whyNot(""), "it is neither PNG nor JPEG");
-    EXPECT_EQ(whyNot(png.substr(0, png.size() / 2)), "it is a broken PNG");
-    EXPECT_EQ(whyNot(jpeg.substr(0, 10)), "it is a broken JPEG");
+TEST(GreenTest, SaysWhereAMixedMapPointsDown) {
+    RgbImage map = normalMapOf(512, bumps);
+    const TexelRect down{64, 128, 288, 352};
+    flip(map, down);
+    const GreenTest test = testGreen(map);
+    ASSERT_EQ(test.verdict, GreenVerdict::mixed);
+    EXPECT_NEAR(test.down_part.left, down.left, 32);
+    EXPECT_NEAR(test.down_part.right, down.right, 32);
+    EXPECT_NEAR(test.down_part.top, down.top, 32);
+    EXPECT_NEAR(test.down_part.bottom, down.bottom, 32);
+    EXPECT_GT(test.up_part_blocks, test.down_part_blocks);
+    EXPECT_GT(test.confidence(), 0.5);
 }
 
-TEST(DecodeImage, RefusesAFewBytesThatClaimManyPixels) {
-    std::string png = pngFile(normalMapOf(64, bumps));
-    // Width and height of the header, which then has a wrong checksum; either reason will do.
-    png[18] = png[22] = 0x20;
-    EXPECT_NE(whyNot(png, std::uint64_t{1} << 40), "");
-    std::string jpeg = jpegFile(normalMapOf(64, bumps), 90);
-    const std::size_t frame = jpeg.find("\xff\xc0");
-    ASSERT_NE(frame, std::string::npos);
-    jpeg[frame + 5] = jpeg[frame + 7] = 0x60;
-    EXPECT_EQ(whyNot(jpeg, std::uint64_t{1} << 40), "it claims far more pixels than its bytes can hold");
+TEST(GreenTest, TellsThePartsOfAMixedMapApart) {
+    RgbImage map = normalMapOf(512, bumps);
+    flip(map, {0, 0, 256, 512});
+    TexelMask all(512, 512), left = all, right = all, corner = all;
+    all.fillAll();
+    for (std::uint32_t y = 0; y < 512; ++y) {
+        left.fill(y, 0, 256);
+        right.fill(y, 256, 512);
+    }
+    for (std::uint32_t y = 0; y < 16; ++y) corner.fill(y, 0, 16);
+    const GreenBlocks blocks(map, all);
+    EXPECT_EQ(blocks.all().verdict, GreenVerdict::mixed);
+    EXPECT_EQ(blocks.within(left).verdict, GreenVerdict::down);
+    EXPECT_EQ(blocks.within(right).verdict, GreenVerdict::up);
+    EXPECT_EQ(blocks.within(all).verdict, GreenVerdict::mixed);
+    EXPECT_EQ(blocks.within(corner).verdict, GreenVerdict::unknown) << "one block, in a map that is not one way";
+    const GreenBlocks one_way(normalMapOf(512, bumps), all);
+    EXPECT_EQ(one_way.within(corner).verdict, GreenVerdict::up) << "one block, in a map that is";
 }
 
-/// A table of codes has 256 at most; its 16 counts may say 4080.
-TEST(DecodeImage, RefusesAJpegWhoseTableHasTooManyCodes) {
-    std::string jpeg = jpegFile(normalMapOf(64, bumps), 90);
-    const std::size_t table = jpeg.find("\xff\xc4");
-    ASSERT_NE(table, std::string::npos);
-    constexpr std::size_t kCountsAt = 5, kCountsFrom9 = 8;  // 255 each of 9 to 16 bits are codes that there can be
-    std::fill_n(jpeg.begin() + static_cast<std::ptrdiff_t>(table + kCountsAt + kCountsFrom9), 8, '\xff');
-    EXPECT_EQ(whyNot(jpeg), "it is a broken JPEG");
-}
-
-TEST(DecodeImage, SurvivesBrokenFiles) {
-    const std::string files[] = {pngFile(normalMapOf(24, bumps)), jpegFile(normalMapOf(24, bumps), 80)};
-    rc::check([&] {
-        std::string file = files[*rc::gen::inRange(0, 2)];
-        for (int i = 0; i < *rc::gen::inRange(1, 5); ++i) {
-            file[*rc::gen::inRange<std::size_t>(3, file.size())] = *rc::gen::arbitrary<char>();
-        }
-        const std::optional<RgbImage> image = decode(file, 1 << 16);
-        if (image) RC_ASSERT(image->rgb.size() == std::size_t{3} * image->width * image->height);
-    });
+TEST(GreenTest, DoesNotCareHowIslandsAreTurned) {
+    // A map that is turned as a whole, normals with it, as a baker does for a turned island.
+    const auto turned = [](double x, double y) { return bumps(y, 1 - x); };
+    const auto mirrored = [](double x, double y) { return bumps(1 - x, y); };
+    EXPECT_EQ(testGreen(normalMapOf(256, turned)).verdict, GreenVerdict::up);
+    EXPECT_EQ(testGreen(normalMapOf(256, mirrored)).verdict, GreenVerdict::up);
+    EXPECT_EQ(testGreen(normalMapOf(256, mirrored, true)).verdict, GreenVerdict::down);
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "asset/gltf_builder.h"
-#include "check/image.h"
-#include "check/images.h"
 #include "expect_bounded.h"
+#include "maps/image.h"
+#include "maps/images.h"
 #include "tspace/check.h"
 
 namespace tspace {

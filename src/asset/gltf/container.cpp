@@ -3,13 +3,12 @@
 #include "asset/gltf/container.h"
 
 #include <algorithm>
-#include <cstring>
 #include <optional>
-#include <string_view>
 
 #include "asset/file_error.h"
 #include "asset/gltf/compression/meshopt_views.h"
 #include "asset/uri.h"
+#include "maps/image.h"
 
 namespace tspace::gltf {
 
@@ -19,17 +18,6 @@ namespace {
 
 constexpr std::size_t kJoinAlignment = 8;  // more than glTF's 4: data of extensions may want 8
 constexpr const char* kNewBufferEnding = ".tspace.bin";
-
-std::string mimeTypeOf(const Bytes& bytes, const std::string& declared) {
-    const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 16));
-    if (head.substr(0, 8) == "\x89PNG\r\n\x1a\n") return "image/png";
-    if (head.substr(0, 3) == "\xff\xd8\xff") return "image/jpeg";
-    if (head.substr(0, 4) == "RIFF" && head.size() >= 12 && head.substr(8, 4) == "WEBP") return "image/webp";
-    if (head.substr(0, 7) == std::string_view("\xabKTX 20")) return "image/ktx2";
-    if (head.substr(0, 4) == "DDS ") return "image/vnd-ms.dds";
-    if (head.size() >= 12 && head.substr(4, 8) == "ftypavif") return "image/avif";
-    return declared;
-}
 
 /// The bytes and media type behind an image's URI, or nothing (with a warning) when they cannot be had.
 std::optional<DataUri> loadImage(Document& document, const std::string& uri, const std::string& declared,
@@ -52,7 +40,8 @@ std::optional<DataUri> loadImage(Document& document, const std::string& uri, con
         document.input_files.push_back(path.string());
         image.mime_type = declared;
     }
-    image.mime_type = mimeTypeOf(image.bytes, image.mime_type);
+    const ImageFormat format = imageFormat(image.bytes);
+    if (format != ImageFormat::unknown) image.mime_type = mimeType(format);
     if (image.bytes.empty() || image.mime_type.empty()) {
         warnings.push_back("the image " + inQuotes(uri, 60) + " has no known type and stays outside of the GLB");
         return {};

@@ -54,14 +54,18 @@ std::optional<std::size_t> indexBelow(const Json& object, const char* key, std::
     return static_cast<std::size_t>(index);
 }
 
-/// `source` where there is one: the other formats are alternatives to it.
-std::optional<std::size_t> imageOf(const Document& document, const Json& reference) {
+/// The texture that a reference names, or null.
+const Json* textureOf(const Document& document, const Json& reference) {
     const Json* textures = findMember(document.json, "textures");
-    const Json* images = findMember(document.json, "images");
-    if (textures == nullptr || !textures->is_array() || images == nullptr || !images->is_array()) return {};
+    if (textures == nullptr || !textures->is_array()) return nullptr;
     const auto index = indexBelow(reference, "index", textures->size());
-    if (!index) return {};
-    const Json& texture = (*textures)[*index];
+    return index ? &(*textures)[*index] : nullptr;
+}
+
+/// `source` where there is one: the other formats are alternatives to it.
+std::optional<std::size_t> imageOf(const Document& document, const Json& texture) {
+    const Json* images = findMember(document.json, "images");
+    if (images == nullptr || !images->is_array()) return {};
     if (const auto source = indexBelow(texture, "source", images->size())) return source;
     for (const char* name : {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"}) {
         const Json* extension = findExtension(texture, name);
@@ -69,6 +73,17 @@ std::optional<std::size_t> imageOf(const Document& document, const Json& referen
         if (const auto source = indexBelow(*extension, "source", images->size())) return source;
     }
     return {};
+}
+
+/// `key`: "wrapS" or "wrapT".
+TextureWrap wrapOf(const Document& document, const Json& texture, const char* key) {
+    constexpr int kClamp = 33071, kMirror = 33648;
+    const Json* samplers = findMember(document.json, "samplers");
+    if (samplers == nullptr || !samplers->is_array()) return TextureWrap::repeat;
+    const auto sampler = indexBelow(texture, "sampler", samplers->size());
+    const Json* wrap = sampler ? findMember((*samplers)[*sampler], key) : nullptr;
+    if (wrap != nullptr && *wrap == kClamp) return TextureWrap::clamp;
+    return wrap != nullptr && *wrap == kMirror ? TextureWrap::mirror : TextureWrap::repeat;
 }
 
 /// Collects the uses of one material.
@@ -113,7 +128,11 @@ class MaterialUses {
         if (texture == nullptr) return false;
         TangentUse& use = add(needed_by, join(place, key));
         readUvs(*texture, use.place, use);
-        use.image = imageOf(document_, *texture);
+        if (const Json* entry = textureOf(document_, *texture)) {
+            use.image = imageOf(document_, *entry);
+            use.wrap_u = wrapOf(document_, *entry, "wrapS");
+            use.wrap_v = wrapOf(document_, *entry, "wrapT");
+        }
         return true;
     }
 

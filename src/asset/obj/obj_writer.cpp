@@ -9,6 +9,7 @@
 #include "asset/file_error.h"
 #include "asset/uri.h"
 #include "generate/unit_lattice.h"
+#include "maps/image.h"
 
 namespace tspace::obj {
 namespace {
@@ -110,17 +111,6 @@ class BufferBuilder {
     bool has_integers_ = false;
 };
 
-/// By content, because names lie. Null for anything that core glTF does not have.
-const char* imageType(const Bytes& bytes) {
-    static constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-    static constexpr std::uint8_t kJpeg[] = {0xFF, 0xD8, 0xFF};
-    const auto starts = [&](const auto& magic) {
-        return bytes.size() >= std::size(magic) && std::equal(std::begin(magic), std::end(magic), bytes.begin());
-    };
-    if (starts(kPng)) return "image/png";
-    return starts(kJpeg) ? "image/jpeg" : nullptr;
-}
-
 /// Images and textures, one per file however often it is used.
 class ImageBuilder {
   public:
@@ -151,12 +141,13 @@ class ImageBuilder {
                 resolveUri(texture.folder, percentEncode(texture.file), options_.allow_external, "material");
             const Bytes bytes = readFile(path);
             files_.addSource(path);
-            const char* type = imageType(bytes);
-            if (type == nullptr) {
+            // By content, because names lie. Core glTF has no other formats.
+            const ImageFormat format = imageFormat(bytes);
+            if (format != ImageFormat::png && format != ImageFormat::jpeg) {
                 warnings_.push_back("the texture '" + texture.file + "' was left out: it is neither PNG nor JPEG");
                 return -1;
             }
-            images_.push_back(imageJson(path, bytes, type));
+            images_.push_back(imageJson(path, bytes, mimeType(format)));
         } catch (const FileError& failure) {
             warnings_.push_back("a texture was left out: " + failure.error.message);
             return -1;

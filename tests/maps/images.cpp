@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "check/images.h"
+#include "maps/images.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb_image_write.h>
+#include <webp/encode.h>
 
 namespace tspace::test {
 
@@ -53,6 +54,16 @@ std::string jpegFile(const RgbImage& image, int quality) {
     std::string file;
     stbi_write_jpg_to_func(append, &file, static_cast<int>(image.width), static_cast<int>(image.height), 3,
                            image.rgb.data(), quality);
+    return file;
+}
+
+std::string webpFile(const RgbImage& image, bool lossless) {
+    const auto width = static_cast<int>(image.width), height = static_cast<int>(image.height);
+    std::uint8_t* data = nullptr;
+    const std::size_t size = lossless ? WebPEncodeLosslessRGB(image.rgb.data(), width, height, 3 * width, &data)
+                                      : WebPEncodeRGB(image.rgb.data(), width, height, 3 * width, 90, &data);
+    std::string file(reinterpret_cast<const char*>(data), size);
+    WebPFree(data);
     return file;
 }
 

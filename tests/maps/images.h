@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "check/image.h"
+#include "maps/image.h"
 
 namespace tspace::test {
 
@@ -18,6 +18,7 @@ double bumps(double x, double y);
 
 std::string pngFile(const RgbImage& image);
 std::string jpegFile(const RgbImage& image, int quality);
+std::string webpFile(const RgbImage& image, bool lossless);
 
 inline std::span<const std::uint8_t> bytesOf(const std::string& file) {
     return {reinterpret_cast<const std::uint8_t*>(file.data()), file.size()};

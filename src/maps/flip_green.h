@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Inverting the green channel of encoded images, format by format. Functions throw FileError.
+#pragma once
+
+#include "maps/image.h"
+
+namespace tspace {
+
+/// Pixels of 3 or 4 channels, 8 bits each; the first row is the top one.
+struct ChannelImage {
+    std::uint32_t width = 0, height = 0;
+    unsigned channels = 3;
+    std::vector<std::uint8_t> pixels = {};
+};
+
+/// What flipping takes of memory, beside the input and the output.
+std::uint64_t flipWorkBytes(ByteSpan bytes);
+
+/// A PNG with its green channel inverted, and all else as it was.
+struct FlippedPng {
+    std::vector<std::uint8_t> bytes = {};
+    std::uint32_t bits = 8;
+};
+FlippedPng flipPng(ByteSpan bytes);
+
+/// Pixels of a JPEG or WebP. Fails for grey images, and for those that are broken or animated.
+ChannelImage readJpegPixels(ByteSpan bytes);
+ChannelImage readWebpPixels(ByteSpan bytes);
+
+std::vector<std::uint8_t> writePng(const ChannelImage& image);
+/// `like`: the JPEG whose Exif data, profile and comments it gets.
+std::vector<std::uint8_t> writeJpeg(const ChannelImage& image, int quality, ByteSpan like);
+/// Without loss, also where it is transparent.
+std::vector<std::uint8_t> writeWebp(const ChannelImage& image);
+
+}  // namespace tspace

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Images as they come out of model files, which may be hostile: what format they are, what they claim, their pixels.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tspace {
+
+using ByteSpan = std::span<const std::uint8_t>;
+
+enum class ImageFormat { unknown, png, jpeg, webp, ktx2, basis, dds, avif };
+
+/// Told by the first bytes, whatever a file says of itself.
+ImageFormat imageFormat(ByteSpan bytes);
+/// "PNG", "WebP", "KTX2"; empty for an unknown one.
+const char* formatName(ImageFormat format);
+/// "image/png"; empty for an unknown one.
+const char* mimeType(ImageFormat format);
+/// Null, or why this build reads no pixels of that format: half a sentence, "it is KTX2, which is not read".
+const char* whyNotRead(ImageFormat format);
+
+/// 8 bits a channel; the first row is the top one.
+struct RgbImage {
+    std::uint32_t width = 0, height = 0;
+    std::vector<std::uint8_t> rgb = {};
+};
+
+/// About the most memory that decodeImage holds for these bytes; 0 where it decodes nothing.
+std::uint64_t imageWorkBytes(ByteSpan bytes);
+
+struct ImageSize {
+    std::uint32_t width = 0, height = 0;
+
+    [[nodiscard]] std::uint64_t pixels() const { return std::uint64_t{width} * height; }
+};
+
+/// What the head of the file says, without any check; at most 2^30 each. 0 where decodeImage decodes nothing.
+ImageSize claimedSize(ByteSpan bytes);
+
+/// Decodes PNG, JPEG and WebP, told apart by content. Nothing, with the reason in `why` (half a sentence), for other
+/// formats, broken files, more than `most_pixels` pixels, and images that are out of proportion to their bytes.
+std::optional<RgbImage> decodeImage(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
+
+}  // namespace tspace

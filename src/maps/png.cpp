@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// PNG by libspng.
+#include <spng.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "maps/codecs.h"
+
+namespace tspace {
+
+namespace {
+
+struct FreeContext {
+    void operator()(spng_ctx* context) const { spng_ctx_free(context); }
+};
+
+}  // namespace
+
+ImageClaim claimOfPng(ByteSpan bytes) {
+    constexpr std::size_t kWidthAt = 16, kHeightAt = 20;  // of the header chunk, which is the first
+    if (bytes.size() < kHeightAt + 4) return {};
+    const auto number = [&](std::size_t at) {
+        std::uint32_t value = 0;
+        for (std::size_t i = 0; i < 4; ++i) value = value << 8 | bytes[at + i];
+        return std::min(value, std::uint32_t{1} << 30);  // no product overflows
+    };
+    const ImageSize size{number(kWidthAt), number(kHeightAt)};
+    return {size, 3 * size.pixels() + 64 * std::uint64_t{size.width}};
+}
+
+std::optional<RgbImage> decodePng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    constexpr std::size_t kMostChunkBytes = std::size_t{64} << 20;
+    const std::unique_ptr<spng_ctx, FreeContext> context(spng_ctx_new(0));
+    spng_ihdr header{};
+    why = "it is a broken PNG";
+    if (!context || spng_set_chunk_limits(context.get(), kMostChunkBytes, kMostChunkBytes) != 0 ||
+        spng_set_png_buffer(context.get(), bytes.data(), bytes.size()) != 0 ||
+        spng_get_ihdr(context.get(), &header) != 0) {
+        return {};
+    }
+    const ImageSize size{header.width, header.height};
+    if (isTooLarge(size, bytes.size(), most_pixels, why)) return {};
+    std::size_t byte_count = 0;
+    if (spng_decoded_image_size(context.get(), SPNG_FMT_RGB8, &byte_count) != 0 || byte_count != 3 * size.pixels()) {
+        return {};
+    }
+    RgbImage image{size.width, size.height, std::vector<std::uint8_t>(byte_count)};
+    if (spng_decode_image(context.get(), image.rgb.data(), byte_count, SPNG_FMT_RGB8, 0) != 0) return {};
+    return image;
+}
+
+}  // namespace tspace
