@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <span>
 
@@ -57,14 +58,20 @@ Bytes readFile(const fs::path& path, const std::string& place, const Execution& 
     const ErrorCode code = place.empty() ? ErrorCode::cannotRead : ErrorCode::invalidFile;
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    if (!fs::exists(status)) failFile(code, "the file " + pathInQuotes(path) + " does not exist", place);
+    const auto fail_open = [&](const std::string& why) {
+        failFile(code, "cannot open the file " + pathInQuotes(path) + ": " + why, place);
+    };
+    if (status.type() == fs::file_type::not_found)
+        failFile(code, "the file " + pathInQuotes(path) + " does not exist", place);
+    if (error) fail_open(error.message());
+    if (fs::is_directory(status)) failFile(code, pathInQuotes(path) + " is a folder", place);
     // Pipes and devices could block or never end.
     if (!fs::is_regular_file(status)) {
         failFile(code, pathInQuotes(path) + " is not a regular file", place);
     }
     const std::uintmax_t size = fs::file_size(path, error);
     const std::unique_ptr<std::FILE, CloseFile> file(error ? nullptr : std::fopen(path.c_str(), "rb"));
-    if (!file) failFile(code, "cannot open the file " + pathInQuotes(path), place);
+    if (!file) fail_open(error ? error.message() : std::strerror(errno));
     Bytes bytes(static_cast<std::size_t>(size));
     if (!readSteps(::fileno(file.get()), bytes, execution)) {
         failFile(code, "cannot read all of the file " + pathInQuotes(path), place);

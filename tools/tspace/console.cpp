@@ -38,6 +38,8 @@ ExitCode printUsageError(const std::string& message) {
     return ExitCode::usage;
 }
 
+void printRemark(const std::string& message) { printLine("tspace: " + printable(message)); }
+
 bool printResult(std::string_view text) {
     const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
     if (!written) printLine("tspace: standard output: cannot write");

@@ -20,6 +20,9 @@ ExitCode printError(const std::string& file, const Error& error);
 /// The same for a wrong command line: "tspace: message".
 ExitCode printUsageError(const std::string& message);
 
+/// The same for what is no error.
+void printRemark(const std::string& message);
+
 /// Writes text to stdout. false when stdout cannot take it (closed pipe, full disk).
 bool printResult(std::string_view text);
 

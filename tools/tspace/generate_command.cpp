@@ -167,6 +167,7 @@ class GenerateRun {
 ExitCode runGenerate(const GenerateArguments& arguments) {
     Result<std::vector<Job>> jobs = generateJobs(arguments);
     if (!jobs) return printUsageError(jobs.error().message);
+    if (!arguments.quiet && !jobs->empty() && !jobs->front().remark.empty()) printRemark(jobs->front().remark);
     takeShard(*jobs, arguments.batch.shard);
     catchInterrupts();
     GenerateRun run(arguments, std::move(*jobs));

@@ -56,7 +56,8 @@ void addOutputOptions(Command& command, GenerateArguments& arguments) {
                          "becomes a.obj.glb."))
         .is_file = true;
     command.add(group, flag("--in-place", arguments.in_place,
-                            "Write over the input files. Each is replaced only when its result is complete."));
+                            "Write over the input files. Each is replaced only when its result is complete. Without "
+                            "this, an output that is an input is refused."));
     command.add(group, choice("--container", "FORMAT", kContainers, arguments.container,
                               "File format of outputs whose name does not say it: glb or gltf. Default: that of the "
                               "input; glb for OBJ."));

@@ -2,6 +2,8 @@
 // Which files are worked on and where their results go. Looks at the file system, writes nothing.
 #include "jobs.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -33,6 +35,13 @@ std::string canonicalName(const fs::path& path) {
     std::error_code failed;
     const fs::path canonical = fs::weakly_canonical(path, failed);
     return failed ? fs::absolute(path).lexically_normal().string() : canonical.string();
+}
+
+/// One text per file: the same for all links to one that exists.
+std::string identityOf(const fs::path& path) {
+    struct stat status = {};
+    if (::stat(path.c_str(), &status) != 0) return canonicalName(path);
+    return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
 }
 
 struct Found {
@@ -129,20 +138,24 @@ Result<std::vector<Job>> jobWithNamedOutput(const GenerateArguments& arguments) 
     const std::string extension = lowerExtension(job.output);
     if (extension.empty()) {
         job.output += extensionFor(arguments.container, job.input);
+        job.remark = "the output has no extension, so it is the file " + job.output + "; a folder would be " +
+                     arguments.output + "/";
     } else if (extension != ".glb" && extension != ".gltf") {
         return usage("the output must end in .glb or .gltf: " + job.output);
     } else if (arguments.container != Container::sameAsInput && extension != extensionFor(arguments.container, "")) {
         return usage("--container says otherwise than the name of the output: " + job.output);
     }
+    if (identityOf(job.output) == identityOf(job.input))
+        return usage("the output " + job.output + " is the input; --in-place writes over it");
     return std::vector<Job>{std::move(job)};
 }
 
 Result<std::vector<Job>> jobsIntoFolder(const GenerateArguments& arguments) {
     const fs::path folder = arguments.output;
     std::map<std::string, std::string> writers;  // canonical output -> input
-    std::map<std::string, std::string> inputs;   // canonical input -> as named
+    std::set<std::string> inputs;                // identities
     std::vector<Found> found = findInputs(arguments.inputs, canonicalName(folder));
-    for (const Found& item : found) inputs.emplace(canonicalName(item.job.input), item.job.input);
+    for (const Found& item : found) inputs.insert(identityOf(item.job.input));
     std::vector<Job> jobs;
     for (Found& item : found) {
         Job& job = item.job;
@@ -157,7 +170,7 @@ Result<std::vector<Job>> jobsIntoFolder(const GenerateArguments& arguments) {
             }
             const std::string name = canonicalName(job.output);
             const auto [writer, is_new] = writers.emplace(name, job.input);
-            if (inputs.count(name) != 0) {
+            if (inputs.count(identityOf(job.output)) != 0) {
                 job.error =
                     usage("the output " + job.output + " is one of the inputs; use another folder or --in-place");
             } else if (!is_new) {

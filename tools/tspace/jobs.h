@@ -14,6 +14,7 @@ struct Job {
     std::string input = {};
     std::string output = {};                ///< empty for commands that write nothing
     std::string name = {};                  ///< path below the input folder; for files that were named: as named
+    std::string remark = {};                ///< what the user may not expect of the output; may be empty
     Error error = {.code = ErrorCode::ok};  ///< why it cannot even be tried
 };
 
