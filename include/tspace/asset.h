@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,14 @@ struct FileOptions {
     /// compressed geometry unpacks to. Other values stand for that, and for import_max_memory_bytes;
     /// kNoMemoryLimit: as much as there is.
     std::uint64_t memory_limit_bytes = 0;
+    /// The model itself, GLB or glTF, where it is not in a file; then the path is only what it is called. It has no
+    /// folder, so it must hold all that it needs: other files that it names are an error (invalidFile). Read during the
+    /// call only.
+    std::span<const std::uint8_t> content = {};
 };
+
+/// Takes bytes of an output, in their order. Returns false when it can take no more.
+using Sink = std::function<bool(std::span<const std::uint8_t>)>;
 
 /// Called now and then during long work. `done` of `total` steps; `what` names the step ("computing tangents").
 using Progress = std::function<void(const char* what, std::uint64_t done, std::uint64_t total)>;
@@ -102,6 +110,10 @@ struct GenerateOptions {
     Compression compression = Compression::keep;
     VectorFormat format = VectorFormat::float32;
     FileOptions file = {};
+    /// Takes the output, a GLB, in place of a file, once everything is computed; the path of the output is only what it
+    /// is called (NAME.glb). Files that the model names beside it are not written. Where it returns false: cannotWrite.
+    Sink sink = {};
+    bool dry_run = false;  ///< everything but writing; the report says what would be written
     Progress progress = {};
     /// What mikktspace is computed on; other methods take triangles. Which pairs are quads is chosen by the file's own
     /// tangents where these show it, else by shape. Polygons of an OBJ file are known: `quads` takes them as they are.

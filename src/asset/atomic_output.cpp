@@ -57,11 +57,7 @@ class Batch {
             }
         }
     }
-    [[nodiscard]] bool write(std::FILE* file) const {
-        return std::all_of(parts_.begin(), parts_.end(), [file](std::span<const std::uint8_t> part) {
-            return std::fwrite(part.data(), 1, part.size(), file) == part.size();
-        });
-    }
+    [[nodiscard]] bool write(const Sink& sink) const { return std::all_of(parts_.begin(), parts_.end(), sink); }
 
   private:
     static constexpr std::size_t kBlockBytes = std::size_t{1} << 19;  // stays in the second cache
@@ -71,7 +67,7 @@ class Batch {
 };
 
 /// Returns 0, or errno.
-int writePieces(std::FILE* file, std::span<const OutputPiece> pieces, Parallel& parallel) {
+int writePieces(const Sink& sink, std::span<const OutputPiece> pieces, Parallel& parallel) {
     Batch batches[2];
     std::size_t piece = 0, offset = 0;
     int error = 0;
@@ -81,7 +77,7 @@ int writePieces(std::FILE* file, std::span<const OutputPiece> pieces, Parallel& 
         int no_memory = 0;
         parallel.forTasks(2, [&](std::size_t task) {
             if (task == 0) {
-                if (!batches[current].write(file)) error = errno;
+                if (!batches[current].write(sink)) error = errno != 0 ? errno : EIO;
                 return;
             }
             try {
@@ -107,6 +103,15 @@ AtomicOutput::~AtomicOutput() {
 }
 
 void AtomicOutput::add(const fs::path& requested, std::span<const OutputPiece> pieces, const Execution& execution) {
+    for (const OutputPiece& piece : pieces) byte_count_ += piece.size();
+    const bool any_made = std::any_of(pieces.begin(), pieces.end(), [](const OutputPiece& p) { return !p.isThere(); });
+    Parallel parallel(any_made ? execution : Execution{.thread_count = 1});
+    if (sink_ || is_dry_run_) {
+        files_.push_back({{}, requested});
+        const int failure = is_dry_run_ ? 0 : writePieces(sink_, pieces, parallel);
+        if (failure != 0) failWrite(requested, std::strerror(failure));
+        return;
+    }
     // A link keeps being a link: what it points at is replaced.
     std::error_code error;
     const fs::path target = fs::is_symlink(requested, error) ? fs::weakly_canonical(requested) : requested;
@@ -124,18 +129,22 @@ void AtomicOutput::add(const fs::path& requested, std::span<const OutputPiece> p
     std::unique_ptr<std::FILE, CloseFile> file(std::fopen(temporary.c_str(), "wb"));
     if (!file) failWrite(target, std::strerror(errno));
     files_.push_back({temporary, target});
-    const bool any_made = std::any_of(pieces.begin(), pieces.end(), [](const OutputPiece& p) { return !p.isThere(); });
-    Parallel parallel(any_made ? execution : Execution{.thread_count = 1});
-    if (const int failure = writePieces(file.get(), pieces, parallel); failure != 0) {
+    const Sink to_file = [&file](std::span<const std::uint8_t> part) {
+        return std::fwrite(part.data(), 1, part.size(), file.get()) == part.size();
+    };
+    if (const int failure = writePieces(to_file, pieces, parallel); failure != 0) {
         failWrite(target, std::strerror(failure));
     }
-    for (const OutputPiece& piece : pieces) byte_count_ += piece.size();
     if (std::fclose(file.release()) != 0) failWrite(target, std::strerror(errno));
     const fs::file_status old = fs::status(target, error);
     if (fs::exists(old)) fs::permissions(temporary, old.permissions(), error);
 }
 
 void AtomicOutput::commit() {
+    if (sink_ || is_dry_run_) {
+        committed_ = true;
+        return;
+    }
     // Old files are set aside first, so that a failure half-way can be taken back.
     struct Aside {
         fs::path old_name, new_name;

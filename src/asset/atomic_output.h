@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "asset/output_piece.h"
-#include "tspace/execution.h"
+#include "tspace/asset.h"
 
 namespace tspace {
 
@@ -17,7 +17,8 @@ namespace tspace {
 /// file. All functions fail with cannotWrite by throwing FileError.
 class AtomicOutput {
   public:
-    AtomicOutput() = default;
+    /// With a `sink` the one file goes there at once, in place of the disk; a dry run writes nothing.
+    explicit AtomicOutput(Sink sink = {}, bool is_dry_run = false) : sink_(std::move(sink)), is_dry_run_(is_dry_run) {}
     ~AtomicOutput();
     AtomicOutput(const AtomicOutput&) = delete;
     AtomicOutput& operator=(const AtomicOutput&) = delete;
@@ -32,6 +33,8 @@ class AtomicOutput {
     void add(const std::filesystem::path& target, std::span<const std::uint8_t> bytes) {
         add(target, {OutputPiece(bytes)});
     }
+
+    [[nodiscard]] bool isStream() const { return sink_ != nullptr; }
 
     /// Remembers a file whose content went into an output.
     void addSource(const std::filesystem::path& source);
@@ -50,6 +53,8 @@ class AtomicOutput {
         std::filesystem::path temporary;
         std::filesystem::path target;
     };
+    Sink sink_;
+    bool is_dry_run_ = false;
     std::vector<File> files_;
     std::vector<std::filesystem::path> created_folders_;
     std::vector<std::string> sources_;

@@ -14,7 +14,8 @@ Result<GenerateReport> generateFile(const std::string& input, const std::string&
     }
     // An OBJ file has no magic word, so only its name tells it; everything else is read as glTF and refused
     // there.
-    if (lowerExtension(input) == ".obj") return generateObj(input, output, options);
+    if (options.file.content.data() == nullptr && lowerExtension(input) == ".obj")
+        return generateObj(input, output, options);
     return gltf::generateGltf(input, output, options);
 }
 

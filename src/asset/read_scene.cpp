@@ -7,8 +7,8 @@ namespace tspace {
 
 Scene readScene(const std::string& input, const FileOptions& options, bool with_images) {
     // An OBJ file has no magic word, so only its name tells it.
-    return lowerExtension(input) == ".obj" ? obj::readObjScene(input, options, with_images)
-                                           : gltf::readGltfScene(input, options, with_images);
+    const bool is_obj = options.content.data() == nullptr && lowerExtension(input) == ".obj";
+    return is_obj ? obj::readObjScene(input, options, with_images) : gltf::readGltfScene(input, options, with_images);
 }
 
 }  // namespace tspace

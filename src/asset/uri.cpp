@@ -173,6 +173,12 @@ fs::path resolveUri(const fs::path& folder, std::string_view uri, bool allow_ext
     if (path.empty() || path.find('\0') != std::string::npos) {
         failFile(ErrorCode::invalidFile, "a URI names no file", place);
     }
+    if (folder.empty()) {
+        failFile(
+            ErrorCode::invalidFile,
+            "the file " + inQuotes(path, 200) + " that the model names cannot be found, for the model is not a file",
+            place);
+    }
     const fs::path relative(path);
     if (allow_external) return folder / relative;
     if (relative.is_absolute()) refuse("is an absolute path");

@@ -36,7 +36,8 @@ std::string percentEncode(std::string_view path);
 std::string pathOfUri(std::string_view uri);
 
 /// The file that `uri` names. Fails with forbiddenPath when it is absolute, has a scheme or a `..`, or when a symbolic
-/// link leads out of `folder`; `allow_external` lifts all of these but the scheme.
+/// link leads out of `folder`; `allow_external` lifts all of these but the scheme. With invalidFile where the folder is
+/// empty: the model is in no file, so nothing can lie beside it.
 std::filesystem::path resolveUri(const std::filesystem::path& folder, std::string_view uri, bool allow_external,
                                  const std::string& place);
 

@@ -8,7 +8,8 @@ namespace tspace {
 
 Result<Inspection> inspectFile(const std::string& input, const FileOptions& options) {
     return atFileBorder([&]() -> Result<Inspection> {
-        return lowerExtension(input) == ".obj" ? inspectObj(input, options) : inspectGltf(input, options);
+        const bool is_obj = options.content.data() == nullptr && lowerExtension(input) == ".obj";
+        return is_obj ? inspectObj(input, options) : inspectGltf(input, options);
     });
 }
 

@@ -39,6 +39,7 @@ struct GenerateArguments {
     std::vector<std::string> inputs = {};
     std::string output = {};
     bool in_place = false;
+    bool dry_run = false;
     Container container = Container::sameAsInput;
     GenerateOptions options = {};
     std::string option_text = {};  ///< the options given that decide about results, in one spelling

@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "read_files.h"
+#include "standard_input.h"
 #include "text_file.h"
 
 namespace tspace::tool {
@@ -26,7 +27,9 @@ void leaveOut(CheckReport& report, const CheckArguments& arguments) {
     report.note_count = count(Severity::note);
 }
 
-Result<CheckReport> check(const std::string& input, const CheckOptions& options, const CheckArguments& arguments) {
+Result<CheckReport> check(const std::string& input, CheckOptions options, const CheckArguments& arguments) {
+    StandardInput standard_input;
+    if (const Result<Done> opened = standard_input.open(input, options.file); !opened) return opened.error();
     Result<CheckReport> report = checkFile(input, options);
     if (report) leaveOut(*report, arguments);
     return report;

@@ -43,7 +43,7 @@ void addInputs(Command& command, std::vector<std::string>& inputs) {
                 operand("IN...", inputs,
                         "Model files (.glb, .gltf, .obj; also .fbx, .ply, .stl, .dae, .3ds and more where "
                         "tspace-import is installed), folders, and patterns in quotes ('models/**/*.glb'). Of a folder "
-                        "all model files in it and below are taken."));
+                        "all model files in it and below are taken. '-': a GLB on stdin."));
 }
 
 void addBatch(Command& command, BatchArguments& batch, bool with_manifest) {

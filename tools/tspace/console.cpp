@@ -40,8 +40,8 @@ ExitCode printUsageError(const std::string& message) {
 
 void printRemark(const std::string& message) { printLine("tspace: " + printable(message)); }
 
-bool printResult(std::string_view text) {
-    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+bool printResult(std::string_view text, std::FILE* to) {
+    const bool written = std::fwrite(text.data(), 1, text.size(), to) == text.size() && std::fflush(to) == 0;
     if (!written) printLine("tspace: standard output: cannot write");
     return written;
 }

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -23,8 +24,9 @@ ExitCode printUsageError(const std::string& message);
 /// The same for what is no error.
 void printRemark(const std::string& message);
 
-/// Writes text to stdout. false when stdout cannot take it (closed pipe, full disk).
-bool printResult(std::string_view text);
+/// Writes text to stdout, or to stderr where a model goes to stdout. false when it cannot take it (closed pipe, full
+/// disk).
+bool printResult(std::string_view text, std::FILE* to = stdout);
 
 /// Whether stdout gets colours. automatic: it is a terminal that shows them, and the user did not say no by NO_COLOR.
 bool wantsColor(Color color);

@@ -2,7 +2,10 @@
 // tspace generate: many files, several at one time; one bad file does not stop the others.
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
+#include <cstdio>
+#include <cstring>
 #include <mutex>
 #include <optional>
 
@@ -12,6 +15,7 @@
 #include "interrupt.h"
 #include "manifest.h"
 #include "report.h"
+#include "standard_input.h"
 
 namespace tspace::tool {
 namespace {
@@ -52,6 +56,7 @@ class GenerateRun {
           jobs_(std::move(jobs)),
           outcomes_(jobs_.size()),
           workers_(workerCount(arguments.batch, jobs_.size())),
+          report_to_(arguments.output == "-" ? stderr : stdout),
           wants_text_(!arguments.json && !arguments.quiet),
           progress_(jobs_.size(), !arguments.quiet) {}
 
@@ -86,7 +91,7 @@ class GenerateRun {
         } else if (wants_text_ && outcomes.size() > 1) {
             last = generateSummary(outcomes, secondsSince(start_));
         }
-        return printResult(last) ? exit_code_ : ExitCode::cannotReadOrWrite;
+        return printResult(last, report_to_) ? exit_code_ : ExitCode::cannotReadOrWrite;
     }
 
   private:
@@ -101,13 +106,23 @@ class GenerateRun {
             if (wasInterrupted()) throw Interrupted{};
             progress_.update(job.input, what, done, total);
         };
-        return generateFile(job.input, job.output, options);
+        StandardInput standard_input;
+        if (const Result<Done> opened = standard_input.open(job.input, options.file); !opened) return opened.error();
+        if (job.output != "-") return generateFile(job.input, job.output, options);
+        options.sink = [](std::span<const std::uint8_t> bytes) {
+            return std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
+        };
+        Result<GenerateReport> report = generateFile(job.input, "stdout.glb", options);
+        if (report && std::fflush(stdout) != 0)
+            return Error{ErrorCode::cannotWrite, std::string("cannot write standard output: ") + std::strerror(errno)};
+        if (report) report->output_files = {"-"};
+        return report;
     }
 
     void work(std::size_t number) {
         const Clock::time_point start = Clock::now();
         const Job& job = jobs_[number];
-        GenerateOutcome outcome{.job = job};
+        GenerateOutcome outcome{.job = job, .is_dry_run = arguments_.dry_run};
         if (job.error.code == ErrorCode::ok && record_ && record_->isDone(job, arguments_.option_text)) {
             outcome.was_done_before = true;
             outcome.result = GenerateReport{};
@@ -144,7 +159,7 @@ class GenerateRun {
             exit_code_ = worse(exit_code_, code);
         } else if (wants_text_ && !output_is_closed_) {
             const bool wants_details = jobs_.size() == 1 || arguments_.batch.verbose;
-            output_is_closed_ = !printResult(wants_details ? generateText(outcome) : generateLine(outcome));
+            output_is_closed_ = !printResult(wants_details ? generateText(outcome) : generateLine(outcome), report_to_);
         }
     }
 
@@ -153,6 +168,7 @@ class GenerateRun {
     std::vector<Job> jobs_;
     std::vector<std::optional<GenerateOutcome>> outcomes_;
     unsigned workers_;
+    std::FILE* report_to_;
     bool wants_text_;
     ProgressLine progress_;
     std::optional<ManifestRecord> record_;

@@ -53,11 +53,15 @@ void addOutputOptions(Command& command, GenerateArguments& arguments) {
                          "Where to write: a file that ends in .glb or .gltf, or a folder. With several inputs, or a "
                          "folder as input, it is a folder: it is made if it is not there, and files keep their paths "
                          "relative to the input folder. Where a.glb and a.obj would both become a.glb, the later one "
-                         "becomes a.obj.glb."))
+                         "becomes a.obj.glb. '-': the model, a GLB, goes to stdout, and the report to stderr."))
         .is_file = true;
     command.add(group, flag("--in-place", arguments.in_place,
                             "Write over the input files. Each is replaced only when its result is complete. Without "
                             "this, an output that is an input is refused."));
+    command
+        .add(group, flag("--dry-run", arguments.dry_run,
+                         "Do everything but write: say what would be written, and where something is wrong."))
+        .excludes = {"--manifest"};
     command.add(group, choice("--container", "FORMAT", kContainers, arguments.container,
                               "File format of outputs whose name does not say it: glb or gltf. Default: that of the "
                               "input; glb for OBJ."));
@@ -174,6 +178,7 @@ std::string finish(const Given& given, GenerateArguments& arguments) {
     } else if (given.has("--crease")) {
         options.normals.weighting = NormalWeighting::angle;
     }
+    options.dry_run = arguments.dry_run;
     options.normals.execution = options.tangents.execution;
     options.sanitize_options.execution = options.tangents.execution;
     arguments.option_text = resultOptions(given);
@@ -196,7 +201,7 @@ Command generateCommand(GenerateArguments& arguments) {
         .examples = {"tspace generate helmet.glb -o out/helmet.glb",
                      "tspace generate --all --overwrite models/ -o out/",
                      "tspace generate scan.obj -o scan.glb --all --normals angle --crease 60",
-                     "tspace generate --json *.glb -o out/ > report.json",
+                     "tspace generate --json *.glb -o out/ > report.json", "cat a.glb | tspace generate - -o - > b.glb",
                      "tspace generate models/ -o out/ --jobs 8 --manifest done.jsonl --resume"},
         .finish = [&arguments](const Given& given) { return finish(given, arguments); },
     };

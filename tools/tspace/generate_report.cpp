@@ -189,8 +189,9 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     const std::string others = report.output_files.size() > 1
                                    ? fmt::format(" and {}", counted(report.output_files.size() - 1, "other file"))
                                    : "";
-    table.addRow({"written", fmt::format("{}{} ({}){}", printable(first), others, byteText(report.output_bytes),
-                                         report.changed ? "" : ", a copy of the input")});
+    table.addRow({outcome.is_dry_run ? "would be" : "written",
+                  fmt::format("{}{} ({}){}", printable(first), others, byteText(report.output_bytes),
+                              report.changed ? "" : ", a copy of the input")});
     return table.text("  ");
 }
 
@@ -342,6 +343,7 @@ std::string generateLine(const GenerateOutcome& outcome) {
     if (outcome.was_done_before) return line + "done before, and nothing has changed\n";
     const Totals totals = totalsOf(*outcome.result);
     line += actionsText(totals);
+    if (outcome.is_dry_run) line += " (not written)";
     if (totals.sanitize.mendedCount() != 0) line += fmt::format("; mended {}", mendedText(totals.sanitize));
     const std::size_t warnings = warningsOf(*outcome.result, totals).size();
     if (warnings != 0) line += fmt::format("; {} (--verbose says which)", counted(warnings, "warning"));
@@ -367,9 +369,10 @@ std::string generateSummary(const std::vector<GenerateOutcome>& outcomes, double
         all.primitive_count += totals.primitive_count;
         for (std::size_t i = 0; i < std::size(kActions); ++i) all.actions[i] += totals.actions[i];
     }
+    const char* written = !outcomes.empty() && outcomes.front().is_dry_run ? "would be written" : "written";
     const std::string before = skipped == 0 ? "" : fmt::format("{} done before, ", skipped);
-    return fmt::format("{} of {} written, {}{} failed; {}, {} mended, {:.2f} s\n  {}\n", done,
-                       counted(outcomes.size(), "file"), before, outcomes.size() - done - skipped,
+    return fmt::format("{} of {} {}, {}{} failed; {}, {} mended, {:.2f} s\n  {}\n", done,
+                       counted(outcomes.size(), "file"), written, before, outcomes.size() - done - skipped,
                        counted(triangles, "triangle"), counted(mended, "corner"), seconds, actionsText(all));
 }
 
@@ -378,6 +381,7 @@ std::string generateJson(const std::vector<GenerateOutcome>& outcomes, ExitCode 
         {"schema", "tspace.generate/1"},           {"version", TSPACE_VERSION}, {"ok", exit_code == ExitCode::done},
         {"exitCode", static_cast<int>(exit_code)}, {"seconds", seconds},        {"files", Json::array()},
     };
+    json["dryRun"] = !outcomes.empty() && outcomes.front().is_dry_run;
     for (const GenerateOutcome& outcome : outcomes) json["files"].push_back(outcomeJson(outcome));
     return jsonText(json);
 }

@@ -2,6 +2,7 @@
 // tspace identify
 #include "commands.h"
 #include "read_files.h"
+#include "standard_input.h"
 
 namespace tspace::tool {
 
@@ -13,7 +14,13 @@ ExitCode runIdentify(const IdentifyArguments& arguments) {
     options.execution.thread_count = threadsPerFile(options.execution.thread_count, workers);
     const auto files = readFiles<Identification>(
         jobs, arguments.batch, !arguments.json && !arguments.quiet,
-        [&](const std::string& input) { return identifyFile(input, options); }, identifyText);
+        [&](const std::string& input) -> Result<Identification> {
+            StandardInput standard_input;
+            IdentifyOptions own = options;
+            if (const Result<Done> opened = standard_input.open(input, own.file); !opened) return opened.error();
+            return identifyFile(input, own);
+        },
+        identifyText);
     if (files.output_is_closed) return ExitCode::cannotReadOrWrite;
     if (!arguments.json) return files.exit_code;
     return printResult(identifyJson(files.outcomes, files.exit_code)) ? files.exit_code : ExitCode::cannotReadOrWrite;

@@ -2,6 +2,7 @@
 // tspace inspect
 #include "commands.h"
 #include "read_files.h"
+#include "standard_input.h"
 
 namespace tspace::tool {
 
@@ -10,7 +11,13 @@ ExitCode runInspect(const InspectArguments& arguments) {
     takeShard(jobs, arguments.batch.shard);
     const auto files = readFiles<Inspection>(
         jobs, arguments.batch, !arguments.json && !arguments.quiet,
-        [&](const std::string& input) { return inspectFile(input, arguments.file); }, inspectText);
+        [&](const std::string& input) -> Result<Inspection> {
+            StandardInput standard_input;
+            FileOptions own = arguments.file;
+            if (const Result<Done> opened = standard_input.open(input, own); !opened) return opened.error();
+            return inspectFile(input, own);
+        },
+        inspectText);
     if (files.output_is_closed) return ExitCode::cannotReadOrWrite;
     if (!arguments.json) return files.exit_code;
     return printResult(inspectJson(files.outcomes, files.exit_code)) ? files.exit_code : ExitCode::cannotReadOrWrite;

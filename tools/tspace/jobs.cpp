@@ -3,6 +3,7 @@
 #include "jobs.h"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -126,6 +127,7 @@ Result<std::vector<Job>> jobsInPlace(const GenerateArguments& arguments) {
     for (Job& job : jobs) {
         job.output = job.input;
         const std::string extension = lowerExtension(job.input);
+        if (job.input == "-") return usage("--in-place needs files, not standard input");
         if (extension != ".glb" && extension != ".gltf" && job.error.code == ErrorCode::ok && !extension.empty()) {
             job.error = usage("only .glb and .gltf files can be changed in place; write a .glb with -o");
         }
@@ -150,6 +152,17 @@ Result<std::vector<Job>> jobWithNamedOutput(const GenerateArguments& arguments) 
     return std::vector<Job>{std::move(job)};
 }
 
+/// The one model goes to stdout.
+Result<std::vector<Job>> jobToStandardOutput(const GenerateArguments& arguments, bool has_several) {
+    if (has_several) return usage("only one model can go to stdout");
+    if (arguments.container == Container::gltf) return usage("only a GLB can go to stdout, not --container gltf");
+    if (!arguments.batch.manifest.empty()) return usage("a manifest is about files, not about stdout");
+    if (!arguments.dry_run && isatty(STDOUT_FILENO) != 0)
+        return usage("a model is no text for a terminal; send stdout to a file or a pipe");
+    const std::string& input = arguments.inputs.front();
+    return std::vector<Job>{{.input = input, .output = "-", .name = input}};
+}
+
 Result<std::vector<Job>> jobsIntoFolder(const GenerateArguments& arguments) {
     const fs::path folder = arguments.output;
     std::map<std::string, std::string> writers;  // canonical output -> input
@@ -159,6 +172,7 @@ Result<std::vector<Job>> jobsIntoFolder(const GenerateArguments& arguments) {
     std::vector<Job> jobs;
     for (Found& item : found) {
         Job& job = item.job;
+        if (job.input == "-") return usage("name a file with -o for the model on standard input");
         if (job.error.code == ErrorCode::ok) {
             const char* extension = extensionFor(arguments.container, job.input);
             fs::path relative = item.relative;
@@ -224,10 +238,10 @@ Result<std::vector<Job>> generateJobs(const GenerateArguments& arguments) {
     if (arguments.in_place && !output.empty()) return usage("--in-place and -o exclude each other");
     if (arguments.in_place) return jobsInPlace(arguments);
     if (output.empty()) return usage("say where to write: -o OUT, or --in-place to change the inputs themselves");
-    if (output == "-") return usage("models are not written to stdout; name a file with -o");
 
     const std::string& first = arguments.inputs.front();
     const bool several = arguments.inputs.size() > 1 || isFolder(first) || isPatternInput(first);
+    if (output == "-") return jobToStandardOutput(arguments, several);
     std::error_code ignored;
     const bool is_file = fs::exists(output, ignored) && !isFolder(output);
     const std::string extension = lowerExtension(output);

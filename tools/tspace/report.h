@@ -18,6 +18,7 @@ struct Outcome {
     Job job = {};
     Result<Value> result = Error{};
     double seconds = 0;
+    bool is_dry_run = false;       ///< nothing was written
     bool was_done_before = false;  ///< by the manifest; nothing changed, nothing was done, the value is empty
 };
 using GenerateOutcome = Outcome<GenerateReport>;

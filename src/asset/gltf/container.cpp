@@ -26,7 +26,7 @@ std::optional<DataUri> loadImage(Document& document, const std::string& uri, con
     if (uriKind(uri) == UriKind::data) {
         image = decodeDataUri(uri, join(place, "uri"));
         if (!declared.empty()) image.mime_type = declared;
-    } else if (uriKind(uri) == UriKind::otherScheme) {
+    } else if (uriKind(uri) == UriKind::otherScheme || document.folder.empty()) {
         warnings.push_back("the image " + inQuotes(uri) + " is not a file and stays outside of the GLB");
         return {};
     } else {
@@ -153,6 +153,10 @@ void embedImages(Document& document, std::vector<std::string>& warnings) {
 void copyNamedFile(const Document& document, const OutputTarget& target, const std::string& uri,
                    const std::string& place, AtomicOutput& output, std::vector<std::string>& warnings) {
     if (uri.empty() || uriKind(uri) != UriKind::path) return;
+    if (output.isStream() || document.folder.empty()) {
+        warnings.push_back("the file " + inQuotes(uri) + " that the model names does not come along");
+        return;
+    }
     const fs::path from = resolveUri(document.folder, uri, document.options.allow_external, place);
     const fs::path relative = fs::path(pathOfUri(uri)).lexically_normal();
     if (relative.is_absolute() || *relative.begin() == "..") {
@@ -208,7 +212,7 @@ std::span<const std::uint8_t> bytesOf(const std::string& text) {
 
 }  // namespace
 
-OutputTarget outputTarget(const Document& document, const fs::path& path) {
+OutputTarget outputTarget(const Document& document, const fs::path& path, bool is_stream) {
     OutputTarget target;
     target.path = path;
     const std::string extension = lowerExtension(path);
@@ -218,6 +222,10 @@ OutputTarget outputTarget(const Document& document, const fs::path& path) {
     target.container = extension == ".glb" ? Container::glb : Container::gltf;
     target.takes_images_in =
         target.container == Container::glb && (document.container == Container::gltf || document.imported);
+    if (is_stream) {
+        if (target.container != Container::glb) failFile(ErrorCode::invalidOption, "only a GLB is one stream of bytes");
+        return target;
+    }
     target.in_place = isSameFile(document.path, path);
     target.same_folder = isSameFile(document.folder, folderOf(path));
     return target;

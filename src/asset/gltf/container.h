@@ -20,8 +20,9 @@ struct OutputTarget {
     bool takes_images_in = false;  ///< .gltf to .glb
 };
 
-/// Decides by extension; fails with unsupportedFile for any other than .glb and .gltf.
-OutputTarget outputTarget(const Document& document, const std::filesystem::path& path);
+/// Decides by extension; fails with unsupportedFile for any other than .glb and .gltf, and with invalidOption for a
+/// stream that is no GLB.
+OutputTarget outputTarget(const Document& document, const std::filesystem::path& path, bool is_stream);
 
 /// Prepares the document for its output: .gltf to .glb joins all buffers in BIN and takes the images in; .glb
 /// to .gltf gives BIN a file name. Marks the buffers that the output owns. `will_edit`: new data is to be

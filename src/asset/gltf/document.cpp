@@ -151,6 +151,7 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
 
 /// Images are not read here, but a URI that leads out is refused for every file that a model names.
 void checkImageUris(const Document& document) {
+    if (document.folder.empty()) return;  // the model is in no file, and no URI is followed
     const Json& images = rootArray(document, "images");
     for (std::size_t i = 0; i < images.size(); ++i) {
         const std::string place = join("/images", i);
@@ -195,7 +196,7 @@ Json& editableRootArray(Document& document, const char* name) {
 Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, const FileOptions& options) {
     Document document;
     document.path = path;
-    document.folder = folderOf(path);
+    if (options.content.data() == nullptr) document.folder = folderOf(path);
     document.options = options;
     document.memory = std::make_shared<MemoryBudget>(options.memory_limit_bytes);
     document.file_bytes = std::move(file_bytes);
@@ -241,6 +242,8 @@ Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, cons
 
 Document loadDocument(const std::filesystem::path& path, const FileOptions& options, const Execution& execution,
                       const Progress& progress) {
+    if (options.content.data() != nullptr)
+        return parseDocument(Bytes(options.content.begin(), options.content.end()), path, options);
     if (isImportedFormat(path)) return importDocument(path, options, progress);
     return parseDocument(readFile(path, {}, execution), path, options);
 }

@@ -59,7 +59,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     GenerateOptions options = requested;
     // Other formats leave open whose conventions their tangents follow: only those stay that are right in glTF.
     if (document.imported && options.existing == ExistingTangents::keep) options.existing = ExistingTangents::repair;
-    const OutputTarget target = outputTarget(document, output_path);
+    const OutputTarget target = outputTarget(document, output_path, options.sink != nullptr);
     checkRequiredExtensions(document);
     report.warnings = document.warnings;
     std::vector<Primitive> primitives = readPrimitives(document);
@@ -104,7 +104,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     const bool packed_more =
         options.compression == Compression::meshopt && recompress(document, options.compression, new_file);
 
-    AtomicOutput files;
+    AtomicOutput files(options.sink, options.dry_run);
     tell(options, "writing", 0, 1);
     report.changed = editor.changed() || converted || repacked || packed_more;
     if (report.changed) {

@@ -101,6 +101,8 @@ void tell(const GenerateOptions& options, const char* what, std::uint64_t done, 
 
 GenerateReport generate(const std::string& input, const std::string& output, const GenerateOptions& options) {
     checkOutput(output);
+    if (options.sink && lowerExtension(output) != ".glb")
+        failFile(ErrorCode::invalidOption, "only a GLB is one stream of bytes");
     if (options.compression == Compression::meshopt || options.compression == Compression::draco) {
         failFile(ErrorCode::invalidOption,
                  "what is made from OBJ is not compressed in the same run; compress the result in a second one");
@@ -127,7 +129,7 @@ GenerateReport generate(const std::string& input, const std::string& output, con
     report.changed = true;
     report.input_bytes = model.input_bytes;
     report.warnings = model.warnings;
-    AtomicOutput files;
+    AtomicOutput files(options.sink, options.dry_run);
     writeScene(model, finished, output, options.file, files, report.warnings);
     files.commit();
     report.input_files = std::move(model.input_files);

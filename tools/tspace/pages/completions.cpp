@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Completions of bash, zsh and fish: commands, options, and the values of options.
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "pages/pages.h"
@@ -26,7 +28,7 @@ std::vector<std::string> commandNames(const ToolTable& tool) {
 }
 
 /// What stands between single quotes in bash and zsh.
-std::string shellQuoted(const std::string& text) { return "'" + replaced(text, "'", "'\\''") + "'"; }
+std::string shellQuoted(const std::string& text) { return fmt::format("'{}'", replaced(text, "'", "'\\''")); }
 
 std::string bashValues(const Option& option) {
     const std::string words = shellQuoted(joined(option.choices, " "));
@@ -80,7 +82,7 @@ std::string zshArguments(const std::vector<Option>& options) {
         others.insert(others.end(), option.excludes.begin(), option.excludes.end());
         for (const std::string& name : option.names) {
             const char* behind = option.value.empty() ? "" : name.starts_with("--") ? "=" : "+";
-            std::string spec = option.is_repeatable ? "*" : "(" + joined(others, " ") + ")";
+            std::string spec = option.is_repeatable ? "*" : fmt::format("({})", joined(others, " "));
             spec += name + behind + "[" + zshText(firstSentence(option.help)) + "]";
             if (!option.value.empty()) spec += zshValue(option);
             specs += " \\\n                " + shellQuoted(spec);

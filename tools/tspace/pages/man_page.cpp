@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Man pages.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
 #include <sstream>
@@ -51,8 +53,8 @@ std::string nameSection(const std::string& name, const std::string& summary) {
 std::string head(const Option& option) {
     std::string names;
     for (const std::string& name : option.names)
-        names += (names.empty() ? "" : ", ") + ("\\fB" + escaped(name) + "\\fR");
-    if (!option.value.empty()) names += (names.empty() ? "" : " ") + ("\\fI" + escaped(option.value) + "\\fR");
+        names += fmt::format("{}\\fB{}\\fR", names.empty() ? "" : ", ", escaped(name));
+    if (!option.value.empty()) names += fmt::format("{}\\fI{}\\fR", names.empty() ? "" : " ", escaped(option.value));
     return ".TP\n" + names + "\n";
 }
 
