@@ -270,7 +270,7 @@ TEST(Obj, ImagesBesideTheOutputAreNamedAndOthersAreEmbedded) {
     const Made embedded = make(folder, obj, {});
     ASSERT_EQ(embedded.document.json["images"].size(), 2U);
     EXPECT_EQ(embedded.document.json["images"][0]["mimeType"], "image/png");
-    const std::size_t view = embedded.document.json["images"][0]["bufferView"];
+    const std::size_t view = embedded.document.json["images"][0]["bufferView"].get<std::size_t>();
     const gltf::BufferView range = gltf::readBufferView(embedded.document, view);
     const auto image = embedded.document.buffers[0].bytes.range(range.begin, range.byte_count);
     EXPECT_EQ(std::string(image.begin(), image.end()), kPng);
