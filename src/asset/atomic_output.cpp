@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 
 #include "asset/file_error.h"
@@ -96,24 +97,25 @@ int writePieces(const Sink& sink, std::span<const OutputPiece> pieces, Parallel&
 AtomicOutput::~AtomicOutput() {
     if (committed_) return;
     std::error_code ignored;
-    for (const File& file : files_) fs::remove(file.temporary, ignored);
+    for (const File& file : files_) fs::remove(file.temporary.string(), ignored);
     // Only empty folders go: remove() fails on others.
     for (auto folder = created_folders_.rbegin(); folder != created_folders_.rend(); ++folder)
-        fs::remove(*folder, ignored);
+        fs::remove(folder->string(), ignored);
 }
 
-void AtomicOutput::add(const fs::path& requested, std::span<const OutputPiece> pieces, const Execution& execution) {
+void AtomicOutput::add(const Path& requested_path, std::span<const OutputPiece> pieces, const Execution& execution) {
     for (const OutputPiece& piece : pieces) byte_count_ += piece.size();
     const bool any_made = std::any_of(pieces.begin(), pieces.end(), [](const OutputPiece& p) { return !p.isThere(); });
     Parallel parallel(any_made ? execution : Execution{.thread_count = 1});
     if (sink_ || is_dry_run_) {
-        files_.push_back({{}, requested});
+        files_.push_back({{}, requested_path});
         const int failure = is_dry_run_ ? 0 : writePieces(sink_, pieces, parallel);
-        if (failure != 0) failWrite(requested, std::strerror(failure));
+        if (failure != 0) failWrite(requested_path, std::strerror(failure));
         return;
     }
     // A link keeps being a link: what it points at is replaced.
     std::error_code error;
+    const fs::path requested = requested_path;
     const fs::path target = fs::is_symlink(requested, error) ? fs::weakly_canonical(requested) : requested;
     if (fs::is_directory(target, error)) failWrite(target, "it is a folder");
     std::vector<fs::path> missing;
@@ -155,11 +157,11 @@ void AtomicOutput::commit() {
     std::size_t done = 0;
     for (std::size_t i = files_.size(); i-- > 0 && !error; ++done) {
         const File& file = files_[i];
-        if (fs::is_directory(file.target, ignored)) {
+        if (fs::is_directory(file.target.string(), ignored)) {
             error = std::make_error_code(std::errc::is_a_directory);
             continue;
         }
-        if (files_.size() > 1 && fs::exists(file.target, ignored)) {
+        if (files_.size() > 1 && fs::exists(file.target.string(), ignored)) {
             aside[i] = {file.target, besideName(file.target, ".old"), false};
             fs::create_hard_link(aside[i].old_name, aside[i].new_name, error);
             // Not every file system has hard links.
@@ -167,7 +169,7 @@ void AtomicOutput::commit() {
             if (error) continue;
             aside[i].renamed = true;
         }
-        fs::rename(file.temporary, file.target, error);
+        fs::rename(file.temporary.string(), file.target.string(), error);
     }
     if (error) {
         const std::size_t failed = files_.size() - done;
@@ -177,7 +179,7 @@ void AtomicOutput::commit() {
                 // Where both names are still one file, renaming does nothing.
                 fs::remove(aside[i].new_name, ignored);
             } else if (i != failed) {
-                fs::remove(files_[i].target, ignored);
+                fs::remove(files_[i].target.string(), ignored);
             }
         }
         failWrite(files_[failed].target, error.message());
@@ -188,7 +190,7 @@ void AtomicOutput::commit() {
     committed_ = true;
 }
 
-void AtomicOutput::addSource(const fs::path& source) {
+void AtomicOutput::addSource(const Path& source) {
     if (std::find(sources_.begin(), sources_.end(), source.string()) == sources_.end()) {
         sources_.push_back(source.string());
     }

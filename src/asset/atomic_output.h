@@ -3,12 +3,12 @@
 // temporary name, and all are renamed at the end.
 #pragma once
 
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "asset/output_piece.h"
+#include "asset/path.h"
 #include "tspace/asset.h"
 
 namespace tspace {
@@ -25,19 +25,16 @@ class AtomicOutput {
 
     /// Writes `pieces` one after the other to a temporary file beside `target`. Missing folders are created. Pieces are
     /// made while the ones before them are written, where `execution` has a second thread.
-    void add(const std::filesystem::path& target, std::span<const OutputPiece> pieces,
-             const Execution& execution = {.thread_count = 1});
-    void add(const std::filesystem::path& target, std::initializer_list<OutputPiece> pieces) {
+    void add(const Path& target, std::span<const OutputPiece> pieces, const Execution& execution = {.thread_count = 1});
+    void add(const Path& target, std::initializer_list<OutputPiece> pieces) {
         add(target, std::span(pieces.begin(), pieces.size()));
     }
-    void add(const std::filesystem::path& target, std::span<const std::uint8_t> bytes) {
-        add(target, {OutputPiece(bytes)});
-    }
+    void add(const Path& target, std::span<const std::uint8_t> bytes) { add(target, {OutputPiece(bytes)}); }
 
     [[nodiscard]] bool isStream() const { return sink_ != nullptr; }
 
     /// Remembers a file whose content went into an output.
-    void addSource(const std::filesystem::path& source);
+    void addSource(const Path& source);
     [[nodiscard]] const std::vector<std::string>& sources() const { return sources_; }
 
     /// Renames all temporary files to their targets, the last one added first kept for the end. When a rename
@@ -50,13 +47,13 @@ class AtomicOutput {
 
   private:
     struct File {
-        std::filesystem::path temporary;
-        std::filesystem::path target;
+        Path temporary;
+        Path target;
     };
     Sink sink_;
     bool is_dry_run_ = false;
     std::vector<File> files_;
-    std::vector<std::filesystem::path> created_folders_;
+    std::vector<Path> created_folders_;
     std::vector<std::string> sources_;
     std::uint64_t byte_count_ = 0;
     bool committed_ = false;

@@ -2,6 +2,7 @@
 // Text of unknown origin inside messages (well-formed byte sequences: Unicode 15.0, table 3-7).
 #include "asset/file_error.h"
 
+#include <filesystem>
 #include <string_view>
 
 namespace tspace {
@@ -48,6 +49,13 @@ std::string inQuotes(std::string_view text, std::size_t limit) {
     return result + "'";
 }
 
-std::string pathInQuotes(const std::filesystem::path& path) { return inQuotes(path.string(), 1000); }
+std::string pathInQuotes(const Path& path) { return inQuotes(path.string(), 1000); }
+
+Error fileErrorInFlight() try { throw; } catch (const FileError& failure) {
+    return failure.error;
+} catch (const std::filesystem::filesystem_error& failure) {
+    return Error{ErrorCode::cannotRead,
+                 "cannot look up " + pathInQuotes(failure.path1()) + ": " + failure.code().message()};
+}
 
 }  // namespace tspace

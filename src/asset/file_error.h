@@ -3,11 +3,11 @@
 // that started the work turns it into a Result. No exception leaves the library.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "asset/path.h"
 #include "core/border.h"
 #include "tspace/result.h"
 
@@ -26,7 +26,7 @@ struct FileError {
 /// Text from a file or of a user, fit to stand inside a one-line message: in quotation marks, valid UTF-8,
 /// without control characters, cut after `limit` bytes.
 std::string inQuotes(std::string_view text, std::size_t limit = 80);
-std::string pathInQuotes(const std::filesystem::path& path);
+std::string pathInQuotes(const Path& path);
 
 /// The value of a Result, or its error thrown as FileError.
 template <class T>
@@ -35,17 +35,17 @@ T valueOrThrow(Result<T> result) {
     return *std::move(result);
 }
 
+/// What is being thrown, where it is a FileError or one of std::filesystem; all else flies on. Only inside a catch.
+Error fileErrorInFlight();
+
 /// Runs `body`, which returns a Result and may throw FileError.
 template <class Body>
 auto atFileBorder(Body&& body) -> std::invoke_result_t<Body> {
     return atBorder([&]() -> std::invoke_result_t<Body> {
         try {
             return body();
-        } catch (const FileError& failure) {
-            return failure.error;
-        } catch (const std::filesystem::filesystem_error& failure) {
-            return Error{ErrorCode::cannotRead,
-                         "cannot look up " + pathInQuotes(failure.path1()) + ": " + failure.code().message()};
+        } catch (...) {
+            return fileErrorInFlight();
         }
     });
 }

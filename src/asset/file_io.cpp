@@ -3,6 +3,7 @@
 #include "asset/file_io.h"
 
 #include <unistd.h>
+#include <filesystem>
 
 #include <algorithm>
 #include <atomic>
@@ -53,11 +54,13 @@ bool readSteps(int file, std::span<std::uint8_t> to, const Execution& execution)
 
 }  // namespace
 
-Bytes readFile(const fs::path& path, const std::string& place, const Execution& execution) {
+Path Path::operator/(const std::string& name) const { return fs::path(text_) / name; }
+
+Bytes readFile(const Path& path, const std::string& place, const Execution& execution) {
     // What the user named cannot be read; what a model names makes the model incomplete.
     const ErrorCode code = place.empty() ? ErrorCode::cannotRead : ErrorCode::invalidFile;
     std::error_code error;
-    const fs::file_status status = fs::status(path, error);
+    const fs::file_status status = fs::status(path.string(), error);
     const auto fail_open = [&](const std::string& why) {
         failFile(code, "cannot open the file " + pathInQuotes(path) + ": " + why, place);
     };
@@ -69,8 +72,8 @@ Bytes readFile(const fs::path& path, const std::string& place, const Execution& 
     if (!fs::is_regular_file(status)) {
         failFile(code, pathInQuotes(path) + " is not a regular file", place);
     }
-    const std::uintmax_t size = fs::file_size(path, error);
-    const std::unique_ptr<std::FILE, CloseFile> file(error ? nullptr : std::fopen(path.c_str(), "rb"));
+    const std::uintmax_t size = fs::file_size(path.string(), error);
+    const std::unique_ptr<std::FILE, CloseFile> file(error ? nullptr : std::fopen(path.string().c_str(), "rb"));
     if (!file) fail_open(error ? error.message() : std::strerror(errno));
     Bytes bytes(static_cast<std::size_t>(size));
     if (!readSteps(::fileno(file.get()), bytes, execution)) {
@@ -79,20 +82,21 @@ Bytes readFile(const fs::path& path, const std::string& place, const Execution& 
     return bytes;
 }
 
-fs::path folderOf(const fs::path& file) {
-    const fs::path folder = file.parent_path();
+Path folderOf(const Path& file) {
+    const fs::path folder = fs::path(file).parent_path();
     return folder.empty() ? fs::path(".") : folder;
 }
 
-bool isSameFile(const fs::path& a, const fs::path& b) {
+bool isSameFile(const Path& path_a, const Path& path_b) {
+    const fs::path a = path_a, b = path_b;
     std::error_code error;
     if (fs::equivalent(a, b, error) && !error) return true;
     if (fs::exists(a, error) || fs::exists(b, error)) return false;
     return fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
 }
 
-std::string lowerExtension(const fs::path& path) {
-    std::string extension = path.extension().string();
+std::string lowerExtension(const Path& path) {
+    std::string extension = fs::path(path).extension().string();
     for (char& c : extension) {
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     }

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <new>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "asset/path.h"
 #include "core/memory.h"
 #include "tspace/execution.h"
 
@@ -55,16 +55,15 @@ using Bytes = std::vector<std::uint8_t, UnsetAllocator<std::uint8_t>>;
 
 /// Reads a regular file, a large one with all threads. Fails with cannotRead; with invalidFile when `place` says where
 /// a model names it.
-Bytes readFile(const std::filesystem::path& path, const std::string& place = {},
-               const Execution& execution = {.thread_count = 1});
+Bytes readFile(const Path& path, const std::string& place = {}, const Execution& execution = {.thread_count = 1});
 
 /// The folder that a file lies in; "." for a bare name.
-std::filesystem::path folderOf(const std::filesystem::path& file);
+Path folderOf(const Path& file);
 
 /// True when both paths name the same existing file, or are the same path where nothing exists yet.
-bool isSameFile(const std::filesystem::path& a, const std::filesystem::path& b);
+bool isSameFile(const Path& a, const Path& b);
 
 /// The extension in lower case with its dot, or "".
-std::string lowerExtension(const std::filesystem::path& path);
+std::string lowerExtension(const Path& path);
 
 }  // namespace tspace

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -71,7 +72,7 @@ bool isAbandoned(std::string_view name) {
 
 }  // namespace
 
-fs::path besideName(const fs::path& target, const char* ending) {
+Path besideName(const Path& target, const char* ending) {
     static std::atomic<unsigned> next_number = 0;
     fs::path name = target;
     name += machineMark() + std::to_string(getpid()) + "-" + std::to_string(next_number++) + ending;

@@ -2,7 +2,7 @@
 // Names of temporary files, which tell whose they are.
 #pragma once
 
-#include <filesystem>
+#include "asset/path.h"
 
 namespace tspace {
 
@@ -10,6 +10,6 @@ inline constexpr const char* kTemporaryEnding = ".tmp";
 
 /// A name beside `target` that no other run and no other thread uses: TARGET.tspace-MACHINE-PROCESS-NUMBER and the
 /// ending. Two models that share an image may copy it at the same time.
-std::filesystem::path besideName(const std::filesystem::path& target, const char* ending);
+Path besideName(const Path& target, const char* ending);
 
 }  // namespace tspace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
 #include "asset/file_error.h"
 
@@ -162,7 +163,7 @@ std::string pathOfUri(std::string_view uri) {
     return path;
 }
 
-fs::path resolveUri(const fs::path& folder, std::string_view uri, bool allow_external, const std::string& place) {
+Path resolveUri(const Path& in_folder, std::string_view uri, bool allow_external, const std::string& place) {
     const auto refuse = [&](const char* why) {
         failFile(ErrorCode::forbiddenPath, "the URI " + inQuotes(uri, 200) + " " + why, place);
     };
@@ -173,13 +174,13 @@ fs::path resolveUri(const fs::path& folder, std::string_view uri, bool allow_ext
     if (path.empty() || path.find('\0') != std::string::npos) {
         failFile(ErrorCode::invalidFile, "a URI names no file", place);
     }
-    if (folder.empty()) {
+    if (in_folder.empty()) {
         failFile(
             ErrorCode::invalidFile,
             "the file " + inQuotes(path, 200) + " that the model names cannot be found, for the model is not a file",
             place);
     }
-    const fs::path relative(path);
+    const fs::path folder = in_folder, relative(path);
     if (allow_external) return folder / relative;
     if (relative.is_absolute()) refuse("is an absolute path");
     if (std::find(relative.begin(), relative.end(), fs::path("..")) != relative.end())

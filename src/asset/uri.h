@@ -3,11 +3,11 @@
 // that are followed unless the caller allows more.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 
 #include "asset/file_io.h"
+#include "asset/path.h"
 
 namespace tspace {
 
@@ -38,7 +38,6 @@ std::string pathOfUri(std::string_view uri);
 /// The file that `uri` names. Fails with forbiddenPath when it is absolute, has a scheme or a `..`, or when a symbolic
 /// link leads out of `folder`; `allow_external` lifts all of these but the scheme. With invalidFile where the folder is
 /// empty: the model is in no file, so nothing can lie beside it.
-std::filesystem::path resolveUri(const std::filesystem::path& folder, std::string_view uri, bool allow_external,
-                                 const std::string& place);
+Path resolveUri(const Path& folder, std::string_view uri, bool allow_external, const std::string& place);
 
 }  // namespace tspace

@@ -3,6 +3,7 @@
 #include "asset/gltf/container.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 
 #include "asset/file_error.h"
@@ -171,7 +172,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
         return;
     }
     output.addSource(from);
-    const fs::path to = folderOf(target.path) / relative;
+    const fs::path to = fs::path(folderOf(target.path)) / relative;
     const std::vector<std::string> planned = output.files();
     if (std::find(planned.begin(), planned.end(), to.string()) != planned.end()) return;
     if (fs::exists(to, error)) {
@@ -212,7 +213,7 @@ std::span<const std::uint8_t> bytesOf(const std::string& text) {
 
 }  // namespace
 
-OutputTarget outputTarget(const Document& document, const fs::path& path, bool is_stream) {
+OutputTarget outputTarget(const Document& document, const Path& path, bool is_stream) {
     OutputTarget target;
     target.path = path;
     const std::string extension = lowerExtension(path);
@@ -232,7 +233,7 @@ OutputTarget outputTarget(const Document& document, const fs::path& path, bool i
 }
 
 std::string freeFileName(const Document& document, const OutputTarget& target, const std::string& ending) {
-    const std::string stem = target.path.stem().string();
+    const std::string stem = fs::path(target.path).stem().string();
     const std::size_t dot = ending.rfind('.');
     std::string name = stem + ending;
     const auto taken = [&] {
@@ -261,7 +262,7 @@ void convertContainer(Document& document, const OutputTarget& target, bool will_
         warnings.push_back("the GLB has chunks that .gltf cannot hold; they were left out");
         document.extra_chunks.clear();
     }
-    const std::string own_name = target.path.stem().string() + kNewBufferEnding;
+    const std::string own_name = fs::path(target.path).stem().string() + kNewBufferEnding;
     for (std::size_t i = 0; i < document.buffers.size(); ++i) {
         Buffer& buffer = document.buffers[i];
         Json& entry = document.json["buffers"][i];
@@ -305,7 +306,7 @@ void writeDocument(Document& document, const OutputTarget& target, AtomicOutput&
         output.add(target.path, bytesOf(writeJson(document.json, document.style)));
         for (const Buffer& buffer : document.buffers) {
             if (buffer.source == BufferSource::file && buffer.own && (buffer.edited || !target.in_place)) {
-                output.add(folderOf(target.path) / buffer.path, buffer.bytes.pieces(), execution);
+                output.add(folderOf(target.path) / buffer.path.string(), buffer.bytes.pieces(), execution);
             }
         }
     }
@@ -318,7 +319,7 @@ void writeUnchanged(const Document& document, const OutputTarget& target, Atomic
     output.add(target.path, document.file_bytes);
     for (const Buffer& buffer : document.buffers) {
         if (buffer.source == BufferSource::file && buffer.own && !target.same_folder) {
-            output.add(folderOf(target.path) / buffer.path, buffer.bytes.pieces());
+            output.add(folderOf(target.path) / buffer.path.string(), buffer.bytes.pieces());
         }
     }
     copyNamedFiles(document, target, output, warnings);

@@ -2,18 +2,18 @@
 // Changing how a document is stored (.glb or .gltf), and writing it out.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "asset/atomic_output.h"
 #include "asset/gltf/document.h"
+#include "asset/path.h"
 
 namespace tspace::gltf {
 
 /// Where the document goes.
 struct OutputTarget {
-    std::filesystem::path path = {};
+    Path path = {};
     Container container = Container::glb;
     bool in_place = false;         ///< the output is the input
     bool same_folder = false;      ///< files that the model names need not be copied
@@ -22,7 +22,7 @@ struct OutputTarget {
 
 /// Decides by extension; fails with unsupportedFile for any other than .glb and .gltf, and with invalidOption for a
 /// stream that is no GLB.
-OutputTarget outputTarget(const Document& document, const std::filesystem::path& path, bool is_stream);
+OutputTarget outputTarget(const Document& document, const Path& path, bool is_stream);
 
 /// Prepares the document for its output: .gltf to .glb joins all buffers in BIN and takes the images in; .glb
 /// to .gltf gives BIN a file name. Marks the buffers that the output owns. `will_edit`: new data is to be

@@ -193,7 +193,7 @@ Json& editableRootArray(Document& document, const char* name) {
     return array;
 }
 
-Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, const FileOptions& options) {
+Document parseDocument(Bytes file_bytes, const Path& path, const FileOptions& options) {
     Document document;
     document.path = path;
     if (options.content.data() == nullptr) document.folder = folderOf(path);
@@ -240,7 +240,7 @@ Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, cons
     return document;
 }
 
-Document loadDocument(const std::filesystem::path& path, const FileOptions& options, const Execution& execution,
+Document loadDocument(const Path& path, const FileOptions& options, const Execution& execution,
                       const Progress& progress) {
     if (options.content.data() != nullptr)
         return parseDocument(Bytes(options.content.begin(), options.content.end()), path, options);

@@ -3,7 +3,6 @@
 // FileError.
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
@@ -17,6 +16,7 @@
 #include "asset/gltf/glb.h"
 #include "asset/gltf/json.h"
 #include "asset/memory_budget.h"
+#include "asset/path.h"
 #include "tspace/asset.h"
 
 namespace tspace::gltf {
@@ -34,8 +34,8 @@ enum class BufferSource {
 
 struct Buffer {
     BufferSource source = BufferSource::absent;
-    BufferBytes bytes = {};           ///< exactly `byteLength` of them, unless absent
-    std::filesystem::path path = {};  ///< the file, for BufferSource::file
+    BufferBytes bytes = {};  ///< exactly `byteLength` of them, unless absent
+    Path path = {};          ///< the file, for BufferSource::file
     /// The output stores these bytes itself (BIN, data URI, a file named after the output), so they may be
     /// edited. Other files belong to the input and are never changed.
     bool own = false;
@@ -48,8 +48,8 @@ struct Buffer {
 };
 
 struct Document {
-    std::filesystem::path path = {};
-    std::filesystem::path folder = {};
+    Path path = {};
+    Path folder = {};
     Container container = Container::gltf;
     Bytes file_bytes = {};  ///< the model file as it was read; BIN lies in it, and is edited there
     Json json = {};
@@ -77,11 +77,11 @@ struct Document {
 /// Reads a .glb or .gltf (told apart by content) and its buffers. Checks asset.version, buffers, buffer views
 /// and accessors (types, ranges), and that no URI of a buffer or image leads out of the folder. Images are
 /// not read. `progress` is called while the importer reads a file of another format.
-Document loadDocument(const std::filesystem::path& path, const FileOptions& options,
-                      const Execution& execution = {.thread_count = 1}, const Progress& progress = {});
+Document loadDocument(const Path& path, const FileOptions& options, const Execution& execution = {.thread_count = 1},
+                      const Progress& progress = {});
 
 /// The same from bytes in memory; `path` says where relative URIs start.
-Document parseDocument(Bytes file_bytes, const std::filesystem::path& path, const FileOptions& options);
+Document parseDocument(Bytes file_bytes, const Path& path, const FileOptions& options);
 
 /// Fails with unsupportedFile when a required extension hides the geometry and this build cannot decode it. Adds one
 /// warning for each other required extension that this program does not know; their data survives untouched.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -91,25 +92,25 @@ void checkEnd(const ImportResult& result, const ImportLimits& limits) {
 
 }  // namespace
 
-bool isImportedFormat(const fs::path& path) {
+bool isImportedFormat(const Path& path) {
     const std::string extension = lowerExtension(path);
     return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 
-gltf::Document importDocument(const fs::path& path, const FileOptions& options, const Progress& progress) {
+gltf::Document importDocument(const Path& path, const FileOptions& options, const Progress& progress) {
     if (options.importer.empty()) {
         failFile(ErrorCode::unsupportedFile, "reading " + lowerExtension(path) +
                                                  " files needs tspace-import, which is not there (see docs/import.md)");
     }
     std::error_code error;
-    const std::uintmax_t size = fs::file_size(path, error);
-    if (error || !fs::is_regular_file(path, error)) readFile(path);  // fails, and says why
+    const std::uintmax_t size = fs::file_size(path.string(), error);
+    if (error || !fs::is_regular_file(path.string(), error)) readFile(path);  // fails, and says why
     if (size > options.import_max_file_bytes) {
         failFile(ErrorCode::unsupportedFile, "the file is larger than the importer's limit of " +
                                                  std::to_string(options.import_max_file_bytes >> 20) + " MiB");
     }
     const ImportLimits limits = limitsFor(size, options);
-    ImportResult result = runImporter(options.importer, fs::absolute(path).string(), limits, [&progress] {
+    ImportResult result = runImporter(options.importer, fs::absolute(path.string()).string(), limits, [&progress] {
         if (progress) progress("reading", 0, 1);
     });
     checkEnd(result, limits);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // MTL libraries to materials as glTF sees them.
 #include <tiny_obj_loader.h>
+#include <filesystem>
 
 #include <algorithm>
 #include <cmath>
@@ -127,7 +128,7 @@ std::vector<std::string> splitNames(const std::string& names) {
 
 }  // namespace
 
-std::vector<Material> readMaterials(const fs::path& folder, const std::vector<std::string>& names,
+std::vector<Material> readMaterials(const Path& folder, const std::vector<std::string>& names,
                                     const FileOptions& options, Model& model) {
     std::vector<Material> materials;
     const auto read = [&](const std::string& name) {

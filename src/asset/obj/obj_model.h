@@ -3,12 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "asset/memory_budget.h"
+#include "asset/path.h"
 #include "tspace/vec.h"
 
 namespace tspace::obj {
@@ -34,7 +34,7 @@ struct Face {
 /// A texture that a material names. `file` is as the MTL file has it, relative to `folder`.
 struct Texture {
     std::string file = {};
-    std::filesystem::path folder = {};
+    Path folder = {};
     [[nodiscard]] bool used() const { return !file.empty(); }
 };
 
@@ -52,12 +52,12 @@ struct Material {
 };
 
 struct Model {
-    std::filesystem::path folder = {};  ///< that of the OBJ file
-    std::vector<Vec3> positions = {};   ///< all finite
-    std::vector<Vec2> uvs = {};         ///< v runs down, as in glTF
-    std::vector<Vec3> normals = {};     ///< unit or zero; corners never refer to zero ones
-    std::vector<Corner> corners = {};   ///< every index is in range
-    std::vector<Face> faces = {};       ///< in file order, at least 3 corners each; never empty
+    Path folder = {};                  ///< that of the OBJ file
+    std::vector<Vec3> positions = {};  ///< all finite
+    std::vector<Vec2> uvs = {};        ///< v runs down, as in glTF
+    std::vector<Vec3> normals = {};    ///< unit or zero; corners never refer to zero ones
+    std::vector<Corner> corners = {};  ///< every index is in range
+    std::vector<Face> faces = {};      ///< in file order, at least 3 corners each; never empty
     std::vector<std::string> shape_names = {};
     std::vector<Material> materials = {};       ///< in order of first use by a face
     bool has_smoothing_groups = false;          ///< the file has `s` lines

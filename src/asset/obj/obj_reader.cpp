@@ -4,6 +4,7 @@
 #include "asset/obj/obj_reader.h"
 
 #include <tiny_obj_loader.h>
+#include <filesystem>
 
 #include <algorithm>
 #include <cmath>
@@ -311,7 +312,7 @@ void requireFaces(const Model& model) {
     model.memory->require(bytes, {});
 }
 
-Model readModel(const std::filesystem::path& path, const FileOptions& options) {
+Model readModel(const Path& path, const FileOptions& options) {
     // Beyond this, counts of vertices might not fit 32 bits.
     constexpr std::uintmax_t kMostBytes = std::uintmax_t{8} << 30;
     std::error_code no_file;

@@ -2,22 +2,22 @@
 // Reads OBJ and MTL files into a Model. Functions throw FileError.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "asset/obj/obj_model.h"
+#include "asset/path.h"
 #include "tspace/asset.h"
 
 namespace tspace::obj {
 
 /// Fails with cannotRead, invalidFile (place: "line N") and unsupportedFile. MTL files that are missing or
 /// forbidden are left out with a warning.
-Model readModel(const std::filesystem::path& path, const FileOptions& options);
+Model readModel(const Path& path, const FileOptions& options);
 
 /// The materials of the named libraries. `names` is what stands after `mtllib`: a file name, or several with
 /// spaces between.
-std::vector<Material> readMaterials(const std::filesystem::path& folder, const std::vector<std::string>& names,
+std::vector<Material> readMaterials(const Path& folder, const std::vector<std::string>& names,
                                     const FileOptions& options, Model& model);
 
 }  // namespace tspace::obj

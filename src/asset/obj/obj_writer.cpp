@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <map>
 
 #include "asset/file_error.h"
@@ -114,7 +115,7 @@ class BufferBuilder {
 /// Images and textures, one per file however often it is used.
 class ImageBuilder {
   public:
-    ImageBuilder(const Model& model, const fs::path& output, const FileOptions& options, BufferBuilder& buffer,
+    ImageBuilder(const Model& model, const Path& output, const FileOptions& options, BufferBuilder& buffer,
                  AtomicOutput& files, std::vector<std::string>& warnings)
         : names_by_uri_(isSameFile(folderOf(output), model.folder)),
           folder_(model.folder),
@@ -170,7 +171,7 @@ class ImageBuilder {
     }
 
     const bool names_by_uri_;
-    const fs::path& folder_;
+    const fs::path folder_;
     const FileOptions& options_;
     BufferBuilder& buffer_;
     AtomicOutput& files_;
@@ -282,7 +283,7 @@ void writeFiles(Json& root, const Bytes& bytes, const fs::path& output, AtomicOu
 
 }  // namespace
 
-void writeScene(const Model& model, const std::vector<FinishedPrimitive>& primitives, const fs::path& output,
+void writeScene(const Model& model, const std::vector<FinishedPrimitive>& primitives, const Path& output,
                 const FileOptions& options, AtomicOutput& files, std::vector<std::string>& warnings) {
     BufferBuilder buffer;
     ImageBuilder images(model, output, options, buffer, files, warnings);

@@ -2,13 +2,13 @@
 // A glTF scene made from nothing: meshes, materials, images, and the buffer that holds them.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "asset/atomic_output.h"
 #include "asset/gltf/document.h"
 #include "asset/obj/obj_model.h"
+#include "asset/path.h"
 
 namespace tspace::obj {
 
@@ -28,8 +28,7 @@ struct FinishedPrimitive {
 /// Writes to `output` (.glb, else .gltf with a .bin beside it). Images that lie in the output's own folder
 /// are named by URI, others go into the file. Textures that are missing, forbidden or neither PNG nor JPEG
 /// are left out with a warning. Throws FileError.
-void writeScene(const Model& model, const std::vector<FinishedPrimitive>& primitives,
-                const std::filesystem::path& output, const FileOptions& options, AtomicOutput& files,
-                std::vector<std::string>& warnings);
+void writeScene(const Model& model, const std::vector<FinishedPrimitive>& primitives, const Path& output,
+                const FileOptions& options, AtomicOutput& files, std::vector<std::string>& warnings);
 
 }  // namespace tspace::obj
