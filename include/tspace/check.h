@@ -65,7 +65,7 @@ const char* findingName(FindingCode code);
 /// What it is, in a short sentence that holds for every finding of the code: "Every sign is inverted."
 const char* findingSummary(FindingCode code);
 
-/// How to mend it: one or two sentences.
+/// How it is usually mended: one or two sentences.
 const char* findingRemedy(FindingCode code);
 
 struct Finding {
@@ -84,7 +84,7 @@ struct Finding {
     double confidence = 1;           ///< 0 to 1; below 1 for findings that rest on statistics
     std::vector<std::uint32_t> vertices = {};  ///< the first of them, at most 8
     std::string message = {};                  ///< one plain sentence
-    std::string remedy = {};                   ///< findingRemedy(code)
+    std::string remedy = {};                   ///< how to mend it here; usually findingRemedy(code)
 };
 
 struct CheckOptions {

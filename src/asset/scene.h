@@ -58,6 +58,8 @@ struct ScenePrimitive {
     bool tangents_not_read = false;               ///< they are empty, but the importer cannot tell that there are none
     std::vector<SharedArray<Vec2>> uv_sets = {};  ///< entry n: TEXCOORD_n, empty where absent; v runs down
     std::vector<SceneMorphTarget> morph_targets = {};
+    bool is_unlit = false;         ///< every material of it is unlit: normals are not looked at
+    bool is_double_sided = false;  ///< every material of it shows both sides
     /// Everything in the primitive's materials (variants too) that needs tangents; the first decides which UV set the
     /// tangents follow.
     std::vector<TangentUse> uses = {};

@@ -127,6 +127,7 @@ class MorphChecker {
         for (std::uint32_t v = 0; v < errors.size(); ++v) {
             if (!good[v] || !(errors[v] > limit)) continue;
             tally.add(v, facts_.surface.vertex_areas[v], errors[v]);
+            if (!missing) facts_.fault(v, FindingCode::morphTangentsWrong);
             if (errors[v] > facts_.options.error_deg) far_area += facts_.surface.vertex_areas[v];
         }
         if (tally.count == 0) return;

@@ -14,6 +14,7 @@ namespace {
 constexpr double kLeastFacing = -0.1;
 /// From this share of the surface on it is the whole mesh that is inside out.
 constexpr double kMostly = 0.5;
+constexpr double kNearlyAll = 0.95;
 constexpr double kSome = 0.01;
 /// Lengths below cannot be told from zero.
 constexpr double kShortest = 1e-6;
@@ -73,7 +74,9 @@ void checkWinding(PrimitiveFacts& facts) {
     }
     against.finish(facts.surface.area);
     if (against.count == 0) return;
-    const Severity severity = against.surface_share >= kMostly ? Severity::error
+    // Leaves and grass that show both sides often have the normals of the whole tree or ground, on purpose.
+    const double mostly = facts.primitive.is_double_sided ? kNearlyAll : kMostly;
+    const Severity severity = against.surface_share >= mostly  ? Severity::error
                               : against.surface_share >= kSome ? Severity::warning
                                                                : Severity::note;
     facts.add(FindingCode::normalsAgainstWinding, severity, against, "triangles",
@@ -104,8 +107,14 @@ void checkNormals(PrimitiveFacts& facts) {
                                 : "not all faces have normals, so new ones are made for those without");
         return;
     }
+    const std::size_t first = facts.findings.size();
     checkNormalValues(facts);
     checkWinding(facts);
+    if (!facts.primitive.is_unlit) return;
+    for (Finding& finding : std::span(facts.findings).subspan(first)) {
+        finding.severity = Severity::note;
+        finding.message += "; its material is unlit, so nobody sees that";
+    }
 }
 
 }  // namespace tspace

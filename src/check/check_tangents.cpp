@@ -2,79 +2,33 @@
 // Whether tangents are there when they are needed, and whether they are good along the UVs that they should follow;
 // else, whether they are along other ones.
 #include "check/findings.h"
+#include "check/other_reading.h"
 #include "check/primitive_checks.h"
 
 namespace tspace {
 
 namespace {
 
-/// Share of the surface from which wrong tangents may have a common cause.
-constexpr double kSuspicious = 0.1;
-/// What is left of it where the cause was found.
-constexpr double kExplained = 0.02;
-
-struct Faults {
-    double directions = 0, signs = 0;  ///< shares of the surface
-};
-
-Faults faultsOf(const FrameHealth& health) {
-    return {health.directions_wrong.surface_share + health.uv_seams.surface_share, health.signs_wrong.surface_share};
-}
-
-/// True when other UVs explain what is wrong: the directions where those are, else the signs.
-bool explains(const Faults& with_other, const Faults& now) {
-    if (with_other.directions > kExplained) return false;
-    return now.directions > kSuspicious || with_other.signs <= kExplained;
-}
-
-struct Explanation {
-    UvReading reading = {};
-    Surface surface = {};
-    FrameHealth health = {};
-};
-
-/// The first other reading of the UVs that the tangents fit: the same set without its transform, then the other sets.
-Result<std::optional<Explanation>> explain(const PrimitiveFacts& facts, const FrameHealth& health) {
-    const Faults now = faultsOf(health);
-    if (now.directions <= kSuspicious && now.signs <= kSuspicious) return std::optional<Explanation>{};
-    for (std::size_t i = 0; i <= facts.primitive.uv_sets.size(); ++i) {
-        const std::size_t set = i == 0 ? facts.reading.uv_set : i - 1;
-        const bool is_own = set == facts.reading.uv_set;
-        if (is_own && (i > 0 || !facts.reading.transformed)) continue;
-        Explanation other{.reading = plainReading(facts.primitive, set)};
-        if (other.reading.uvs.empty()) continue;
-        TangentView mesh = facts.mesh;
-        mesh.uvs = other.reading.uvs;
-        other.surface = describeSurface(mesh);
-        Result<FrameHealth> found = examineTangents(mesh, other.surface, facts.options);
-        if (!found) return found.error();
-        other.health = *std::move(found);
-        if (other.health.directions_wrong.total > 0 && explains(faultsOf(other.health), now)) {
-            return std::optional<Explanation>(std::move(other));
-        }
-    }
-    return std::optional<Explanation>{};
-}
-
-void addExplanation(PrimitiveFacts& facts, const FrameHealth& health, const Explanation& other) {
+/// The tangents fit other UVs. That is an error only where it would be one without this explanation, and where no
+/// other texture of the primitive is read like that.
+void addExplanation(PrimitiveFacts& facts, const FrameHealth& health, const OtherReading& other) {
     const std::string set = "TEXCOORD_" + std::to_string(facts.reading.uv_set);
-    Tally wrong = faultsOf(health).directions > kSuspicious ? health.directions_wrong : health.signs_wrong;
-    if (other.reading.uv_set == facts.reading.uv_set) {
-        facts.add(FindingCode::textureTransformIgnored, Severity::warning, wrong, "vertices",
-                  "the tangents follow " + set + " as it is, not as KHR_texture_transform turns or mirrors it for " +
-                      facts.primitive.uses.front().needed_by);
-    } else {
-        facts.add(FindingCode::uvSetWrong, Severity::error, wrong, "vertices",
-                  "the tangents follow TEXCOORD_" + std::to_string(other.reading.uv_set) +
-                      ", but the texture is read with " + set);
+    const Tally& wrong = areDirectionsWrong(health, facts.surface) ? health.directions_wrong : health.signs_wrong;
+    FindingCode code = FindingCode::textureTransformIgnored;
+    Severity severity = Severity::warning;
+    std::string message = "the tangents follow " + set +
+                          " as it is, not as KHR_texture_transform turns or mirrors it for " +
+                          facts.primitive.uses.front().needed_by;
+    if (other.reading.uv_set != facts.reading.uv_set) {
+        code = FindingCode::uvSetWrong;
+        message = "the tangents follow TEXCOORD_" + std::to_string(other.reading.uv_set) +
+                  ", but the texture is read with " + set;
+        if (!other.use && !whyTangentsAreWrong(health, facts.options).empty()) severity = Severity::error;
     }
-}
-
-/// Nothing renders wrong where nothing is read in tangent space.
-void demote(std::span<Finding> findings) {
-    for (Finding& finding : findings) {
-        finding.severity = finding.severity == Severity::error ? Severity::warning : Severity::note;
-    }
+    if (other.use) message += "; " + facts.primitive.uses[*other.use].needed_by + " is read as they are";
+    facts.add(code, severity, wrong, "vertices", message);
+    // Where the two agree the tangents are no better for it.
+    for (const std::uint32_t vertex : facts.mesh.corners) facts.faults[vertex] |= faultBit(code);
 }
 
 void checkMissing(PrimitiveFacts& facts) {
@@ -111,29 +65,35 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
         return Done{};
     }
     Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
-    if (facts.mesh.normals.empty()) {
-        facts.add(FindingCode::tangentsIgnored, facts.primitive.uses.empty() ? Severity::note : Severity::warning, all,
-                  "vertices", "it has tangents but no normals, and glTF tells readers to ignore such tangents");
+    if (facts.primitive.uses.empty()) {
+        // Whatever they are, nobody sees it.
+        facts.add(FindingCode::tangentsUnused, Severity::note, all, "vertices",
+                  "it has tangents, but its material needs none");
+        return Done{};
     }
-    const std::size_t first = facts.findings.size();
+    if (facts.mesh.normals.empty()) {
+        facts.add(FindingCode::tangentsIgnored, Severity::warning, all, "vertices",
+                  "it has tangents but no normals, and glTF tells readers to ignore such tangents");
+        return Done{};
+    }
     Result<FrameHealth> health = examineTangents(facts.mesh, facts.surface, facts.options);
     if (!health) return health.error();
     if (Result<Done> done = readOnQuads(facts, *health); !done) return done;
-    Result<std::optional<Explanation>> other = explain(facts, *health);
+    Result<std::optional<OtherReading>> other = findOtherReading(facts, *health);
     if (!other) return other.error();
+    facts.faults = std::move(health->faults);
+    facts.wrong_sign_share = health->wrong_sign_share;
     if (*other) {
-        if (!facts.primitive.uses.empty()) addExplanation(facts, *health, **other);
+        facts.faults.assign(facts.mesh.positions.size(), 0);
+        addExplanation(facts, *health, **other);
         *health = std::move((*other)->health);
+        facts.wrong_sign_share = health->wrong_sign_share;
         facts.reading = std::move((*other)->reading);
         facts.surface = std::move((*other)->surface);
         facts.mesh.uvs = facts.reading.uvs;
+        for (std::size_t v = 0; v < health->faults.size(); ++v) facts.faults[v] |= health->faults[v];
     }
     for (Finding& finding : tangentFindings(*health, facts.options)) facts.findings.push_back(std::move(finding));
-    if (facts.primitive.uses.empty()) {
-        demote(std::span(facts.findings).subspan(first));
-        facts.add(FindingCode::tangentsUnused, Severity::note, all, "vertices",
-                  "it has tangents, but its material needs none");
-    }
     return Done{};
 }
 

@@ -14,7 +14,7 @@ struct CodeText {
     const char* remedy;
 };
 
-constexpr const char* kOverwrite = "Compute the tangents anew: tspace generate --overwrite.";
+constexpr const char* kRepair = "Compute those tangents anew: tspace generate --repair.";
 
 /// In the order of FindingCode.
 constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
@@ -23,11 +23,9 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
     {"uvsNotFinite", "Find the tool that wrote NaN or infinity as a UV, and export again."},
     {"uvsDegenerate",
      "Unwrap those triangles so that they cover some of the texture. If they show one plain colour on purpose, leave "
-     "them: "
-     "their tangents do not matter."},
-    {"normalsMissing",
-     "Nothing needs to be done if flat shading is meant; else export normals, or let tspace generate make them."},
-    {"normalsNotFinite", "Export the normals again, or remove them and let tspace generate make new ones."},
+     "them: their tangents do not matter."},
+    {"normalsMissing", "Nothing needs to be done if flat shading is meant; else export normals."},
+    {"normalsNotFinite", "Export the normals again."},
     {"normalsNotUnit", "Normalise the normals and compute the tangents anew."},
     {"normalsAgainstWinding",
      "Turn the normals round, or the triangles (recalculate outside), whichever is wrong; then compute the tangents "
@@ -36,32 +34,29 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "Run tspace generate. Without it each renderer makes its own tangents, and they may differ from those of the "
      "bake."},
     {"tangentsUnused",
-     "Remove them, they make the file larger (tspace generate --strip); or give the material the normal map that was "
+     "Remove them, they make the file larger: tspace generate --strip. Or give the material the normal map that was "
      "meant."},
-    {"tangentsIgnored", "Export normals as well, or run tspace generate, which makes both."},
-    {"tangentsNotFinite", kOverwrite},
-    {"tangentsNotUnit", kOverwrite},
-    {"tangentsNotOrthogonal", "Compute the tangents anew from the normals of the file: tspace generate --overwrite."},
-    {"signsNotOne", "Store +1 or -1 in w. tspace generate --overwrite does."},
-    {"signsMixed", "Split the vertices where mirrored and other triangles meet. tspace generate --overwrite does."},
+    {"tangentsIgnored", "Run tspace generate, which makes normals too; or export normals as well."},
+    {"tangentsNotFinite", kRepair},
+    {"tangentsNotUnit", kRepair},
+    {"tangentsNotOrthogonal", "Compute those tangents anew from the normals of the file: tspace generate --repair."},
+    {"signsNotOne", "Store +1 or -1 in w: tspace generate --repair."},
+    {"signsMixed", "Split the vertices where mirrored and other triangles meet: tspace generate --repair."},
     {"signsInverted",
-     "Negate every w, or run tspace generate --overwrite. The tool that wrote them fed MikkTSpace with v as glTF "
-     "stores it "
-     "and forgot to negate the sign."},
-    {"signsWrong", kOverwrite},
+     "Negate every w: tspace generate --repair. The tool that wrote them fed MikkTSpace with v as glTF stores it and "
+     "forgot to negate the sign."},
+    {"signsWrong", "Negate those w: tspace generate --repair."},
     {"mirroredSeamAveraged",
-     "Split the vertices along the seam, so that each side has its own tangent. tspace generate --overwrite does."},
-    {"uvSeamAveraged", "Average only over vertices whose UVs are equal too. tspace generate --overwrite does."},
-    {"directionsWrong", kOverwrite},
-    {"uvSetWrong", "Compute the tangents anew, along the UV set of the texture: tspace generate --overwrite."},
+     "Split the vertices along the seam, so that each side has its own tangent: tspace generate --repair."},
+    {"uvSeamAveraged", "Average only over vertices whose UVs are equal too: tspace generate --repair."},
+    {"directionsWrong", kRepair},
+    {"uvSetWrong", "Compute the tangents anew, along the UV set of the texture: tspace generate --repair."},
     {"textureTransformIgnored",
      "Apply the transform to the UVs and remove it from the texture, so that no reader can get it wrong; or compute "
-     "the "
-     "tangents anew: tspace generate --overwrite."},
-    {"splitFramesDiffer", "Weld equal vertices before tangents are computed. tspace generate --overwrite does."},
-    {"morphTangentsMissing", "Run tspace generate --overwrite, which writes tangents for morph targets too."},
-    {"morphTangentsWrong",
-     "Compute the tangents of the base and of all targets together: tspace generate --overwrite."},
+     "the tangents anew: tspace generate --overwrite."},
+    {"splitFramesDiffer", "Weld equal vertices before tangents are computed: tspace generate --overwrite."},
+    {"morphTangentsMissing", "Write tangents for morph targets too: tspace generate --overwrite."},
+    {"morphTangentsWrong", "Compute the tangents of the base and of all targets together: tspace generate --repair."},
     {"texturesDisagree",
      "Give both textures the same UV set and the same rotation and mirroring; a mesh can hold only one tangent per "
      "vertex."},

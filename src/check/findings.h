@@ -9,6 +9,12 @@
 
 namespace tspace {
 
+/// The remedy of inverted signs and green that points down, which cancel out.
+inline constexpr const char* kBothOrNeither =
+    "Do both or neither: negate every w and invert the green channel of the normal map, or leave both as they are. "
+    "They "
+    "cancel out.";
+
 /// A finding with the tally's numbers, without a place.
 Finding makeFinding(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message);
 

@@ -3,7 +3,9 @@
 // it what to keep.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "check/direction_cones.h"
 #include "check/surface.h"
@@ -13,20 +15,44 @@
 
 namespace tspace {
 
+/// The bit of a finding in FrameHealth::faults.
+inline constexpr std::uint32_t faultBit(FindingCode code) { return 1u << static_cast<std::uint32_t>(code); }
+
+/// Another bit: the sign goes with the inverted ones around.
+inline constexpr std::uint32_t kUndecidedSign = 1u << 31;
+
 struct FrameHealth {
+    /// Per vertex the bits of what it is counted for below; empty: nothing at all. Wrong signs have the bit of
+    /// signsWrong, however many there are; where that is nearly all, others of the same patches have kUndecidedSign.
+    std::vector<std::uint32_t> faults = {};
+    /// Vertices with the tangents that `generate` would give them, which nothing below holds against them; may be empty.
+    std::vector<bool> settled = {};
+    float settled_sign = 1;  ///< -1: but for the sign, which is the opposite
+
+    void fault(std::uint32_t vertex, FindingCode code, std::size_t vertex_count) {
+        addFaults(vertex, faultBit(code), vertex_count);
+    }
+    void addFaults(std::uint32_t vertex, std::uint32_t bits, std::size_t vertex_count) {
+        if (faults.empty()) faults.resize(vertex_count);
+        faults[vertex] |= bits;
+    }
+    [[nodiscard]] bool isSettled(std::uint32_t vertex) const { return !settled.empty() && settled[vertex]; }
+
     // Values on their own. Counted: vertices that triangles use.
     Tally not_finite;          ///< tangent or w
     Tally not_unit;            ///< and finite
     double far_from_unit = 0;  ///< share of the surface with lengths below 0.9 or above 1.1
+    bool has_zero = false;     ///< some have no length at all
     Tally not_orthogonal;      ///< finite, not zero, with a usable N
     double parallel = 0;       ///< share of the surface with tangents nearly parallel to N
     Tally sign_not_one;
     bool sign_vanishes = false;  ///< some |w| is below 0.5
-    Tally signs_mixed;           ///< triangles
+    Tally signs_mixed;           ///< triangles that have UV area
 
     // Against the UVs. All zero where there are none.
     Tally signs_wrong;             ///< vertices whose triangles agree with each other, but not with w
-    bool all_signs_wrong = false;  ///< on nearly all of the surface
+    double wrong_sign_share = 0;   ///< of the surface whose signs were judged
+    bool all_signs_wrong = false;  ///< on nearly all of it
     Tally mirrored_seams;          ///< vertices where mirrored and other triangles share a tangent
     Tally uv_seams;                ///< vertices with the mean tangent of both sides of a UV seam
     Tally directions_wrong;        ///< the other vertices whose tangents are off by more than direction_deg
@@ -34,7 +60,8 @@ struct FrameHealth {
     Tally frames_differ;  ///< vertices equal to another but for the tangent, which MikkTSpace would give the same
 };
 
-/// Looks at tangents that follow mesh.uvs. Without normals or UVs nothing is looked at but values.
+/// Looks at tangents that follow mesh.uvs. Without normals or UVs nothing is looked at but values. Triangles without UV
+/// area say nothing. What `generate` gives on this very mesh is never wrong.
 /// Expected near-linear time. Fails where generateTangents does, which is for lack of memory.
 Result<FrameHealth> examineTangents(const TangentView& mesh, const CheckOptions& options);
 
@@ -44,7 +71,7 @@ Result<FrameHealth> examineTangents(const TangentView& mesh, const Surface& surf
 /// What there is to say about it: findings without a place.
 std::vector<Finding> tangentFindings(const FrameHealth& health, const CheckOptions& options);
 
-/// Why these tangents surely render wrong: the message of the first finding that is an error. Empty: they are good
+/// Why these tangents surely render wrong, where something reads them: the message of the first finding that is an error. Empty: they are good
 /// enough to be kept.
 std::string whyTangentsAreWrong(const FrameHealth& health, const CheckOptions& options);
 
@@ -54,6 +81,9 @@ void examineSigns(const TangentView& mesh, const Surface& surface, const CheckOp
                   std::span<const float> directions, FrameHealth& health);
 void examineDirections(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
                        std::span<const float> directions, FrameHealth& health);
+/// Fills FrameHealth::settled. Returns whether that changes what was found.
+Result<bool> settleVertices(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
+                            FrameHealth& health);
 Result<Done> examineSplits(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
                            FrameHealth& health);
 

@@ -36,11 +36,26 @@ struct PrimitiveFacts {
     Surface surface = {};    ///< of `mesh`
     QuadReading quads = {};  ///< holds the corners of `mesh` where its tangents were made on quads
     std::vector<Finding> findings = {};
+    std::vector<std::uint32_t> faults = {};  ///< of the tangents, as FrameHealth::faults; empty: none
+    double wrong_sign_share = 0;             ///< as FrameHealth::wrong_sign_share
 
+    void fault(std::uint32_t vertex, FindingCode code) {
+        if (faults.empty()) faults.resize(mesh.positions.size());
+        faults[vertex] |= faultBit(code);
+    }
     void add(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message);
 };
 
+/// What is said about a primitive, and which of its vertices have what was found.
+struct PrimitiveVerdict {
+    std::vector<Finding> findings = {};
+    std::vector<std::uint32_t> faults = {};  ///< as PrimitiveFacts::faults; empty: none
+    double wrong_sign_share = 0;
+};
+
 /// Everything there is to say about a primitive, but for its images. Fails for lack of memory only.
+Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf);
+/// The findings alone.
 Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf);
 
 // The families, in the order in which they run. checkTangents may find that tangents follow other UVs, or that they

@@ -76,10 +76,12 @@ Result<Done> examineSplits(const TangentView& mesh, const Surface& surface, cons
             groups.indexOf({equal.class_of[vertex], weldBits(t.x), weldBits(t.y), weldBits(t.z), weldBits(t.w)});
         if (group == first_vertex.size()) first_vertex.push_back(vertex);
         const Vec4& first = mesh.tangents[first_vertex[group]];
-        if (counted[vertex] || !areFar(first, mesh.tangents[vertex], options.split_deg)) continue;
+        if (counted[vertex] || health.isSettled(vertex) || !areFar(first, mesh.tangents[vertex], options.split_deg))
+            continue;
         counted[vertex] = true;
+        health.fault(vertex, FindingCode::splitFramesDiffer, mesh.positions.size());
         const double angle = angleBetween(toDouble(xyz(first)), toDouble(xyz(mesh.tangents[vertex]))) * 180 / kPi;
-        health.frames_differ.add(vertex, surface.vertex_areas[vertex], angle);
+        health.frames_differ.add(vertex, surface.known_areas[vertex], angle);
     }
     return Done{};
 }

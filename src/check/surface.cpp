@@ -28,16 +28,24 @@ bool isReliable(double determinant, const Vec2& a, const Vec2& b, const Vec2& c)
     return std::fabs(determinant) > stored + computed;
 }
 
-FaceFrame describeFace(const TangentView& mesh, const std::uint32_t* corner) {
+}  // namespace
+
+bool facesNormal(const FaceFrame& face, const Vec3& normal) {
+    constexpr double kLeastFacing = 0.05;
+    DVec3 n = toDouble(normal);
+    return normalize(n) && dot(n, toDouble(face.normal)) >= kLeastFacing;
+}
+
+FaceFrame describeFace(const std::array<Vec3, 3>& positions, const std::array<Vec2, 3>* uvs) {
     FaceFrame face;
-    const Vec3 &a = mesh.positions[corner[0]], &b = mesh.positions[corner[1]], &c = mesh.positions[corner[2]];
+    const auto& [a, b, c] = positions;
     DVec3 normal = cross(toDouble(b) - toDouble(a), toDouble(c) - toDouble(a));
     const double area = 0.5 * length(normal);
     if (!std::isfinite(area) || a == b || b == c || c == a) return face;
     face.area = static_cast<float>(area);
     if (normalize(normal)) face.normal = toFloat(normal);
-    if (mesh.uvs.empty()) return face;
-    const Vec2 &ua = mesh.uvs[corner[0]], &ub = mesh.uvs[corner[1]], &uc = mesh.uvs[corner[2]];
+    if (uvs == nullptr) return face;
+    const auto& [ua, ub, uc] = *uvs;
     const UvFrame frame = uvFrame(a, b, c, ua, ub, uc);
     if (!(std::fabs(frame.determinant) > kSmallestDeterminant) || !hasUvArea(frame.determinant)) return face;
     DVec3 tangent = (frame.determinant < 0 ? -1.0 : 1.0) * frame.tangent;
@@ -47,17 +55,28 @@ FaceFrame describeFace(const TangentView& mesh, const std::uint32_t* corner) {
     return face;
 }
 
-}  // namespace
-
 Surface describeSurface(const TangentView& mesh) {
     Surface surface;
     surface.faces.reserve(mesh.corners.size() / 3);
     surface.vertex_areas.assign(mesh.positions.size(), 0.0);
+    surface.known_areas.assign(mesh.positions.size(), 0.0);
     for (std::size_t c = 0; c + 2 < mesh.corners.size(); c += 3) {
-        surface.faces.push_back(describeFace(mesh, mesh.corners.data() + c));
+        const std::uint32_t* const v = mesh.corners.data() + c;
+        const std::array<Vec3, 3> positions{mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
+        if (mesh.uvs.empty()) {
+            surface.faces.push_back(describeFace(positions, nullptr));
+        } else {
+            const std::array<Vec2, 3> uvs{mesh.uvs[v[0]], mesh.uvs[v[1]], mesh.uvs[v[2]]};
+            surface.faces.push_back(describeFace(positions, &uvs));
+        }
         const double area = surface.faces.back().area;
+        const double known = surface.faces.back().orientation == 0 ? 0 : area;
         surface.area += area;
-        for (std::size_t k = 0; k < 3; ++k) surface.vertex_areas[mesh.corners[c + k]] += area / 3;
+        surface.known_area += known;
+        for (std::size_t k = 0; k < 3; ++k) {
+            surface.vertex_areas[mesh.corners[c + k]] += area / 3;
+            surface.known_areas[mesh.corners[c + k]] += known / 3;
+        }
     }
     return surface;
 }

@@ -2,6 +2,7 @@
 // What every triangle says on its own: its normal and area, where u grows on it, and on which side v lies.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -21,8 +22,16 @@ struct FaceFrame {
 struct Surface {
     std::vector<FaceFrame> faces = {};      ///< one per triangle
     std::vector<double> vertex_areas = {};  ///< a third of each triangle around the vertex
+    std::vector<double> known_areas = {};   ///< the same of triangles that have an orientation
     double area = 0;
+    double known_area = 0;  ///< of triangles that have an orientation
 };
+
+/// Triangles that turn their back on N say nothing reliable of signs: methods differ in whether the sign looks at N.
+bool facesNormal(const FaceFrame& face, const Vec3& normal);
+
+/// One triangle; `uvs`: null where there are none.
+FaceFrame describeFace(const std::array<Vec3, 3>& positions, const std::array<Vec2, 3>* uvs);
 
 /// Positions, UVs (empty: no orientation anywhere) and corners of the view are looked at. Triangles that are not finite
 /// have no area. Linear.

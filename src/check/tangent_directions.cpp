@@ -82,13 +82,13 @@ void examineDirections(const TangentView& mesh, const Surface& surface, const Ch
     std::uint64_t judged = 0;
     for (std::uint32_t v = 0; v < directions.size(); ++v) {
         judged += directions[v] != kUnknownDirection;
-        if (directions[v] > options.direction_deg) far.push_back(v);
+        if (directions[v] > options.direction_deg && !health.isSettled(v)) far.push_back(v);
     }
     health.directions_wrong.total = health.uv_seams.total = judged;
     if (far.empty()) return;
     const SeamFinder seams(mesh, surface, far);
     for (const std::uint32_t v : far) {
-        const double area = surface.vertex_areas[v];
+        const double area = surface.known_areas[v];
         if (directions[v] > options.error_deg) health.far_directions += area;
         // Those that triangles of both orientations use were counted with the signs.
         if (seams.isShared(v)) continue;
@@ -97,6 +97,11 @@ void examineDirections(const TangentView& mesh, const Surface& surface, const Ch
                        : cause == Cause::uvSeam     ? health.uv_seams
                                                     : health.directions_wrong;
         tally.add(v, area, directions[v]);
+        health.fault(v,
+                     cause == Cause::mirroredSeam ? FindingCode::mirroredSeamAveraged
+                     : cause == Cause::uvSeam     ? FindingCode::uvSeamAveraged
+                                                  : FindingCode::directionsWrong,
+                     mesh.positions.size());
     }
 }
 

@@ -22,6 +22,11 @@ class FindingList {
             makeFinding(code, onShare(severity, tally.surface_share, options_), tally, unit, std::move(message)));
     }
 
+    /// Of vertices, on however little of the surface.
+    void addWhole(FindingCode code, Severity severity, const Tally& tally, std::string message) {
+        if (tally.count != 0) findings.push_back(makeFinding(code, severity, tally, kVertices, std::move(message)));
+    }
+
     std::vector<Finding> findings = {};
 
   private:
@@ -32,17 +37,19 @@ void addValues(const FrameHealth& health, const CheckOptions& options, FindingLi
     const auto severity = [&](double bad_share) {
         return bad_share >= options.error_share ? Severity::error : Severity::warning;
     };
-    list.add(FindingCode::tangentsNotFinite, Severity::error, health.not_finite, kVertices,
-             "the tangents of " + countText(health.not_finite, kVertices) + " are NaN or infinite");
-    list.add(FindingCode::tangentsNotUnit, severity(health.far_from_unit), health.not_unit, kVertices,
-             "the tangents of " + countText(health.not_unit, kVertices) + " do not have length 1" +
-                 onSurface(health.not_unit));
+    list.addWhole(FindingCode::tangentsNotFinite, Severity::error, health.not_finite,
+                  "the tangents of " + countText(health.not_finite, kVertices) + " are NaN or infinite");
+    list.addWhole(FindingCode::tangentsNotUnit, health.has_zero ? Severity::error : severity(health.far_from_unit),
+                  health.not_unit,
+                  "the tangents of " + countText(health.not_unit, kVertices) + " are not unit" +
+                      (health.has_zero ? ", some have no length at all" : "") + onSurface(health.not_unit));
     list.add(FindingCode::tangentsNotOrthogonal, severity(health.parallel), health.not_orthogonal, kVertices,
              "the tangents of " + countText(health.not_orthogonal, kVertices) +
                  " are not perpendicular to the normal, off by up to " + decimalText(health.not_orthogonal.worst_deg) +
                  " degrees" + onSurface(health.not_orthogonal));
-    list.add(FindingCode::signsNotOne, health.sign_vanishes ? Severity::error : Severity::warning, health.sign_not_one,
-             kVertices, "the sign (w) of " + countText(health.sign_not_one, kVertices) + " is neither +1 nor -1");
+    list.addWhole(FindingCode::signsNotOne, health.sign_vanishes ? Severity::error : Severity::warning,
+                  health.sign_not_one,
+                  "the sign (w) of " + countText(health.sign_not_one, kVertices) + " is neither +1 nor -1");
 }
 
 void addSigns(const FrameHealth& health, FindingList& list) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Signs against the orientation of the UVs.
 #include <cmath>
+#include <numeric>
 
 #include "check/frame_health.h"
 #include "core/unit.h"
@@ -11,9 +12,6 @@ namespace {
 
 /// Share of the surface from which wrong signs are a wrong convention and no accident.
 constexpr double kNearlyAll = 0.95;
-
-/// Triangles that turn their back on N say nothing reliable: methods differ in whether the sign looks at N.
-constexpr double kLeastFacing = 0.05;
 
 /// Areas of the triangles around each vertex, by the sign that their UVs ask for.
 struct SignAreas {
@@ -27,11 +25,49 @@ SignAreas sumAreas(const TangentView& mesh, const Surface& surface, const Conven
         const FaceFrame& face = surface.faces[c / 3];
         if (face.orientation == 0) continue;
         const std::uint32_t vertex = mesh.corners[c];
-        DVec3 normal = toDouble(mesh.normals[vertex]);
-        if (!normalize(normal) || dot(normal, toDouble(face.normal)) < kLeastFacing) continue;
+        if (!facesNormal(face, mesh.normals[vertex])) continue;
         (static_cast<float>(face.orientation) * factor > 0 ? areas.plus : areas.minus)[vertex] += face.area / 3;
     }
     return areas;
+}
+
+/// Vertices that triangles with one and the same sign at all corners connect.
+class SignPatches {
+  public:
+    SignPatches(const TangentView& mesh, const Surface& surface) : parents_(mesh.positions.size()) {
+        std::iota(parents_.begin(), parents_.end(), 0u);
+        for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+            const std::uint32_t* const v = mesh.corners.data() + 3 * f;
+            const bool positive = mesh.tangents[v[0]].w > 0;
+            if ((mesh.tangents[v[1]].w > 0) != positive || (mesh.tangents[v[2]].w > 0) != positive) continue;
+            parents_[of(v[1])] = of(v[0]);
+            parents_[of(v[2])] = of(v[0]);
+        }
+    }
+    std::uint32_t of(std::uint32_t vertex) {
+        while (parents_[vertex] != vertex) vertex = parents_[vertex] = parents_[parents_[vertex]];
+        return vertex;
+    }
+
+  private:
+    std::vector<std::uint32_t> parents_;
+};
+
+/// Where nearly all signs are inverted, others in the same patch are too, whatever their triangles say: a quad that
+/// folds, say, has triangles of both orientations, and one sign. So are those of patches about which nothing is known.
+/// In a patch where most signs are right they are right.
+void findUndecided(const TangentView& mesh, const Surface& surface, const SignAreas& areas, FrameHealth& health) {
+    SignPatches patches(mesh, surface);
+    std::vector<float> right(mesh.positions.size(), 0.0f), wrong(mesh.positions.size(), 0.0f);
+    for (std::uint32_t v = 0; v < right.size(); ++v) {
+        const bool is_positive = mesh.tangents[v].w > 0;
+        right[patches.of(v)] += is_positive ? areas.plus[v] : areas.minus[v];
+        wrong[patches.of(v)] += is_positive ? areas.minus[v] : areas.plus[v];
+    }
+    for (const std::uint32_t vertex : mesh.corners) {
+        const std::uint32_t patch = patches.of(vertex);
+        if (wrong[patch] >= right[patch]) health.addFaults(vertex, kUndecidedSign, right.size());
+    }
 }
 
 }  // namespace
@@ -45,8 +81,11 @@ void examineSigns(const TangentView& mesh, const Surface& surface, const CheckOp
         const float sign = mesh.tangents[v].w;
         if (plus == 0 && minus == 0) continue;
         ++health.mirrored_seams.total;
+        const std::size_t count = mesh.positions.size();
         if (plus > 0 && minus > 0) {
+            if (health.isSettled(v)) continue;
             health.mirrored_seams.add(v, std::min(plus, minus));
+            health.fault(v, FindingCode::mirroredSeamAveraged, count);
             continue;
         }
         // What points elsewhere follows other UVs, whose orientation nobody knows.
@@ -55,9 +94,13 @@ void examineSigns(const TangentView& mesh, const Surface& surface, const CheckOp
         judged += plus + minus;
         if ((sign > 0) == (plus > 0)) continue;
         wrong += plus + minus;
+        if (health.isSettled(v) && health.settled_sign > 0) continue;
         health.signs_wrong.add(v, plus + minus);
+        health.fault(v, FindingCode::signsWrong, count);
     }
+    health.wrong_sign_share = judged > 0 ? wrong / judged : 0;
     health.all_signs_wrong = wrong > 0 && wrong >= kNearlyAll * judged;
+    if (health.all_signs_wrong) findUndecided(mesh, surface, areas, health);
 }
 
 }  // namespace tspace

@@ -14,6 +14,9 @@ namespace {
 /// Lengths from which nobody's normalisation hides the fault.
 constexpr double kFarFromUnit = 0.1;
 
+/// Lengths below cannot be told from zero.
+constexpr double kShortest = 1e-6;
+
 /// Beyond there is hardly a frame left, whatever a renderer does.
 constexpr double kParallel = 85;
 
@@ -22,11 +25,22 @@ constexpr double kSignTolerance = 1e-6;
 
 void examineMixedSigns(const TangentView& mesh, const Surface& surface, FrameHealth& health) {
     for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+        // The texture shows one texel there, and no sign is right: MikkTSpace itself mixes them.
+        if (!mesh.uvs.empty() && surface.faces[f].orientation == 0) continue;
         const std::uint32_t* corner = mesh.corners.data() + 3 * f;
+        if (!mesh.normals.empty() && !(facesNormal(surface.faces[f], mesh.normals[corner[0]]) &&
+                                       facesNormal(surface.faces[f], mesh.normals[corner[1]]) &&
+                                       facesNormal(surface.faces[f], mesh.normals[corner[2]]))) {
+            continue;
+        }
         ++health.signs_mixed.total;
+        if (health.isSettled(corner[0]) && health.isSettled(corner[1]) && health.isSettled(corner[2])) continue;
         const bool positive = mesh.tangents[corner[0]].w > 0;
         if ((mesh.tangents[corner[1]].w > 0) != positive || (mesh.tangents[corner[2]].w > 0) != positive) {
             health.signs_mixed.add(corner[0], surface.faces[f].area);
+            for (std::size_t k = 0; k < 3; ++k) {
+                health.fault(corner[k], FindingCode::signsMixed, mesh.positions.size());
+            }
         }
     }
 }
@@ -45,26 +59,36 @@ void examineValues(const TangentView& mesh, const Surface& surface, const CheckO
         if (!used[v]) continue;
         const Vec4& stored = mesh.tangents[v];
         const double area = surface.vertex_areas[v];
+        const auto fault = [&](FindingCode code) { health.fault(v, code, mesh.positions.size()); };
         DVec3 tangent = toDouble(xyz(stored));
         for (Tally* tally : {&health.not_finite, &health.not_unit, &health.sign_not_one}) ++tally->total;
         if (!isFinite(xyz(stored)) || !std::isfinite(stored.w)) {
             health.not_finite.add(v, area);
+            fault(FindingCode::tangentsNotFinite);
             continue;
         }
         if (std::fabs(std::fabs(double{stored.w}) - 1) > kSignTolerance) {
             health.sign_not_one.add(v, area);
+            fault(FindingCode::signsNotOne);
             health.sign_vanishes = health.sign_vanishes || std::fabs(stored.w) < 0.5f;
         }
-        const double off = std::fabs(length(tangent) - 1);
-        if (off > options.unit_tolerance) health.not_unit.add(v, area);
+        const double size = length(tangent), off = std::fabs(size - 1);
+        if (off > options.unit_tolerance) {
+            health.not_unit.add(v, area);
+            fault(FindingCode::tangentsNotUnit);
+        }
         if (off > kFarFromUnit) health.far_from_unit += area;
+        health.has_zero = health.has_zero || size < kShortest;
         DVec3 normal = mesh.normals.empty() ? DVec3{} : toDouble(mesh.normals[v]);
         if (!normalize(tangent) || !normalize(normal)) continue;
         if (!mesh.uvs.empty() && !knows_direction[v]) continue;
         ++health.not_orthogonal.total;
         const double lean = std::fabs(90 - angleBetween(normal, tangent) * 180 / kPi);
-        if (lean > options.orthogonal_deg) health.not_orthogonal.add(v, area, lean);
-        if (lean > kParallel) health.parallel += area;
+        if (!(lean > options.orthogonal_deg) || health.isSettled(v)) continue;
+        const double its_area = mesh.uvs.empty() ? area : surface.known_areas[v];
+        health.not_orthogonal.add(v, its_area, lean);
+        fault(FindingCode::tangentsNotOrthogonal);
+        if (lean > kParallel) health.parallel += its_area;
     }
     examineMixedSigns(mesh, surface, health);
 }

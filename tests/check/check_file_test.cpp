@@ -215,6 +215,73 @@ TEST(CheckFile, SaysWhichPartOfAMixedMapPointsDown) {
     EXPECT_NE(finding.message.find(" %"), std::string::npos) << finding.message;
 }
 
+TEST(CheckFile, AdvisesBothOrNeitherWhereTwoFaultsCancelOut) {
+    for (const Finding& finding : TestModel(true, true).check().findings) {
+        EXPECT_NE(finding.remedy.find("both or neither"), std::string::npos) << finding.remedy;
+        EXPECT_EQ(finding.remedy.find("tspace generate"), std::string::npos) << finding.remedy;
+    }
+}
+
+TEST(CheckFile, LeavesOpenWhatAMapThatItCannotReadWouldCancel) {
+    for (const char* content : {"", "RIFF0000WEBP", "\xABKTX 20", "no image"}) {
+        TestModel model(false, true);
+        model.folder.write("normal.png", content);
+        const CheckReport report = model.check();
+        EXPECT_EQ(codes(report), (Codes{"warning signsInverted", "note normalMapUnreadable"})) << content;
+        EXPECT_EQ(report.findings[0].remedy.find("tspace generate"), std::string::npos);
+        std::filesystem::remove(model.folder.path("normal.png"));
+        EXPECT_EQ(codes(model.check()), (Codes{"warning signsInverted", "note normalMapUnreadable"}));
+    }
+    EXPECT_EQ(codes(TestModel(false, true).check({.images = false})), Codes{"warning signsInverted"});
+}
+
+TEST(CheckFile, WeighsEveryNormalMapOfAPrimitive) {
+    TestModel model(false, true);
+    model.folder.write("down.png", pngFile(normalMapOf(256, bumps, true)));
+    model.builder.json()["images"].push_back(Json{{"uri", "down.png"}});
+    model.builder.json()["textures"].push_back(Json{{"source", 1}});
+    model.builder.json()["materials"][0]["extensions"]["KHR_materials_clearcoat"]["clearcoatNormalTexture"] =
+        Json{{"index", 1}};
+    EXPECT_EQ(codes(model.check()), (Codes{"warning signsInverted", "note greenFlipped"})) << "one of two is cancelled";
+}
+
+TEST(CheckFile, SaysOnceThatTangentsAreNotNeeded) {
+    TestModel model(false, true);
+    Json& primitives = model.builder.json()["meshes"][0]["primitives"];
+    for (int i = 0; i < 3; ++i) primitives.push_back(primitives[0]);
+    for (std::size_t i = 1; i < 4; ++i) primitives[i].erase("material");
+    const CheckReport report = model.check();
+    ASSERT_EQ(codes(report), (Codes{"error signsInverted", "note tangentsUnused"}));
+    EXPECT_EQ(report.findings[1].count, 3u);
+    EXPECT_EQ(report.findings[1].total, 4u);
+    EXPECT_EQ(report.findings[1].unit, "primitives");
+    EXPECT_EQ(report.findings[1].place, "");
+    EXPECT_NE(report.findings[1].remedy.find("tspace generate --strip"), std::string::npos);
+}
+
+/// An empty target is not allowed, so its tangents cannot go.
+TEST(CheckFile, AdvisesNothingThatCannotBeDone) {
+    TestModel model;
+    Json& primitive = model.builder.json()["meshes"][0]["primitives"][0];
+    primitive["targets"] = Json::array({Json{{"TANGENT", primitive["attributes"]["NORMAL"]}}});
+    primitive.erase("material");
+    EXPECT_EQ(codes(model.check()), Codes{}) << "--strip leaves them";
+    TestModel no_uvs;
+    no_uvs.builder.json()["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
+    no_uvs.builder.json()["meshes"][0]["primitives"][0]["attributes"].erase("TANGENT");
+    const CheckReport report = no_uvs.check();
+    EXPECT_EQ(codes(report), (Codes{"error uvsMissing", "warning tangentsMissing"}));
+    for (const Finding& finding : report.findings) {
+        EXPECT_EQ(finding.remedy.find("tspace generate"), std::string::npos) << finding.remedy;
+    }
+}
+
+TEST(CheckFile, LooksAtNothingThatAnUnlitMaterialDoesNotUse) {
+    TestModel model(false, true);
+    model.builder.json()["materials"][0]["extensions"]["KHR_materials_unlit"] = Json::object();
+    EXPECT_EQ(codes(model.check()), Codes{"note tangentsUnused"});
+}
+
 TEST(CheckFile, SaysThatAnImageWasNotLookedAt) {
     TestModel model;
     model.folder.write("normal.png", "RIFF0000WEBP");
@@ -233,8 +300,7 @@ TEST(CheckFile, GivesEachPrimitiveItsOwnFindings) {
     primitives.push_back(primitives[0]);
     primitives[3].erase("material");
     const CheckReport report = model.check();
-    EXPECT_EQ(codes(report),
-              (Codes{"error signsInverted", "error signsInverted", "warning signsInverted", "note tangentsUnused"}));
+    EXPECT_EQ(codes(report), (Codes{"error signsInverted", "error signsInverted", "note tangentsUnused"}));
     EXPECT_EQ(report.findings[0].place, "/meshes/0/primitives/0");
     EXPECT_EQ(report.findings[1].place, "/meshes/0/primitives/1");
     EXPECT_EQ(report.findings[1].primitive, 1u);

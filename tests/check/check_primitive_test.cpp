@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "check/patch.h"
+#include "tspace/sanitize.h"
 
 namespace tspace::test {
 namespace {
@@ -142,13 +143,48 @@ TEST(Check, FindsTangentsThatNobodyNeeds) {
     EXPECT_EQ(codesOf(patch), Codes{"note tangentsUnused"});
 }
 
-TEST(Check, MakesLessOfWhatNobodyNeeds) {
+TEST(Check, SaysNoMoreOfTangentsThatNobodyNeeds) {
     ScenePrimitive patch = goodPatch();
     edit(patch.tangents, [](auto& tangents) {
-        for (Vec4& t : tangents) t.w = -t.w;
+        for (Vec4& t : tangents) t = {kNan, 0, 2, -t.w};
     });
     patch.uses.clear();
-    EXPECT_EQ(codesOf(patch), (Codes{"note tangentsUnused", "warning signsInverted"}));
+    EXPECT_EQ(codesOf(patch), Codes{"note tangentsUnused"});
+}
+
+/// glTF lights points that have tangents by the normal map of their material.
+TEST(Check, LeavesTangentsToPointsThatHaveANormalMap) {
+    ScenePrimitive patch = goodPatch();
+    patch.corners = {};
+    patch.mode = "points";
+    EXPECT_EQ(codesOf(patch), Codes{});
+}
+
+TEST(Check, MakesANoteOfNormalsThatUnlitMaterialsDoNotUse) {
+    ScenePrimitive patch = goodPatch();
+    patch.uses.clear();
+    patch.tangents = {};
+    patch.is_unlit = true;
+    edit(patch.normals, [](auto& normals) {
+        for (Vec3& n : normals) n = -1.5f * n;
+        normals[3].x = kNan;
+    });
+    EXPECT_EQ(codesOf(patch), (Codes{"note normalsNotFinite", "note normalsNotUnit", "note normalsAgainstWinding"}));
+    patch.is_unlit = false;
+    EXPECT_EQ(codesOf(patch).count("error normalsAgainstWinding"), 1u);
+}
+
+/// As leaves have them, with the normals of the tree.
+TEST(Check, WarnsOfNormalsAgainstTheWindingWhereBothSidesAreShown) {
+    ScenePrimitive patch = goodPatch();
+    edit(patch.corners, [](auto& corners) {
+        for (std::size_t c = 0; c < corners.size() * 7 / 10; c += 3) std::swap(corners[c], corners[c + 1]);
+    });
+    patch.uses.clear();
+    patch.tangents = {};
+    EXPECT_EQ(codesOf(patch), Codes{"error normalsAgainstWinding"});
+    patch.is_double_sided = true;
+    EXPECT_EQ(codesOf(patch), Codes{"warning normalsAgainstWinding"});
 }
 
 TEST(Check, FindsTangentsThatAreNotFinite) {
@@ -280,6 +316,93 @@ TEST(Check, FindsDirectionsThatAreOff) {
     EXPECT_EQ(codesOf(off(180)), Codes{"error directionsWrong"});
     EXPECT_EQ(codesOf(off(5), {.direction_deg = 1}), Codes{"warning directionsWrong"}) << "the angle is an option";
     EXPECT_NEAR(findingsOf(off(60))[0].worst_deg, 60, 3);
+}
+
+/// Shrinks the UVs of a patch to a point but for one column of its first half: the triangles there are the only ones
+/// that know what is right.
+TEST(Check, LetsTrianglesWithoutUvAreaVoteInNothing) {
+    ScenePrimitive patch = goodPatch();
+    edit(patch.uv_sets[0], [](auto& uvs) {
+        for (std::size_t v = 0; v < uvs.size(); ++v) {
+            if (v >= kHalf || v % kSide > 1) uvs[v] = {0.5f, 0.5f};
+        }
+    });
+    patch.tangents = tangentsOf(patch);
+    edit(patch.tangents, [](auto& tangents) {
+        for (std::size_t v = 0; v < tangents.size(); ++v) {
+            if (v >= kHalf || v % kSide > 2) tangents[v] = {0, 1, 0, v % 2 == 0 ? 1.0f : -1.0f};
+        }
+    });
+    EXPECT_EQ(codesOf(patch), Codes{"warning uvsDegenerate"});
+    edit(patch.tangents, [](auto& tangents) {
+        for (std::size_t v = 0; v < kHalf; ++v) {
+            if (v % kSide <= 2) tangents[v].w = -tangents[v].w;
+        }
+    });
+    EXPECT_EQ(codesOf(patch), (Codes{"error signsInverted", "warning uvsDegenerate"}));
+}
+
+TEST(Check, HoldsNothingAgainstWhatGenerateGives) {
+    rc::check([] {
+        ScenePrimitive patch = goodPatch(Seam::none);
+        // Few UVs, so that many triangles have no area, fold over or overlap.
+        edit(patch.uv_sets[0], [](auto& uvs) {
+            for (Vec2& uv : uvs) uv = {static_cast<float>(anyInt(0, 3)) / 3, static_cast<float>(anyInt(0, 3)) / 3};
+        });
+        // Every corner a vertex of its own: no tangent is averaged by welding.
+        std::vector<Vec3> positions, normals;
+        std::vector<Vec2> uvs;
+        std::vector<std::uint32_t> corners;
+        for (const std::uint32_t v : patch.corners) {
+            positions.push_back(patch.positions[v]);
+            normals.push_back(patch.normals[v]);
+            uvs.push_back(patch.uv_sets[0][v]);
+            corners.push_back(static_cast<std::uint32_t>(corners.size()));
+        }
+        patch.positions = std::move(positions);
+        patch.normals = std::move(normals);
+        patch.uv_sets[0] = std::move(uvs);
+        patch.corners = std::move(corners);
+        std::vector<Vec4> tangents = tangentsOf(patch);
+        MeshView mesh;
+        mesh.positions = patch.positions.span();
+        mesh.normals = patch.normals.span();
+        mesh.uvs = patch.uv_sets[0].span();
+        mesh.indices = patch.corners.span();
+        (void)sanitizeTangents(mesh, tangents);
+        patch.tangents = std::move(tangents);
+        for (const Finding& finding : findingsOf(patch)) {
+            RC_ASSERT(finding.code == FindingCode::uvsDegenerate);
+        }
+    });
+}
+
+/// A mesh of text with a second set that nobody unwrapped.
+TEST(Check, ExplainsNothingByAUvSetWithoutArea) {
+    ScenePrimitive patch = goodPatch();
+    edit(patch.tangents, [](auto& tangents) {
+        for (Vec4& t : tangents) t = {-t.x, -t.y, -t.z, t.w};
+    });
+    patch.uv_sets.push_back(std::vector<Vec2>(patch.positions.size()));
+    EXPECT_EQ(codesOf(patch), Codes{"error directionsWrong"});
+    // Nor by one that has area in a corner of the surface only, where the tangents happen to follow it.
+    edit(patch.uv_sets[1], [&](auto& uvs) {
+        for (std::size_t v = 0; v < 2 * kSide; ++v) {
+            uvs[v] = {-patch.uv_sets[0][v].x, -patch.uv_sets[0][v].y};
+        }
+    });
+    EXPECT_EQ(codesOf(patch), Codes{"error directionsWrong"});
+}
+
+TEST(Check, WarnsOnlyWhereTheTangentsFitAnotherTexture) {
+    ScenePrimitive patch = goodPatch();
+    SharedArray<Vec2> other = patch.uv_sets[0];
+    edit(other, [](auto& uvs) {
+        for (Vec2& uv : uvs) uv = {uv.y, -uv.x};
+    });
+    patch.uv_sets.insert(patch.uv_sets.begin(), other);
+    patch.uses.push_back({.needed_by = "clearcoatNormalTexture", .place = "/coat", .uv_set = 1});
+    EXPECT_EQ(codesOf(patch), (Codes{"warning texturesDisagree", "warning uvSetWrong"}));
 }
 
 TEST(Check, FindsTangentsAlongAnotherUvSet) {

@@ -3,6 +3,7 @@
 // set, KHR_texture_transform and image.
 #include "asset/gltf/material_needs.h"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -86,6 +87,8 @@ TextureWrap wrapOf(const Document& document, const Json& texture, const char* ke
     return wrap != nullptr && *wrap == kMirror ? TextureWrap::mirror : TextureWrap::repeat;
 }
 
+bool isUnlit(const Json& material) { return findExtension(material, "KHR_materials_unlit") != nullptr; }
+
 /// Collects the uses of one material.
 class MaterialUses {
   public:
@@ -100,6 +103,11 @@ class MaterialUses {
         const Json& material = rootArray(document_, "materials")[material_];
         const std::string place = join("/materials", material_);
         addTexture(material, place, "normalTexture", "normalTexture");
+        if (isUnlit(material)) {
+            // Malformed textures are refused as anywhere else.
+            uses_.resize(first_);
+            return;
+        }
         const Json* extensions = readObject(material, "extensions", place);
         if (extensions == nullptr) return;
         const std::string extension_place = join(place, "extensions");
@@ -179,6 +187,20 @@ std::vector<TangentUse> tangentUses(const Document& document, const Primitive& p
         if (material != primitive.material) MaterialUses(document, material, true, uses).collect();
     }
     return uses;
+}
+
+SurfaceKind surfaceKind(const Document& document, const Primitive& primitive) {
+    std::vector<std::size_t> materials = variantMaterials(document, primitive);
+    if (primitive.material) materials.push_back(*primitive.material);
+    const Json& list = rootArray(document, "materials");
+    const auto all = [&](auto&& test) {
+        return !materials.empty() && std::all_of(materials.begin(), materials.end(),
+                                                 [&](std::size_t material) { return test(list[material]); });
+    };
+    return {.is_unlit = all(isUnlit), .is_double_sided = all([](const Json& material) {
+                                          const Json* value = findMember(material, "doubleSided");
+                                          return value != nullptr && value->is_boolean() && value->get<bool>();
+                                      })};
 }
 
 std::string materialName(const Document& document, const Primitive& primitive) {

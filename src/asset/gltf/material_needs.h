@@ -11,7 +11,8 @@
 
 namespace tspace::gltf {
 
-/// Everything in the primitive's materials that needs tangents; empty: nothing does. The first decides which UV set
+/// Everything in the primitive's materials that needs tangents; empty: nothing does. Unlit materials
+/// (KHR_materials_unlit) need none, whatever textures they name. The first decides which UV set
 /// and transform the tangents follow.
 ///
 /// The primitive's own material comes first, then those of KHR_materials_variants in the order of the mappings, each
@@ -23,6 +24,14 @@ std::vector<TangentUse> tangentUses(const Document& document, const Primitive& p
 
 /// The materials that KHR_materials_variants can put on the primitive, in the order of the mappings, each once.
 std::vector<std::size_t> variantMaterials(const Document& document, const Primitive& primitive);
+
+/// What all materials of a primitive, its own and those of variants, have in common. Without any: those of the default
+/// material.
+struct SurfaceKind {
+    bool is_unlit = false;         ///< KHR_materials_unlit: neither normals nor normal maps are looked at
+    bool is_double_sided = false;  ///< back faces are drawn, with their normals turned round
+};
+SurfaceKind surfaceKind(const Document& document, const Primitive& primitive);
 
 /// The name of the primitive's material, may be empty.
 std::string materialName(const Document& document, const Primitive& primitive);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A glTF file as a Scene. Every accessor is decoded once, however many primitives draw it.
+#include "asset/gltf/read_scene.h"
+
 #include <map>
 #include <set>
 #include <tuple>
@@ -8,8 +9,6 @@
 #include "asset/gltf/accessor.h"
 #include "asset/gltf/document.h"
 #include "asset/gltf/material_needs.h"
-#include "asset/gltf/primitive_reader.h"
-#include "asset/scene.h"
 #include "asset/uri.h"
 
 namespace tspace::gltf {
@@ -58,6 +57,9 @@ class PrimitiveLoader {
         result.material_name = materialName(document_, primitive);
         result.mode = modeName(primitive.mode);
         result.uses = tangentUses(document_, primitive);
+        const SurfaceKind kind = surfaceKind(document_, primitive);
+        result.is_unlit = kind.is_unlit;
+        result.is_double_sided = kind.is_double_sided;
         loadAttributes(primitive, result);
         result.tangents_not_read = result.tangents.empty() && document_.may_hide_tangents;
         for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
@@ -132,51 +134,58 @@ Bytes readImageBytes(const Document& document, const Json& image, const std::str
     return readFile(resolveUri(document.folder, uri, document.options.allow_external, join(place, "uri")));
 }
 
-std::vector<SceneImage> readImages(const Document& document, const std::set<std::size_t>& wanted) {
-    std::vector<SceneImage> images;
+}  // namespace
+
+void readImages(const Document& document, Scene& scene) {
+    std::set<std::size_t> wanted;
+    for (const ScenePrimitive& primitive : scene.primitives) {
+        for (const TangentUse& use : primitive.uses) {
+            if (use.image) wanted.insert(*use.image);
+        }
+    }
     std::set<std::string> files;
     const Json& list = rootArray(document, "images");
-    for (std::size_t i = 0; i < list.size(); ++i) {
+    for (const std::size_t i : wanted) {
         const std::string place = join("/images", i);
-        SceneImage& image = images.emplace_back();
-        image.name = readString(list[i], "name", place);
         const std::string uri = readString(list[i], "uri", place);
-        if (uriKind(uri) != UriKind::data) image.uri = uri;
-        if (!wanted.contains(i)) continue;
         try {
             const Bytes bytes = readImageBytes(document, list[i], place);
             // A file that many entries name has its bytes once.
             const bool is_file = !uri.empty() && uriKind(uri) == UriKind::path;
             if (is_file && files.insert(uri).second) document.memory->allow(bytes.size());
             document.memory->take(bytes.size(), place);
-            image.bytes.assign(bytes.begin(), bytes.end());
+            scene.images[i].bytes.assign(bytes.begin(), bytes.end());
         } catch (const FileError& failure) {
             // The geometry is none the worse for it.
             if (failure.error.code == ErrorCode::tooLarge) throw;
         }
     }
-    return images;
 }
 
-}  // namespace
-
-Scene readGltfScene(const std::string& input, const FileOptions& options, bool with_images) {
-    Document document = loadDocument(input, options);
-    checkRequiredExtensions(document);
+Scene sceneOf(const Document& document, std::span<const Primitive> primitives) {
     Scene scene;
     scene.warnings = document.warnings;
     scene.memory = document.memory;
     scene.format = formatOf(document);
     scene.generator = generatorOf(document);
     PrimitiveLoader loader(document);
-    std::set<std::size_t> images;
-    for (const Primitive& primitive : readPrimitives(document)) {
-        scene.primitives.push_back(loader.load(primitive));
-        for (const TangentUse& use : scene.primitives.back().uses) {
-            if (use.image && with_images) images.insert(*use.image);
-        }
+    for (const Primitive& primitive : primitives) scene.primitives.push_back(loader.load(primitive));
+    const Json& list = rootArray(document, "images");
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const std::string place = join("/images", i);
+        SceneImage& image = scene.images.emplace_back();
+        image.name = readString(list[i], "name", place);
+        const std::string uri = readString(list[i], "uri", place);
+        if (uriKind(uri) != UriKind::data) image.uri = uri;
     }
-    scene.images = readImages(document, images);
+    return scene;
+}
+
+Scene readGltfScene(const std::string& input, const FileOptions& options, bool with_images) {
+    Document document = loadDocument(input, options);
+    checkRequiredExtensions(document);
+    Scene scene = sceneOf(document, readPrimitives(document));
+    if (with_images) readImages(document, scene);
     return scene;
 }
 

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// A document, or a part of it, as a Scene.
+#pragma once
+
+#include <span>
+
+#include "asset/gltf/document.h"
+#include "asset/gltf/primitive_reader.h"
+#include "asset/scene.h"
+
+namespace tspace::gltf {
+
+/// These primitives, in their order, and what the file says of itself; names of images, but no bytes. Every accessor is
+/// decoded once. Takes from the document's memory budget what the arrays hold.
+Scene sceneOf(const Document& document, std::span<const Primitive> primitives);
+
+/// Reads the bytes of the images that the scene's primitives use. One that cannot be read stays empty.
+void readImages(const Document& document, Scene& scene);
+
+}  // namespace tspace::gltf

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// What to do about a finding, in the file where it is. A command stands there only where running it mends the finding.
+#include <algorithm>
+#include <string_view>
+
+#include "check/findings.h"
+#include "check/primitive_checks.h"
+#include "check/scene_verdict.h"
+
+namespace tspace {
+
+namespace {
+
+constexpr const char* kUnwrapFirst =
+    "Give the mesh the UVs that the texture is read with; without them no tangent can be computed.";
+constexpr const char* kOtherTool =
+    "Compute them anew with the tool that made them. Doing it here for the whole file would turn signs round that the "
+    "normal maps of this file may want as they are.";
+constexpr const char* kLookAtTheMap =
+    "Look at the normal map. If its green points up, negate every w. If it points down, do both or neither: negate "
+    "every "
+    "w and invert the green channel, or leave both as they are.";
+
+constexpr std::string_view kRepair = "--repair", kOverwrite = "--overwrite";
+
+/// What is mended by computing tangents anew.
+bool isOfTangents(FindingCode code) {
+    return (code >= FindingCode::tangentsNotFinite && code <= FindingCode::morphTangentsWrong);
+}
+
+void replaceAll(std::string& text, std::string_view old, const std::string& with) {
+    for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + with.size())) {
+        text.replace(at, old.size(), with);
+    }
+}
+
+class Advice {
+  public:
+    Advice(const CheckOptions& options, bool signs_stay_somewhere)
+        : signs_stay_somewhere_(signs_stay_somewhere),
+          convention_(signFactor(options.convention) == signFactor(conventions::gltf) ? "" : " --convention opengl") {}
+
+    void give(const ScenePrimitive& primitive, const PrimitiveJudgement& judgement, Finding& finding) const {
+        const bool can_compute = !primitive.corners.empty() && !primitive.uses.empty() &&
+                                 !plainReading(primitive, primitive.uses.front().uv_set).uvs.empty();
+        if (finding.code == FindingCode::tangentsMissing || finding.code == FindingCode::tangentsIgnored) {
+            if (!can_compute) finding.remedy = kUnwrapFirst;
+            return addConvention(finding);
+        }
+        if (!isOfTangents(finding.code)) return;
+        const bool is_of_signs = finding.code == FindingCode::signsInverted || finding.code == FindingCode::signsWrong;
+        if (!can_compute) {
+            finding.remedy = kUnwrapFirst;
+        } else if (is_of_signs && judgement.signs != SignVerdict::plain) {
+            finding.remedy = judgement.signs == SignVerdict::cancelled ? kBothOrNeither : kLookAtTheMap;
+        } else if (finding.severity == Severity::error) {
+            replaceAll(finding.remedy, kOverwrite, std::string(kRepair));
+        } else if (signs_stay_somewhere_) {
+            finding.remedy = kOtherTool;
+        } else {
+            replaceAll(finding.remedy, kRepair, std::string(kOverwrite));
+        }
+        addConvention(finding);
+    }
+
+  private:
+    /// Who checks by another convention has to compute by it.
+    void addConvention(Finding& finding) const {
+        if (convention_.empty()) return;
+        for (const std::string_view command :
+             {std::string_view("tspace generate --repair"), std::string_view("tspace generate --overwrite")}) {
+            replaceAll(finding.remedy, command, std::string(command) + convention_);
+        }
+    }
+
+    bool signs_stay_somewhere_;
+    std::string convention_;
+};
+
+}  // namespace
+
+void adviseOn(const Scene& scene, const CheckOptions& options, std::span<PrimitiveJudgement> judgements) {
+    const bool signs_stay_somewhere =
+        std::any_of(judgements.begin(), judgements.end(),
+                    [](const PrimitiveJudgement& judgement) { return judgement.signs != SignVerdict::plain; });
+    const Advice advice(options, signs_stay_somewhere);
+    for (std::size_t i = 0; i < judgements.size(); ++i) {
+        for (Finding& finding : judgements[i].findings) advice.give(scene.primitives[i], judgements[i], finding);
+    }
+}
+
+}  // namespace tspace
