@@ -53,7 +53,7 @@ using Progress = std::function<void(const char* what, std::uint64_t done, std::u
 enum class ExistingTangents : std::uint32_t {
     keep = 0,     ///< they stay; only missing ones are added
     replace = 1,  ///< they are computed anew
-    repair = 2,   ///< good ones stay, wrong ones are computed anew; primitives that share vertices decide together
+    repair = 2,   ///< what `check` calls an error is mended, vertex by vertex; everything else stays
 };
 
 /// Whether tangents follow the UVs before or after KHR_texture_transform. It matters for a rotation, and for a scale of
@@ -149,6 +149,7 @@ struct PrimitiveReport {
     std::uint64_t triangle_count = 0;
     std::uint64_t vertices_before = 0;
     std::uint64_t vertices_after = 0;
+    std::uint64_t mended_vertex_count = 0;    ///< of vertices_before: those whose tangents were wrong (`repair`)
     std::uint32_t morph_target_count = 0;     ///< morph targets that the primitive has
     std::uint32_t morph_deltas_computed = 0;  ///< those whose tangent deltas were computed
     /// Corners, over all targets, at which the frame of the moved shape has the other sign, which glTF cannot morph.

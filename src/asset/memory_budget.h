@@ -40,6 +40,12 @@ class MemoryBudget {
         left_ -= limited(bytes);
     }
 
+    /// What is left now; and all that was taken since is given back.
+    [[nodiscard]] std::int64_t left() const { return left_; }
+    void giveBack(std::int64_t left_before) {
+        if (left_ < left_before) left_ = left_before;
+    }
+
     /// Memory that is taken for a while, and given back.
     void require(std::uint64_t bytes, const std::string& place) const {
         if (!has(bytes)) failFile(ErrorCode::tooLarge, "what the file claims " + whyNot(bytes), place);

@@ -8,6 +8,7 @@
 #include "core/memory.h"
 #include "generate/local_mesh.h"
 #include "generate/mend_bitangents.h"
+#include "generate/mend_tangents.h"
 #include "generate/morph_frames.h"
 #include "generate/morph_normals.h"
 #include "generate/primitive.h"
@@ -63,7 +64,8 @@ class FrameComputer {
           reports_(reports),
           generates_normals_(pool.normals.empty()),
           generates_tangents_(options.tangents.method == Method::basis || !pool.uvs.empty()),
-          generates_bitangents_(options.bitangents && generates_tangents_ && pool.kept_tangents.empty()),
+          generates_bitangents_(options.bitangents && generates_tangents_ &&
+                                (pool.kept_tangents.empty() || pool.mends_tangents)),
           local_meshes_(pool_, primitives.size()),
           morph_tangents_(pool_, options) {}
 
@@ -84,7 +86,7 @@ class FrameComputer {
                 return std::move(done).error();
             }
         }
-        return pool_.kept_tangents.empty() ? splitPool() : keepPool();
+        return pool_.kept_tangents.empty() || pool_.mends_tangents ? splitPool() : keepPool();
     }
 
   private:
@@ -119,6 +121,7 @@ class FrameComputer {
         const bool is_cut = !primitive.face_sizes.empty();
         const std::vector<std::uint32_t>& vertices = is_cut ? cut_vertices : primitive.indices;
         report.triangle_count = vertices.size() / 3;
+        if (pool_.mends_tangents) mendTangents(vertices, primitive.mends);
         if (generates_tangents_ && pool_.targets.count != 0) {
             if (Result<Done> done = morph_tangents_.add(std::move(mesh), report); !done) return done;
         }
@@ -221,6 +224,21 @@ class FrameComputer {
         return Done{};
     }
 
+    /// Those of the mesh just computed, which is the next to be appended.
+    void mendTangents(std::span<const std::uint32_t> vertices, const Mends& mends) {
+        const std::span<Vec4> tangents = this->tangents().subspan(corners_.size(), vertices.size());
+        const std::vector<Vec4> computed(tangents.begin(), tangents.end());
+        const std::vector<bool> is_new = mendCorners(pool_, vertices, mends, tangents);
+        has_new_offsets_.insert(has_new_offsets_.end(), is_new.begin(), is_new.end());
+        differing_count_ += countDiffering(computed, tangents);
+        if (!generates_bitangents_) return;
+        const std::span<Vec3> bitangents = this->bitangents().subspan(corners_.size(), vertices.size());
+        for (std::size_t c = 0; c < vertices.size(); ++c) {
+            if (computed[c] == tangents[c]) continue;
+            bitangents[c] = bitangentOf(tangents[c], pool_.normals[vertices[c]]);
+        }
+    }
+
     /// `vertices`: of the primitive's corners. Those of the only primitive are taken where they are.
     void append(std::span<const std::uint32_t> vertices, bool is_cut, std::vector<Vec3>&& normals) {
         if (primitives_.size() == 1 && !is_cut) {
@@ -247,6 +265,7 @@ class FrameComputer {
         if (!split) return std::move(split).error();
 
         PoolFrames frames;
+        frames.differing_count = differing_count_;
         if (Result<Done> done = computeMorphs(*split, true, frames); !done) return std::move(done).error();
         write(*std::move(split), frames);
         return frames;
@@ -275,7 +294,9 @@ class FrameComputer {
         frames.morphs.resize(pool_.targets.count);
         if (!generates_tangents_ || pool_.targets.count == 0) return Done{};
         MorphSplit morph_split(std::move(split), may_split);
-        if (Result<Done> done = morph_tangents_.compute(tangents(), morph_split); !done) return done;
+        const KeptOffsets kept{corners_, has_new_offsets_};
+        const KeptOffsets* const keeps = pool_.mends_tangents ? &kept : nullptr;
+        if (Result<Done> done = morph_tangents_.compute(tangents(), morph_split, keeps); !done) return done;
         std::vector<VertexOffsets> offsets = morph_split.finish();
         for (std::size_t i = 0; i < offsets.size(); ++i) frames.morphs[i].tangents = std::move(offsets[i]);
         split = std::move(morph_split.split());
@@ -315,6 +336,14 @@ class FrameComputer {
         if (generates_bitangents_) frames.bitangents.reserve(split.vertexCount());
         for (std::size_t v = 0; v < split.vertexCount(); ++v) {
             const std::uint32_t corner = split.source_corners[v];
+            if (corner == kNoCorner && pool_.mends_tangents) {
+                frames.tangents.push_back(pool_.kept_tangents[split.source_vertices[v]]);
+                if (generates_bitangents_) {
+                    const Vec3 normal = pool_.normals[split.source_vertices[v]];
+                    frames.bitangents.push_back(bitangentOf(frames.tangents.back(), normal));
+                }
+                continue;
+            }
             if (corner == kNoCorner) {
                 writeUnused(split.source_vertices[v], frames);
                 continue;
@@ -354,6 +383,9 @@ class FrameComputer {
     Buffer<Vec4> tangents_;
     Buffer<Vec3> bitangents_;
     std::vector<std::size_t> corner_counts_;
+    // With mended tangents: whether what targets add is new, per corner, and what computing would change.
+    std::vector<bool> has_new_offsets_;
+    std::uint64_t differing_count_ = 0;
 };
 
 Error checkPool(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,

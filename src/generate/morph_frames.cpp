@@ -82,7 +82,7 @@ bool move(const StridedSpan<const Vec3>& values, const LocalMesh& mesh, const st
 Result<MorphOffsets> readTarget(const PoolView& pool, std::size_t i) {
     Result<MorphOffsets> offsets = pool.targets.read(i);
     if (!offsets) return offsets;
-    for (const std::vector<Vec3>* list : {&offsets->positions, &offsets->normals}) {
+    for (const std::vector<Vec3>* list : {&offsets->positions, &offsets->normals, &offsets->tangents}) {
         if (list->empty() || list->size() == pool.positions.count) continue;
         return Error{ErrorCode::countMismatch, "morph target " + std::to_string(i) + " has " +
                                                    std::to_string(list->size()) + " offsets for " +
@@ -118,7 +118,7 @@ Result<Done> MorphTangents::add(LocalMesh&& mesh, PrimitiveReport& report) {
     return Done{};
 }
 
-Result<Done> MorphTangents::compute(std::span<const Vec4> tangents, MorphSplit& split) {
+Result<Done> MorphTangents::compute(std::span<const Vec4> tangents, MorphSplit& split, const KeptOffsets* kept) {
     std::vector<Vec3> offsets(tangents.size());
     for (std::size_t target = 0; target < pool_.targets.count; ++target) {
         const Result<MorphOffsets> moved = readTarget(pool_, target);
@@ -133,6 +133,11 @@ Result<Done> MorphTangents::compute(std::span<const Vec4> tangents, MorphSplit& 
                 return done;
             }
             first += count;
+        }
+        if (kept != nullptr && !moved->tangents.empty()) {
+            for (std::size_t c = 0; c < offsets.size(); ++c) {
+                if (!kept->is_new[c]) offsets[c] = moved->tangents[kept->vertices[c]];
+            }
         }
         if (Result<Done> done = split.add(offsets, 0, options_.tangents.execution); !done) return done;
     }
@@ -211,6 +216,15 @@ std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec
         const DVec3 a = toDouble(xyz(computed[c])), b = toDouble(xyz(kept));
         const bool same = computed[c].w == kept.w && dot(a, b) >= kCosineOfFiveDegrees * length(a) * length(b);
         count += same ? 0 : 1;
+    }
+    return count;
+}
+
+std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec4> written) {
+    std::uint64_t count = 0;
+    for (std::size_t c = 0; c < computed.size(); ++c) {
+        const DVec3 a = toDouble(xyz(computed[c])), b = toDouble(xyz(written[c]));
+        count += dot(a, b) >= kCosineOfFiveDegrees * length(a) * length(b) ? 0U : 1U;
     }
     return count;
 }

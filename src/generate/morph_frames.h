@@ -34,6 +34,12 @@ class MorphPose {
 /// to - from, without signed zeros; zero where it is not finite.
 Vec3 offsetBetween(const Vec3& from, const Vec3& to);
 
+/// Where tangents are mended: corners whose offsets stay those of the file, in targets that have some.
+struct KeptOffsets {
+    std::span<const std::uint32_t> vertices = {};  ///< of the pool, one per corner
+    const std::vector<bool>& is_new;               ///< one per corner
+};
+
 class MorphTangents {
   public:
     MorphTangents(const PoolView& pool, const GenerateOptions& options) : pool_(pool), options_(options) {}
@@ -42,7 +48,8 @@ class MorphTangents {
     Result<Done> add(LocalMesh&& mesh, PrimitiveReport& report);
 
     /// One target after the other. `tangents`: of the base, one per corner of all primitives. Goes on with the split.
-    Result<Done> compute(std::span<const Vec4> tangents, MorphSplit& split);
+    /// `kept`: null, or where offsets of the file stay.
+    Result<Done> compute(std::span<const Vec4> tangents, MorphSplit& split, const KeptOffsets* kept);
 
   private:
     struct Piece {
@@ -69,5 +76,8 @@ class MorphTangents {
 /// is unit.
 std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec4> of_vertices,
                              std::span<const std::uint32_t> vertices);
+
+/// Corners where the two differ in direction by more than 5 degrees.
+std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec4> written);
 
 }  // namespace tspace

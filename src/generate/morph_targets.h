@@ -14,7 +14,8 @@ namespace tspace {
 /// What one target adds to the vertices of a pool, one entry per vertex. Empty: it does not move this attribute.
 struct MorphOffsets {
     std::vector<Vec3> positions = {};
-    std::vector<Vec3> normals = {};  ///< added, then the sum is made unit; not looked at where normals are generated
+    std::vector<Vec3> tangents = {};  ///< what the file has; looked at only where tangents are mended
+    std::vector<Vec3> normals = {};   ///< added, then the sum is made unit; not looked at where normals are generated
 };
 
 /// The targets of a pool. They are read one by one, because a face has hundreds.

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "generate/mends.h"
 #include "generate/morph_targets.h"
 #include "generate/uv_matrix.h"
 #include "tspace/asset.h"
@@ -20,6 +21,7 @@ struct PrimitiveGeometry {
     std::vector<std::uint32_t> indices = {};     ///< one per corner, into the pool; not empty for a used primitive
     std::vector<std::uint32_t> face_sizes = {};  ///< empty: triangles
     std::vector<std::uint32_t> smoothing_groups = {};  ///< one per face, or empty
+    Mends mends = {};                                  ///< see VertexPool::mends_tangents
 };
 
 /// Vertices shared by one or more primitives (in glTF: the same attribute accessors).
@@ -32,6 +34,9 @@ struct VertexPool {
     /// Not empty: these tangents stay and no vertex is split. Only what morph targets add to them is computed; there
     /// must be normals.
     std::vector<Vec4> kept_tangents = {};
+    /// These tangents stay but at the vertices that each primitive's `mends` names. There vertices are split where
+    /// corners want different tangents, and morph targets get new offsets where tangents are new.
+    bool mends_tangents = false;
 };
 
 /// A pool in memory of somebody else, who must outlive it: a VertexPool, or a file's own bytes.
@@ -44,6 +49,7 @@ struct PoolView {
     /// Tangents that are computed anew, one per vertex, or empty: they may tell on which faces they were made.
     std::span<const Vec4> old_tangents = {};
     bool is_blenders = false;  ///< Blender wrote the file
+    bool mends_tangents = false;
 
     PoolView() = default;
     PoolView(const VertexPool& pool)
@@ -52,7 +58,8 @@ struct PoolView {
           uvs(pool.uvs),
           uv_matrix(pool.uv_matrix),
           targets(pool.targets),
-          kept_tangents(pool.kept_tangents) {}
+          kept_tangents(pool.kept_tangents),
+          mends_tangents(pool.mends_tangents) {}
 };
 
 /// Frames for all primitives of one pool after splitting it.
@@ -65,9 +72,10 @@ struct PoolFrames {
     std::vector<Vec3> bitangents = {};  ///< the same where GenerateOptions::bitangents asks for them, else empty
     /// Per primitive: triangles after cutting n-gons, three new vertices each, in face order.
     std::vector<std::vector<std::uint32_t>> indices = {};
-    /// One per morph target. With kept tangents it is empty where these are not the tangents that would be computed.
+    /// One per morph target. With kept tangents it is empty where these are not the tangents that would be
+    /// computed; with mended ones that holds for the targets that had no tangents.
     std::vector<MorphFrames> morphs = {};
-    /// With kept tangents: corners whose tangent is another than would be computed (by sign, or by over 5 degrees).
+    /// With kept tangents, mended or not: corners whose tangent is another than would be computed (by sign, or by over 5 degrees).
     std::uint64_t differing_count = 0;
 
     [[nodiscard]] bool wasSplit(std::size_t old_vertex_count) const {

@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <functional>
 #include <limits>
 
+#include "core/vec_math.h"
 #include "generate_run.h"
+#include "maps/images.h"
 
 namespace tspace {
 namespace {
@@ -54,6 +58,7 @@ class Model {
         const PrimitiveReport report = repair(harm).primitives.at(0);
         EXPECT_EQ(report.action, PrimitiveAction::replaced);
         ASSERT_EQ(report.notes.size(), 1u);
+        EXPECT_GT(report.mended_vertex_count, 0u);
         EXPECT_EQ(report.notes[0].rfind("its tangents were wrong: ", 0), 0u);
         EXPECT_NE(report.notes[0].find(words), std::string::npos) << report.notes[0];
         EXPECT_EQ(readFile(repaired()), readFile(good()));
@@ -157,6 +162,185 @@ TEST(Repair, JudgesByTheUvsAfterTheTextureTransform) {
     const GenerateOptions ignore = {.existing = ExistingTangents::repair,
                                     .texture_transform = TextureTransform::ignore};
     EXPECT_EQ(model.repair([](std::size_t, Vec4&) {}, ignore).primitives.at(0).action, PrimitiveAction::replaced);
+}
+
+/// Tangents of the model in its GLB, by what is done to them.
+struct Tangents {
+    std::vector<Vec4> before = {}, after = {};
+};
+
+/// Good tangents by Lengyel, which are not the bits that a repair computes; `harm` some, and repair.
+Tangents repairHarmed(const std::function<void(std::size_t, Vec4&)>& harm) {
+    GltfBuilder builder = gridModel(Grid(6, false));
+    // Bent, so that methods differ.
+    auto* positions = reinterpret_cast<float*>(builder.bytes().data());
+    for (std::size_t v = 0; v < 49; ++v) {
+        const auto x = static_cast<float>(v % 7), y = static_cast<float>(v / 7);
+        positions[3 * v + 2] = 0.1f * x * y - 0.05f * x * x;
+    }
+    builder.json()["accessors"][0]["min"] = {0, 0, -2};
+    Model model(builder, Method::area);
+    Tangents result;
+    (void)model.repair([&](std::size_t i, Vec4& t) {
+        harm(i, t);
+        result.before.push_back(t);
+    });
+    const gltf::Document document = gltf::loadDocument(model.repaired(), {});
+    result.after = readTangents(document, readPrimitives(document).at(0));
+    return result;
+}
+
+bool sameBits(const Vec4& a, const Vec4& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+TEST(Repair, MendsWhatIsWrongAndNothingElse) {
+    const auto is_harmed = [](std::size_t i) { return i % 7 == 3; };
+    for (const Vec4& wrong : {Vec4{0, 1, 0, 1}, Vec4{NAN, 0, 0, 1}, Vec4{0, 0, 0, 1}, Vec4{0, 0, 1, 1}}) {
+        const Tangents tangents = repairHarmed([&](std::size_t i, Vec4& t) {
+            if (is_harmed(i)) t = wrong;
+        });
+        ASSERT_EQ(tangents.after.size(), tangents.before.size()) << "no vertex needed two tangents";
+        for (std::size_t i = 0; i < tangents.after.size(); ++i) {
+            EXPECT_NE(sameBits(tangents.after[i], tangents.before[i]), is_harmed(i)) << i;
+        }
+    }
+}
+
+TEST(Repair, TurnsWrongSignsAndKeepsDirections) {
+    for (const std::size_t every : {1, 2, 7}) {
+        const Tangents tangents = repairHarmed([&](std::size_t i, Vec4& t) {
+            if (i % every == 0) t.w = -t.w;
+        });
+        ASSERT_EQ(tangents.after.size(), tangents.before.size());
+        for (std::size_t i = 0; i < tangents.after.size(); ++i) {
+            Vec4 expected = tangents.before[i];
+            if (i % every == 0) expected.w = -expected.w;
+            EXPECT_TRUE(sameBits(tangents.after[i], expected)) << i;
+        }
+    }
+}
+
+TEST(Repair, MakesShortTangentsUnitInTheirDirection) {
+    const Tangents tangents = repairHarmed([](std::size_t i, Vec4& t) {
+        if (i > 20) t = {0.5f * t.x, 0.5f * t.y, 0.5f * t.z, t.w};
+    });
+    for (std::size_t i = 0; i < tangents.after.size(); ++i) {
+        const DVec3 before = toDouble(xyz(tangents.before[i])), after = toDouble(xyz(tangents.after[i]));
+        EXPECT_NEAR(length(after), 1, 1e-6);
+        EXPECT_NEAR(length(after - (i > 20 ? 2.0 : 1.0) * before), 0, 1e-6);
+    }
+}
+
+/// A grid with tangents, its normal map beside it.
+struct MappedModel {
+    TempFolder folder = {};
+    GltfBuilder builder = gridModel(Grid(6, false));
+
+    MappedModel(float sign, const std::string& image) {
+        std::vector<float> tangents;
+        for (std::size_t i = 0; i < 49; ++i) tangents.insert(tangents.end(), {1, 0, 0, sign});
+        firstPrimitive(builder)["attributes"]["TANGENT"] = builder.addFloats(tangents, 4);
+        builder.json()["images"] = Json::parse(R"([{"uri":"normal.png"}])");
+        builder.json()["textures"] = Json::parse(R"([{"source":0}])");
+        if (!image.empty()) folder.write("normal.png", image);
+    }
+
+    /// Whether --repair leaves every byte of it.
+    [[nodiscard]] bool isLeftAlone() const {
+        const std::string input = folder.write("in.glb", builder.glb());
+        const std::string output = folder.path("out.glb").string();
+        const auto report = generateFile(input, output, kRepair);
+        EXPECT_TRUE(report) << report.error().message;
+        return readFile(input) == readFile(output);
+    }
+};
+
+TEST(Repair, LeavesInvertedSignsThatTheNormalMapCancels) {
+    const std::string down = pngFile(normalMapOf(256, bumps, true)), up = pngFile(normalMapOf(256, bumps, false));
+    EXPECT_TRUE(MappedModel(-1, down).isLeftAlone());
+    EXPECT_TRUE(MappedModel(1, down).isLeftAlone());
+    EXPECT_TRUE(MappedModel(1, up).isLeftAlone());
+    EXPECT_FALSE(MappedModel(-1, up).isLeftAlone());
+    MappedModel both(-1, up);
+    both.folder.write("down.png", down);
+    both.builder.json()["images"].push_back(Json{{"uri", "down.png"}});
+    both.builder.json()["textures"].push_back(Json{{"source", 1}});
+    both.builder.json()["materials"][0]["extensions"]["KHR_materials_clearcoat"]["clearcoatNormalTexture"] =
+        Json{{"index", 1}};
+    EXPECT_TRUE(both.isLeftAlone()) << "one of its two maps renders right";
+}
+
+TEST(Repair, LeavesInvertedSignsWhereTheNormalMapCannotBeRead) {
+    for (const char* content : {"", "no image", "\xABKTX 20\xBB"}) {
+        EXPECT_TRUE(MappedModel(-1, content).isLeftAlone()) << content;
+    }
+}
+
+TEST(Repair, MendsWhatNoMapCancelsBesideInvertedSignsThatStay) {
+    MappedModel model(-1, pngFile(normalMapOf(256, bumps, true)));
+    auto* const tangents = reinterpret_cast<float*>(
+        model.builder.bytes().data() + model.builder.json()["bufferViews"][4]["byteOffset"].get<std::size_t>());
+    tangents[4 * 24] = NAN;
+    EXPECT_FALSE(model.isLeftAlone());
+    const gltf::Document document = gltf::loadDocument(model.folder.path("out.glb").string(), {});
+    for (const Vec4& t : readTangents(document, readPrimitives(document).at(0))) EXPECT_EQ(t, (Vec4{1, 0, 0, -1}));
+}
+
+/// One primitive of two over the same vertices has a map that cancels what is an error in the other.
+TEST(Repair, DecidesForEachPrimitiveOverSharedVertices) {
+    MappedModel model(-1, pngFile(normalMapOf(256, bumps, true)));
+    model.builder.json()["materials"].push_back(Json::parse(R"({"normalTexture":{"index":1}})"));
+    model.builder.json()["textures"].push_back(Json::object());
+    Json& primitives = model.builder.json()["meshes"][0]["primitives"];
+    primitives.push_back(Json(primitives[0]));
+    primitives[1]["material"] = model.builder.json()["materials"].size() - 1;
+    EXPECT_FALSE(model.isLeftAlone());
+    const gltf::Document document = gltf::loadDocument(model.folder.path("out.glb").string(), {});
+    const std::vector<gltf::Primitive> after = readPrimitives(document);
+    EXPECT_EQ(readTangents(document, after[0])[0].w, -1);
+    EXPECT_EQ(readTangents(document, after[1])[0].w, 1);
+}
+
+/// A warning of `check`, and what is wrong nowhere.
+TEST(Repair, LeavesWhatIsNoError) {
+    for (const float degrees : {20.0f, 40.0f}) {
+        MappedModel model(1, pngFile(normalMapOf(256, bumps, false)));
+        const float angle = degrees * 3.14159265f / 180;
+        auto* const tangents = reinterpret_cast<float*>(
+            model.builder.bytes().data() + model.builder.json()["bufferViews"][4]["byteOffset"].get<std::size_t>());
+        for (std::size_t v = 0; v < 49; ++v) {
+            tangents[4 * v] = std::cos(angle);
+            tangents[4 * v + 1] = std::sin(angle);
+        }
+        EXPECT_TRUE(model.isLeftAlone());
+    }
+}
+
+/// What a target adds to tangents that stay, stays; what it adds to new ones is new.
+TEST(Repair, KeepsWhatTargetsAddToGoodTangents) {
+    const Grid grid(4, false);
+    GltfBuilder builder = gridModel(grid);
+    std::vector<float> tangents, lift, deltas;
+    for (std::size_t i = 0; i < grid.vertexCount(); ++i) {
+        const bool is_wrong = i == 12;
+        tangents.insert(tangents.end(), {is_wrong ? 0.0f : 1.0f, is_wrong ? 1.0f : 0.0f, 0, 1});
+        lift.insert(lift.end(), {0, 0, grid.positions[i * 3]});
+        deltas.insert(deltas.end(), {-0.25f, 0, 0.75f});
+    }
+    Json& primitive = firstPrimitive(builder);
+    primitive["attributes"]["TANGENT"] = builder.addFloats(tangents, 4);
+    const std::size_t position = builder.addFloats(lift, 3), tangent = builder.addFloats(deltas, 3);
+    primitive["targets"] = Json::array({Json{{"POSITION", position}, {"TANGENT", tangent}}});
+    const TempFolder folder;
+    const std::string output = folder.path("out.glb").string();
+    ASSERT_TRUE(generateFile(folder.write("in.glb", builder.glb()), output, kRepair));
+    const gltf::Document document = gltf::loadDocument(output, {});
+    const gltf::Primitive after = readPrimitives(document).at(0);
+    const std::vector<Vec3> written = readOffsets(document, after, 0, "TANGENT");
+    ASSERT_EQ(written.size(), grid.vertexCount());
+    for (std::size_t v = 0; v < written.size(); ++v) {
+        EXPECT_EQ(written[v] == (Vec3{-0.25f, 0, 0.75f}), v != 12) << v;
+    }
+    EXPECT_EQ(readTangents(document, after)[12], (Vec4{1, 0, 0, 1}));
 }
 
 TEST(Repair, ReplacesTangentsOfAnotherShape) {

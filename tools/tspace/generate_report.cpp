@@ -269,6 +269,7 @@ Json primitiveJson(const PrimitiveReport& primitive) {
         {"triangles", primitive.triangle_count},
         {"verticesBefore", primitive.vertices_before},
         {"verticesAfter", primitive.vertices_after},
+        {"mendedVertices", primitive.mended_vertex_count},
         {"normalsGenerated", primitive.normals_generated},
         {"bitangentsGenerated", primitive.bitangents_generated},
         {"morphTargets", primitive.morph_target_count},

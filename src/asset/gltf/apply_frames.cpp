@@ -90,7 +90,10 @@ class Applier {
         bool changed = false;
         for (std::size_t i = 0; i < elements_.morphs.size(); ++i) {
             if (!movesFrames(first.targets[i])) continue;
-            if (pool_.keeps_tangents && findAttribute(first.targets[i], "TANGENT")) continue;
+            const bool has_tangents = findAttribute(first.targets[i], "TANGENT").has_value();
+            if (pool_.keeps_tangents && has_tangents) continue;
+            // New ones belong to tangents that would be computed.
+            if (pool_.mendsTangents() && elements_.differing_count != 0 && !has_tangents) continue;
             ++computed_targets_;
             const auto target = static_cast<std::ptrdiff_t>(i);
             const auto elementsOf = [&](const VertexOffsets& offsets) {

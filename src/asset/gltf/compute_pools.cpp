@@ -31,13 +31,14 @@ void takeDeltas(const Document& document, const Primitive& first, const MorphOff
 }
 
 /// Targets of a pool are those of each of its primitives. `first` must outlive the result.
-MorphTargets targetsOf(const Document& document, const Primitive& first) {
+MorphTargets targetsOf(const Document& document, const Primitive& first, bool with_tangents) {
     // A target is read once more where normals are made.
     auto is_taken = std::make_shared<std::vector<bool>>(first.targets.size(), false);
-    return {first.targets.size(), [&document, &first, is_taken](std::size_t target) {
+    return {first.targets.size(), [&document, &first, is_taken, with_tangents](std::size_t target) {
                 return atFileBorder([&]() -> Result<MorphOffsets> {
                     MorphOffsets offsets{.positions = readOffsets(document, first, target, "POSITION"),
                                          .normals = readOffsets(document, first, target, "NORMAL")};
+                    if (with_tangents) offsets.tangents = readOffsets(document, first, target, "TANGENT");
                     if (!(*is_taken)[target]) takeDeltas(document, first, offsets);
                     (*is_taken)[target] = true;
                     return offsets;
@@ -59,20 +60,8 @@ void setExecution(GenerateOptions& options, const Execution& execution) {
     options.tangents.execution = options.normals.execution = options.sanitize_options.execution = execution;
 }
 
-}  // namespace
-
-VertexPool readVertices(const Document& document, const Primitive& first, const Pool& pool) {
-    VertexPool vertices;
-    vertices.positions = readVec3(document, first, "POSITION");
-    if (pool.has_normals) vertices.normals = readVec3(document, first, "NORMAL");
-    if (pool.uses_uvs) vertices.uvs = readUvs(document, first, pool.uv_set);
-    vertices.uv_matrix = pool.uv_matrix;
-    return vertices;
-}
-
-namespace {
-
-/// The same, where it can be without copies. `copies` must outlive the result, and get what cannot.
+/// What the tangents of a pool are computed from, without copies where that is possible. `copies` must outlive the
+/// result, and get what cannot be lent. `first`: any primitive of the pool.
 PoolView lendVertices(const Document& document, const Primitive& first, const Pool& pool, VertexPool& copies) {
     const auto vec3 = [&](const char* attribute, std::vector<Vec3>& copy) {
         if (const auto lent = lendVec3(document, first, attribute)) return *lent;
@@ -94,15 +83,17 @@ PoolView lendVertices(const Document& document, const Primitive& first, const Po
     return vertices;
 }
 
-}  // namespace
-
+/// The triangles of each geometry of a pool.
 std::vector<PrimitiveGeometry> readGeometries(const Document& document, std::span<const Primitive> primitives,
                                               const Pool& pool) {
     std::vector<PrimitiveGeometry> geometries;
     for (const PoolGeometry& geometry : pool.geometries)
-        geometries.emplace_back().indices = readTriangleCorners(document, primitives[geometry.primitives[0]]);
+        geometries.push_back(
+            {.indices = readTriangleCorners(document, primitives[geometry.primitives[0]]), .mends = geometry.mends});
     return geometries;
 }
+
+}  // namespace
 
 /// As many arenas as pools are computed at one time.
 class PoolComputer::Arenas {
@@ -137,8 +128,9 @@ PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& executi
     const Primitive& first = primitives_[pool.primitives[0]];
     VertexPool copies;
     PoolView vertices = lendVertices(document_, first, pool, copies);
-    vertices.targets = targetsOf(document_, first);
-    if (pool.keeps_tangents) copies.kept_tangents = readTangents(document_, first);
+    vertices.targets = targetsOf(document_, first, pool.mendsTangents());
+    vertices.mends_tangents = pool.mendsTangents();
+    if (pool.keeps_tangents || pool.mendsTangents()) copies.kept_tangents = readTangents(document_, first);
     vertices.kept_tangents = copies.kept_tangents;
     std::vector<Vec4> old_tangents;
     if (pool.tries_quads && pool.has_tangents && !pool.keeps_tangents) {

@@ -12,13 +12,6 @@
 
 namespace tspace::gltf {
 
-/// What the tangents of a pool are computed from. `first`: any primitive of it.
-VertexPool readVertices(const Document& document, const Primitive& first, const Pool& pool);
-
-/// The triangles of each geometry of a pool.
-std::vector<PrimitiveGeometry> readGeometries(const Document& document, std::span<const Primitive> primitives,
-                                              const Pool& pool);
-
 /// Computes pools of one document, several at the same time. Scratch memory serves one after the other.
 class PoolComputer {
   public:

@@ -65,7 +65,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     std::vector<Primitive> primitives = readPrimitives(document);
     const auto makePlan = [&] {
         GeneratePlan made = planGenerate(document, primitives, options);
-        if (options.existing == ExistingTangents::repair) keepGoodPools(document, primitives, options, made);
+        if (options.existing == ExistingTangents::repair) planRepair(document, primitives, options, made);
         return made;
     };
     GeneratePlan plan = makePlan();

@@ -9,6 +9,7 @@
 
 #include "asset/gltf/document.h"
 #include "asset/gltf/primitive_reader.h"
+#include "generate/mends.h"
 #include "generate/uv_matrix.h"
 #include "tspace/asset.h"
 
@@ -17,6 +18,7 @@ namespace tspace::gltf {
 /// Primitives that draw the same triangles of one pool: computed once.
 struct PoolGeometry {
     std::vector<std::size_t> primitives = {};  ///< numbers into the list of primitives; never empty
+    Mends mends = {};                          ///< where the tangents that are there are wrong
 };
 
 /// Primitives over the same attribute accessors and morph targets whose tangents follow the same UV set, turned the
@@ -35,9 +37,15 @@ struct Pool {
     std::size_t corner_count = 0;
     std::size_t vertex_count = 0;
 
+    /// The tangents that are there stay, but where the geometries say.
+    [[nodiscard]] bool mendsTangents() const {
+        return !geometries.empty() && !geometries.front().mends.vertices.empty();
+    }
+
     /// What computing takes of memory, about. Most is the lists of the corners' neighbours and tangents.
     [[nodiscard]] std::uint64_t workBytes() const {
-        return std::uint64_t{has_normals ? 96U : 128U} * corner_count + std::uint64_t{64} * vertex_count;
+        const std::uint64_t of_corner = (has_normals ? 96U : 128U) + (mendsTangents() ? 24U : 0U);
+        return of_corner * corner_count + std::uint64_t{64} * vertex_count;
     }
 };
 

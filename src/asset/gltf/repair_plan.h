@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ExistingTangents::repair: which pools keep the tangents that they have.
+// ExistingTangents::repair: which tangents stay, and what of the others is mended.
 #pragma once
 
 #include <span>
@@ -8,10 +8,10 @@
 
 namespace tspace::gltf {
 
-/// Takes the pools whose tangents are good out of the plan, and says so in their reports; adds a note to the reports of
-/// those whose tangents are wrong. A pool keeps all its tangents or none, because its vertices are split together.
-/// Pools are judged at the same time. Fails as reading the pools' attributes does.
-void keepGoodPools(const Document& document, std::span<const Primitive> primitives, const GenerateOptions& options,
-                   GeneratePlan& plan);
+/// Judges the tangents that are there as `check` does, normal maps included. Primitives without an error leave the plan,
+/// and their reports say so; what is wrong in the others becomes the mends of their geometries and a note in their
+/// reports. Fails as reading the primitives' attributes does.
+void planRepair(const Document& document, std::span<const Primitive> primitives, const GenerateOptions& options,
+                GeneratePlan& plan);
 
 }  // namespace tspace::gltf
