@@ -64,6 +64,7 @@ Arguments parseArguments(int argc, char** argv) {
     if (command->name == "check") return std::move(all.check);
     if (command->name == "diff") return std::move(all.diff);
     if (command->name == "identify") return std::move(all.identify);
+    if (command->name == "flip-green") return std::move(all.flip_green);
     return runHelp(tool, all.help_topic);
 }
 

@@ -11,6 +11,7 @@
 #include "tspace/check.h"
 #include "tspace/diff.h"
 #include "tspace/identify.h"
+#include "tspace/maps.h"
 
 namespace tspace::tool {
 
@@ -86,9 +87,18 @@ struct IdentifyArguments {
     bool quiet = false;
 };
 
+struct FlipGreenArguments {
+    std::string input = {};
+    std::string output = {};  ///< the input, where it is written over
+    bool in_place = false;
+    FileOptions file = {};
+    bool json = false;
+    bool quiet = false;
+};
+
 /// Nothing to run: help was printed, or the command line is wrong and the error line was printed.
-using Arguments =
-    std::variant<ExitCode, GenerateArguments, InspectArguments, CheckArguments, DiffArguments, IdentifyArguments>;
+using Arguments = std::variant<ExitCode, GenerateArguments, InspectArguments, CheckArguments, DiffArguments,
+                               IdentifyArguments, FlipGreenArguments>;
 
 Arguments parseArguments(int argc, char** argv);
 

@@ -11,5 +11,6 @@ ExitCode runDiff(const DiffArguments& arguments);
 ExitCode runIdentify(const IdentifyArguments& arguments);
 ExitCode runInspect(const InspectArguments& arguments);
 ExitCode runCheck(const CheckArguments& arguments);
+ExitCode runFlipGreen(const FlipGreenArguments& arguments);
 
 }  // namespace tspace::tool

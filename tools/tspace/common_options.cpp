@@ -110,7 +110,7 @@ void addThreads(Command& command, Execution& execution, std::string help) {
     command.add(kRunning, number("--threads", execution.thread_count, kMostThreads, std::move(help)));
 }
 
-void addLimits(Command& command, FileOptions& file) {
+void addMemoryLimit(Command& command, FileOptions& file) {
     const auto take = [&file](const std::string& text) -> std::string {
         return parseMemory(text, file.memory_limit_bytes) ? "" : "must be a number with M or G, 64M or more, or none";
     };
@@ -119,6 +119,10 @@ void addLimits(Command& command, FileOptions& file) {
                                  "more), or none. What it would take is estimated first, and more is refused. Default: "
                                  "64M, and 16 times the bytes of the file and of those it names, so that a small file "
                                  "that claims to be huge does no harm."));
+}
+
+void addLimits(Command& command, FileOptions& file) {
+    addMemoryLimit(command, file);
     constexpr unsigned kMostSeconds = 1000000;
     command.add(kRunning, number("--import-seconds", file.import_max_seconds, kMostSeconds,
                                  "Time for reading one file of another format (FBX, PLY, DAE, ...); 0: 2 seconds of "

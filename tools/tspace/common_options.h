@@ -33,6 +33,8 @@ void addBatch(Command& command, BatchArguments& batch, bool with_manifest);
 void addReporting(Command& command, bool& json, bool& quiet);
 void addAllowExternal(Command& command, FileOptions& file);
 void addThreads(Command& command, Execution& execution, std::string help);
+/// Only the first of the limits: for what needs no importer.
+void addMemoryLimit(Command& command, FileOptions& file);
 void addLimits(Command& command, FileOptions& file);
 Option helpOption();
 

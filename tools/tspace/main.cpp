@@ -43,6 +43,7 @@ ExitCode run(int argc, char** argv) {
     if (const auto* identify = std::get_if<IdentifyArguments>(&arguments)) return runIdentify(*identify);
     if (const auto* inspect = std::get_if<InspectArguments>(&arguments)) return runInspect(*inspect);
     if (const auto* check = std::get_if<CheckArguments>(&arguments)) return runCheck(*check);
+    if (const auto* flip = std::get_if<FlipGreenArguments>(&arguments)) return runFlipGreen(*flip);
     return std::get<ExitCode>(arguments);
 }
 

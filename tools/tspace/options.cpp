@@ -96,7 +96,7 @@ ToolTable toolTable(AllArguments& arguments) {
     ToolTable tool;
     tool.commands = {generateCommand(arguments.generate), diffCommand(arguments.diff),
                      identifyCommand(arguments.identify), inspectCommand(arguments.inspect),
-                     checkCommand(arguments.check)};
+                     checkCommand(arguments.check),       flipGreenCommand(arguments.flip_green)};
     tool.commands.push_back(helpCommand(arguments.help_topic, tool.commands));
     Option help = helpOption();
     help.group = "Options";

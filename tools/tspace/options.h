@@ -15,6 +15,7 @@ struct AllArguments {
     CheckArguments check = {};
     DiffArguments diff = {};
     IdentifyArguments identify = {};
+    FlipGreenArguments flip_green = {};
     std::string help_topic = {};  ///< of `tspace help`
 };
 
@@ -23,6 +24,7 @@ Command inspectCommand(InspectArguments& arguments);
 Command checkCommand(CheckArguments& arguments);
 Command diffCommand(DiffArguments& arguments);
 Command identifyCommand(IdentifyArguments& arguments);
+Command flipGreenCommand(FlipGreenArguments& arguments);
 
 /// All commands, in the order in which help lists them.
 ToolTable toolTable(AllArguments& arguments);

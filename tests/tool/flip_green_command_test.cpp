@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// tspace flip-green.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "maps/images.h"
+#include "run_tool.h"
+
+namespace tspace::test {
+namespace {
+
+std::vector<std::uint8_t> pixelsOf(const std::string& file) {
+    std::string why;
+    const std::optional<RgbImage> image = decodeImage(bytesOf(file), 1 << 22, why);
+    return image ? image->rgb : std::vector<std::uint8_t>{};
+}
+
+std::vector<std::uint8_t> invertedGreen(std::vector<std::uint8_t> pixels) {
+    for (std::size_t i = 1; i < pixels.size(); i += 3) pixels[i] ^= 0xff;
+    return pixels;
+}
+
+TEST(FlipGreenCommand, InvertsAnImage) {
+    const TempFolder folder;
+    const RgbImage map = normalMapOf(16, bumps);
+    folder.write("n.png", pngFile(map));
+    const ToolRun run = runTool(folder, "flip-green n.png -o out/gl.png");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("n.png -> out/gl.png"), std::string::npos);
+    EXPECT_NE(run.out.find("PNG, 16 x 16, 8 bits"), std::string::npos) << run.out;
+    EXPECT_EQ(pixelsOf(folder.read("out/gl.png")), invertedGreen(map.rgb));
+    EXPECT_EQ(runTool(folder, "flip-green --quiet --in-place out/gl.png").out, "");
+    EXPECT_EQ(pixelsOf(folder.read("out/gl.png")), map.rgb);
+}
+
+TEST(FlipGreenCommand, WarnsThatAJpegIsCompressedOnceMore) {
+    const TempFolder folder;
+    folder.write("n.jpg", jpegFile(normalMapOf(16, bumps), 90));
+    EXPECT_NE(runTool(folder, "flip-green n.jpg -o b.jpg").out.find("warning"), std::string::npos);
+    EXPECT_EQ(runTool(folder, "flip-green n.jpg -o b.png").out.find("warning"), std::string::npos);
+}
+
+TEST(FlipGreenCommand, PrintsJson) {
+    const TempFolder folder;
+    folder.write("n.png", pngFile(normalMapOf(16, bumps)));
+    const auto json = nlohmann::json::parse(runTool(folder, "flip-green --json n.png -o b.png").out);
+    EXPECT_EQ(json["schema"], "tspace.flip-green/1");
+    EXPECT_EQ(json["exact"], true);
+    EXPECT_EQ(json["bits"], 8);
+    const auto failed = nlohmann::json::parse(runTool(folder, "flip-green --json none.png -o b.png").out);
+    EXPECT_EQ(failed["error"]["code"], "cannotRead");
+    EXPECT_EQ(failed["exitCode"], 4);
+}
+
+TEST(FlipGreenCommand, RefusesWithOneLineAndWritesNothing) {
+    const TempFolder folder;
+    const std::string png = pngFile(normalMapOf(16, bumps));
+    folder.write("n.png", png);
+    folder.write("broken.png", png.substr(0, png.size() / 2));
+    folder.write("text.png", "not an image");
+    const std::set<std::string> before = folder.files();
+    const std::pair<const char*, int> cases[] = {
+        {"flip-green n.png", 2},
+        {"flip-green n.png -o n.png", 2},
+        {"flip-green n.png -o ./n.png", 2},
+        {"flip-green n.png --in-place -o b.png", 2},
+        {"flip-green n.png -o b.jpg", 3},
+        {"flip-green n.png -o b.tga", 3},
+        {"flip-green broken.png -o b.png", 3},
+        {"flip-green broken.png --in-place", 3},
+        {"flip-green text.png -o b.png", 3},
+        {"flip-green none.png -o b.png", 4},
+        {"flip-green n.png -o n.png/b.png", 4},
+    };
+    for (const auto& [arguments, exit_code] : cases) {
+        const ToolRun run = runTool(folder, arguments);
+        EXPECT_EQ(run.exit_code, exit_code) << arguments << ": " << run.err;
+        EXPECT_EQ(run.errorLines(), 1) << arguments << ": " << run.err;
+        EXPECT_EQ(run.out, "") << arguments;
+    }
+    EXPECT_EQ(folder.files(), before);
+    EXPECT_EQ(folder.read("n.png"), png);
+}
+
+}  // namespace
+}  // namespace tspace::test

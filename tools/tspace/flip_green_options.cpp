@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The options of tspace flip-green.
+#include "common_options.h"
+#include "options.h"
+
+namespace tspace::tool {
+namespace {
+
+std::string finish(FlipGreenArguments& arguments) {
+    if (arguments.input == "-" || arguments.output == "-") return "an image needs a file name, not '-'";
+    if (arguments.output.empty() && !arguments.in_place) return "say where to write: -o OUT, or --in-place";
+    if (arguments.in_place) arguments.output = arguments.input;
+    return {};
+}
+
+}  // namespace
+
+Command flipGreenCommand(FlipGreenArguments& arguments) {
+    Command command{
+        .name = "flip-green",
+        .summary = "invert the green channel of a normal map",
+        .operands = "IN -o OUT",
+        .description =
+            "Makes a normal map for OpenGL and glTF, where green points up, of one for DirectX, where it points down; "
+            "and back. Every texel gets exactly 255 - G, with 16 bits 65535 - G; all other channels, bits, palettes "
+            "and chunks stay. A JPEG is compressed once more, unless the output is a PNG.",
+        .examples = {"tspace flip-green normal.png -o normal-gl.png", "tspace flip-green --in-place normal.png",
+                     "tspace flip-green normal.jpg -o normal-gl.png"},
+        .finish = [&arguments](const Given&) { return finish(arguments); },
+    };
+    const char* group = kInputAndOutput;
+    command.add(group, operand("IN", arguments.input, "An image: PNG, JPEG or WebP."));
+    command
+        .add(group, text("-o, --output", "OUT", arguments.output,
+                         "Where to write: a file that ends in .png, .jpg, .jpeg or .webp. The format is that of the "
+                         "input, or PNG."))
+        .is_file = true;
+    Option& in_place =
+        command.add(group, flag("--in-place", arguments.in_place,
+                                "Write over the input, once the result is complete. Without this, an output that "
+                                "is the input is refused."));
+    in_place.excludes = {"--output"};
+    addMemoryLimit(command, arguments.file);
+    addReporting(command, arguments.json, arguments.quiet);
+    return command;
+}
+
+}  // namespace tspace::tool
