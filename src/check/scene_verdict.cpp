@@ -86,7 +86,7 @@ SharedFaults keptFaults(const std::vector<std::uint32_t>& faults, const ScenePri
 
 std::vector<Judged> judgeAll(const Scene& scene, const Work& work, const CheckOptions& options, bool with_faults) {
     std::vector<Judged> results(work.primitives.size());
-    const bool is_gltf = scene.format != "obj";
+    const bool is_gltf = scene.format == "glb" || scene.format == "gltf";
     const auto primitiveAt = [&](std::size_t i) -> const ScenePrimitive& {
         return scene.primitives[work.primitives[i]];
     };

@@ -65,6 +65,9 @@ void findUndecided(const TangentView& mesh, const Surface& surface, const SignAr
         wrong[patches.of(v)] += is_positive ? areas.minus[v] : areas.plus[v];
     }
     for (const std::uint32_t vertex : mesh.corners) {
+        const float fits = mesh.tangents[vertex].w > 0 ? areas.plus[vertex] : areas.minus[vertex];
+        const float other = mesh.tangents[vertex].w > 0 ? areas.minus[vertex] : areas.plus[vertex];
+        if (fits > 0 && other == 0) continue;  // its own triangles say that it is right
         const std::uint32_t patch = patches.of(vertex);
         if (wrong[patch] >= right[patch]) health.addFaults(vertex, kUndecidedSign, right.size());
     }

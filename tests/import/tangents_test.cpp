@@ -9,6 +9,7 @@
 
 #include "asset/scene.h"
 #include "support/temp_folder.h"
+#include "tool/run_tool.h"
 #include "tspace/asset.h"
 #include "tspace/check.h"
 #include "tspace/identify.h"
@@ -59,6 +60,7 @@ std::string writeSquares(const TempFolder& folder, const Stored& stored) {
         " ReferenceInformationType: \"IndexToDirect\"\n Materials: *1 {\n a: 0\n }\n}\n";
     kinds.emplace_back("Material");
     layers += "Layer: 0 {\n Version: 100\n";
+    writeBumpMap(folder);
     for (const std::string& kind : kinds)
         layers += " LayerElement:  {\n Type: \"LayerElement" + kind + "\"\n TypedIndex: 0\n }\n";
     layers += "}\n";

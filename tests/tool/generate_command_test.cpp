@@ -60,7 +60,7 @@ TEST(Generate, HintsAtAllWhenNothingNeedsTangents) {
 TEST(Generate, RepairKeepsWhatItMadeItself) {
     const TempFolder folder;
     writeFoldedObj(folder, "folded.obj");
-    folder.write("bump.png", "\x89PNG\r\n\x1a\n");
+    writeBumpMap(folder);
     ASSERT_EQ(runTool(folder, "generate folded.obj -o a.glb").exit_code, 0);
     const ToolRun run = runTool(folder, "generate a.glb -o b.glb --repair");
     EXPECT_EQ(run.exit_code, 0) << run.err;

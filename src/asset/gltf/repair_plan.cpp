@@ -58,6 +58,8 @@ Verdict verdictOf(const PrimitiveJudgement& judgement) {
         const bool is_inverted = finding.code == FindingCode::signsInverted;
         rules.emplace_back(is_inverted ? faultBit(FindingCode::signsWrong) | kUndecidedSign : faultBit(finding.code),
                            parts);
+        // Where signs are turned no seam between them may be left, however short.
+        if (is_inverted) rules.emplace_back(faultBit(FindingCode::mirroredSeamAveraged), mend::kSides);
         verdict.why += (verdict.why.empty() ? "" : "; and ") + finding.message;
     }
     if (rules.empty() || !judgement.faults) return {};
