@@ -126,7 +126,8 @@ class Maps {
     Maps(const ImageFindings& images, const CheckOptions& options)
         : images_(images),
           other_way_(options.convention.green == Green::down ? GreenSide::up : GreenSide::down),
-          any_cancels_(std::count(images.image_green.begin(), images.image_green.end(), other_way_) != 0) {}
+          any_cancels_(std::count(images.image_green.begin(), images.image_green.end(), other_way_) != 0),
+          is_asked_for_(signFactor(options.convention) != signFactor(conventions::gltf)) {}
 
     /// `number`: of the primitive in the scene.
     [[nodiscard]] MapsSay say(const ScenePrimitive& primitive, std::size_t number) const {
@@ -137,8 +138,9 @@ class Maps {
             const GreenSide green =
                 is_first ? at(images_.primitive_green, number) : at(images_.image_green, *use.image);
             if (green == other_way_) return MapsSay::cancel;
-            // A map that says nothing goes with the others of its file.
-            const bool is_open = green == GreenSide::unread || green == GreenSide::mixed ||
+            // A map that says nothing goes with the others of its file. Who names a convention other than the format's
+            // says which signs are right, also for maps that nobody can read.
+            const bool is_open = (green == GreenSide::unread && !is_asked_for_) || green == GreenSide::mixed ||
                                  (green == GreenSide::unknown && any_cancels_);
             if (is_open) result = MapsSay::open;
         }
@@ -154,6 +156,7 @@ class Maps {
     const ImageFindings& images_;
     GreenSide other_way_;
     bool any_cancels_;
+    bool is_asked_for_;
 };
 
 void soften(Finding& finding, const std::string& why) {

@@ -235,6 +235,15 @@ TEST(CheckFile, LeavesOpenWhatAMapThatItCannotReadWouldCancel) {
     EXPECT_EQ(codes(TestModel(false, true).check({.images = false})), Codes{"warning signsInverted"});
 }
 
+/// Who names another convention says which signs are right.
+TEST(CheckFile, LeavesNothingOpenWhereAnotherConventionIsAskedFor) {
+    TestModel model;
+    model.folder.write("normal.png", "no image");
+    EXPECT_EQ(codes(model.check({.convention = conventions::opengl})),
+              (Codes{"error signsInverted", "note normalMapUnreadable"}));
+    EXPECT_EQ(codes(model.check()), Codes{"note normalMapUnreadable"});
+}
+
 TEST(CheckFile, WeighsEveryNormalMapOfAPrimitive) {
     TestModel model(false, true);
     model.folder.write("down.png", pngFile(normalMapOf(256, bumps, true)));
