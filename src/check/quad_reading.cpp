@@ -69,11 +69,7 @@ Result<std::optional<QuadReading>> findQuads(const TangentView& mesh, const Surf
     std::vector<std::uint8_t> votes;
     votes.reserve(surface.faces.size());
     for (const FaceFrame& face : surface.faces) votes.push_back(face.orientation != 0 ? 1 : 0);
-    StoredTangents stored{.tangents = mesh.tangents, .votes = votes};
-    stored.triangles.positions = mesh.positions;
-    stored.triangles.normals = mesh.normals;
-    stored.triangles.uvs = mesh.uvs;
-    stored.triangles.indices = mesh.corners;
+    const StoredTangents stored{.triangles = mesh.triangles(), .tangents = mesh.tangents, .votes = votes};
     const Result<QuadFaces> faces = chooseFaces(stored, false, options.faces, {.thread_count = 1});
     if (!faces) return faces.error();
     if (faces->quad_count == 0) return none;

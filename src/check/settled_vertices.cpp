@@ -15,11 +15,7 @@ constexpr double kSameDeg = 1;
 
 /// One per corner, mended as `generate` does.
 Result<std::vector<Vec4>> expectedTangents(const TangentView& mesh, Method method, const Convention& convention) {
-    MeshView view;
-    view.positions = mesh.positions;
-    view.normals = mesh.normals;
-    view.uvs = mesh.uvs;
-    view.indices = mesh.corners;
+    const MeshView view = mesh.triangles();
     std::vector<Vec4> tangents(mesh.corners.size());
     TangentOptions options{.method = method, .convention = convention};
     options.execution.thread_count = 1;

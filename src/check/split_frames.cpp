@@ -41,11 +41,7 @@ bool isSound(const Vec4& tangent) {
 }
 
 Result<std::vector<Vec4>> referenceTangents(const TangentView& mesh) {
-    MeshView view;
-    view.positions = mesh.positions;
-    view.normals = mesh.normals;
-    view.uvs = mesh.uvs;
-    view.indices = mesh.corners;
+    const MeshView view = mesh.triangles();
     std::vector<Vec4> tangents(mesh.corners.size());
     TangentOptions options{.pairing = Pairing::corrected};
     options.execution.thread_count = 1;

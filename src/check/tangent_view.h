@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "tspace/mesh.h"
 #include "tspace/vec.h"
 
 namespace tspace {
@@ -16,6 +17,16 @@ struct TangentView {
     std::span<const Vec4> tangents = {};          ///< w: the sign
     std::span<const Vec2> uvs = {};               ///< those that the texture is read with (after its transform)
     std::span<const std::uint32_t> corners = {};  ///< three per triangle, all smaller than positions.size()
+
+    /// Its triangles, as the core takes them.
+    [[nodiscard]] MeshView triangles() const {
+        MeshView view;
+        view.positions = positions;
+        view.normals = normals;
+        view.uvs = uvs;
+        view.indices = corners;
+        return view;
+    }
 };
 
 }  // namespace tspace

@@ -66,23 +66,11 @@ TEST(BashCompletion, OffersFilesWhereFilesAreMeant) {
     }
 }
 
-/// Names in --help of a command.
-std::set<std::string> optionsOf(const std::string& command) {
-    std::set<std::string> names;
-    std::istringstream lines(runTool(TempFolder(), command + " --help").out);
-    for (std::string line; std::getline(lines, line);) {
-        const std::size_t begin = line.find("--");
-        if (line.rfind("  -", 0) == 0 && begin != std::string::npos)
-            names.insert(line.substr(begin, line.find(' ', begin) - begin));
-    }
-    return names;
-}
-
 TEST(Completions, KnowEveryOptionOfHelp) {
     const TempFolder folder;
     const std::string zsh = outputOf(folder, "cat " + kZsh).second, fish = outputOf(folder, "cat " + kFish).second;
     for (const std::string command : {"generate", "inspect", "check", "diff", "identify", "help"}) {
-        const auto names = optionsOf(command);
+        const auto names = optionsInHelp(command);
         ASSERT_FALSE(names.empty()) << command;
         const auto in_bash = offered(folder, "tspace " + command + " --");
         for (const std::string& name : names) {
@@ -122,7 +110,7 @@ TEST(ManPages, AreReadWithoutAWarning) {
     }
     const std::string text =
         outputOf(folder, "groff -man -Tascii -P-c " + kPages + "/man/man1/tspace-generate.1 | sed 's/.\x08//g'").second;
-    for (const std::string& name : optionsOf("generate")) EXPECT_NE(text.find(name), std::string::npos) << name;
+    for (const std::string& name : optionsInHelp("generate")) EXPECT_NE(text.find(name), std::string::npos) << name;
     for (const char* part : {"SYNOPSIS", "tspace generate", "EXIT STATUS", "SEE ALSO", "tspace-check(1)"})
         EXPECT_NE(text.find(part), std::string::npos) << part;
 }

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <set>
+#include <sstream>
 #include <string>
 
 #include "support/temp_folder.h"
@@ -28,6 +30,18 @@ inline ToolRun runTool(const TempFolder& folder, const std::string& arguments, c
                                 (output.path() / "err").string() + "'";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), output.read("out"), output.read("err")};
+}
+
+/// The options that the help of a command names, without their values.
+inline std::set<std::string> optionsInHelp(const std::string& command) {
+    std::set<std::string> names;
+    std::istringstream lines(runTool(TempFolder(), command + " --help").out);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t begin = line.find("--");
+        if (line.rfind("  -", 0) == 0 && begin != std::string::npos)
+            names.insert(line.substr(begin, line.find(' ', begin) - begin));
+    }
+    return names;
 }
 
 /// One pixel of a flat normal map.

@@ -180,18 +180,6 @@ TEST(Usage, TheHelpCommandPrintsWhatTheHelpOptionPrints) {
     EXPECT_EQ(runTool(folder, "help nonsense").exit_code, 2);
 }
 
-/// The options that the help of a command names, without their values.
-std::set<std::string> optionsInHelp(const std::string& command) {
-    std::set<std::string> names;
-    std::istringstream lines(runTool(TempFolder(), command + " --help").out);
-    for (std::string line; std::getline(lines, line);) {
-        const std::size_t begin = line.find("--");
-        if (line.rfind("  -", 0) == 0 && begin != std::string::npos)
-            names.insert(line.substr(begin, line.find(' ', begin) - begin));
-    }
-    return names;
-}
-
 TEST(Usage, TheDocumentationNamesEveryOption) {
     std::string pages;
     for (const char* page : {"tool.md", "batch.md", "check.md", "diff.md", "identify.md"}) {
