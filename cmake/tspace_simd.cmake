@@ -29,24 +29,27 @@ function(tspace_simd_flags sources)
     if(ARGC GREATER 1)
         set(scope TARGET_DIRECTORY ${ARGV1})
     endif()
-    set(avx512 -mavx512f -mavx512dq)
+    set(options_avx2 -mavx2)
+    set(options_avx512 -mavx512f -mavx512dq)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-        list(APPEND avx512 -Wno-uninitialized -Wno-maybe-uninitialized)  # GCC 12 warns about its own header
+        list(APPEND options_avx512 -Wno-uninitialized -Wno-maybe-uninitialized)  # GCC 12 warns about its own header
     endif()
     foreach(source ${sources})
-        if(source MATCHES "_avx2\\.cpp$")
-            set_source_files_properties("${source}" ${scope} PROPERTIES COMPILE_OPTIONS "-mavx2")
-        elseif(source MATCHES "_avx512\\.cpp$")
-            set_source_files_properties("${source}" ${scope} PROPERTIES COMPILE_OPTIONS "${avx512}")
+        if(source MATCHES "_(scalar|sse2|avx2|avx512|neon)\\.cpp$")
+            set_source_files_properties("${source}" ${scope} PROPERTIES
+                COMPILE_OPTIONS "${options_${CMAKE_MATCH_1}}" SKIP_UNITY_BUILD_INCLUSION ON)
         endif()
     endforeach()
 endfunction()
 
-# tspace_simd_sources(NAME): adds NAME_scalar.cpp and, where there are others, NAME_sse2.cpp ... of this folder.
+# tspace_simd_sources(NAME): the kernel NAME_kernel.h of this folder, compiled for every CPU, from files that are made here:
+# they include the lanes of their CPU, then the kernel.
 function(tspace_simd_sources name)
-    set(sources "${CMAKE_CURRENT_SOURCE_DIR}/${name}_scalar.cpp")
-    foreach(cpu ${tspace_simd_cpus})
-        list(APPEND sources "${CMAKE_CURRENT_SOURCE_DIR}/${name}_${cpu}.cpp")
+    file(RELATIVE_PATH kernel "${PROJECT_SOURCE_DIR}/src" "${CMAKE_CURRENT_SOURCE_DIR}/${name}_kernel.h")
+    foreach(cpu scalar ${tspace_simd_cpus})
+        set(source "${CMAKE_CURRENT_BINARY_DIR}/${name}_${cpu}.cpp")
+        configure_file("${PROJECT_SOURCE_DIR}/cmake/kernel.cpp.in" "${source}" @ONLY)
+        list(APPEND sources "${source}")
     endforeach()
     target_sources(tspace PRIVATE ${sources})
     tspace_simd_flags("${sources}" tspace)

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "tspace/execution.h"
+#include "simd/dispatch.h"
 
 namespace tspace::smooth {
 
@@ -42,23 +42,7 @@ struct BestKernel {
     void (*finish_fit)(float* sums, const float* robust, const float* sharp, std::size_t count);
 };
 
-/// See simd/dispatch.h.
-BestKernel bestKernelFor(SimdTarget wish);
-
-namespace scalar {
-BestKernel bestKernel();
-}
-namespace sse2 {
-BestKernel bestKernel();
-}
-namespace avx2 {
-BestKernel bestKernel();
-}
-namespace avx512 {
-BestKernel bestKernel();
-}
-namespace neon {
-BestKernel bestKernel();
-}
+TSPACE_DECLARE_KERNEL(BestKernel bestKernel())
+inline BestKernel bestKernelFor(SimdTarget wish) { return simd::choose(wish, TSPACE_KERNEL_TABLE(bestKernel))(); }
 
 }  // namespace tspace::smooth

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "tspace/execution.h"
+#include "simd/dispatch.h"
 
 namespace tspace::smooth {
 
@@ -45,23 +45,7 @@ struct FaceKernel {
     std::uint64_t (*finish)(double* sums, std::size_t count, double least);
 };
 
-/// See simd/dispatch.h.
-FaceKernel faceKernelFor(SimdTarget wish);
-
-namespace scalar {
-FaceKernel faceKernel();
-}
-namespace sse2 {
-FaceKernel faceKernel();
-}
-namespace avx2 {
-FaceKernel faceKernel();
-}
-namespace avx512 {
-FaceKernel faceKernel();
-}
-namespace neon {
-FaceKernel faceKernel();
-}
+TSPACE_DECLARE_KERNEL(FaceKernel faceKernel())
+inline FaceKernel faceKernelFor(SimdTarget wish) { return simd::choose(wish, TSPACE_KERNEL_TABLE(faceKernel))(); }
 
 }  // namespace tspace::smooth

@@ -1,13 +1,53 @@
 // SPDX-License-Identifier: MIT
-// Which instructions this CPU has.
+// Which instructions this CPU has, and the functions that are compiled for them. A kernel is written once, NAME_kernel.h;
+// cmake/tspace_simd.cmake makes a file of it for each target.
 #pragma once
 
+#include <cstddef>
+
 #include "tspace/execution.h"
+
+/// Declares a function of a kernel in the namespace of each target.
+#define TSPACE_DECLARE_KERNEL(...) \
+    namespace scalar {             \
+    __VA_ARGS__;                   \
+    }                              \
+    namespace sse2 {               \
+    __VA_ARGS__;                   \
+    }                              \
+    namespace avx2 {               \
+    __VA_ARGS__;                   \
+    }                              \
+    namespace avx512 {             \
+    __VA_ARGS__;                   \
+    }                              \
+    namespace neon {               \
+    __VA_ARGS__;                   \
+    }
+
+/// Those functions that this build has, for simd::choose.
+#if defined(TSPACE_SIMD_X86)
+#define TSPACE_KERNEL_TABLE(function) \
+    { scalar::function, sse2::function, avx2::function, avx512::function }
+#elif defined(TSPACE_SIMD_ARM64)
+#define TSPACE_KERNEL_TABLE(function) \
+    { scalar::function, neon::function }
+#else
+#define TSPACE_KERNEL_TABLE(function) \
+    { scalar::function }
+#endif
 
 namespace tspace::simd {
 
 /// The target that runs for a wish: `best`, and the best one of a lower number for those that this CPU or
 /// this build lacks. Never returns `best`. Thread-safe.
 SimdTarget resolve(SimdTarget wish);
+
+/// The function that runs for a wish.
+template <class Function, std::size_t kTargets>
+Function* choose(SimdTarget wish, Function* const (&table)[kTargets]) {
+    const SimdTarget target = resolve(wish);
+    return target == SimdTarget::neon ? table[kTargets - 1] : table[static_cast<std::size_t>(target) - 1];
+}
 
 }  // namespace tspace::simd

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "tspace/execution.h"
+#include "simd/dispatch.h"
 
 namespace tspace::derivatives {
 
@@ -53,23 +53,9 @@ struct DerivativeKernel {
                             std::size_t count);
 };
 
-/// See simd/dispatch.h.
-DerivativeKernel derivativeKernelFor(SimdTarget wish);
-
-namespace scalar {
-DerivativeKernel derivativeKernel();
-}
-namespace sse2 {
-DerivativeKernel derivativeKernel();
-}
-namespace avx2 {
-DerivativeKernel derivativeKernel();
-}
-namespace avx512 {
-DerivativeKernel derivativeKernel();
-}
-namespace neon {
-DerivativeKernel derivativeKernel();
+TSPACE_DECLARE_KERNEL(DerivativeKernel derivativeKernel())
+inline DerivativeKernel derivativeKernelFor(SimdTarget wish) {
+    return simd::choose(wish, TSPACE_KERNEL_TABLE(derivativeKernel))();
 }
 
 }  // namespace tspace::derivatives

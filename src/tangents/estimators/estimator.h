@@ -11,8 +11,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "simd/dispatch.h"
 #include "tangents/vertex_arrays.h"
-#include "tspace/execution.h"
 
 namespace tspace::estimators {
 
@@ -42,28 +42,13 @@ struct Estimator {
 };
 
 /// `tangents_only`: the second row of results is not needed.
-Estimator twoWeightsFor(SimdTarget wish, bool tangents_only);
-Estimator quadraticRecoveryFor(SimdTarget wish);
-
-namespace scalar {
-Estimator twoWeights(bool tangents_only);
-Estimator quadraticRecovery();
-}  // namespace scalar
-namespace sse2 {
-Estimator twoWeights(bool tangents_only);
-Estimator quadraticRecovery();
-}  // namespace sse2
-namespace avx2 {
-Estimator twoWeights(bool tangents_only);
-Estimator quadraticRecovery();
-}  // namespace avx2
-namespace avx512 {
-Estimator twoWeights(bool tangents_only);
-Estimator quadraticRecovery();
-}  // namespace avx512
-namespace neon {
-Estimator twoWeights(bool tangents_only);
-Estimator quadraticRecovery();
-}  // namespace neon
+TSPACE_DECLARE_KERNEL(Estimator twoWeights(bool tangents_only))
+TSPACE_DECLARE_KERNEL(Estimator quadraticRecovery())
+inline Estimator twoWeightsFor(SimdTarget wish, bool tangents_only) {
+    return simd::choose(wish, TSPACE_KERNEL_TABLE(twoWeights))(tangents_only);
+}
+inline Estimator quadraticRecoveryFor(SimdTarget wish) {
+    return simd::choose(wish, TSPACE_KERNEL_TABLE(quadraticRecovery))();
+}
 
 }  // namespace tspace::estimators

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "simd/dispatch.h"
 #include "tangents/vertex_arrays.h"
-#include "tspace/execution.h"
 
 namespace tspace::mikk {
 
@@ -68,26 +68,12 @@ struct CornerTerms {
 
 /// `vertices`: three per triangle; whole groups of 16 triangles are read, so the rest of the last one must
 /// hold valid numbers too. count <= kTermTriangles.
-using CornerTermsFunction = void (*)(const CornerSource& source, const std::uint32_t* vertices, std::size_t count,
-                                     CornerTerms& terms);
+TSPACE_DECLARE_KERNEL(void cornerTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t count,
+                                       CornerTerms& terms))
 
-/// The kernel for a target (see simd/dispatch.h).
-CornerTermsFunction cornerTermsFor(SimdTarget wish);
-
-namespace scalar {
-void cornerTerms(const CornerSource&, const std::uint32_t*, std::size_t, CornerTerms&);
-}
-namespace sse2 {
-void cornerTerms(const CornerSource&, const std::uint32_t*, std::size_t, CornerTerms&);
-}
-namespace avx2 {
-void cornerTerms(const CornerSource&, const std::uint32_t*, std::size_t, CornerTerms&);
-}
-namespace avx512 {
-void cornerTerms(const CornerSource&, const std::uint32_t*, std::size_t, CornerTerms&);
-}
-namespace neon {
-void cornerTerms(const CornerSource&, const std::uint32_t*, std::size_t, CornerTerms&);
+using CornerTermsFunction = decltype(&scalar::cornerTerms);
+inline CornerTermsFunction cornerTermsFor(SimdTarget wish) {
+    return simd::choose(wish, TSPACE_KERNEL_TABLE(cornerTerms));
 }
 
 }  // namespace tspace::mikk

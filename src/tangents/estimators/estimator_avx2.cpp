@@ -1,5 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include "simd/lanes_avx2.h"
-#define TSPACE_LANES avx2
-#include "tangents/estimators/quadratic_recovery_kernel.h"
-#include "tangents/estimators/two_weights_kernel.h"

@@ -1,4 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include "simd/lanes_neon.h"
-#define TSPACE_LANES neon
-#include "tangents/mikktspace/corner_terms_kernel.h"

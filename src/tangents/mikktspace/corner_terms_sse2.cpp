@@ -1,4 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include "simd/lanes_sse2.h"
-#define TSPACE_LANES sse2
-#include "tangents/mikktspace/corner_terms_kernel.h"
