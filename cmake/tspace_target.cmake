@@ -18,6 +18,13 @@ function(tspace_configure_target target)
     endif()
 endfunction()
 
+# Compiles a dozen files as one, where TSPACE_BATCHES asks for it.
+function(tspace_batch_sources target)
+    if(TSPACE_BATCHES)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    endif()
+endfunction()
+
 # The core promises the same bits everywhere: no relaxed arithmetic either. errno of sqrt is never read.
 function(tspace_configure_core target)
     target_compile_options(${target} PRIVATE -fno-fast-math -fno-math-errno -fno-trapping-math)

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "asset/c_file.h"
 #include "asset/file_error.h"
 #include "asset/temporary_name.h"
 #include "core/parallel.h"
@@ -18,10 +19,6 @@ namespace tspace {
 namespace fs = std::filesystem;
 
 namespace {
-
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
 
 [[noreturn]] void failWrite(const fs::path& target, const std::string& why) {
     failFile(ErrorCode::cannotWrite, "cannot write " + pathInQuotes(target) + ": " + why);
@@ -128,7 +125,7 @@ void AtomicOutput::add(const Path& requested_path, std::span<const OutputPiece> 
         if (error) failWrite(target, "cannot make its folder: " + error.message());
     }
     const fs::path temporary = besideName(target, kTemporaryEnding);
-    std::unique_ptr<std::FILE, CloseFile> file(std::fopen(temporary.c_str(), "wb"));
+    CFile file(std::fopen(temporary.c_str(), "wb"));
     if (!file) failWrite(target, std::strerror(errno));
     files_.push_back({temporary, target});
     const Sink to_file = [&file](std::span<const std::uint8_t> part) {

@@ -13,6 +13,7 @@
 #include <memory>
 #include <span>
 
+#include "asset/c_file.h"
 #include "asset/file_error.h"
 #include "core/parallel.h"
 
@@ -21,10 +22,6 @@ namespace tspace {
 namespace fs = std::filesystem;
 
 namespace {
-
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
 
 /// Reads bytes from `begin` on. Returns false when the file has fewer.
 bool readAt(int file, std::size_t begin, std::span<std::uint8_t> to) {
@@ -73,7 +70,7 @@ Bytes readFile(const Path& path, const std::string& place, const Execution& exec
         failFile(code, pathInQuotes(path) + " is not a regular file", place);
     }
     const std::uintmax_t size = fs::file_size(path.string(), error);
-    const std::unique_ptr<std::FILE, CloseFile> file(error ? nullptr : std::fopen(path.string().c_str(), "rb"));
+    const CFile file(error ? nullptr : std::fopen(path.string().c_str(), "rb"));
     if (!file) fail_open(error ? error.message() : std::strerror(errno));
     Bytes bytes(static_cast<std::size_t>(size));
     if (!readSteps(::fileno(file.get()), bytes, execution)) {

@@ -21,7 +21,7 @@ constexpr const char* kLookAtTheMap =
     "every "
     "w and invert the green channel, or leave both as they are.";
 
-constexpr std::string_view kRepair = "--repair", kOverwrite = "--overwrite";
+constexpr std::string_view kRepairOption = "--repair", kOverwriteOption = "--overwrite";
 
 /// What is mended by computing tangents anew.
 bool isOfTangents(FindingCode code) {
@@ -54,11 +54,11 @@ class Advice {
         } else if (is_of_signs && judgement.signs != SignVerdict::plain) {
             finding.remedy = judgement.signs == SignVerdict::cancelled ? kBothOrNeither : kLookAtTheMap;
         } else if (finding.severity == Severity::error) {
-            replaceAll(finding.remedy, kOverwrite, std::string(kRepair));
+            replaceAll(finding.remedy, kOverwriteOption, std::string(kRepairOption));
         } else if (signs_stay_somewhere_) {
             finding.remedy = kOtherTool;
         } else {
-            replaceAll(finding.remedy, kRepair, std::string(kOverwrite));
+            replaceAll(finding.remedy, kRepairOption, std::string(kOverwriteOption));
         }
         addConvention(finding);
     }

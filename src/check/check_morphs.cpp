@@ -88,7 +88,7 @@ void forgetCollapsed(const TangentView& mesh, const Surface& base, const Tangent
     constexpr float kCollapsed = 1e-4f;  // of the area: a hundredth of each side
     std::vector<bool> is_out(equal.class_count, false);
     for (std::size_t f = 0; f < base.faces.size(); ++f) {
-        const FaceFrame &before = base.faces[f], &after = morphed.faces[f];
+        const SurfaceFrame &before = base.faces[f], &after = morphed.faces[f];
         if (before.tangent == Vec3{} && after.tangent == Vec3{}) continue;
         if (after.area >= kCollapsed * before.area && !isThin(mesh, f, before.area) &&
             !isThin(morphed_mesh, f, after.area))

@@ -15,7 +15,7 @@ constexpr double kLeastFacing = -0.1;
 /// From this share of the surface on it is the whole mesh that is inside out.
 constexpr double kMostly = 0.5;
 constexpr double kNearlyAll = 0.95;
-constexpr double kSome = 0.01;
+constexpr double kSomeNormals = 0.01;
 /// Lengths below cannot be told from zero.
 constexpr double kShortest = 1e-6;
 
@@ -61,7 +61,7 @@ void checkWinding(PrimitiveFacts& facts) {
     const TangentView& mesh = facts.mesh;
     Tally against;
     for (std::size_t f = 0; f < facts.surface.faces.size(); ++f) {
-        const FaceFrame& face = facts.surface.faces[f];
+        const SurfaceFrame& face = facts.surface.faces[f];
         if (face.area == 0) continue;
         ++against.total;
         DVec3 mean;
@@ -76,9 +76,9 @@ void checkWinding(PrimitiveFacts& facts) {
     if (against.count == 0) return;
     // Leaves and grass that show both sides often have the normals of the whole tree or ground, on purpose.
     const double mostly = facts.primitive.is_double_sided ? kNearlyAll : kMostly;
-    const Severity severity = against.surface_share >= mostly  ? Severity::error
-                              : against.surface_share >= kSome ? Severity::warning
-                                                               : Severity::note;
+    const Severity severity = against.surface_share >= mostly         ? Severity::error
+                              : against.surface_share >= kSomeNormals ? Severity::warning
+                                                                      : Severity::note;
     facts.add(FindingCode::normalsAgainstWinding, severity, against, "triangles",
               "the normals of " + countText(against, "triangles") + " point to the back (" +
                   shareText(against.surface_share) + " of the surface)");

@@ -31,7 +31,7 @@ void addExplanation(PrimitiveFacts& facts, const FrameHealth& health, const Othe
     for (const std::uint32_t vertex : facts.mesh.corners) facts.faults[vertex] |= faultBit(code);
 }
 
-void checkMissing(PrimitiveFacts& facts) {
+void checkTangentsMissing(PrimitiveFacts& facts) {
     if (facts.primitive.uses.empty()) return;
     Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
     const char* state =
@@ -61,7 +61,7 @@ Result<Done> readOnQuads(PrimitiveFacts& facts, FrameHealth& health) {
 
 Result<Done> checkTangents(PrimitiveFacts& facts) {
     if (facts.mesh.tangents.empty()) {
-        checkMissing(facts);
+        checkTangentsMissing(facts);
         return Done{};
     }
     Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};

@@ -17,7 +17,7 @@ Tally compareReadings(const PrimitiveFacts& facts, const UvReading& reading) {
     const Surface surface = describeSurface(other);
     Tally different;
     for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-        const FaceFrame &a = facts.surface.faces[f], &b = surface.faces[f];
+        const SurfaceFrame &a = facts.surface.faces[f], &b = surface.faces[f];
         if (a.orientation == 0 || b.orientation == 0) continue;
         ++different.total;
         const double angle = angleBetween(toDouble(a.tangent), toDouble(b.tangent)) * 180 / kPi;

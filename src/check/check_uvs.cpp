@@ -11,13 +11,13 @@ namespace tspace {
 namespace {
 
 /// Shares of the surface from which triangles without UV area are more than a few slivers.
-constexpr double kSome = 0.01;
+constexpr double kSomeUvs = 0.01;
 
 bool isFinite(const Vec2& uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); }
 
 std::string setName(std::size_t set) { return "TEXCOORD_" + std::to_string(set); }
 
-void checkMissing(PrimitiveFacts& facts) {
+void checkUvsMissing(PrimitiveFacts& facts) {
     std::set<std::size_t> reported;
     for (const TangentUse& use : facts.primitive.uses) {
         if (!plainReading(facts.primitive, use.uv_set).uvs.empty() || !reported.insert(use.uv_set).second) continue;
@@ -43,14 +43,14 @@ void checkFinite(PrimitiveFacts& facts) {
 void checkDegenerate(PrimitiveFacts& facts) {
     Tally degenerate;
     for (std::size_t f = 0; f < facts.surface.faces.size(); ++f) {
-        const FaceFrame& face = facts.surface.faces[f];
+        const SurfaceFrame& face = facts.surface.faces[f];
         if (face.area == 0) continue;
         ++degenerate.total;
         if (face.orientation == 0) degenerate.add(facts.mesh.corners[3 * f], face.area);
     }
     degenerate.finish(facts.surface.area);
     if (degenerate.count == 0) return;
-    const bool matters = !facts.primitive.uses.empty() && degenerate.surface_share >= kSome;
+    const bool matters = !facts.primitive.uses.empty() && degenerate.surface_share >= kSomeUvs;
     facts.add(FindingCode::uvsDegenerate, matters ? Severity::warning : Severity::note, degenerate, "triangles",
               countText(degenerate, "triangles") + " have no area in " + setName(facts.reading.uv_set) + " (" +
                   shareText(degenerate.surface_share) + " of the surface), so nothing says where their tangents point");
@@ -59,7 +59,7 @@ void checkDegenerate(PrimitiveFacts& facts) {
 }  // namespace
 
 void checkUvs(PrimitiveFacts& facts) {
-    checkMissing(facts);
+    checkUvsMissing(facts);
     // Where nothing follows them, they do not matter.
     if (facts.mesh.uvs.empty() || (facts.primitive.uses.empty() && facts.mesh.tangents.empty())) return;
     checkFinite(facts);

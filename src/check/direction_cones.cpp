@@ -79,7 +79,7 @@ class NearestDirections {
     explicit NearestDirections(const TangentView& mesh)
         : mesh_(mesh), left_(mesh.positions.size(), kNone), right_(mesh.positions.size(), kNone) {}
 
-    void add(std::uint32_t vertex, const FaceFrame& face) {
+    void add(std::uint32_t vertex, const SurfaceFrame& face) {
         DVec3 n = toDouble(mesh_.normals[vertex]);
         DVec3 t = toDouble(xyz(mesh_.tangents[vertex]));
         DVec3 d = toDouble(face.tangent);
@@ -188,7 +188,7 @@ std::vector<DirectionCone> conesOfClasses(const TangentView& mesh, const Surface
     std::vector<Entry> entries;
     for (std::size_t c = 0; c < surface.faces.size() * 3; ++c) {
         const std::uint32_t vertex = mesh.corners[c];
-        const FaceFrame& face = surface.faces[c / 3];
+        const SurfaceFrame& face = surface.faces[c / 3];
         if (class_of_vertex[vertex] == kNoClass) continue;
         bool found = false;
         const double angle = angleInPlane(mesh.normals[vertex], face.tangent, kLeastOfTriangle, found);

@@ -28,7 +28,7 @@ double uvArea(const TangentView& mesh, std::size_t triangle) {
 /// As the reference does: where a quad is folded in the UV map, its larger half decides on which side v lies.
 void giveFacesOneOrientation(const TangentView& mesh, std::span<const std::uint32_t> faces, Surface& surface) {
     for (std::size_t t = 0; t + 1 < faces.size(); ++t) {
-        FaceFrame &first = surface.faces[t], &second = surface.faces[t + 1];
+        SurfaceFrame &first = surface.faces[t], &second = surface.faces[t + 1];
         if (faces[t] != faces[t + 1] || first.orientation * second.orientation != -1) continue;
         if (uvArea(mesh, t) >= uvArea(mesh, t + 1)) {
             second.orientation = first.orientation;
@@ -68,7 +68,7 @@ Result<std::optional<QuadReading>> findQuads(const TangentView& mesh, const Surf
     if (!is_asked || mesh.normals.empty() || mesh.uvs.empty()) return none;
     std::vector<std::uint8_t> votes;
     votes.reserve(surface.faces.size());
-    for (const FaceFrame& face : surface.faces) votes.push_back(face.orientation != 0 ? 1 : 0);
+    for (const SurfaceFrame& face : surface.faces) votes.push_back(face.orientation != 0 ? 1 : 0);
     const StoredTangents stored{.triangles = mesh.triangles(), .tangents = mesh.tangents, .votes = votes};
     const Result<QuadFaces> faces = chooseFaces(stored, false, options.faces, {.thread_count = 1});
     if (!faces) return faces.error();

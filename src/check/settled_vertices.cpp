@@ -11,7 +11,7 @@ namespace tspace {
 namespace {
 
 /// What storing in 8 bits takes, and the welding of equal tangents.
-constexpr double kSameDeg = 1;
+constexpr double kSettledDeg = 1;
 
 /// One per corner, mended as `generate` does.
 Result<std::vector<Vec4>> expectedTangents(const TangentView& mesh, Method method, const Convention& convention) {
@@ -30,7 +30,7 @@ Result<std::vector<Vec4>> expectedTangents(const TangentView& mesh, Method metho
 
 bool isSame(const Vec4& stored, const Vec4& expected, float factor) {
     if (!isFinite(xyz(stored)) || (stored.w * factor > 0) != (expected.w > 0)) return false;
-    return angleBetween(toDouble(xyz(stored)), toDouble(xyz(expected))) * 180 / kPi <= kSameDeg;
+    return angleBetween(toDouble(xyz(stored)), toDouble(xyz(expected))) * 180 / kPi <= kSettledDeg;
 }
 
 /// Settles vertices at all of whose corners with UV area one method gives the stored tangents.

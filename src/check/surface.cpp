@@ -30,14 +30,14 @@ bool isReliable(double determinant, const Vec2& a, const Vec2& b, const Vec2& c)
 
 }  // namespace
 
-bool facesNormal(const FaceFrame& face, const Vec3& normal) {
+bool facesNormal(const SurfaceFrame& face, const Vec3& normal) {
     constexpr double kLeastFacing = 0.05;
     DVec3 n = toDouble(normal);
     return normalize(n) && dot(n, toDouble(face.normal)) >= kLeastFacing;
 }
 
-FaceFrame describeFace(const std::array<Vec3, 3>& positions, const std::array<Vec2, 3>* uvs) {
-    FaceFrame face;
+SurfaceFrame describeFace(const std::array<Vec3, 3>& positions, const std::array<Vec2, 3>* uvs) {
+    SurfaceFrame face;
     const auto& [a, b, c] = positions;
     DVec3 normal = cross(toDouble(b) - toDouble(a), toDouble(c) - toDouble(a));
     const double area = 0.5 * length(normal);

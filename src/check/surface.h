@@ -10,7 +10,7 @@
 
 namespace tspace {
 
-struct FaceFrame {
+struct SurfaceFrame {
     Vec3 normal = {};   ///< unit, by the right-hand rule; zero where the triangle has no area
     Vec3 tangent = {};  ///< unit dP/du; zero where the UVs have no area
     float area = 0;
@@ -20,7 +20,7 @@ struct FaceFrame {
 };
 
 struct Surface {
-    std::vector<FaceFrame> faces = {};      ///< one per triangle
+    std::vector<SurfaceFrame> faces = {};   ///< one per triangle
     std::vector<double> vertex_areas = {};  ///< a third of each triangle around the vertex
     std::vector<double> known_areas = {};   ///< the same of triangles that have an orientation
     double area = 0;
@@ -28,10 +28,10 @@ struct Surface {
 };
 
 /// Triangles that turn their back on N say nothing reliable of signs: methods differ in whether the sign looks at N.
-bool facesNormal(const FaceFrame& face, const Vec3& normal);
+bool facesNormal(const SurfaceFrame& face, const Vec3& normal);
 
 /// One triangle; `uvs`: null where there are none.
-FaceFrame describeFace(const std::array<Vec3, 3>& positions, const std::array<Vec2, 3>* uvs);
+SurfaceFrame describeFace(const std::array<Vec3, 3>& positions, const std::array<Vec2, 3>* uvs);
 
 /// Positions, UVs (empty: no orientation anywhere) and corners of the view are looked at. Triangles that are not finite
 /// have no area. Linear.

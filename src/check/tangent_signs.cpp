@@ -22,7 +22,7 @@ SignAreas sumAreas(const TangentView& mesh, const Surface& surface, const Conven
     const float factor = signFactor(convention);
     SignAreas areas{std::vector<float>(mesh.positions.size(), 0.0f), std::vector<float>(mesh.positions.size(), 0.0f)};
     for (std::size_t c = 0; c < surface.faces.size() * 3; ++c) {
-        const FaceFrame& face = surface.faces[c / 3];
+        const SurfaceFrame& face = surface.faces[c / 3];
         if (face.orientation == 0) continue;
         const std::uint32_t vertex = mesh.corners[c];
         if (!facesNormal(face, mesh.normals[vertex])) continue;

@@ -9,7 +9,7 @@ std::vector<std::uint8_t> uvVotes(const TangentView& mesh) {
     const Surface surface = describeSurface(mesh);
     std::vector<std::uint8_t> votes;
     votes.reserve(surface.faces.size());
-    for (const FaceFrame& face : surface.faces) votes.push_back(face.orientation != 0 ? 1 : 0);
+    for (const SurfaceFrame& face : surface.faces) votes.push_back(face.orientation != 0 ? 1 : 0);
     return votes;
 }
 

@@ -12,11 +12,11 @@ namespace tspace {
 namespace {
 
 /// What `check` allows a direction to be off by: 10 degrees.
-constexpr double kSameDirection = 0.98480775301220802;
+constexpr double kSameTangent = 0.98480775301220802;
 
 bool isNear(const Vec4& a, const Vec4& b) {
     DVec3 ta = toDouble(xyz(a)), tb = toDouble(xyz(b));
-    return normalize(ta) && normalize(tb) && dot(ta, tb) >= kSameDirection;
+    return normalize(ta) && normalize(tb) && dot(ta, tb) >= kSameTangent;
 }
 
 /// Whether the triangle of a corner says which sign is right there.

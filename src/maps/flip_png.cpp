@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // PNG in and out with all of its chunks. libspng unpacks and packs the pixels; chunks are copied as they are.
-#include <spng.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -11,6 +9,7 @@
 #include "asset/file_error.h"
 #include "maps/codecs.h"
 #include "maps/flip_green.h"
+#include "maps/png_context.h"
 
 namespace tspace {
 
@@ -19,11 +18,6 @@ namespace {
 constexpr std::size_t kSignatureBytes = 8;
 /// Colour types of the header.
 constexpr std::uint8_t kPalette = 3, kHasColor = 2, kHasAlpha = 4;
-
-struct FreeContext {
-    void operator()(spng_ctx* context) const { spng_ctx_free(context); }
-};
-using Context = std::unique_ptr<spng_ctx, FreeContext>;
 
 [[noreturn]] void failBroken() { failFile(ErrorCode::invalidFile, "it is a broken PNG"); }
 
@@ -119,9 +113,9 @@ void invertColor(std::span<std::uint8_t> data, std::uint8_t bits) {
     data[kGreenAt + 1] ^= 0xff;
 }
 
-Context decoderOf(ByteSpan bytes) {
+PngContext decoderOf(ByteSpan bytes) {
     constexpr std::size_t kMostChunkBytes = std::size_t{64} << 20;
-    Context decoder(spng_ctx_new(0));
+    PngContext decoder(spng_ctx_new(0));
     if (!decoder) throw OutOfMemory{};
     check(spng_set_chunk_limits(decoder.get(), kMostChunkBytes, kMostChunkBytes));
     check(spng_set_png_buffer(decoder.get(), bytes.data(), bytes.size()));
@@ -159,12 +153,12 @@ class RowPacker {
     }
 
   private:
-    Context encoder_;
+    PngContext encoder_;
 };
 
 /// The pixels once more, green inverted, as a PNG without any other chunk.
 std::vector<std::uint8_t> repack(ByteSpan bytes, const Header& header) {
-    const Context decoder = decoderOf(bytes);
+    const PngContext decoder = decoderOf(bytes);
     spng_ihdr parsed{};
     check(spng_get_ihdr(decoder.get(), &parsed));  // which refuses heads that make no sense
     RowPacker packer(header.width, header.height, header.bits, header.color);
@@ -226,7 +220,7 @@ FlippedPng flipPng(ByteSpan bytes) {
     }
     if (header.color == kPalette) {
         // Its pixels are numbers of colours, and stay. They are unpacked to see whether the file is sound.
-        const Context decoder = decoderOf(bytes);
+        const PngContext decoder = decoderOf(bytes);
         spng_ihdr parsed{};
         check(spng_get_ihdr(decoder.get(), &parsed));
         std::vector<std::uint8_t> row(std::size_t{4} * header.width);

@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: MIT
 // PNG by libspng.
-#include <spng.h>
-
 #include <algorithm>
 #include <memory>
 
 #include "maps/codecs.h"
+#include "maps/png_context.h"
 
 namespace tspace {
-
-namespace {
-
-struct FreeContext {
-    void operator()(spng_ctx* context) const { spng_ctx_free(context); }
-};
-
-}  // namespace
 
 ImageClaim claimOfPng(ByteSpan bytes) {
     constexpr std::size_t kWidthAt = 16, kHeightAt = 20;  // of the header chunk, which is the first
@@ -31,7 +22,7 @@ ImageClaim claimOfPng(ByteSpan bytes) {
 
 std::optional<RgbImage> decodePng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
     constexpr std::size_t kMostChunkBytes = std::size_t{64} << 20;
-    const std::unique_ptr<spng_ctx, FreeContext> context(spng_ctx_new(0));
+    const PngContext context(spng_ctx_new(0));
     spng_ihdr header{};
     why = "it is a broken PNG";
     if (!context || spng_set_chunk_limits(context.get(), kMostChunkBytes, kMostChunkBytes) != 0 ||

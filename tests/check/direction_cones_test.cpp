@@ -79,7 +79,7 @@ TEST(DescribeSurface, SumsAreasToTheWhole) {
     for (const double area : surface.vertex_areas) sum += area;
     EXPECT_NEAR(sum, surface.area, 1e-9);
     EXPECT_GT(surface.area, 1);
-    for (const FaceFrame& face : surface.faces) EXPECT_EQ(face.orientation, -1) << "v runs down";
+    for (const SurfaceFrame& face : surface.faces) EXPECT_EQ(face.orientation, -1) << "v runs down";
 }
 
 }  // namespace

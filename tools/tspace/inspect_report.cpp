@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-std::string joined(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, ", ")); }
+std::string listed(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, ", ")); }
 
 std::string needText(const PrimitiveInfo& primitive) {
     if (!primitive.needs_tangents) {
@@ -79,12 +79,12 @@ std::string fileRows(const Inspection& file) {
     Table table;
     table.addRow({"format", file.generator.empty() ? file.format
                                                    : fmt::format("{}, by {}", file.format, printable(file.generator))});
-    table.addRow({"contents", joined({counted(file.mesh_count, "mesh"), counted(file.material_count, "material"),
+    table.addRow({"contents", listed({counted(file.mesh_count, "mesh"), counted(file.material_count, "material"),
                                       counted(file.node_count, "node"), counted(file.animation_count, "animation"),
                                       counted(file.image_count, "image")})});
-    if (!file.extensions_used.empty()) table.addRow({"extensions", printable(joined(file.extensions_used))});
-    if (!file.variants.empty()) table.addRow({"variants", printable(joined(file.variants))});
-    if (!file.extensions_required.empty()) table.addRow({"required", printable(joined(file.extensions_required))});
+    if (!file.extensions_used.empty()) table.addRow({"extensions", printable(listed(file.extensions_used))});
+    if (!file.variants.empty()) table.addRow({"variants", printable(listed(file.variants))});
+    if (!file.extensions_required.empty()) table.addRow({"required", printable(listed(file.extensions_required))});
     for (const std::string& warning : file.warnings) table.addRow({"warning", printable(warning)});
     return table.text("  ");
 }
@@ -101,7 +101,7 @@ std::string primitiveRows(const PrimitiveInfo& primitive) {
     if (primitive.compression != "none") geometry += ", compressed by " + primitive.compression;
     if (primitive.morph_target_count != 0) geometry += ", " + counted(primitive.morph_target_count, "morph target");
     table.addRow({"geometry", geometry});
-    table.addRow({"attributes", printable(joined(primitive.attributes))});
+    table.addRow({"attributes", printable(listed(primitive.attributes))});
     table.addRow({"tangents", needText(primitive)});
     addUseRows(primitive, table);
     if (primitive.variant_material_count != 0)

@@ -10,7 +10,7 @@
 namespace tspace::obj {
 namespace {
 
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
+bool isDecimal(char c) { return c >= '0' && c <= '9'; }
 
 /// [+-] digits [. digits] [e [+-] digits], with a digit on one side of the point.
 bool isNumber(std::string_view word) {
@@ -18,7 +18,7 @@ bool isNumber(std::string_view word) {
     const auto skipSign = [&] { i += i < word.size() && (word[i] == '+' || word[i] == '-'); };
     const auto skipDigits = [&] {
         const std::size_t begin = i;
-        while (i < word.size() && isDigit(word[i])) ++i;
+        while (i < word.size() && isDecimal(word[i])) ++i;
         return i - begin;
     };
     skipSign();
