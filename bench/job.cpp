@@ -97,11 +97,13 @@ Job lengyelVertexJob(const Mesh& mesh) {
     return job;
 }
 
-Job normalsJob(const Mesh& mesh, NormalWeighting weighting = NormalWeighting::angle) {
+Job normalsJob(const Mesh& mesh, NormalWeighting weighting = NormalWeighting::angle, float crease_deg = 180) {
     auto outputs = std::make_shared<Outputs>();
     outputs->normals.resize(mesh.cornerCount());
-    return {outputs, [&mesh, outputs, weighting](const Execution& execution) {
-                orDie(generateNormals(mesh.view(), {.weighting = weighting, .execution = execution}, outputs->normals));
+    return {outputs, [=, &mesh](const Execution& execution) {
+                orDie(generateNormals(mesh.view(),
+                                      {.weighting = weighting, .crease_angle_deg = crease_deg, .execution = execution},
+                                      outputs->normals));
             }};
 }
 
@@ -152,6 +154,7 @@ std::uint64_t hashOf(const Mesh& mesh) {
 }
 
 Job makeJob(const std::string& name, const Mesh& mesh) {
+    if (name == "normals_crease") return normalsJob(mesh, NormalWeighting::angle, 30);
     if (name == "mikktspace_all") return allFieldsJob(mesh);
     if (name == "mikktspace_corrected") return tangentsJob(mesh, {.pairing = Pairing::corrected});
     if (name == "evaluate") return evaluateJob(mesh);
@@ -167,12 +170,12 @@ Job makeJob(const std::string& name, const Mesh& mesh) {
 }
 
 const std::vector<std::string>& jobNames() {
-    static const std::vector<std::string> names = {"mikktspace",  "mikktspace_all", "mikktspace_corrected",
-                                                   "evaluate",    "uniform",        "angle",
-                                                   "area",        "lengyel",        "lengyel_vertex",
-                                                   "flat",        "basis",          "normals",
-                                                   "split",       "fast",           "best",
-                                                   "normals_best"};
+    static const std::vector<std::string> names = {"mikktspace",   "mikktspace_all", "mikktspace_corrected",
+                                                   "evaluate",     "uniform",        "angle",
+                                                   "area",         "lengyel",        "lengyel_vertex",
+                                                   "flat",         "basis",          "normals",
+                                                   "split",        "fast",           "best",
+                                                   "normals_best", "normals_crease"};
     return names;
 }
 

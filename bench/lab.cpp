@@ -64,6 +64,11 @@ const std::string& Lab::error(const std::string& job, const std::string& mesh_na
     return at->second;
 }
 
+const std::vector<Mesh>& Lab::primitives() {
+    if (primitives_.empty()) primitives_ = modelPrimitives(shared("models"));
+    return primitives_;
+}
+
 void Lab::forgetMeshes() {
     meshes_.clear();
     plain_meshes_.clear();

@@ -76,6 +76,7 @@ std::vector<Row> memoryRows() {
         peak("`mikktspace`, unindexed corners, memory", "mikktspace", "soup", 32),
         peak("`mikktspace`, input already welded (no two vertices are equal), memory", "mikktspace", "grid", 20),
         peak("`evaluate`, memory", "evaluate", "torus", 8),
+        peak("normals with a crease angle, memory", "normals_crease", "torus", 48),
         peak("`lengyel`, memory", "lengyel", "torus", 12),
         secondCallFaults("`mikktspace`, page faults of a second call in an arena", "mikktspace"),
         secondCallFaults("`evaluate`, page faults of a second call in an arena", "evaluate"),

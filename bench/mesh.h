@@ -56,5 +56,7 @@ std::vector<std::string> hardMeshNames();
 /// All triangles of a .glb, .gltf or .obj as one mesh. Polygons of OBJ files stay as they are. Without
 /// triangles where the file cannot be read.
 Mesh modelMesh(const std::string& path);
+/// The triangle primitives with normals and UVs of all .glb and .gltf files in a folder and those below it, by path.
+std::vector<Mesh> modelPrimitives(const std::string& folder);
 
 }  // namespace tspace::bench

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Models as one mesh each, through the readers of the asset layer.
+#include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <tuple>
 
@@ -14,20 +16,31 @@ namespace tspace::bench {
 
 namespace {
 
-Mesh gltfMesh(const std::string& path) {
+std::vector<Mesh> gltfPrimitives(const std::string& path) {
     gltf::Document document = gltf::loadDocument(path, {});
     gltf::checkRequiredExtensions(document);
-    Mesh mesh;
+    std::vector<Mesh> meshes;
     for (const gltf::Primitive& primitive : gltf::readPrimitives(document)) {
         if (!gltf::hasTriangles(primitive.mode) || !primitive.find("NORMAL") || !primitive.find("TEXCOORD_0")) continue;
-        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-        const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-        append(mesh.positions, gltf::readVec3(document, primitive, "POSITION"));
-        append(mesh.normals, gltf::readVec3(document, primitive, "NORMAL"));
-        append(mesh.uvs, gltf::readUvs(document, primitive, 0));
-        for (const std::uint32_t v : gltf::readTriangleCorners(document, primitive)) mesh.indices.push_back(first + v);
+        meshes.push_back({.positions = gltf::readVec3(document, primitive, "POSITION"),
+                          .normals = gltf::readVec3(document, primitive, "NORMAL"),
+                          .uvs = gltf::readUvs(document, primitive, 0),
+                          .indices = gltf::readTriangleCorners(document, primitive)});
     }
-    return mesh;
+    return meshes;
+}
+
+Mesh gltfMesh(const std::string& path) {
+    Mesh whole;
+    for (const Mesh& mesh : gltfPrimitives(path)) {
+        const auto first = static_cast<std::uint32_t>(whole.positions.size());
+        const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+        append(whole.positions, mesh.positions);
+        append(whole.normals, mesh.normals);
+        append(whole.uvs, mesh.uvs);
+        for (const std::uint32_t v : mesh.indices) whole.indices.push_back(first + v);
+    }
+    return whole;
 }
 
 Mesh objMesh(const std::string& path) {
@@ -55,6 +68,25 @@ Mesh modelMesh(const std::string& path) {
     } catch (const FileError&) {
         return {};
     }
+}
+
+std::vector<Mesh> modelPrimitives(const std::string& folder) {
+    std::vector<std::string> paths;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        const auto extension = entry.path().extension();
+        if (extension == ".glb" || extension == ".gltf") paths.push_back(entry.path().string());
+    }
+    std::ranges::sort(paths);
+    std::vector<Mesh> meshes;
+    for (const std::string& path : paths) {
+        try {
+            std::ranges::move(gltfPrimitives(path), std::back_inserter(meshes));
+        } catch (const FileError&) {
+            // Not every file can be read: some are there to be refused.
+        }
+    }
+    std::erase_if(meshes, [](const Mesh& mesh) { return mesh.triangleCount() == 0; });
+    return meshes;
 }
 
 }  // namespace tspace::bench

@@ -60,6 +60,8 @@ class Lab {
     const Mesh& plainMesh(const std::string& name);
     /// findError, once for each job and mesh.
     const std::string& error(const std::string& job, const std::string& mesh);
+    /// Each primitive of the shared models that has normals and UVs, as it is in its file.
+    const std::vector<Mesh>& primitives();
     /// Gives the memory of all meshes back.
     void forgetMeshes();
 
@@ -68,6 +70,7 @@ class Lab {
     int rounds_;
     std::string shared_, tool_;
     std::map<std::string, std::unique_ptr<Mesh>> meshes_, plain_meshes_;
+    std::vector<Mesh> primitives_;
     std::map<std::string, std::string> errors_;
 };
 
@@ -77,6 +80,7 @@ struct Row {
 };
 
 std::vector<Row> speedRows();
+std::vector<Row> manyMeshRows();
 std::vector<Row> fileRows();
 std::vector<Row> memoryRows();
 std::vector<Row> worstCaseRows();

@@ -8,6 +8,7 @@
 #include "race.h"
 #include "rows.h"
 #include "thread_count.h"
+#include "tspace/arena.h"
 
 namespace tspace::bench {
 
@@ -142,6 +143,21 @@ RowResult runGrowth(const std::string& title, Lab& lab) {
     return row;
 }
 
+/// The largest mesh with memory from the system against memory that an arena keeps between calls.
+RowResult runWithoutArena(const std::string& title, Lab& lab) {
+    RowResult row{.title = title};
+    row.note = lab.quick() ? "torus_1M" : "torus_8M";
+    const Mesh& mesh = lab.mesh(row.note);
+    const Job job = makeJob("mikktspace", mesh);
+    Arena arena;
+    Race race;
+    const std::size_t kept = race.add([&] { job.call({.thread_count = 1, .allocator = arena.allocator()}); });
+    const std::size_t fresh = race.add([&] { job.call({.thread_count = 1}); });
+    race.run(std::max(3, lab.rounds() / 2));
+    row.one_thread = cell(race, fresh, kept, mesh.triangleCount(), 1.15, Clock::processor);
+    return row;
+}
+
 }  // namespace
 
 std::vector<Row> speedRows() {
@@ -161,9 +177,12 @@ std::vector<Row> speedRows() {
         contest("`lengyel`, a result per vertex as in the plain loop", {"lengyel_vertex", "torus_SIZE", 0.8, 0.5}),
         contest("`lengyel`, a result per corner", {"lengyel", "torus_SIZE", 0.8, 0.5}),
         contest("normals, angle-weighted", {"normals", "torus_SIZE", 2.0, 1.2}),
+        contest("normals with a crease angle of 30 degrees", {"normals_crease", "torus_SIZE", 6.0, {}}),
     };
     const std::string growth = "8M triangles: `mikktspace` per triangle against its own 1M figure";
     rows.push_back({growth, [=](Lab& lab) { return runGrowth(growth, lab); }});
+    const std::string arena = "8M triangles: without an arena against with one";
+    rows.push_back({arena, [=](Lab& lab) { return runWithoutArena(arena, lab); }});
     rows.push_back(contest("small meshes: 200 triangles, per call", {"mikktspace", "small", 12.0, {}, {}, true}));
     for (const char* name :
          {"cube", "doomcone", "doomcone_smooth", "crangeract", "obliterated", "rancid_geometry", "tangeract"}) {

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// Rows over many meshes at once: real models as they are in their files, tori of all sizes where a rule of the reference may
+// matter, sizes where threads may not pay.
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "job.h"
+#include "plain_loop.h"
+#include "race.h"
+#include "rows.h"
+
+namespace tspace::bench {
+
+namespace {
+
+/// One mesh of a row: two calls in turns.
+struct Pair {
+    double seconds = 0, base_seconds = 0;  ///< of the best round
+    double ratio = 0;                      ///< median over rounds
+    std::size_t triangles = 0;
+};
+
+template <class Call, class Base>
+Pair race(const Mesh& mesh, int rounds, Clock clock, Call&& call, Base&& base) {
+    Race race;
+    const std::size_t b = race.add(base), c = race.add(call);
+    race.run(rounds);
+    return {race.best(c, clock), race.best(b, clock), race.ratio(c, b, clock).median, mesh.triangleCount()};
+}
+
+std::string inWords(double value) {
+    const std::string text = std::to_string(value);
+    return text.substr(0, text.find('.') + 3);
+}
+
+/// The row's value is the worst mesh.
+void summarize(const std::vector<Pair>& pairs, double asked, RowResult& row) {
+    if (pairs.empty()) return void(row.note = "no meshes");
+    const auto worst = std::ranges::max_element(pairs, {}, &Pair::ratio);
+    row.one_thread.value = worst->ratio;
+    row.one_thread.asked = asked;
+    row.note = std::to_string(pairs.size()) + " meshes; worst at " + std::to_string(worst->triangles) + " triangles";
+}
+
+/// The row's value is the sum of times.
+void summarizeTotal(std::vector<Pair> pairs, RowResult& row) {
+    if (pairs.empty()) return void(row.note = "no meshes");
+    double seconds = 0, base_seconds = 0;
+    std::size_t triangles = 0;
+    for (const Pair& pair : pairs) {
+        seconds += pair.seconds;
+        base_seconds += pair.base_seconds;
+        triangles += pair.triangles;
+    }
+    std::ranges::sort(pairs, {}, &Pair::ratio);
+    row.one_thread.value = seconds / base_seconds;
+    row.one_thread.ns = 1e9 * seconds / static_cast<double>(triangles);
+    row.note = std::to_string(pairs.size()) + " primitives, " + std::to_string(triangles) + " triangles; median " +
+               inWords(pairs[pairs.size() / 2].ratio) + ", worst " + inWords(pairs.back().ratio);
+}
+
+Row models(const std::string& title, std::size_t least, std::size_t most) {
+    return {
+        title, [=](Lab& lab) {
+            RowResult row{.title = title};
+            std::vector<Pair> pairs;
+            for (const Mesh& mesh : lab.primitives()) {
+                if (mesh.triangleCount() < least || mesh.triangleCount() > most) continue;
+                const Job job = makeJob("mikktspace", mesh);
+                std::vector<Vec4> tangents(mesh.positions.size());
+                const Execution one{.thread_count = 1};
+                pairs.push_back(race(
+                    mesh, lab.rounds(), Clock::processor, [&] { job.call(one); }, [&] { plainLoop(mesh, tangents); }));
+            }
+            return summarizeTotal(std::move(pairs), row), row;
+        }};
+}
+
+/// Pairing::reference, which asks whether the reference's last bucket matters, against Pairing::corrected.
+Pair racePairings(const Mesh& mesh, int rounds) {
+    const Job reference = makeJob("mikktspace", mesh), corrected = makeJob("mikktspace_corrected", mesh);
+    const Execution one{.thread_count = 1};
+    return race(
+        mesh, rounds, Clock::processor, [&] { reference.call(one); }, [&] { corrected.call(one); });
+}
+
+std::vector<Row> lastBucketRows() {
+    const std::string tori = "`reference` against `corrected` pairing, tori";
+    const std::string primitives = "`reference` against `corrected` pairing, models of 500 triangles and more";
+    return {{tori,
+             [=](Lab& lab) {
+                 RowResult row{.title = tori};
+                 std::vector<Pair> pairs;
+                 for (std::uint32_t rows = 5; rows <= 95; ++rows)
+                     pairs.push_back(racePairings(torus(2 * rows, rows, std::max(1u, rows / 5)), lab.rounds()));
+                 return summarize(pairs, 1.3, row), row;
+             }},
+            {primitives, [=](Lab& lab) {
+                 RowResult row{.title = primitives};
+                 std::vector<Pair> pairs;
+                 for (const Mesh& mesh : lab.primitives())
+                     if (mesh.triangleCount() >= 500) pairs.push_back(racePairings(mesh, lab.rounds()));
+                 return summarize(pairs, 1.3, row), row;
+             }}};
+}
+
+/// Tori of some sizes: `threads` (0: as many as there are) against one.
+Row threads(const std::string& title, unsigned thread_count, std::vector<std::size_t> sizes) {
+    return {title, [=](Lab& lab) {
+                RowResult row{.title = title};
+                std::vector<Pair> pairs;
+                for (const std::size_t size : sizes) {
+                    const Mesh mesh = torusOf(size);
+                    const Job job = makeJob("mikktspace", mesh);
+                    pairs.push_back(race(
+                        mesh, lab.rounds(), Clock::wall, [&] { job.call({.thread_count = thread_count}); },
+                        [&] { job.call({.thread_count = 1}); }));
+                }
+                return summarize(pairs, 1.05, row), row;
+            }};
+}
+
+Row smallCall(const std::string& title) {
+    return {title, [=](Lab& lab) {
+                RowResult row{.title = title, .unit = " us"};
+                const Mesh mesh = torus(3, 2, 1);
+                const Job job = makeJob("mikktspace", mesh);
+                Race race;
+                const std::size_t call = race.add([&] { job.call({.thread_count = 1}); });
+                race.run(lab.rounds());
+                row.one_thread.value = 1e6 * race.best(call);
+                row.one_thread.asked = 1.2;
+                row.note = std::to_string(mesh.triangleCount()) + " triangles";
+                return row;
+            }};
+}
+
+}  // namespace
+
+std::vector<Row> manyMeshRows() {
+    constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
+    std::vector<Row> rows = {
+        models("models, up to 50 triangles", 1, 50),
+        models("models, 51 to 500 triangles", 51, 500),
+        models("models, 501 to 5000 triangles", 501, 5000),
+        models("models, above 5000 triangles", 5001, kAny),
+        models("models, all", 1, kAny),
+        threads("two threads against one, 7k to 25k triangles", 2, {7000, 10000, 14000, 18000, 25000}),
+        threads("all threads against one, 100 to 500 triangles", 0, {100, 200, 300, 400, 500}),
+        smallCall("a call for 12 triangles")};
+    std::ranges::move(lastBucketRows(), std::back_inserter(rows));
+    return rows;
+}
+
+}  // namespace tspace::bench
