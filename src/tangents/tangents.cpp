@@ -28,7 +28,8 @@ struct TangentPlan::State {
                                          Parallel& parallel) const {
         if (const auto* indexed = std::get_if<IndexedPlan>(&plan))
             return evaluateIndexed(*indexed, pose, out, execution, parallel);
-        return mikk::evaluateGroups(*std::get_if<mikk::EvaluationPlan>(&plan), pose, out, execution, parallel);
+        const auto& grouped = *std::get_if<mikk::EvaluationPlan>(&plan);
+        return mikk::evaluateGroups(grouped, pose, {grouped.uvs.data(), grouped.uvs.size()}, out, execution, parallel);
     }
 };
 
@@ -66,7 +67,7 @@ Error checkInput(const MeshView& mesh, const TangentOptions& options, Parallel& 
     if (mesh.uvs.empty() && options.method != Method::basis) {
         return {ErrorCode::missingAttribute, "this method needs UVs, and the mesh has none"};
     }
-    if (isGrouped(options.method) && 3 * mikk::countTriangles(mesh, options.ngons) > mikk::kMaxTricorners) {
+    if (isGrouped(options.method) && 3 * mikk::countTriangles(mesh, options.ngons) > mikk::kMaxHalfEdges) {
         return {ErrorCode::tooLarge, "more than 715827882 triangles"};
     }
     return {ErrorCode::ok, {}};

@@ -8,9 +8,9 @@
 #include <set>
 #include <vector>
 
+#include "tangents/mikktspace/corner_links.h"
 #include "tangents/mikktspace/fan.h"
 #include "tangents/mikktspace/fan_list.h"
-#include "tangents/mikktspace/pairing.h"
 
 namespace tspace::mikk {
 namespace {
@@ -25,12 +25,13 @@ struct Places {
     explicit Places(std::size_t count = 2) : places(count), room(places.data(), count) {}
 };
 
-/// How many connected parts the links of pairing.h make.
-std::size_t countParts(Corners corners) {
+/// How many connected parts the links of corner_links.h make.
+std::size_t countParts(const Corners& corners) {
     const auto count = static_cast<std::uint32_t>(corners.next.size());
+    std::vector<NodeCorner> around(count);
+    for (std::size_t i = 0; i < count; ++i) around[i] = {nullptr, corners.next[i], corners.previous[i], 0, 0};
     std::vector<std::uint32_t> left(count), right(count), part(count, kNone);
-    Around around{count, nullptr, corners.next.data(), corners.previous.data(), left.data(), right.data()};
-    pairSmall(around);
+    linkSmall(around, {left.data(), right.data()});
     std::size_t parts = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         if (part[i] != kNone) continue;

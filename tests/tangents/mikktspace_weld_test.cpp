@@ -12,7 +12,7 @@
 #include <random>
 
 #include "core/scratch_block.h"
-#include "tangents/mikktspace/grouped_plan.h"
+#include "tangents/mikktspace/words.h"
 #include "tangents/shapes.h"
 
 namespace tspace::mikk {
@@ -45,7 +45,7 @@ void expectWanted(const MeshView& mesh) {
     const std::vector<std::uint32_t> want = wantedNodes(mesh);
     for (const unsigned threads : {1u, 2u, 3u, 8u}) {
         const Nodes nodes = weldWith(mesh, threads);
-        ASSERT_TRUE(nodes.tame);
+        ASSERT_TRUE(nodes.all_finite);
         EXPECT_EQ(nodes.count, *std::max_element(want.begin(), want.end()) + std::size_t{1});
         std::size_t different = 0;
         for (std::uint32_t v = 0; v < want.size(); ++v) different += nodes.ofVertex(v) != want[v] ? 1u : 0u;
@@ -64,7 +64,6 @@ void expectTheSameWithBriefMemory(const MeshView& mesh) {
         EXPECT_EQ(nodes.count, want.count);
         EXPECT_TRUE(std::ranges::equal(nodes.of_vertex, want.of_vertex)) << bytes_per_vertex;
         EXPECT_TRUE(std::ranges::equal(nodes.vertices, want.vertices)) << bytes_per_vertex;
-        EXPECT_TRUE(std::ranges::equal(nodes.of_corner, want.of_corner)) << bytes_per_vertex;
     }
 }
 
@@ -118,7 +117,7 @@ TEST(Weld, PutsNothingThatRemainsIntoBriefMemory) {
     expectTheSameWithBriefMemory(zeros.view());
     Shape wild = few;
     wild.normals[5].x = std::numeric_limits<float>::quiet_NaN();
-    ASSERT_FALSE(weldWith(wild.view(), 1).tame);
+    ASSERT_FALSE(weldWith(wild.view(), 1).all_finite);
     expectTheSameWithBriefMemory(wild.view());
 }
 
@@ -148,7 +147,7 @@ TEST(Weld, LeavesNothingBehindWhereNoVerticesAreEqual) {
     const Shape shape = test::grid(100);
     const Nodes nodes = weldWith(shape.view(), 1);
     EXPECT_EQ(nodes.count, shape.positions.size());
-    EXPECT_TRUE(nodes.of_vertex.empty() && nodes.of_corner.empty() && nodes.vertices.empty());
+    EXPECT_TRUE(nodes.of_vertex.empty() && nodes.vertices.empty());
 }
 
 TEST(Weld, ReadsStridesAndIndicesOfOtherWidths) {
@@ -192,25 +191,20 @@ TEST(Weld, DoesNotMindWildVerticesThatNoTriangleUses) {
     for (int i = 0; i < 3; ++i) shape.vertex({nan, 0, 0}, {0, 0, 1}, {0, 0});
     shape.vertex({3e38f, 0, 0}, {0, 0, 1}, {0, std::numeric_limits<float>::infinity()});
     const Nodes nodes = weldWith(shape.view(), 1);
-    EXPECT_TRUE(nodes.tame);
+    EXPECT_TRUE(nodes.all_finite);
     EXPECT_EQ(nodes.count, count + 4);  // a NaN equals nothing
 }
 
-TEST(Weld, GivesEachCornerWithANaNANodeOfItsOwn) {
+TEST(Weld, GivesEachVertexWithANaNANodeOfItsOwn) {
     Shape shape = test::grid(10);
-    const std::uint32_t broken = 60;
-    shape.uvs[broken].x = std::numeric_limits<float>::quiet_NaN();
-    const Nodes nodes = weldWith(shape.view(), 1);
-    EXPECT_FALSE(nodes.tame);
-    std::vector<int> uses(nodes.count, 0);
-    for (std::uint32_t c = 0; c < shape.indices.size(); ++c) ++uses[nodes.of(shape.view(), c)];
-    for (std::uint32_t c = 0; c < shape.indices.size(); ++c) {
-        const std::uint32_t node = nodes.of(shape.view(), c);
-        if (shape.indices[c] == broken) {
-            EXPECT_EQ(uses[node], 1);
-        }
-        EXPECT_EQ(nodes.vertex(node), shape.indices[c]);
+    const std::size_t count = shape.positions.size();
+    for (int i = 0; i < 2; ++i) {
+        shape.vertex(shape.positions[60], shape.normals[60], {std::numeric_limits<float>::quiet_NaN(), 0});
+        shape.indices[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(count) + static_cast<std::uint32_t>(i);
     }
+    const Nodes nodes = weldWith(shape.view(), 1);
+    EXPECT_FALSE(nodes.all_finite);
+    EXPECT_EQ(nodes.count, count + 2);
 }
 
 }  // namespace

@@ -189,7 +189,7 @@ long countDifferent(long first, long count, Pairing pairing) {
         const auto report = generateTangents(
             shape.view(), {.angular_threshold_deg = threshold, .pairing = pairing, .execution = {.thread_count = 1}},
             got.view());
-        if (report && sameBits(want, got)) continue;
+        if (report && (sameBits(want, got) || !hasPromisedBits(shape))) continue;
         ++different;
         if (pairing == Pairing::reference) ADD_FAILURE() << "mesh " << mesh << ", threshold " << threshold;
     }

@@ -9,8 +9,8 @@
 #include <random>
 
 #include "tangents/golden_mesh.h"
-#include "tangents/mikktspace/grouped_plan.h"
 #include "tangents/mikktspace/weld_order.h"
+#include "tangents/mikktspace/words.h"
 #include "tangents/shapes.h"
 
 namespace tspace::mikk {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <random>
 
-#include "tangents/mikktspace/grouped_plan.h"
 #include "tangents/mikktspace/long_cell.h"
+#include "tangents/mikktspace/words.h"
 #include "tangents/shapes.h"
 
 namespace tspace::mikk {

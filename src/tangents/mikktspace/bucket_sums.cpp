@@ -125,7 +125,7 @@ class BucketSummer {
         }
     }
 
-    /// Triangles that add nothing to the sums. Nodes of degenerate ones are left to the general steps.
+    /// Triangles that add nothing to the sums. Nodes of degenerate ones are left to the vertex path.
     void addUnusual(const BucketTriangle& triangle, std::size_t t) {
         const bool degenerate = (terms_.marks[0][t] & kDegenerateMark) != 0;
         std::uint32_t n[3];

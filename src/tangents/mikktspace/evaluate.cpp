@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Step 9: tangents of a pose. For each group the weighted sum of its members' projected tangents, in
+// Tangents of a pose. For each group the weighted sum of its members' projected tangents, in
 // ascending order of triangles, and the same for bitangents and lengths.
 //
 // mikktspace: weight = the angle between the two edges at the corner after projection along N.
@@ -37,18 +37,19 @@ class PlanTriangles final : public estimators::TriangleGroups {
 
 class Evaluation {
   public:
-    Evaluation(const EvaluationPlan& plan, const Pose& pose, const TangentOutput& out, const Execution& execution,
-               Parallel& parallel, const estimators::InputScale* scale)
+    Evaluation(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,
+               const TangentOutput& out, const Execution& execution, Parallel& parallel,
+               const estimators::InputScale* scale)
         : plan_(plan),
           pose_(pose),
+          uvs_(uvs),
           scale_(scale),
           execution_(execution),
           out_(out),
-          sink_(out, plan.sign_factor, plan.bitangent_factor),
+          sink_(out, plan.convention),
           terms_(cornerTermsFor(execution.simd)),
           // Whether results for one corner are merged or kept depends on all their parts.
-          source_(cornerSource(pose, {plan.uvs.data(), plan.uvs.size()}, plan.method,
-                               wantsTangentsOnly(out) && !plan.has_repeats)),
+          source_(cornerSource(pose, uvs, plan.method, wantsTangentsOnly(out) && !plan.has_repeats)),
           allocator_(execution.allocator),
           parallel_(parallel) {}
 
@@ -76,10 +77,9 @@ class Evaluation {
 
   private:
     void estimate() {
-        const StridedSpan<const Vec2> uvs{plan_.uvs.data(), plan_.uvs.size()};
         const PlanTriangles triangles(plan_);
         const estimators::InputScale scale =
-            scale_ != nullptr ? *scale_ : estimators::inputScale(triangles, pose_.positions, uvs);
+            scale_ != nullptr ? *scale_ : estimators::inputScale(triangles, pose_.positions, uvs_);
         sums_.groups = Buffer<GroupSum>(allocator_, plan_.group_count);
         if (!source_.tangents_only) sums_.rest = Buffer<GroupRest>(allocator_, plan_.group_count);
         const estimators::GroupEstimates to{
@@ -89,7 +89,7 @@ class Evaluation {
             sizeof(GroupRest),
             sums_.rest.empty() ? nullptr : reinterpret_cast<std::byte*>(&sums_.rest[0].length_t),
             sizeof(GroupRest)};
-        estimators::estimateGroups(plan_.method, triangles, plan_.group_count, pose_, uvs, scale, to, execution_,
+        estimators::estimateGroups(plan_.method, triangles, plan_.group_count, pose_, uvs_, scale, to, execution_,
                                    parallel_);
     }
 
@@ -161,10 +161,10 @@ class Evaluation {
     void writeCorners() {
         const bool tangents_only = wantsTangentsOnly(out_);
         const float signs[2] = {sink_.sign(false), sink_.sign(true)};
-        parallel_.forRanges(plan_.corner_count, kCornerGrain, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t c = begin; c < end; ++c) {
-                const std::uint32_t g = plan_.groupOfCorner(c);
-                if (g >= plan_.group_count) continue;
+        parallel_.forRanges(3 * plan_.triangle_count, kCornerGrain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t h = begin; h < end; ++h) {
+                const std::uint32_t g = plan_.groups[h] & kValue, c = plan_.slotOf(h);
+                if (g >= plan_.group_count || (c & kMark) != 0) continue;
                 if (tangents_only) {
                     const float* s = sums_.groups[g].s;
                     out_.tangents[c] = {s[0], s[1], s[2], signs[plan_.group_positive[g]]};
@@ -187,13 +187,13 @@ class Evaluation {
             if (g >= plan_.group_count) continue;
             const Tangents r = resultOf(g);
             if (sameResult(r, r)) continue;
-            const std::uint32_t slot = plan_.repeat_slots[h];
+            const std::uint32_t slot = plan_.slots[h] & kValue;
             if (last[g].slot == slot) {
                 merge(last[g].merged, r);
             } else {
                 last[g] = {slot, r};
             }
-            if (plan_.corner_groups[slot] == g) sink_.write(slot, last[g].merged);
+            sink_.write(slot, last[g].merged);  // those of conflicts will be written again
         }
     }
 
@@ -234,6 +234,7 @@ class Evaluation {
 
     const EvaluationPlan& plan_;
     const Pose& pose_;
+    const StridedSpan<const Vec2>& uvs_;
     const estimators::InputScale* scale_;
     const Execution& execution_;
     TangentOutput out_;
@@ -249,9 +250,10 @@ class Evaluation {
 
 }  // namespace
 
-TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const TangentOutput& out,
-                             const Execution& execution, Parallel& parallel, const estimators::InputScale* scale) {
-    return Evaluation(plan, pose, out, execution, parallel, scale).run();
+TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,
+                             const TangentOutput& out, const Execution& execution, Parallel& parallel,
+                             const estimators::InputScale* scale) {
+    return Evaluation(plan, pose, uvs, out, execution, parallel, scale).run();
 }
 
 }  // namespace tspace::mikk

@@ -49,7 +49,6 @@ class SplitEvaluator {
     void run(const EvaluatedSplit& split) {
         computeTerms(split);
         const std::size_t words = (std::size_t{split.count} + 63) / 64;
-        Tangents merged;
         for (std::uint32_t a = 0; a < split.count; ++a) {
             const std::uint32_t leader = plan_.split_leaders[split.leaders + a];
             if (leader == a) {
@@ -60,21 +59,12 @@ class SplitEvaluator {
                 }
                 results_[a] = sums.mean(split.positive);
             }
-            const std::uint32_t slot = plan_.member_slots[split.begin + a];
+            const std::uint32_t slot = plan_.slotOf(plan_.members[split.begin + a]);
             if ((slot & kMark) != 0) {
                 all_results_[split.begin + a] = results_[leader];
-                continue;
-            }
-            // The two corners at a quad's diagonal are neighbours here; a NaN differs from itself when
-            // merged.
-            const bool again = a > 0 && leader == plan_.split_leaders[split.leaders + a - 1] &&
-                               slot == plan_.member_slots[split.begin + a - 1];
-            if (again) {
-                merge(merged, results_[leader]);
             } else {
-                merged = results_[leader];
+                sink_.write(slot, results_[leader]);
             }
-            sink_.write(slot, merged);
         }
     }
 

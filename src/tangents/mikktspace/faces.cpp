@@ -9,7 +9,7 @@
 #include "core/face_walk.h"
 #include "core/polygon.h"
 #include "core/vec_math.h"
-#include "tangents/mikktspace/grouped_plan.h"
+#include "tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
 

@@ -7,7 +7,7 @@
 // for the same neighbour, there is nothing to choose, and the links make paths, each of which is known by its
 // two waiting ends. A fan has room for two paths, which is enough for triangles in mesh order. Where triangles
 // come in any order, more begin before they meet: such a fan borrows room for four until two are left again.
-// Whatever else happens makes the fan unclear, and the node is left to the general steps (plan.h).
+// Whatever else happens makes the fan unclear, and the node is left to the vertex path.
 #pragma once
 
 #include <cstdint>

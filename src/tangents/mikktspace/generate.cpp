@@ -5,10 +5,12 @@
 #include <utility>
 
 #include "core/scratch_block.h"
+#include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/evaluation_plan.h"
 #include "tangents/mikktspace/faces.h"
 #include "tangents/mikktspace/one_pass.h"
-#include "tangents/mikktspace/splits.h"
+#include "tangents/mikktspace/tail_check.h"
+#include "tangents/mikktspace/vertex_path.h"
 #include "tangents/mikktspace/weld.h"
 
 namespace tspace::mikk {
@@ -26,26 +28,24 @@ std::span<std::byte> unwritten(const TangentOutput& out) {
     return {reinterpret_cast<std::byte*>(out.tangents.data), out.tangents.count * sizeof(Vec4)};
 }
 
+/// The pairs of the reference's last bucket, where they are asked for and can make a difference. What is not finite has
+/// no order there.
+TailPairs pairsOf(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles, Nodes& nodes,
+                  const Allocator* allocator, Parallel& parallel) {
+    const bool matters = options.method == Method::mikktspace && options.pairing == Pairing::reference &&
+                         nodes.all_finite && tailMayMatter(mesh, triangles, nodes, allocator, parallel);
+    listVertices(nodes, options.execution.allocator, parallel);
+    return matters ? findTailPairs(mesh, triangles, nodes, options.execution.allocator, parallel) : TailPairs{};
+}
+
 TangentReport generateWith(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
                            Parallel& parallel) {
     const Allocator* allocator = options.execution.allocator;
-    TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
+    const TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
     ScratchBlock brief(allocator, unwritten(out));
     Nodes nodes = weld(mesh, triangles, allocator, parallel, brief.allocator());
-    TangentOptions general = options;
-    general.execution.allocator = brief.allocator();
-    if (!needsReferenceOrder(mesh, general, triangles, nodes, parallel)) general.pairing = Pairing::corrected;
-    general.execution.allocator = allocator;
-    const bool has_threshold =
-        options.method == Method::mikktspace && thresholdCosine(options.angular_threshold_deg) != -1.0f;
-    if (nodes.tame && general.pairing == Pairing::corrected && !has_threshold) {
-        listVertices(nodes, allocator, parallel);
-        const auto report = evaluateInOnePass(mesh, options, triangles, nodes, out, brief, parallel);
-        if (report) return *report;
-    }
-    const std::size_t count = nodes.count;
-    const EvaluationPlan plan = planNodes(mesh, general, std::move(triangles), nodes, count, PlanUse::once, parallel);
-    return evaluateGroups(plan, {mesh.positions, mesh.normals}, out, options.execution, parallel);
+    const TailPairs tail = pairsOf(mesh, options, triangles, nodes, brief.allocator(), parallel);
+    return evaluateInOnePass({mesh, options, triangles, nodes, out}, tail, brief, parallel);
 }
 
 }  // namespace
@@ -58,6 +58,21 @@ TangentReport generateGrouped(const MeshView& mesh, const TangentOptions& option
     TangentOptions small = options;
     small.execution.allocator = scratch.allocator();
     return generateWith(mesh, small, out, parallel);
+}
+
+EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Parallel& parallel) {
+    const Allocator* allocator = options.execution.allocator;
+    TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
+    Nodes nodes = weld(mesh, triangles, allocator, parallel);
+    const TailPairs tail = pairsOf(mesh, options, triangles, nodes, allocator, parallel);
+    const Buffer<std::uint32_t> all = numbersBelow(nodes.count, allocator);
+    const NodeSetting setting{mesh, options, triangles, nodes, {}};
+    EvaluationPlan plan = planAllNodes({setting, tail, {all.data(), all.size()}, nullptr, {}, parallel});
+    plan.skipped_corners = std::move(triangles.skipped_corners);
+    plan.report.triangle_count = triangles.count;
+    plan.report.skipped_face_count = triangles.skipped_face_count;
+    plan.report.reference_order_abandoned |= tail.abandoned;
+    return plan;
 }
 
 }  // namespace tspace::mikk

@@ -1,14 +1,75 @@
 // SPDX-License-Identifier: MIT
-// Step 7: groups, the sets of tricorners at one node that share tangents.
+// Groups: the corners of a node that share tangents. The links around a node form paths and rings. Going through a
+// node's corners in ascending order, each that has no group and a usable UV area opens one, which spreads along the links
+// to both sides until it meets the other orientation or another group. (The reference recurses from triangle to triangle;
+// on a path or ring that visits the same corners.)
+//
+// A triangle without UV area takes the orientation of the first group that reaches it, at any of its nodes. Where its
+// nodes have one orientation only, that is the one, whoever is first. Others are contested: the nodes of those are
+// grouped one after the other, in the reference's order.
 #pragma once
 
-#include "tangents/mikktspace/grouped_plan.h"
+#include <span>
+
+#include "tangents/mikktspace/corner_links.h"
 #include "tangents/mikktspace/tail_order.h"
+#include "tangents/mikktspace/vertex_corners.h"
 
 namespace tspace::mikk {
 
-/// Reorders plan.list so that groups are contiguous and marked, settles the orientation of kAny triangles,
-/// and counts groups in the report.
-void formGroups(GroupedPlan& plan, const TailPairs& tail, const Allocator* allocator, Parallel& parallel);
+/// The corners of one node and their groups, which are numbered in the order in which the reference opens them.
+struct NodeGroups {
+    std::span<const NodeCorner> corners;
+    const std::uint32_t* group = nullptr;  ///< one per corner, kNone where it has none; null: all are in group 0
+    std::uint32_t count = 0;               ///< of groups
+
+    [[nodiscard]] std::uint32_t of(std::size_t i) const { return group == nullptr ? 0 : group[i]; }
+};
+
+/// Room for the links and groups of one node.
+class GroupRoom {
+  public:
+    GroupRoom() = default;  ///< for small nodes
+    GroupRoom(const Allocator* allocator, std::uint32_t most);
+
+  private:
+    friend class Grouping;
+    std::uint32_t small_[3 * kSmallNode];
+    Buffer<std::uint32_t> large_;
+    LinkTable table_;
+};
+
+class Grouping {
+  public:
+    /// Settles the contested triangles' orientation, in corners.flags. All must outlive this object.
+    Grouping(VertexCorners& corners, std::span<const std::uint32_t> chosen, const TailPairs& tail,
+             const Allocator* allocator);
+
+    /// `room` must be large enough, and holds the result.
+    NodeGroups groupsOf(std::size_t place, GroupRoom& room) const;
+    /// How many corners the largest node has, kSmallNode at least.
+    [[nodiscard]] std::uint32_t largest() const { return largest_; }
+
+  private:
+    struct Contested {
+        std::uint32_t place;
+        std::uint32_t cursor = 0, group_count = 0;
+        std::size_t begin = 0;  // in contested_groups_
+    };
+    void findContested(const Allocator* allocator);
+    void spreadContested(const Allocator* allocator);
+    bool joinsContested(std::uint32_t triangle, std::uint32_t orientation);
+    void link(std::size_t place, const CornerLinks& links, LinkTable& table) const;
+    void applyTail(std::span<const NodeCorner> around, const CornerLinks& links) const;
+
+    VertexCorners& corners_;
+    std::span<const std::uint32_t> chosen_;
+    const TailPairs& tail_;
+    std::uint32_t largest_ = kSmallNode;
+    Buffer<std::uint32_t> contested_of_;  // one per chosen node, and one more: its number in contested_, or kNone;
+                                          // empty when there are none
+    Growing<Contested> contested_;
+    Buffer<std::uint32_t> contested_groups_;
+};
 
 }  // namespace tspace::mikk

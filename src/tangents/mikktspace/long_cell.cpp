@@ -9,8 +9,8 @@
 #include "core/byte_bits.h"
 #include "core/float4.h"
 #include "core/vec_math.h"
-#include "tangents/mikktspace/grouped_plan.h"
 #include "tangents/mikktspace/weld_cell.h"
+#include "tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
 

@@ -295,7 +295,7 @@ class Summer {
         }
     }
 
-    /// Triangles that add nothing to the sums. Nodes of degenerate ones are left to the general steps.
+    /// Triangles that add nothing to the sums. Nodes of degenerate ones are left to the vertex path.
     void addUnusual(const Block& block, std::size_t t) {
         const std::uint32_t* n = block.nodes + 3 * t;
         const bool degenerate = (terms_.marks[0][t] & kDegenerateMark) != 0;
@@ -323,8 +323,8 @@ class Summer {
         }
     }
 
-    /// The general steps give all triangles of a face one orientation and treat degenerate ones in a way of
-    /// their own. Faces whose triangles do not simply agree are left to them.
+    /// The vertex path gives all triangles of a face one orientation and treats degenerate ones in a way of
+    /// their own. Faces whose triangles do not simply agree are left to it.
     void compareFaces(const Block& block) {
         for (std::size_t t = 0; t < block.count; ++t) {
             const std::uint32_t triangle = block.triangles[t], face = triangles_.faces[triangle];

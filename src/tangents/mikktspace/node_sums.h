@@ -10,8 +10,8 @@
 #include "tangents/mikktspace/corner_terms.h"
 #include "tangents/mikktspace/faces.h"
 #include "tangents/mikktspace/fan.h"
-#include "tangents/mikktspace/grouped_plan.h"
 #include "tangents/mikktspace/weld.h"
+#include "tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
 

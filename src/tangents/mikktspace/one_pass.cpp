@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grouping and evaluation in one pass: sum, look at what is clear, write, and give the rest to the general
-// steps.
+// Sum, look at what is clear, write, and give the rest to the vertex path.
 #include "tangents/mikktspace/one_pass.h"
 
 #include <algorithm>
@@ -16,13 +15,12 @@
 #include "tangents/estimators/group_estimates.h"
 #include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/corner_source.h"
-#include "tangents/mikktspace/evaluation_plan.h"
-#include "tangents/mikktspace/growing.h"
 #include "tangents/mikktspace/node_sums.h"
-#include "tangents/mikktspace/node_walk.h"
 #include "tangents/mikktspace/results.h"
+#include "tangents/mikktspace/splits.h"
 #include "tangents/mikktspace/trouble.h"
 #include "tangents/mikktspace/vector_rules.h"
+#include "tangents/mikktspace/vertex_path.h"
 
 namespace tspace::mikk {
 
@@ -35,7 +33,6 @@ constexpr std::uint32_t kBothFacings = kFacesUp | kFacesDown;
 constexpr std::uint8_t kDoubtful = 2;
 /// In the place of the sign, with a bit that no sign has.
 constexpr float kUnclearSign = 2.0f;
-constexpr std::size_t kAlwaysSmall = 1024;  // faces left to the general steps that are never too many
 
 /// The mesh's triangles, as estimators read them: each node is a group. Triangles without UV area add
 /// nothing.
@@ -80,78 +77,65 @@ class MeshTriangles final : public estimators::TriangleGroups {
 
 class OnePass {
   public:
-    OnePass(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles, const Nodes& nodes,
-            const TangentOutput& out, ScratchBlock& brief, Parallel& parallel)
-        : mesh_(mesh),
-          options_(options),
-          triangles_(triangles),
-          nodes_(nodes),
-          out_(out),
+    OnePass(const NodeSetting& setting, const TailPairs& tail, ScratchBlock& brief, Parallel& parallel)
+        : setting_(setting),
+          mesh_(setting.mesh),
+          options_(setting.options),
+          triangles_(setting.triangles),
+          nodes_(setting.nodes),
+          tail_(tail),
+          out_(setting.out),
           brief_(brief),
           parallel_(parallel),
-          allocator_(options.execution.allocator),
-          estimates_(estimators::isEstimated(options.method)),
-          sign_factor_(signFactor(options.convention) * normalFactor(options.convention)) {}
+          allocator_(options_.execution.allocator),
+          estimates_(estimators::isEstimated(options_.method)),
+          sign_factor_(signFactor(options_.convention) * normalFactor(options_.convention)) {}
 
-    std::optional<TangentReport> run(FirstLook first_look) {
-        const CornerTermsFunction terms = cornerTermsFor(options_.execution.simd);
+    TangentReport run(FirstLook first_look) {
+        const bool has_threshold = setting_.maySplit() && thresholdCosine(options_.angular_threshold_deg) != -1.0f;
+        const bool walks = has_threshold || first_look == FirstLook::eachNode ||
+                           (first_look == FirstLook::asItSeems && mostNodesSeemUnclear(mesh_, triangles_));
+        TangentReport report = walks && !estimates_ ? writeAll() : passOverTriangles();
+        report.triangle_count = triangles_.count;
+        report.skipped_face_count = triangles_.skipped_face_count;
+        report.reference_order_abandoned |= tail_.abandoned;
+        return report;
+    }
+
+  private:
+    /// By the vertex path alone.
+    TangentReport writeAll() {
+        for (const std::uint32_t c : triangles_.skipped_corners) Sink(out_, options_.convention).clear(c);
+        const Buffer<std::uint32_t> all = numbersBelow(nodes_.count, allocator_);
+        return writeNodes({setting_, tail_, {all.data(), all.size()}, nullptr, {}, parallel_}, nullptr);
+    }
+
+    TangentReport passOverTriangles() {
         CornerSource source = cornerSource({mesh_.positions, mesh_.normals}, mesh_.uvs, options_.method,
                                            estimates_ || wantsTangentsOnly(out_));
         source.adding_only = true;
-        const bool walks = first_look == FirstLook::eachNode ||
-                           (first_look == FirstLook::asItSeems && mostNodesSeemUnclear(mesh_, triangles_));
-        if (walks && !estimates_) return walkAll(source, terms);
         unclear_ = Buffer<std::uint64_t>(allocator_, nodes_.count / 64 + 1, std::uint64_t{0});
-        sumNodes(mesh_, triangles_, nodes_, source, terms, brief_, allocator_, parallel_, sums_,
-                 [&](std::size_t first, std::size_t end) {
+        sumNodes(mesh_, triangles_, nodes_, source, cornerTermsFor(options_.execution.simd), brief_, allocator_,
+                 parallel_, sums_, [&](std::size_t first, std::size_t end) {
                      if (!estimates_) finishNodes(first, end);
                  });
         if (estimates_) estimateNodes();
         checkFlatTriangles();
+        for (const std::uint32_t node : tail_.nodes) {
+            if (!sums_.isEmpty(node)) leaveNode(node);
+        }
         writeCorners();
         // Only the nodes' own places are read from here on.
         sums_.marks = {};
         sums_.rest = {};
         sums_.lengths_t = {};
-        if (unclear_count_ != 0) estimates_ ? collectUnclear() : walkUnclear(source, terms);
-        if (too_much_rest_) return std::nullopt;
-        return finishReport(sums_);
-    }
-
-  private:
-    /// Looks at all nodes as it otherwise does at those that the pass leaves unclear, without the pass.
-    std::optional<TangentReport> walkAll(const CornerSource& source, CornerTermsFunction terms) {
-        for (const std::uint32_t c : triangles_.skipped_corners)
-            Sink(out_, sign_factor_, signFactor(options_.convention)).clear(c);
-        const Buffer<std::uint32_t> all = numbersBelow(nodes_.count, allocator_);
-        const WalkedNodes walked = walkNodes(mesh_, options_, triangles_, nodes_, {all.data(), all.size()}, source,
-                                             terms, nullptr, {}, out_, parallel_);
-        unclear_count_ = walked.left_count;
-        group_count_ = walked.group_count;
-        default_corner_count_ = walked.default_corner_count;
-        if (unclear_count_ != 0) {
-            unclear_ = Buffer<std::uint64_t>(allocator_, nodes_.count / 64 + 1, std::uint64_t{0});
-            for (std::size_t n = 0; n < nodes_.count; ++n)
-                unclear_[n / 64] |= std::uint64_t{walked.left[n]} << (n % 64);
-            numbers_ = Buffer<std::uint32_t>(allocator_, nodes_.count, kNone);
-            collectRest({walked.around_left.begin(), walked.around_left.size()});
-            if (too_much_rest_) return std::nullopt;
-        }
-        return finishReport(walked);
-    }
-
-    /// `counted`: who knows the numbers of triangles.
-    template <class Counted>
-    TangentReport finishReport(const Counted& counted) {
         TangentReport report;
-        report.triangle_count = triangles_.count;
-        report.skipped_face_count = triangles_.skipped_face_count;
-        report.degenerate_triangle_count = counted.degenerate_count;
-        report.degenerate_uv_count = counted.no_uv_area_count;
-        report.mirrored_count = counted.mirrored_count;
-        report.group_count = group_count_;
-        report.default_corner_count = default_corner_count_;
-        if (unclear_count_ != 0) evaluateRest(report);
+        if (unclear_count_ != 0) report = writeUnclear();
+        report.degenerate_triangle_count = sums_.degenerate_count;
+        report.degenerate_uv_count = sums_.no_uv_area_count;
+        report.mirrored_count = sums_.mirrored_count;
+        report.group_count += group_count_;
+        report.default_corner_count += default_corner_count_;
         return report;
     }
 
@@ -284,20 +268,11 @@ class OnePass {
         group_count_ += groups_here;
     }
 
-    /// A second look at the nodes that are not clear.
-    void walkUnclear(const CornerSource& source, CornerTermsFunction terms) {
+    TangentReport writeUnclear() {
         Buffer<std::uint32_t> chosen(allocator_, unclear_count_);
         std::size_t count = 0;
         forEachUnclear([&](std::uint32_t node) { chosen[count++] = node; });
-        const WalkedNodes walked = walkNodes(mesh_, options_, triangles_, nodes_, {chosen.data(), count}, source, terms,
-                                             &sums_, unclearBlocks(), out_, parallel_);
-        for (std::size_t i = 0; i < count; ++i) {
-            if (walked.left[i] == 0) unclear_[chosen[i] / 64] &= ~(std::uint64_t{1} << (chosen[i] % 64));
-        }
-        unclear_count_ = walked.left_count;
-        if (unclear_count_ != 0) collectRest({walked.around_left.begin(), walked.around_left.size()});
-        group_count_ += walked.group_count;
-        default_corner_count_ += walked.default_corner_count;
+        return writeNodes({setting_, tail_, {chosen.data(), count}, &sums_, unclearBlocks(), parallel_}, &scale_);
     }
 
     bool finishNode(std::size_t n) {
@@ -306,7 +281,7 @@ class OnePass {
         float* sum = sums_.row(n);
         const Vec3 sum_s{sum[0], sum[1], sum[2]};
         const Vec3 s = empty ? Vec3{1, 0, 0} : estimates_ ? sum_s : unit(sum_s);
-        // The other methods replace a sum that vanishes; the general steps see to that.
+        // The other methods replace a sum that vanishes; the vertex path sees to that.
         if (!splits && !notZero(s)) return false;
         if (!sums_.rest.empty()) finishRest(n, empty, sum[3]);
         const bool positive = !empty && (sums_.marks[n] & kFacesUp) != 0;
@@ -420,123 +395,12 @@ class OnePass {
         if (!out_.magnitudes_t.empty()) out_.magnitudes_t[c] = length_t;
     }
 
-    void collectUnclear() {
-        Marks at_nodes = noMarks(allocator_, nodes_.count);
-        forEachUnclear([&](std::uint32_t node) { at_nodes[node] = 1; });
-        const Buffer<std::uint32_t> found =
-            collectAround(mesh_, triangles_, nodes_, std::move(at_nodes), unclearBlocks(), allocator_, parallel_);
-        collectRest({found.data(), found.size()});
-    }
-
-    /// The faces of the triangles around unclear nodes (`found`, ascending), as a mesh of their own whose
-    /// vertices are nodes: first the unclear ones, then their neighbours.
-    void collectRest(std::span<const std::uint32_t> found) {
-        const std::size_t most = std::max(mesh_.faceCount() / 2, kAlwaysSmall);
-        forEachUnclear([&](std::uint32_t node) { numberNode(node); });
-        if (triangles_.faces.empty()) {
-            too_much_rest_ = found.size() > most;
-            if (too_much_rest_) return;
-            for (const std::uint32_t t : found) addFace(3 * std::size_t{t}, 3);
-            return;
-        }
-        std::size_t faces = 0;
-        std::uint32_t before = kNone;
-        for (const std::uint32_t t : found) {
-            const std::uint32_t face = triangles_.faces[t];
-            if (face == std::exchange(before, face)) continue;
-            too_much_rest_ = ++faces > most;
-            if (too_much_rest_) return;
-            addFace(firstCornerOf(t), mesh_.face_sizes.empty() ? mesh_.face_size : mesh_.face_sizes[face]);
-        }
-    }
-
-    /// Of a triangle's face: it is in one of the face's triangles.
-    [[nodiscard]] std::size_t firstCornerOf(std::uint32_t triangle) const {
-        const std::uint32_t face = triangles_.faces[triangle];
-        std::size_t t = triangle;
-        while (t > 0 && triangles_.faces[t - 1] == face) --t;
-        std::uint32_t first = kNone;
-        for (; t < triangles_.count && triangles_.faces[t] == face; ++t) {
-            for (std::size_t k = 0; k < 3; ++k) first = std::min(first, triangles_.corner(3 * t + k));
-        }
-        return first;
-    }
-
-    void addFace(std::size_t first, std::uint32_t size) {
-        rest_sizes_.push(size);
-        for (std::uint32_t k = 0; k < size; ++k) {
-            const std::uint32_t node = nodes_.ofVertex(mesh_.indices[first + k]);
-            std::uint32_t number = numbers_.empty() ? sums_.number(node) : numbers_[node];
-            if (number >= rest_node_of_.size() || rest_node_of_[number] != node) number = numberNode(node);
-            rest_corners_.push(static_cast<std::uint32_t>(first + k));
-            rest_nodes_.push(number);
-        }
-    }
-
-    /// Its number in the smaller mesh. After a pass the node's row holds it from here on; what that held before is no
-    /// such number, or that of another node.
-    std::uint32_t numberNode(std::uint32_t node) {
-        const auto number = static_cast<std::uint32_t>(rest_node_of_.size());
-        if (numbers_.empty()) {
-            sums_.setNumber(node, number);
-        } else {
-            numbers_[node] = number;
-        }
-        rest_node_of_.push(node);
-        return number;
-    }
-
-    void evaluateRest(TangentReport& report) {
-        const std::size_t count = rest_node_of_.size(), corners = rest_corners_.size();
-        Buffer<Vec3> positions(allocator_, count), normals(allocator_, count);
-        Buffer<Vec2> uvs(allocator_, count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t v = nodes_.vertex(rest_node_of_[i]);
-            positions[i] = mesh_.positions[v];
-            normals[i] = mesh_.normals[v];
-            uvs[i] = mesh_.uvs[v];
-        }
-        MeshView rest;
-        rest.positions = {positions.data(), count};
-        rest.normals = {normals.data(), count};
-        rest.uvs = {uvs.data(), count};
-        rest.indices = {rest_nodes_.begin(), corners, IndexType::u32};
-        rest.face_sizes = {rest_sizes_.begin(), rest_sizes_.size()};
-        TangentOptions options = options_;
-        options.pairing = Pairing::corrected;
-        Nodes all;
-        all.count = count;
-        const auto room = [&](bool wanted) { return wanted ? corners : std::size_t{0}; };
-        Buffer<Vec4> tangents(allocator_, corners, Vec4{});
-        Buffer<Vec3> bitangents(allocator_, room(!out_.bitangents.empty()));
-        Buffer<float> magnitudes_s(allocator_, room(!out_.magnitudes_s.empty()));
-        Buffer<float> magnitudes_t(allocator_, room(!out_.magnitudes_t.empty()));
-        const TangentOutput to{{tangents.data(), tangents.size()},
-                               {bitangents.data(), bitangents.size()},
-                               {magnitudes_s.data(), magnitudes_s.size()},
-                               {magnitudes_t.data(), magnitudes_t.size()}};
-        const EvaluationPlan plan = planNodes(rest, options, cutFaces(rest, options.ngons, allocator_), all,
-                                              unclear_count_, PlanUse::once, parallel_);
-        const TangentReport part =
-            evaluateGroups(plan, {rest.positions, rest.normals}, to, options_.execution, parallel_, &scale_);
-        report.group_count += part.group_count;
-        report.default_corner_count += part.default_corner_count;
-        report.not_finite_count += part.not_finite_count;
-        report.reference_order_abandoned |= part.reference_order_abandoned;
-        for (std::size_t i = 0; i < corners; ++i) {
-            if (rest_nodes_[i] >= unclear_count_) continue;
-            const std::uint32_t c = rest_corners_[i];
-            out_.tangents[c] = tangents[i];
-            if (!bitangents.empty()) out_.bitangents[c] = bitangents[i];
-            if (!magnitudes_s.empty()) out_.magnitudes_s[c] = magnitudes_s[i];
-            if (!magnitudes_t.empty()) out_.magnitudes_t[c] = magnitudes_t[i];
-        }
-    }
-
+    const NodeSetting& setting_;
     const MeshView& mesh_;
     const TangentOptions& options_;
     const TriangleList& triangles_;
     const Nodes& nodes_;
+    const TailPairs& tail_;
     TangentOutput out_;
     ScratchBlock& brief_;
     Parallel& parallel_;
@@ -551,23 +415,13 @@ class OnePass {
     std::atomic<std::size_t> unclear_count_{0};
     std::atomic<std::uint64_t> group_count_{0};
     std::uint64_t default_corner_count_ = 0;
-
-    // The mesh that is left to the general steps.
-    Buffer<std::uint32_t> numbers_;  // without sums: one per node, see numberNode
-    bool too_much_rest_ = false;
-    Growing<std::uint32_t> rest_sizes_{allocator_};    // one per face
-    Growing<std::uint32_t> rest_corners_{allocator_};  // its corners, as corners of the mesh
-    Growing<std::uint32_t> rest_nodes_{allocator_};    // the same, as its vertices
-    Growing<std::uint32_t> rest_node_of_{allocator_};  // its vertices, as nodes
 };
 
 }  // namespace
 
-std::optional<TangentReport> evaluateInOnePass(const MeshView& mesh, const TangentOptions& options,
-                                               const TriangleList& triangles, const Nodes& nodes,
-                                               const TangentOutput& out, ScratchBlock& brief, Parallel& parallel,
-                                               FirstLook first_look) {
-    return OnePass(mesh, options, triangles, nodes, out, brief, parallel).run(first_look);
+TangentReport evaluateInOnePass(const NodeSetting& setting, const TailPairs& tail, ScratchBlock& brief,
+                                Parallel& parallel, FirstLook first_look) {
+    return OnePass(setting, tail, brief, parallel).run(first_look);
 }
 
 }  // namespace tspace::mikk

@@ -1,105 +1,256 @@
 // SPDX-License-Identifier: MIT
-// The plan of the grouping methods: the steps in their order, one file each.
-#include <algorithm>
+#include "tangents/mikktspace/plan.h"
 
-#include "tangents/mikktspace/corner_lists.h"
-#include "tangents/mikktspace/evaluation_plan.h"
-#include "tangents/mikktspace/faces.h"
-#include "tangents/mikktspace/grouped_plan.h"
-#include "tangents/mikktspace/groups.h"
-#include "tangents/mikktspace/growing.h"
-#include "tangents/mikktspace/slot_writes.h"
+#include <algorithm>
+#include <cstring>
+
 #include "tangents/mikktspace/splits.h"
-#include "tangents/mikktspace/tail_check.h"
-#include "tangents/mikktspace/tail_order.h"
-#include "tangents/mikktspace/triangle_pass.h"
-#include "tangents/mikktspace/weld.h"
 
 namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kGrain = 4096;  // nodes
+template <class T>
+bool sameBits(const T& a, const T& b) {
+    return std::memcmp(&a, &b, sizeof(T)) == 0;
+}
 
-void readNodes(const MeshView& mesh, Nodes& nodes, GroupedPlan& plan, PoseData& pose, const Allocator* allocator,
-               Parallel& parallel) {
-    listVertices(nodes, allocator, parallel);
-    plan.node_count = nodes.count;
-    plan.node_vertex = Buffer<std::uint32_t>(allocator, nodes.count);
-    plan.node_uv = Buffer<Vec2>(allocator, nodes.count);
-    pose.positions = Buffer<Vec3>(allocator, nodes.count);
-    parallel.forRanges(nodes.count, kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t n = begin; n < end; ++n) {
-            const std::uint32_t vertex = nodes.vertex(n);
-            plan.node_vertex[n] = vertex;
-            plan.node_uv[n] = mesh.uvs[vertex];
-            pose.positions[n] = mesh.positions[vertex];
+/// Equal vertices may differ in the sign of a zero; then only those of the node give the reference's bits.
+bool sameData(const MeshView& mesh, std::uint32_t a, std::uint32_t b) {
+    return sameBits(mesh.positions[a], mesh.positions[b]) && sameBits(mesh.normals[a], mesh.normals[b]) &&
+           sameBits(mesh.uvs[a], mesh.uvs[b]);
+}
+
+class Planner {
+  public:
+    explicit Planner(const PlanSource& from)
+        : from_(from),
+          mesh_(from.setting.mesh),
+          corners_(from.corners),
+          allocator_(from.setting.options.execution.allocator),
+          room_(allocator_, from.grouping.largest()),
+          splits_(mesh_, from.setting.triangles, from.setting.nodes, from.corners, from.threshold_cosine, allocator_),
+          sources_(allocator_),
+          ends_(allocator_),
+          members_(allocator_),
+          adding_(allocator_),
+          repeats_(allocator_),
+          positive_(allocator_),
+          split_groups_(allocator_),
+          split_members_(allocator_),
+          conflicts_(allocator_),
+          default_corners_(allocator_) {}
+
+    EvaluationPlan run() {
+        to_.method = from_.setting.options.method;
+        to_.convention = from_.setting.options.convention;
+        to_.vertex_count = mesh_.vertexCount();
+        to_.corner_count = mesh_.cornerCount();
+        numberTriangles();
+        readTriangles();
+        for (std::size_t place = 0; place < from_.chosen.size(); ++place) {
+            if (isPlanned(place)) addNode(place);
         }
-    });
-}
-
-/// Finds the first good corner of the nodes that corners of degenerate triangles copy from; kNone when there
-/// is none.
-void resolveCopies(const GroupedPlan& plan, TrianglePass& pass) {
-    for (Copy& copy : pass.copies) {
-        if ((copy.from & kMark) == 0) continue;
-        const std::uint32_t node = copy.from & kValue, begin = plan.node_begin[node];
-        copy.from = begin < plan.node_begin[node + 1] ? plan.slot(plan.list[begin]) : kNone;
+        to_.report.default_corner_count = default_corners_.size();
+        to_.report.reference_order_abandoned = splits_.abandoned;
+        to_.group_count = static_cast<std::uint32_t>(positive_.size());
+        to_.group_positive = positive_.exact();
+        to_.splits = split_groups_.exact();
+        to_.members = split_members_.exact();
+        to_.split_rows = splits_.rows.exact();
+        to_.split_leaders = splits_.leaders.exact();
+        to_.conflicts = conflicts_.exact();
+        to_.default_corners = default_corners_.exact();
+        return std::move(to_);
     }
-}
+
+  private:
+    [[nodiscard]] bool isPlanned(std::size_t place) const {
+        return from_.planned.empty() || (place < from_.planned.size() && from_.planned[place] != 0);
+    }
+
+    /// The plan has the triangles at planned nodes.
+    void numberTriangles() {
+        const std::size_t count = corners_.flags.size();
+        to_.triangle_count = count;
+        if (from_.planned.empty()) return;
+        number_ = Buffer<std::uint32_t>(allocator_, count);
+        std::uint32_t next = 0;
+        for (std::size_t t = 0; t < count; ++t) {
+            const std::uint32_t* places = corners_.placesOf(t);
+            const bool planned = isPlanned(places[0]) || isPlanned(places[1]) || isPlanned(places[2]);
+            number_[t] = planned ? next++ : kNone;
+        }
+        to_.triangle_count = next;
+    }
+
+    [[nodiscard]] std::uint32_t numberOf(std::size_t t) const {
+        return number_.empty() ? static_cast<std::uint32_t>(t) : number_[t];
+    }
+
+    void readTriangles() {
+        const TriangleList& triangles = from_.setting.triangles;
+        const bool kept = from_.use == PlanUse::kept;
+        to_.groups = Buffer<std::uint32_t>(allocator_, 3 * to_.triangle_count, kNone);
+        to_.vertices = Buffer<std::uint32_t>(allocator_, 3 * to_.triangle_count + kTermCorners, 0u);
+        if (!triangles.corners.empty() || !number_.empty() || !corners_.found.empty())
+            to_.slots = Buffer<std::uint32_t>(allocator_, 3 * to_.triangle_count);
+        for (std::size_t t = 0; t < corners_.flags.size(); ++t) {
+            if (numberOf(t) == kNone) continue;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t to = 3 * std::size_t{numberOf(t)} + k;
+                const std::uint32_t slot = triangles.corner(3 * std::size_t{corners_.triangleOf(t)} + k);
+                const std::uint32_t own = mesh_.indices[slot];
+                const std::uint32_t vertex = from_.setting.nodes.vertex(corners_.nodes[3 * t + k]);
+                to_.vertices[to] = kept && (own == vertex || sameData(mesh_, own, vertex)) ? own : vertex;
+                if (!to_.slots.empty()) to_.slots[to] = slot;
+            }
+        }
+        if (!kept) return;
+        to_.uvs = Buffer<Vec2>(allocator_, mesh_.vertexCount());
+        for (std::size_t v = 0; v < mesh_.vertexCount(); ++v) to_.uvs[v] = mesh_.uvs[v];
+    }
+
+    [[nodiscard]] std::uint32_t halfEdgeOf(const NodeCorner& corner) const {
+        const std::uint32_t own = corners_.halfEdgeOf(corner);
+        return 3 * numberOf(own / 3) + own % 3;
+    }
+
+    void addNode(std::size_t place) {
+        const NodeGroups groups = from_.grouping.groupsOf(place, room_);
+        const std::size_t count = groups.corners.size();
+        const auto first = static_cast<std::uint32_t>(positive_.size());
+        positive_.extend(groups.count);
+        sources_.drop(sources_.size());
+        sources_.extend(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const NodeCorner& corner = groups.corners[i];
+            const bool has_group = groups.count != 0 && groups.of(i) != kNone;
+            sources_[i] = has_group ? first + groups.of(i) : kNone;
+            if (!has_group) continue;
+            to_.groups[halfEdgeOf(corner)] = sources_[i] | (corner.addsNothing() ? kMark : 0);
+            if (!corner.addsNothing()) positive_[sources_[i]] = (corner.common & kIsUp) != 0 ? 1 : 0;
+        }
+        to_.report.group_count += groups.count;
+        if (from_.setting.maySplit() && count > 1) splitGroups(place, groups, first);
+        if (from_.setting.hasPolygons() && addRepeats(groups)) return;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (sources_[i] == kNone) default_corners_.push(groups.corners[i].slot);
+        }
+    }
+
+    /// `first`: the number of the node's first group.
+    void splitGroups(std::size_t place, const NodeGroups& groups, std::uint32_t first) {
+        // By groups, and ascending within each, as a counting sort leaves them.
+        ends_.drop(ends_.size());
+        std::fill_n(ends_.extend(groups.count + 1), groups.count + 1, 0u);
+        for (const std::uint32_t source : sources_)
+            ends_[source == kNone ? 0 : source - first + 1] += source == kNone ? 0 : 1;
+        for (std::size_t g = 1; g <= groups.count; ++g) ends_[g] += ends_[g - 1];
+        members_.drop(members_.size());
+        members_.extend(groups.corners.size());
+        for (std::size_t i = 0; i < groups.corners.size(); ++i) {
+            if (sources_[i] != kNone) members_[ends_[sources_[i] - first]++] = &groups.corners[i];
+        }
+        std::uint32_t begin = 0;
+        for (std::uint32_t g = 0; g < groups.count; begin = ends_[g++])
+            splitGroup(place, groups.corners.data(), {members_.begin() + begin, ends_[g] - begin});
+    }
+
+    void splitGroup(std::size_t place, const NodeCorner* corners, Members members) {
+        if (members.size() < 2) return;
+        adding_.drop(adding_.size());
+        for (const NodeCorner* corner : members) {
+            if (!corner->addsNothing()) adding_.push(corner);
+        }
+        if (areTogether({adding_.begin(), adding_.size()}, from_.threshold_cosine)) return;
+        const std::size_t rows = splits_.rows.size(), leaders = splits_.leaders.size();
+        if (!splits_.splits(members, mesh_.normals[from_.setting.nodes.vertex(from_.chosen[place])])) return;
+        const auto begin = static_cast<std::uint32_t>(split_members_.size());
+        const auto count = static_cast<std::uint32_t>(members.size());
+        split_groups_.push({begin, count, rows, leaders, positive_[sources_[members[0] - corners]] != 0});
+        to_.largest_split = std::max(to_.largest_split, count);
+        for (const NodeCorner* corner : members) {
+            const std::uint32_t half_edge = halfEdgeOf(*corner);
+            to_.groups[half_edge] = kNone;
+            sources_[corner - corners] = kMark | static_cast<std::uint32_t>(split_members_.size());
+            split_members_.push(half_edge);
+        }
+    }
+
+    /// One corner of the mesh of a node, with one of its half-edges.
+    struct Repeat {
+        std::uint32_t slot, group, index;
+        bool operator<(const Repeat& other) const {
+            return slot != other.slot     ? slot < other.slot
+                   : group != other.group ? group < other.group
+                                          : index < other.index;
+        }
+    };
+
+    /// Half-edges of a polygon's triangles that have one corner of the mesh. Returns false, and does nothing, where there
+    /// are none.
+    bool addRepeats(const NodeGroups& groups) {
+        bool ascending = true;
+        for (std::size_t i = 1; i < groups.corners.size(); ++i)
+            ascending &= groups.corners[i - 1].slot < groups.corners[i].slot;
+        if (ascending) return false;
+        repeats_.drop(repeats_.size());
+        for (std::uint32_t i = 0; i < groups.corners.size(); ++i)
+            repeats_.push({groups.corners[i].slot, groups.count == 0 ? kNone : groups.of(i), i});
+        std::sort(repeats_.begin(), repeats_.end());
+        const Repeat *r = repeats_.begin(), *all_end = repeats_.end();
+        while (r != all_end) {
+            const Repeat* end = std::find_if(r, all_end, [&](const Repeat& other) { return other.slot != r->slot; });
+            const Repeat* grouped = std::find_if(r, end, [](const Repeat& other) { return other.group == kNone; });
+            grouped == r ? default_corners_.push(r->slot) : addRepeated(groups, r, grouped);
+            r = end;
+        }
+        return true;
+    }
+
+    void addRepeated(const NodeGroups& groups, const Repeat* first, const Repeat* end) {
+        if (end - first == 1) return;
+        to_.has_repeats = true;
+        const std::uint32_t source = sources_[first->index];
+        const bool same = (source & kMark) == 0 &&
+                          std::all_of(first, end, [&](const Repeat& r) { return sources_[r.index] == source; });
+        for (const Repeat* r = first; r != end; ++r) {
+            if (!same) conflicts_.push({r->slot, sources_[r->index]});
+            if (!same || r != first) to_.slots[halfEdgeOf(groups.corners[r->index])] |= kMark;
+        }
+    }
+
+    const PlanSource& from_;
+    const MeshView& mesh_;
+    const VertexCorners& corners_;
+    const Allocator* allocator_;
+    EvaluationPlan to_;
+    GroupRoom room_;
+    SplitFinder splits_;
+    Buffer<std::uint32_t> number_;  // of each triangle around chosen nodes, in the plan; empty: its own
+    // Of one node.
+    Growing<std::uint32_t> sources_;  // of each corner's result, as in Conflict; kNone without
+    Growing<std::uint32_t> ends_;     // of groups in members_
+    Growing<const NodeCorner*> members_, adding_;
+    Growing<Repeat> repeats_;
+    // Of the plan.
+    Growing<std::uint8_t> positive_;
+    Growing<EvaluatedSplit> split_groups_;
+    Growing<std::uint32_t> split_members_;
+    Growing<Conflict> conflicts_;
+    Growing<std::uint32_t> default_corners_;
+};
 
 }  // namespace
 
-EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Parallel& parallel) {
-    const Allocator* allocator = options.execution.allocator;
-    TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
-    Nodes nodes = weld(mesh, triangles, allocator, parallel);
-    TangentOptions needed = options;
-    if (!needsReferenceOrder(mesh, options, triangles, nodes, parallel)) needed.pairing = Pairing::corrected;
-    return planNodes(mesh, needed, std::move(triangles), nodes, nodes.count, PlanUse::kept, parallel);
-}
+EvaluationPlan planNodes(const PlanSource& source) { return Planner(source).run(); }
 
-bool needsReferenceOrder(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
-                         const Nodes& nodes, Parallel& parallel) {
-    return options.method == Method::mikktspace && options.pairing == Pairing::reference &&
-           tailMayMatter(mesh, triangles, nodes, options.execution.allocator, parallel);
-}
-
-EvaluationPlan planNodes(const MeshView& mesh, const TangentOptions& options, TriangleList triangles, Nodes& nodes,
-                         std::size_t listed_count, PlanUse use, Parallel& parallel) {
-    const Allocator* allocator = options.execution.allocator;
-    const bool is_mikktspace = options.method == Method::mikktspace;
-    GroupedPlan plan;
-    plan.method = options.method;
-    // The UV determinant speaks of the side that cross(P1-P0, P2-P0) points to; the sign must speak of N's
-    // side.
-    plan.bitangent_factor = signFactor(options.convention);
-    plan.sign_factor = plan.bitangent_factor * normalFactor(options.convention);
-    plan.vertex_count = mesh.vertexCount();
-    plan.corner_count = mesh.cornerCount();
-
-    plan.skipped_corners = std::move(triangles.skipped_corners);
-    plan.report.triangle_count = triangles.count;
-    plan.report.skipped_face_count = triangles.skipped_face_count;
-    plan.listed_count = listed_count;
-    PoseData pose;
-    readNodes(mesh, nodes, plan, pose, allocator, parallel);
-    TrianglePass pass = passTriangles(mesh, triangles, nodes, plan, pose, allocator, parallel);
-    listCorners(plan, allocator);
-    TailPairs tail;
-    if (is_mikktspace && options.pairing == Pairing::reference) {
-        tail = findTailPairs(mesh, triangles, nodes, plan, allocator, parallel);
-        plan.report.reference_order_abandoned = tail.abandoned;
-    }
-    resolveCopies(plan, pass);
-    formGroups(plan, tail, allocator, parallel);
-    if (is_mikktspace) {
-        const Pose own{mesh.positions, mesh.normals};
-        findSplits(plan, thresholdCosine(options.angular_threshold_deg), own, pose, pass.faces, allocator, parallel);
-    }
-    planSlotWrites(plan, pass, allocator);
-    pose = {};
-    return makeEvaluationPlan(std::move(plan), mesh, use, allocator, parallel);
+std::size_t EvaluationPlan::memoryBytes() const {
+    const auto bytes = [](const auto& buffer) { return buffer.size() * sizeof(*buffer.data()); };
+    return sizeof(*this) + bytes(vertices) + bytes(groups) + bytes(slots) + bytes(group_positive) + bytes(uvs) +
+           bytes(splits) + bytes(members) + bytes(split_rows) + bytes(split_leaders) + bytes(conflicts) +
+           bytes(default_corners) + bytes(skipped_corners) + bytes(copies);
 }
 
 }  // namespace tspace::mikk

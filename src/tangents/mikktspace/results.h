@@ -31,8 +31,11 @@ inline void merge(Tangents& first, const Tangents& second) {
 /// The outputs, of which some may be missing.
 class Sink {
   public:
-    Sink(const TangentOutput& out, float sign_factor, float bitangent_factor)
-        : out_(out), sign_factor_(sign_factor), bitangent_factor_(bitangent_factor) {}
+    /// The UV determinant speaks of the side that cross(P1-P0, P2-P0) points to; the sign must speak of N's side.
+    Sink(const TangentOutput& out, Convention convention)
+        : out_(out),
+          sign_factor_(signFactor(convention) * normalFactor(convention)),
+          bitangent_factor_(signFactor(convention)) {}
 
     [[nodiscard]] float sign(bool positive) const { return positive ? sign_factor_ : -sign_factor_; }
     void write(std::size_t corner, const Tangents& r) const {

@@ -1,247 +1,184 @@
 // SPDX-License-Identifier: MIT
-// Step 8: splits. A cheap test on blocks of corners shows for nearly all groups that nothing can split; only
-// the others compare all members with each other.
 #include "tangents/mikktspace/splits.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "tangents/mikktspace/growing.h"
-#include "tangents/mikktspace/lanes.h"
+#include "core/float4.h"
 #include "tangents/mikktspace/vector_rules.h"
 
 namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kGrain = 2048;      // nodes
-constexpr std::uint32_t kLookAhead = 32;  // corners; far enough for a line to arrive from memory
-/// Far more than the rounding errors of a projection and three dot products.
-constexpr float kMargin = 1e-2f;
+/// Far more than the rounding errors of a projection and three dot products, as the sine of an angle from a plane, and as
+/// a difference of cosines.
+constexpr float kOffPlane = 0.02f, kMargin = 1e-3f;
+constexpr float kLeastWeight = 1e-4f;    // below, a corner says too little about its direction
+constexpr std::size_t kFewMembers = 64;  // all pairs of so few are compared at most
 
-bool isAny(const GroupedPlan& plan, std::uint32_t tricorner) {
-    return (plan.flags[(tricorner & kValue) / 3] & kAny) != 0;
+Vec3 vectorOf(const float* row) { return {row[0], row[1], row[2]}; }
+
+/// If all members lie within half the threshold of one direction, all pairs are within the threshold: the cosine of the
+/// half angle is sqrt((1 + c) / 2).
+float halfAngleLimit(float threshold_cosine) { return std::sqrt((1.0f + threshold_cosine) * 0.5f) + kOffPlane; }
+
+/// Whether all lie near the direction of their sum.
+bool areNearSum(Members members, float limit) {
+    Vec3 s, t;
+    for (const NodeCorner* corner : members) {
+        s = s + vectorOf(corner->s);
+        t = t + vectorOf(corner->t());
+    }
+    const float limit_s = limit * length(s), limit_t = limit * length(t);
+    for (const NodeCorner* corner : members) {
+        const float weight = corner->s[3];
+        if (!(weight > kLeastWeight) || !(dot(s, vectorOf(corner->s)) > weight * limit_s) ||
+            !(dot(t, vectorOf(corner->t())) > weight * limit_t))
+            return false;
+    }
+    return true;
 }
 
-/// If all members lie within half the threshold of one direction, all pairs are within the threshold: the
-/// cosine of the half angle is sqrt((1 + c) / 2).
-class QuickTest {
-  public:
-    explicit QuickTest(float threshold_cosine) : limit_(std::sqrt((1.0f + threshold_cosine) * 0.5f) + kMargin) {}
-
-    void start() { has_first_ = false; }
-    /// Returns false when the member may differ too much from the first one (always for NaN).
-    bool add(const Vec3& s, const Vec3& t) {
-        if (!has_first_) {
-            has_first_ = true;
-            first_s_ = s;
-            first_t_ = t;
-            return true;
+/// Whether all pairs are well within the threshold. One array per component, so that the loop becomes SIMD.
+bool areNearEachOther(Members members, float limit) {
+    float sx[kFewMembers], sy[kFewMembers], sz[kFewMembers], tx[kFewMembers], ty[kFewMembers], tz[kFewMembers],
+        weight[kFewMembers];
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        const float *s = members[i]->s, *t = members[i]->t();
+        int near = s[3] > kLeastWeight ? 1 : 0;
+        for (std::size_t j = 0; j < i; ++j) {
+            const float least = limit * s[3] * weight[j];
+            near &= int{s[0] * sx[j] + s[1] * sy[j] + s[2] * sz[j] > least} &
+                    int{t[0] * tx[j] + t[1] * ty[j] + t[2] * tz[j] > least};
         }
-        return dot(first_s_, s) > limit_ && dot(first_t_, t) > limit_;
+        if (near == 0) return false;
+        sx[i] = s[0];
+        sy[i] = s[1];
+        sz[i] = s[2];
+        weight[i] = s[3];
+        tx[i] = t[0];
+        ty[i] = t[1];
+        tz[i] = t[2];
     }
+    return true;
+}
 
-  private:
-    float limit_;
-    bool has_first_ = false;
-    Vec3 first_s_, first_t_;
-};
-
-/// Marks the nodes with a group that might split.
-class SuspectFinder {
-  public:
-    SuspectFinder(const GroupedPlan& plan, float threshold_cosine, const Pose& pose, const PoseData& data,
-                  Buffer<std::uint8_t>& suspects)
-        : plan_(plan), test_(threshold_cosine), pose_(pose), data_(data), suspects_(suspects) {}
-
-    void run(std::size_t first_node, std::size_t end_node) {
-        std::uint32_t node = static_cast<std::uint32_t>(first_node);
-        const std::uint32_t end = plan_.node_begin[end_node];
-        Vec3 normal;
-        std::uint32_t node_end = plan_.node_begin[first_node];
-        for (std::uint32_t begin = plan_.node_begin[first_node]; begin < end; begin += kBlock) {
-            const std::uint32_t count = std::min<std::uint32_t>(kBlock, end - begin);
-            for (std::uint32_t i = 0; i < count; ++i) {
-                if (begin + i + kLookAhead < end) {
-                    const std::uint32_t ahead = (plan_.list[begin + i + kLookAhead] & kValue) / 3;
-                    __builtin_prefetch(&data_.frames[ahead]);
-                    __builtin_prefetch(&plan_.flags[ahead]);
-                }
-                while (begin + i == node_end) {
-                    normal = pose_.normals[plan_.node_vertex[node]];
-                    node_end = plan_.node_begin[++node];
-                }
-                const TriangleFrame& frame = data_.frames[(plan_.list[begin + i] & kValue) / 3];
-                normals_.set(i, normal);
-                s_.set(i, frame.s);
-                t_.set(i, frame.t);
-                node_[i] = node - 1;
-            }
-            flattenLanes(normals_, s_, count);
-            flattenLanes(normals_, t_, count);
-            for (std::uint32_t i = 0; i < count; ++i) {
-                const std::uint32_t entry = plan_.list[begin + i];
-                if ((entry & kMark) != 0) test_.start();
-                if (!isAny(plan_, entry) && !test_.add(s_.get(i), t_.get(i))) suspects_[node_[i]] = 1;
-            }
-        }
-    }
-
-  private:
-    const GroupedPlan& plan_;
-    QuickTest test_;
-    const Pose& pose_;
-    const PoseData& data_;
-    Buffer<std::uint8_t>& suspects_;
-    Lanes3 normals_, s_, t_;
-    std::uint32_t node_[kBlock] = {};
-};
-
-/// Compares all members of a group with each other, as the reference does.
-class Splitter {
-  public:
-    Splitter(GroupedPlan& plan, float threshold_cosine, const Pose& pose, const PoseData& data,
-             const Buffer<std::uint32_t>& faces, const Allocator* allocator)
-        : plan_(plan),
-          cosine_(threshold_cosine),
-          pose_(pose),
-          data_(data),
-          faces_(faces),
-          allocator_(allocator),
-          groups_(allocator),
-          rows_(allocator),
-          leaders_(allocator) {}
-
-    void node(std::uint32_t node) {
-        normal_ = pose_.normals[plan_.node_vertex[node]];
-        const std::uint32_t end = plan_.node_begin[node + 1];
-        for (std::uint32_t begin = plan_.node_begin[node]; begin < end;) {
-            std::uint32_t after = begin + 1;
-            while (after < end && (plan_.list[after] & kMark) == 0) ++after;
-            if (after - begin > 1) group(begin, after - begin);
-            begin = after;
-        }
-    }
-
-    void finish() {
-        plan_.split_groups = groups_.exact();
-        plan_.split_rows = rows_.exact();
-        plan_.split_leaders = leaders_.exact();
-        for (const SplitGroup& g : plan_.split_groups) {
-            plan_.largest_split_group = std::max(plan_.largest_split_group, g.count);
-        }
-    }
-
-  private:
-    [[nodiscard]] std::uint32_t face(std::uint32_t tricorner) const {
-        const std::uint32_t t = tricorner / 3;
-        return faces_.empty() ? t : faces_[t];
-    }
-
-    void project(std::uint32_t begin, std::uint32_t count) {
-        if (s_.size() < count) {
-            const std::uint32_t room = std::max<std::uint32_t>(count, kBlock);
-            s_ = Buffer<Vec3>(allocator_, room);
-            t_ = Buffer<Vec3>(allocator_, room);
-        }
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const TriangleFrame& frame = data_.frames[(plan_.list[begin + i] & kValue) / 3];
-            s_[i] = flatten(normal_, frame.s);
-            t_[i] = flatten(normal_, frame.t);
-        }
-    }
-
-    /// A second quick test for large groups: around the mean direction instead of the first member's.
-    bool isNarrow(std::uint32_t begin, std::uint32_t count) {
-        Vec3 mean_s, mean_t;
-        for (std::uint32_t i = 0; i < count; ++i) {
-            if (isAny(plan_, plan_.list[begin + i])) continue;
-            mean_s = mean_s + s_[i];
-            mean_t = mean_t + t_[i];
-        }
-        QuickTest test(cosine_);
-        test.start();
-        test.add(unit(mean_s), unit(mean_t));
-        for (std::uint32_t i = 0; i < count; ++i) {
-            if (!isAny(plan_, plan_.list[begin + i]) && !test.add(s_[i], t_[i])) return false;
-        }
-        return true;
-    }
-
-    void group(std::uint32_t begin, std::uint32_t count) {
-        if (count > kLargestSplitGroup) {
-            project(begin, count);
-            if (!isNarrow(begin, count)) plan_.report.reference_order_abandoned = true;
-            return;
-        }
-        project(begin, count);
-        const std::size_t words = (std::size_t{count} + 63) / 64;
-        const std::size_t first_row = rows_.size();
-        std::uint64_t* rows = rows_.extend(words * count);
-        std::fill_n(rows, words * count, std::uint64_t{0});
-        bool whole = true;
-        for (std::uint32_t a = 0; a < count; ++a) {
-            const std::uint32_t entry_a = plan_.list[begin + a] & kValue;
-            const bool any_a = isAny(plan_, entry_a);
-            for (std::uint32_t b = 0; b < count; ++b) {
-                const std::uint32_t entry_b = plan_.list[begin + b] & kValue;
-                if (isAny(plan_, entry_b)) continue;  // belongs to every subset, but adds nothing
-                const bool together = any_a || face(entry_a) == face(entry_b) ||
-                                      (dot(s_[a], s_[b]) > cosine_ && dot(t_[a], t_[b]) > cosine_);
-                if (together) {
-                    rows[a * words + b / 64] |= std::uint64_t{1} << (b % 64);
-                } else {
-                    whole = false;
-                }
-            }
-        }
-        if (whole) {
-            rows_.drop(words * count);
-            return;
-        }
-        groups_.push({begin, count, first_row, leaders_.size()});
-        findLeaders(rows, count, words);
-    }
-
-    void findLeaders(const std::uint64_t* rows, std::uint32_t count, std::size_t words) {
-        std::uint32_t* leaders = leaders_.extend(count);
-        for (std::uint32_t a = 0; a < count; ++a) {
-            leaders[a] = a;
-            for (std::uint32_t b = 0; b < a; ++b) {
-                if (leaders[b] == b && std::equal(rows + a * words, rows + (a + 1) * words, rows + b * words)) {
-                    leaders[a] = b;
-                    break;
-                }
-            }
-        }
-    }
-
-    GroupedPlan& plan_;
-    float cosine_;
-    const Pose& pose_;
-    const PoseData& data_;
-    const Buffer<std::uint32_t>& faces_;
-    const Allocator* allocator_;
-    Vec3 normal_;
-    Buffer<Vec3> s_, t_;
-    Growing<SplitGroup> groups_;
-    Growing<std::uint64_t> rows_;
-    Growing<std::uint32_t> leaders_;
-};
+/// Directions of dP/du and dP/dv (zero when they have none).
+void triangleDirections(const Vec3 (&p)[3], const Vec2 (&uv)[3], Vec3& s, Vec3& t) {
+    const Vec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
+    const Vec3 d1 = p[1] - p[0], d2 = p[2] - p[0];
+    const float area = a.x * b.y - a.y * b.x;
+    s = t = {};
+    if (!notZero(area)) return;
+    const float facing = area > 0.0f ? 1.0f : -1.0f;
+    const Vec3 along_u = b.y * d1 - a.y * d2, along_v = (-b.x) * d1 + a.x * d2;
+    const float length_s = length(along_u), length_t = length(along_v);
+    if (notZero(length_s)) s = (facing / length_s) * along_u;
+    if (notZero(length_t)) t = (facing / length_t) * along_v;
+}
 
 }  // namespace
 
-void findSplits(GroupedPlan& plan, float threshold_cosine, const Pose& pose, const PoseData& data,
-                const Buffer<std::uint32_t>& faces, const Allocator* allocator, Parallel& parallel) {
-    Buffer<std::uint8_t> suspects(allocator, plan.listed_count, std::uint8_t{0});
-    parallel.forRanges(plan.listed_count, kGrain, [&](std::size_t begin, std::size_t end) {
-        SuspectFinder(plan, threshold_cosine, pose, data, suspects).run(begin, end);
-    });
-    Splitter splitter(plan, threshold_cosine, pose, data, faces, allocator);
-    for (std::size_t node = 0; node < plan.listed_count; ++node) {
-        if (suspects[node] != 0) splitter.node(static_cast<std::uint32_t>(node));
+bool areTogether(Members members, float threshold_cosine) {
+    if (members.size() <= 1) return true;
+    const float near = threshold_cosine + kMargin;
+    if (members.size() <= 4) return areNearEachOther(members, near);
+    return areNearSum(members, halfAngleLimit(threshold_cosine)) ||
+           (members.size() <= kFewMembers && areNearEachOther(members, near));
+}
+
+SplitFinder::SplitFinder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+                         const VertexCorners& corners, float threshold_cosine, const Allocator* allocator)
+    : rows(allocator),
+      leaders(allocator),
+      mesh_(mesh),
+      triangles_(triangles),
+      nodes_(nodes),
+      corners_(corners),
+      cosine_(threshold_cosine),
+      allocator_(allocator) {}
+
+SplitFinder::Direction SplitFinder::directionOf(const NodeCorner& corner, const Vec3& normal) const {
+    Vec3 p[3];
+    Vec2 uv[3];
+    const std::size_t triangle = corners_.numberOf(corner);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t vertex = nodes_.vertex(corners_.nodes[3 * triangle + k]);
+        p[k] = mesh_.positions[vertex];
+        uv[k] = mesh_.uvs[vertex];
     }
-    splitter.finish();
+    Direction direction;
+    triangleDirections(p, uv, direction.s, direction.t);
+    return {flatten(normal, direction.s), flatten(normal, direction.t)};
+}
+
+/// For groups that are too large to compare all: whether all members lie near their mean direction.
+bool SplitFinder::isNarrow(Members members) const {
+    Vec3 s, t;
+    const auto forEach = [&](const auto& body) {
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            if (!members[i]->addsNothing()) body(directions_[i]);
+        }
+    };
+    forEach([&](const Direction& d) {
+        s = s + d.s;
+        t = t + d.t;
+    });
+    s = unit(s);
+    t = unit(t);
+    const float limit = halfAngleLimit(cosine_);
+    bool narrow = true;
+    forEach([&](const Direction& d) { narrow &= dot(s, d.s) > limit && dot(t, d.t) > limit; });
+    return narrow;
+}
+
+bool SplitFinder::splits(Members members, const Vec3& normal) {
+    const auto count = static_cast<std::uint32_t>(members.size());
+    if (directions_.size() < count) directions_ = Buffer<Direction>(allocator_, std::max<std::size_t>(count, 64));
+    for (std::uint32_t i = 0; i < count; ++i) directions_[i] = directionOf(*members[i], normal);
+    if (count > kLargestSplitGroup) {
+        abandoned |= !isNarrow(members);
+        return false;
+    }
+    const std::size_t words = (std::size_t{count} + 63) / 64;
+    std::uint64_t* const first_row = rows.extend(words * count);
+    std::fill_n(first_row, words * count, std::uint64_t{0});
+    const auto face = [&](std::size_t i) {
+        return triangles_.face(corners_.triangleOf(corners_.numberOf(*members[i])));
+    };
+    bool whole = true;
+    for (std::uint32_t a = 0; a < count; ++a) {
+        const Direction& da = directions_[a];
+        for (std::uint32_t b = 0; b < count; ++b) {
+            if (members[b]->addsNothing()) continue;  // belongs to every subset, but adds nothing
+            const Direction& db = directions_[b];
+            const bool together = members[a]->addsNothing() ||
+                                  (dot(da.s, db.s) > cosine_ && dot(da.t, db.t) > cosine_) || face(a) == face(b);
+            if (together) first_row[a * words + b / 64] |= std::uint64_t{1} << (b % 64);
+            whole &= together;
+        }
+    }
+    if (whole) {
+        rows.drop(words * count);
+    } else {
+        findLeaders(first_row, count, words);
+    }
+    return !whole;
+}
+
+void SplitFinder::findLeaders(const std::uint64_t* first_row, std::uint32_t count, std::size_t words) {
+    std::uint32_t* const leader = leaders.extend(count);
+    const auto row = [&](std::uint32_t member) { return first_row + member * words; };
+    for (std::uint32_t a = 0; a < count; ++a) {
+        leader[a] = a;
+        for (std::uint32_t b = 0; b < a; ++b) {
+            if (leader[b] == b && std::equal(row(a), row(a) + words, row(b))) {
+                leader[a] = b;
+                break;
+            }
+        }
+    }
 }
 
 }  // namespace tspace::mikk

@@ -1,23 +1,57 @@
 // SPDX-License-Identifier: MIT
-// Step 8: splits. Inside a group only members whose tangents and bitangents differ by less than the angular
-// threshold are averaged; each member has a subset of the group of its own.
+// Splits. Inside a group only members whose tangents and bitangents differ by less than the angular threshold are
+// averaged; each member has a subset of the group of its own.
 #pragma once
 
-#include "tangents/mikktspace/grouped_plan.h"
+#include <span>
+
+#include "tangents/mikktspace/vertex_corners.h"
 
 namespace tspace::mikk {
 
 /// Cosine of an angular threshold in degrees, in the reference's arithmetic.
 float thresholdCosine(float degrees);
 
-/// Finds the groups that split on this pose and fills the plan's split_* members. Groups of more than
-/// kLargestSplitGroup members that might split stay whole and set report.reference_order_abandoned.
-/// `faces` has one face per triangle, or is empty when triangle t is face t.
-void findSplits(GroupedPlan& plan, float threshold_cosine, const Pose& pose, const PoseData& data,
-                const Buffer<std::uint32_t>& faces, const Allocator* allocator, Parallel& parallel);
+/// Members of one group that add to it.
+using Members = std::span<const NodeCorner* const>;
+
+/// Whether it is plain that every two members are within the threshold. No may also mean that it is not plain. Needs rows
+/// with bitangents (CornerTerms::t).
+bool areTogether(Members members, float threshold_cosine);
 
 /// Subsets are quadratic in the size of a group by definition: every member may have another one, and float
 /// sums cannot be shared. Above this size, groups that might split would take quadratic time here too.
 inline constexpr std::uint32_t kLargestSplitGroup = 4096;
+
+/// Compares all members of a group with each other, as the reference does.
+class SplitFinder {
+  public:
+    SplitFinder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const VertexCorners& corners,
+                float threshold_cosine, const Allocator* allocator);
+
+    /// `members` of a group, ascending, those without UV area too. Returns whether it splits; then their rows and leaders
+    /// have been added. Groups of more than kLargestSplitGroup members that might split stay whole.
+    bool splits(Members members, const Vec3& normal);
+
+    Growing<std::uint64_t> rows;     ///< bit b of row a: member b counts for member a
+    Growing<std::uint32_t> leaders;  ///< the first member with the same row
+    bool abandoned = false;          ///< some large group might split
+
+  private:
+    struct Direction {
+        Vec3 s, t;
+    };
+    [[nodiscard]] Direction directionOf(const NodeCorner& corner, const Vec3& normal) const;
+    [[nodiscard]] bool isNarrow(Members members) const;
+    void findLeaders(const std::uint64_t* first_row, std::uint32_t count, std::size_t words);
+
+    const MeshView& mesh_;
+    const TriangleList& triangles_;
+    const Nodes& nodes_;
+    const VertexCorners& corners_;
+    float cosine_;
+    const Allocator* allocator_;
+    Buffer<Direction> directions_;  // one per member
+};
 
 }  // namespace tspace::mikk

@@ -28,9 +28,9 @@
 
 #include "core/vec_math.h"
 #include "tangents/mikktspace/collect.h"
-#include "tangents/mikktspace/grouped_plan.h"
 #include "tangents/mikktspace/growing.h"
 #include "tangents/mikktspace/weld_order.h"
+#include "tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
 
@@ -382,7 +382,7 @@ class TailCheck {
 
 bool tailMayMatter(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const Allocator* allocator,
                    Parallel& parallel) {
-    if (!nodes.tame) return true;
+    if (!nodes.all_finite) return true;
     if (triangles.count == 0) return false;
     return TailCheck(mesh, triangles, nodes, allocator, parallel).run();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Step 5: the last bucket of the reference's edge list. To know its order, the reference's first sort (a
+// The last bucket of the reference's edge list. To know its order, the reference's first sort (a
 // quicksort with a fixed seed, not stable) must be replayed; but nearly always tail_check.cpp shows that the
 // order cannot matter.
 //
@@ -104,19 +104,21 @@ struct TailEdge {
 
 class TailFinder {
   public:
-    TailFinder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const GroupedPlan& plan,
-               const Allocator* allocator, Parallel& parallel)
+    TailFinder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const Allocator* allocator,
+               Parallel& parallel)
         : mesh_(mesh),
           triangles_(triangles),
           nodes_(nodes),
-          plan_(plan),
+          node_at_(allocator, 3 * triangles.count),
+          corners_(allocator, nodes.count, kNone),
           allocator_(allocator),
           parallel_(parallel),
           edges_(allocator) {}
 
     TailPairs run() {
         TailPairs pairs;
-        if (plan_.triangle_count == 0) return pairs;
+        readTriangles();
+        if (count_ == 0) return pairs;
         findLargestLow();
         collectEdges();
         if (!orderMatters()) return pairs;
@@ -129,19 +131,38 @@ class TailFinder {
     }
 
   private:
-    std::uint32_t representative(std::uint32_t node) const {
-        return nodes_.tame ? corners_[node] : nodes_.representatives[node];
+    /// kNone at the corners of degenerate triangles, which have no edges there.
+    void readTriangles() {
+        const auto position = [&](std::size_t i) -> const Vec3& {
+            return mesh_.positions[mesh_.indices[triangles_.corner(i)]];
+        };
+        for (std::size_t i = 0; i < node_at_.size(); i += 3) {
+            const Vec3 &a = position(i), &b = position(i + 1), &c = position(i + 2);
+            const bool degenerate = a == b || b == c || c == a;
+            for (std::size_t k = i; k < i + 3; ++k)
+                node_at_[k] = degenerate ? kNone : nodes_.ofVertex(mesh_.indices[triangles_.corner(k)]);
+            count_ += degenerate ? 0 : 3;
+        }
+    }
+
+    std::uint32_t representative(std::uint32_t node) const { return corners_[node]; }
+    static std::size_t nextOf(std::size_t half_edge) { return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1; }
+
+    /// body(half_edge) for those of all triangles that are not degenerate.
+    template <class Body>
+    void forEachHalfEdge(const Body& body) const {
+        for (std::size_t h = 0; h < node_at_.size(); ++h) {
+            if (node_at_[h] != kNone) body(static_cast<std::uint32_t>(h));
+        }
     }
 
     /// Finds the lower end of the last bucket's edges: in each triangle the middle one of the representatives
     /// is the lower end of its highest edge.
     void findLargestLow() {
-        if (nodes_.tame) {
-            corners_ = Buffer<std::uint32_t>(allocator_, nodes_.count, kNone);
-            WeldOrder(mesh_, triangles_, nodes_, allocator_, parallel_).findAll(corners_.data());
-        }
-        const std::uint32_t* n = plan_.nodes.data();
-        for (std::size_t i = 0; i < 3 * plan_.triangle_count; i += 3) {
+        WeldOrder(mesh_, triangles_, nodes_, allocator_, parallel_).findAll(corners_.data());
+        const std::uint32_t* n = node_at_.data();
+        for (std::size_t i = 0; i < node_at_.size(); i += 3) {
+            if (n[i] == kNone) continue;
             const std::uint32_t r[3] = {representative(n[i]), representative(n[i + 1]), representative(n[i + 2])};
             const std::uint32_t middle = middleOf(r[0], r[1], r[2]);
             if (middle < low_) continue;
@@ -152,13 +173,11 @@ class TailFinder {
 
     /// The last bucket lies around one node.
     void collectEdges() {
-        for (std::uint32_t e = plan_.node_begin[low_node_]; e < plan_.node_begin[low_node_ + 1]; ++e) {
-            const std::uint32_t h = plan_.list[e], first = h - h % 3;
-            const std::uint32_t before = first + (h - first + 2) % 3;
-            const std::uint32_t next = plan_.nodes[first + (h - first + 1) % 3], previous = plan_.nodes[before];
-            if (representative(next) > low_) edges_.push({representative(next), next, h, true});
-            if (representative(previous) > low_) edges_.push({representative(previous), previous, before, false});
-        }
+        forEachHalfEdge([&](std::uint32_t h) {
+            const std::uint32_t from = node_at_[h], to = node_at_[nextOf(h)];
+            if (from == low_node_ && representative(to) > low_) edges_.push({representative(to), to, h, true});
+            if (to == low_node_ && representative(from) > low_) edges_.push({representative(from), from, h, false});
+        });
     }
 
     /// Order cannot matter when no edge of the bucket is there in both directions.
@@ -175,12 +194,11 @@ class TailFinder {
 
     /// Leaves edges_ in the order in which the reference meets them.
     bool sortAsReference() {
-        Buffer<Record> records(allocator_, 3 * plan_.triangle_count);
-        for (std::size_t h = 0; h < records.size(); ++h) {
-            const std::size_t next = h % 3 == 2 ? h - 2 : h + 1;
-            records[h] = {std::min(representative(plan_.nodes[h]), representative(plan_.nodes[next])),
-                          static_cast<std::uint32_t>(h)};
-        }
+        Buffer<Record> records(allocator_, count_);
+        std::size_t count = 0;
+        forEachHalfEdge([&](std::uint32_t h) {
+            records[count++] = {std::min(representative(node_at_[h]), representative(node_at_[nextOf(h)])), h};
+        });
         if (!EdgeSort(records, low_).run()) return false;
         std::sort(edges_.begin(), edges_.end(),
                   [](const TailEdge& a, const TailEdge& b) { return a.half_edge < b.half_edge; });
@@ -246,8 +264,9 @@ class TailFinder {
     const MeshView& mesh_;
     const TriangleList& triangles_;
     const Nodes& nodes_;
-    const GroupedPlan& plan_;
-    Buffer<std::uint32_t> corners_;  // representatives, where the nodes do not bring them along
+    Buffer<std::uint32_t> node_at_;  // one per half-edge: where it begins
+    std::size_t count_ = 0;          // of half-edges
+    Buffer<std::uint32_t> corners_;  // one per node: its representative
     const Allocator* allocator_;
     Parallel& parallel_;
     Growing<TailEdge> edges_;
@@ -257,35 +276,9 @@ class TailFinder {
 
 }  // namespace
 
-void TailPairs::apply(std::uint32_t node, Around& around) const {
-    if (half_edges.empty() || !std::binary_search(nodes.begin(), nodes.end(), node)) return;
-    const std::uint32_t* list_end = around.list + around.count;
-    const auto member = [&](std::uint32_t tricorner) {
-        return static_cast<std::uint32_t>(std::lower_bound(around.list, list_end, tricorner) - around.list);
-    };
-    const auto find = [&](std::uint32_t half_edge, std::uint32_t& partner) {
-        const std::uint32_t* at = std::lower_bound(half_edges.begin(), half_edges.end(), half_edge);
-        if (at == half_edges.end() || *at != half_edge) return false;
-        partner = partners[static_cast<std::size_t>(at - half_edges.begin())];
-        return true;
-    };
-    const auto turn = [](std::uint32_t tricorner, std::uint32_t by) {
-        const std::uint32_t k = tricorner % 3;
-        return tricorner - k + (k + by) % 3;
-    };
-    for (std::uint32_t i = 0; i < around.count; ++i) {
-        const std::uint32_t h = around.list[i];
-        std::uint32_t partner = kNone;
-        // A partner runs the opposite way: across the leaving edge it arrives here, across the arriving edge
-        // it leaves.
-        if (find(h, partner)) around.left[i] = partner == kNone ? kNone : member(turn(partner, 1));
-        if (find(turn(h, 2), partner)) around.right[i] = partner == kNone ? kNone : member(partner);
-    }
-}
-
 TailPairs findTailPairs(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                        const GroupedPlan& plan, const Allocator* allocator, Parallel& parallel) {
-    return TailFinder(mesh, triangles, nodes, plan, allocator, parallel).run();
+                        const Allocator* allocator, Parallel& parallel) {
+    return TailFinder(mesh, triangles, nodes, allocator, parallel).run();
 }
 
 }  // namespace tspace::mikk

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Step 2: welding. The reference sorts corners into cells and compares all of a small cell with each other;
 // here the vertices of the mesh are hashed. The classes are the same; their representative, where it matters,
-// comes from weld_order.cpp, and so does what the reference does with values that are not finite.
+// comes from weld_order.cpp.
 //
 // Most vertices of an indexed mesh are equal to no other. So each hash counts in a small table, by its upper
 // bits, up to two; only vertices whose place in it counts two can be equal to another, and only they are
@@ -18,9 +18,9 @@
 #include "core/hash.h"
 #include "core/repeated_hashes.h"
 #include "core/vec_math.h"
-#include "tangents/mikktspace/grouped_plan.h"
 #include "tangents/mikktspace/growing.h"
 #include "tangents/mikktspace/weld_order.h"
+#include "tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
 
@@ -45,7 +45,7 @@ bool equal(const Vertex& a, const Vertex& b) {
     return a.position == b.position && a.normal == b.normal && a.uv == b.uv;
 }
 
-bool isTame(const Vertex& v) {
+bool isAllFinite(const Vertex& v) {
     const auto& p = v.position;
     const bool small =
         std::fabs(p.x) < kHugePosition && std::fabs(p.y) < kHugePosition && std::fabs(p.z) < kHugePosition;
@@ -74,11 +74,11 @@ using Words = std::uint32_t __attribute__((vector_size(16)));
 using Pairs = std::uint64_t __attribute__((vector_size(16)));
 
 /// Hashes of the vertices [begin, end). Vertices that compare equal have equal hashes: adding +0 turns -0
-/// into +0. Returns whether all of them are tame; large normals and UVs are not taken for tame here either.
+/// into +0. Returns whether all of them are finite and not huge; large normals and UVs are taken for huge here.
 bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std::uint32_t* hashes) {
     const Floats limit = Floats{} + kHugePosition;
     const Words no_sign = Words{} + 0x7fffffffu;
-    auto tame = limit == limit;
+    auto finite = limit == limit;
     const StridedSpan<const Vec3> positions = mesh.positions, normals = mesh.normals;
     const StridedSpan<const Vec2> uvs = mesh.uvs;
     for (std::size_t v = begin; v < end; ++v) {
@@ -86,8 +86,8 @@ bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std:
         const Floats z = {p.z, n.z, 0, 0};
         const Floats a = std::bit_cast<Floats>(Pairs{pairAt(&p), pairAt(&n)}) + Floats{};
         const Floats b = std::bit_cast<Floats>(Pairs{std::bit_cast<Pairs>(z)[0], pairAt(&uvs[v])}) + Floats{};
-        tame &= (std::bit_cast<Floats>(std::bit_cast<Words>(a) & no_sign) < limit) &
-                (std::bit_cast<Floats>(std::bit_cast<Words>(b) & no_sign) < limit);
+        finite &= (std::bit_cast<Floats>(std::bit_cast<Words>(a) & no_sign) < limit) &
+                  (std::bit_cast<Floats>(std::bit_cast<Words>(b) & no_sign) < limit);
         // Turned against each other, so that signs that change together (mirrored shapes) do not cancel.
         const Words turned = std::bit_cast<Words>(b) << 13 | std::bit_cast<Words>(b) >> 19;
         const Pairs both = std::bit_cast<Pairs>(std::bit_cast<Words>(a) ^ turned);
@@ -95,7 +95,7 @@ bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std:
         h = (h ^ h >> 29) * 0x9e3779b97f4a7c15u;
         hashes[v] = static_cast<std::uint32_t>(h >> 32);
     }
-    return (tame[0] & tame[1] & tame[2] & tame[3]) != 0;
+    return (finite[0] & finite[1] & finite[2] & finite[3]) != 0;
 }
 
 /// Finds the first equal vertex, the root, of each candidate. First by hashes alone: each task has the
@@ -106,8 +106,13 @@ class Lookup {
   public:
     /// `candidates` ascending; null: all vertices. roots[i] becomes the root of candidate i.
     Lookup(const MeshView& mesh, const std::uint32_t* hashes, const std::uint32_t* candidates, std::size_t count,
-           bool all_tame, std::uint32_t* roots)
-        : mesh_(mesh), hashes_(hashes), candidates_(candidates), count_(count), all_tame_(all_tame), roots_(roots) {}
+           bool all_finite, std::uint32_t* roots)
+        : mesh_(mesh),
+          hashes_(hashes),
+          candidates_(candidates),
+          count_(count),
+          all_finite_(all_finite),
+          roots_(roots) {}
 
     /// `distinct`: about how many different candidates there are. Returns whether equal vertices differ in a
     /// zero's sign.
@@ -214,7 +219,7 @@ class Lookup {
         const std::uint32_t vertex = vertexOf(i), root = roots_[i];
         if (root == vertex) return;
         const bool same = sameBits(mesh_, vertex, root);
-        if (same && all_tame_) return;
+        if (same && all_finite_) return;
         if (equal(load(mesh_, vertex), load(mesh_, root))) {
             mixed |= !same;
         } else {  // NaN too, which equals nothing, not even itself
@@ -260,7 +265,7 @@ class Lookup {
     const std::uint32_t* hashes_;
     const std::uint32_t* candidates_;
     std::size_t count_;
-    bool all_tame_;
+    bool all_finite_;
     std::uint32_t* roots_;
 };
 
@@ -292,24 +297,24 @@ class VertexWelder {
         if (candidate_count == count_) {
             candidates = {};
             Buffer<std::uint32_t> of_vertex(allocator_, count_);
-            nodes.mixed = Lookup(mesh_, hashes_.data(), nullptr, count_, all_tame_, of_vertex.data())
+            nodes.mixed = Lookup(mesh_, hashes_.data(), nullptr, count_, all_finite_, of_vertex.data())
                               .run(distinct, brief_, parallel_);
             numberAll(nodes, of_vertex);
             if (nodes.count < count_) nodes.of_vertex = std::move(of_vertex);
         } else {
             Buffer<std::uint32_t> roots(brief_, candidate_count);
-            nodes.mixed = Lookup(mesh_, hashes_.data(), candidates.data(), candidate_count, all_tame_, roots.data())
+            nodes.mixed = Lookup(mesh_, hashes_.data(), candidates.data(), candidate_count, all_finite_, roots.data())
                               .run(candidate_count, brief_, parallel_);
             hashes_ = {};
             numberFew(nodes, candidates, roots);
         }
-        return all_tame_;
+        return all_finite_;
     }
 
   private:
     void hashAll(RepeatedHashes* counting, std::size_t ranges) {
         if (counting == nullptr) ranges = std::clamp<std::size_t>(count_ / kGrain, 1, parallel_.width());
-        std::atomic<bool> tame{true};
+        std::atomic<bool> finite{true};
         parallel_.forTasks(ranges, [&](std::size_t range) {
             if (counting != nullptr) counting->clear(range);
             bool all = true;
@@ -319,9 +324,9 @@ class VertexWelder {
                 all &= hashVertices(mesh_, v, stop, hashes_.data());
                 if (counting != nullptr) counting->add(range, hashes_.data() + v, stop - v);
             }
-            if (!all) tame.store(false, std::memory_order_relaxed);
+            if (!all) finite.store(false, std::memory_order_relaxed);
         });
-        all_tame_ = tame;
+        all_finite_ = finite;
     }
 
     /// Counts a sample of the hashes, chosen by their value, so that equal vertices are in it together or not
@@ -382,7 +387,7 @@ class VertexWelder {
     const Allocator *allocator_, *brief_;
     Parallel& parallel_;
     Buffer<std::uint32_t> hashes_;
-    bool all_tame_ = true;
+    bool all_finite_ = true;
 };
 
 /// Where nodes mix -0 and +0, the reference's representative decides on the bits.
@@ -402,53 +407,11 @@ void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& no
     }
 }
 
-bool usesTameVerticesOnly(const MeshView& mesh, const TriangleList& triangles) {
+bool usesFiniteVerticesOnly(const MeshView& mesh, const TriangleList& triangles) {
     for (std::size_t i = 0; i < 3 * triangles.count; ++i) {
-        if (!isTame(load(mesh, mesh.indices[triangles.corner(i)]))) return false;
+        if (!isAllFinite(load(mesh, mesh.indices[triangles.corner(i)]))) return false;
     }
     return true;
-}
-
-/// Nodes of corners: each with a NaN is alone, and so is each that the reference does not come to weld. The
-/// corner that stands for a node keeps it.
-void weldCorners(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes, const Allocator* allocator,
-                 Parallel& parallel) {
-    const std::size_t corner_count = mesh.cornerCount();
-    nodes.tame = false;
-    listVertices(nodes, allocator, parallel);
-    nodes.of_corner = Buffer<std::uint32_t>(allocator, corner_count, kNone);
-    nodes.representatives = Buffer<std::uint32_t>(allocator, nodes.count + corner_count, kNone);
-    const auto addNode = [&](std::uint32_t corner) {
-        nodes.representatives[nodes.count] = corner;
-        nodes.of_corner[corner] = static_cast<std::uint32_t>(nodes.count++);
-    };
-    for (std::size_t i = 0; i < 3 * triangles.count; ++i) {
-        const std::uint32_t corner = triangles.corner(i), vertex = mesh.indices[corner];
-        if (nodes.of_corner[corner] != kNone) continue;
-        const Vertex data = load(mesh, vertex);
-        if (!equal(data, data)) {
-            addNode(corner);
-            continue;
-        }
-        const std::uint32_t node = nodes.ofVertex(vertex);
-        nodes.of_corner[corner] = node;
-        if (nodes.representatives[node] == kNone) nodes.representatives[node] = corner;
-    }
-    Buffer<std::uint8_t> not_welded(allocator, corner_count, std::uint8_t{0});
-    WeldOrder(mesh, triangles, nodes, allocator, parallel).findAll(nodes.representatives.data(), not_welded.data());
-    for (std::size_t c = 0; c < corner_count; ++c) {
-        const std::uint32_t node = nodes.of_corner[c];
-        if (not_welded[c] != 0 && node != kNone && nodes.representatives[node] != c) {
-            addNode(static_cast<std::uint32_t>(c));
-        }
-    }
-    Buffer<std::uint32_t> vertices(allocator, nodes.count);
-    for (std::size_t node = 0; node < nodes.count; ++node) {
-        const std::uint32_t corner = nodes.representatives[node];
-        vertices[node] = corner != kNone ? mesh.indices[corner] : nodes.vertex(node);
-    }
-    nodes.vertices = std::move(vertices);
-    nodes.of_vertex = {};
 }
 
 }  // namespace
@@ -456,13 +419,10 @@ void weldCorners(const MeshView& mesh, const TriangleList& triangles, Nodes& nod
 Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator, Parallel& parallel,
            const Allocator* brief) {
     Nodes nodes;
-    const bool all_tame = VertexWelder(mesh, allocator, brief != nullptr ? brief : allocator, parallel).run(nodes);
-    if (!all_tame && !usesTameVerticesOnly(mesh, triangles)) {
-        weldCorners(mesh, triangles, nodes, allocator, parallel);
-    } else if (nodes.mixed) {
-        resolveMixed(mesh, triangles, nodes, allocator, parallel);
-    }
-    if (nodes.tame) nodes.blocks = findNodeBlocks(mesh, triangles, nodes, allocator, parallel);
+    nodes.all_finite = VertexWelder(mesh, allocator, brief != nullptr ? brief : allocator, parallel).run(nodes) ||
+                       usesFiniteVerticesOnly(mesh, triangles);
+    if (nodes.mixed && nodes.all_finite) resolveMixed(mesh, triangles, nodes, allocator, parallel);
+    nodes.blocks = findNodeBlocks(mesh, triangles, nodes, allocator, parallel);
     return nodes;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Step 2: welding. Corners with equal position, normal and UV become one node.
+// Welding: vertices with equal position, normal and UV become one node. One with a NaN is equal to none.
 #pragma once
 
 #include "core/memory.h"
@@ -13,29 +13,21 @@ namespace tspace::mikk {
 /// which then may have no corners.
 struct Nodes {
     std::size_t count = 0;
-    /// No corner has a NaN, an infinity or a huge position. Then equal vertices are one node, whatever the
-    /// corner.
-    bool tame = true;
+    /// No corner has a NaN, an infinity or a huge position.
+    bool all_finite = true;
     /// Some node mixes -0 and +0: the node's data are those of vertex(node), not those of any vertex of it.
     bool mixed = false;
     Buffer<std::uint32_t> of_vertex;  ///< node of each vertex; empty: no two vertices are equal, node == vertex
-    /// Only when not tame, and then in place of of_vertex: node of each corner of the mesh, kNone for corners
-    /// of skipped faces.
-    Buffer<std::uint32_t> of_corner;
-    /// One per node: the vertex whose data stand for it. There when `mixed` or not `tame`, and after
+    /// One per node: the vertex whose data stand for it. There when `mixed`, and after
     /// listVertices; empty: node == vertex.
     Buffer<std::uint32_t> vertices;
-    /// Only when not tame: the corner that the reference keeps for each node; kNone for nodes without
-    /// corners.
-    Buffer<std::uint32_t> representatives;
-    NodeBlocks blocks;  ///< when tame
+    NodeBlocks blocks;
 
     [[nodiscard]] std::uint32_t ofVertex(std::uint32_t vertex) const {
         return of_vertex.empty() ? vertex : of_vertex[vertex];
     }
-    /// The node of a corner that is not skipped.
     [[nodiscard]] std::uint32_t of(const MeshView& mesh, std::uint32_t corner) const {
-        return of_corner.empty() ? ofVertex(mesh.indices[corner]) : of_corner[corner];
+        return ofVertex(mesh.indices[corner]);
     }
     /// Valid after listVertices.
     [[nodiscard]] std::uint32_t vertex(std::size_t node) const {

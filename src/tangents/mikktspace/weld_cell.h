@@ -12,7 +12,7 @@
 
 #include "core/float4.h"
 #include "core/vec_math.h"
-#include "tangents/mikktspace/grouped_plan.h"
+#include "tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
 

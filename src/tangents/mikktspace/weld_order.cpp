@@ -17,9 +17,9 @@
 #include "core/vec_math.h"
 #include "tangents/mikktspace/cell_places.h"
 #include "tangents/mikktspace/collect.h"
-#include "tangents/mikktspace/grouped_plan.h"
 #include "tangents/mikktspace/long_cell.h"
 #include "tangents/mikktspace/weld_cell.h"
+#include "tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
 
@@ -169,7 +169,7 @@ WeldOrder::WeldOrder(const MeshView& mesh, const TriangleList& triangles, const 
                      const Allocator* allocator, Parallel& parallel)
     : mesh_(mesh), triangles_(triangles), nodes_(nodes), allocator_(allocator), parallel_(parallel) {
     if (triangles.count == 0) return;
-    const Box box = nodes.tame ? boundingBox(mesh, triangles, allocator, parallel) : listedBox(mesh, triangles);
+    const Box box = nodes.all_finite ? boundingBox(mesh, triangles, allocator, parallel) : listedBox(mesh, triangles);
     axis_ = box.longestAxis();
     low_ = component(box.low, axis_);
     high_ = component(box.high, axis_);
@@ -328,7 +328,7 @@ void WeldOrder::follow(CellElement* elements, std::size_t count, std::uint32_t* 
     const auto gaveUp = [&](std::uint32_t entry) {
         if (not_welded != nullptr) not_welded[triangles_.corner(entry)] = 1;
     };
-    WeldCell(elements, nodes_.tame, found, gaveUp).run(count);
+    WeldCell(elements, nodes_.all_finite, found, gaveUp).run(count);
 }
 
 /// `wanted`: one per node; empty: all nodes.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Step 6: which triangle lies across each edge, worked out for one node alone.
+// Which corner of a node lies across each of its edges, worked out for one node alone.
 //
 // The reference sorts all edges by (lower end, higher end, triangle). Going through them in order, each
 // half-edge without a neighbour takes the first later one of the same edge that runs the opposite way and has
@@ -11,31 +11,32 @@
 // work alone and both ends come to the same links. No edge table and no sort is needed.
 #pragma once
 
-#include "core/memory.h"
-#include "tangents/mikktspace/grouped_plan.h"
+#include <span>
+
+#include "tangents/mikktspace/vertex_corners.h"
 
 namespace tspace::mikk {
 
-/// The tricorners around one node. Numbers in `left` and `right` are positions in the node's list, or kNone.
-struct Around {
-    std::uint32_t count = 0;
-    const std::uint32_t* list = nullptr;  ///< ascending
-    std::uint32_t* next = nullptr;        ///< node of the following corner: the edge that leaves
-    std::uint32_t* previous = nullptr;    ///< node of the preceding corner: the edge that arrives
-    std::uint32_t* left = nullptr;        ///< who lies across the edge that leaves
-    std::uint32_t* right = nullptr;       ///< who lies across the edge that arrives
-};
-
-/// Nodes of up to this many tricorners are paired by comparing all with all, on the stack.
+/// Nodes of up to this many corners are paired by comparing all with all, on the stack.
 inline constexpr std::uint32_t kSmallNode = 64;
 
-/// A hash table of queues, for nodes of more than kSmallNode tricorners.
-class PairingTable {
+/// For each corner of a node the one that lies across the edge that leaves here, and across the edge that arrives: its
+/// place among them, or kNone.
+struct CornerLinks {
+    std::uint32_t* left;
+    std::uint32_t* right;
+};
+
+/// For small nodes.
+void linkSmall(std::span<const NodeCorner> around, const CornerLinks& links);
+
+/// A hash table of queues, for larger ones.
+class LinkTable {
   public:
-    PairingTable() = default;
-    /// Room for nodes of up to `most` tricorners.
-    PairingTable(const Allocator* allocator, std::uint32_t most);
-    void pair(Around& around);
+    LinkTable() = default;
+    /// Room for nodes of up to `most` corners.
+    LinkTable(const Allocator* allocator, std::uint32_t most);
+    void link(std::span<const NodeCorner> around, const CornerLinks& links);
 
   private:
     /// Half-edges to or from one neighbour that wait for a partner. All run in one direction.
@@ -50,11 +51,5 @@ class PairingTable {
     Buffer<std::uint32_t> behind_;  // 2 per member: who waits behind its arriving and its leaving half-edge
     std::size_t mask_ = 0;
 };
-
-/// Fills next and previous from the list.
-void readNeighbours(const GroupedPlan& plan, Around& around);
-
-/// Fills left and right of a small node.
-void pairSmall(Around& around);
 
 }  // namespace tspace::mikk

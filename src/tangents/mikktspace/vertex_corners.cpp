@@ -2,14 +2,14 @@
 // Lists the corners of chosen nodes: finds the triangles around them, computes them, gives each face one
 // orientation, counts which node has how many, puts corners where they belong, plans copies for corners of
 // degenerate triangles.
-#include "tangents/mikktspace/unclear_corners.h"
+#include "tangents/mikktspace/vertex_corners.h"
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "core/float4.h"
 #include "core/vec_math.h"
-#include "tangents/mikktspace/triangle_pass.h"
 
 namespace tspace::mikk {
 
@@ -27,7 +27,7 @@ class CornerReader {
           to_(reading.allocator),
           good_(reading.allocator) {}
 
-    UnclearCorners run() {
+    VertexCorners run() {
         if (from_.sums != nullptr) to_.found = aroundChosen();
         count_ = from_.sums != nullptr ? to_.found.size() : triangles_.count;
         readTriangles();
@@ -157,7 +157,7 @@ class CornerReader {
             begin[place] = end[place] = sum;
             sum += size;
         }
-        to_.corners = Buffer<UnclearCorner>(from_.allocator, sum);
+        to_.corners = Buffer<NodeCorner>(from_.allocator, sum);
     }
 
     void placeCorners() {
@@ -174,7 +174,7 @@ class CornerReader {
         const std::uint32_t* slots = triangles_.corners.empty() ? nullptr : triangles_.corners.data();
         const std::uint32_t* found = to_.found.empty() ? nullptr : to_.found.data();
         std::uint32_t* ends = to_.end.data();
-        UnclearCorner* corners = to_.corners.data();
+        NodeCorner* corners = to_.corners.data();
         for (std::size_t begin = 0; begin < count_; begin += kTermTriangles) {
             const CornerTerms& terms = to_.terms[begin / kTermTriangles];
             const std::size_t count = std::min(kTermTriangles, count_ - begin);
@@ -204,7 +204,7 @@ class CornerReader {
     }
     static std::uint32_t orientationOf(std::uint8_t flags) {
         const std::uint32_t orientation = (flags & kPositive) != 0 ? kIsUp : kIsDown;
-        return (flags & kAny) != 0 ? UnclearCorner::kAddsNothing : orientation;
+        return (flags & kAny) != 0 ? NodeCorner::kAddsNothing : orientation;
     }
 
     /// `marks`: what some corner of the triangle has. A triangle with a NaN has none of both orientations.
@@ -257,22 +257,33 @@ class CornerReader {
             up |= flags == kPositive;
             down |= flags == 0;
         }
-        const auto isAny = [&](std::size_t i) { return (to_.flags[good_[i]] & kAny) != 0; };
         const bool flat_one_may_choose = good_.size() == 2 && isAny(0) && (up || down);
         if (!(up && down) && !flat_one_may_choose) return;
-        const std::size_t chosen = orientingTriangle(0, good_.size(), isAny, [&](std::size_t i) {
-            const float area = uvArea(good_[i]);
-            return area < 0 ? -area : area;
-        });
-        const std::uint32_t orientation = uvArea(good_[chosen]) > 0 ? kPositive : 0;
+        const std::uint32_t orientation = uvArea(orientingTriangle()) > 0 ? kPositive : 0;
         for (const std::uint32_t t : good_) {
             to_.flags[t] = static_cast<std::uint8_t>((to_.flags[t] & ~unsigned{kPositive}) | orientation);
         }
     }
 
-    /// The rule of triangle_pass.cpp. All corners of degenerate triangles are at chosen nodes.
+    [[nodiscard]] bool isAny(std::size_t i) const { return (to_.flags[good_[i]] & kAny) != 0; }
+
+    /// In a quad the first, unless the second has a usable UV area and the first's is not at least as large; in an n-gon
+    /// the largest that has a usable one.
+    [[nodiscard]] std::size_t orientingTriangle() const {
+        const auto area = [&](std::size_t i) { return std::fabs(uvArea(good_[i])); };
+        if (good_.size() == 2) return good_[!isAny(1) && !(area(0) >= area(1)) ? 1 : 0];
+        std::size_t chosen = 0;
+        for (std::size_t i = 1; i < good_.size(); ++i) {
+            if (!isAny(i) && (isAny(chosen) || area(i) > area(chosen))) chosen = i;
+        }
+        return good_[chosen];
+    }
+
+    /// Corners that only degenerate triangles have. Where a face has good triangles too, such a corner takes the result of
+    /// the corner at its own position in the same face; else that of the first good corner of its node. (The reference
+    /// searches the face's good triangle for the position; in a quad there is only one such corner.) All corners of
+    /// degenerate triangles are at chosen nodes.
     void planCopies() {
-        to_.entangled = noMarks(from_.allocator, from_.chosen.size());
         Buffer<std::uint8_t> done;  // of polygons' corners: 1 has a good triangle, 2 is planned
         if (!triangles_.faces.empty()) {
             done = Buffer<std::uint8_t>(from_.allocator, mesh_.cornerCount(), std::uint8_t{0});
@@ -284,51 +295,44 @@ class CornerReader {
         for (std::size_t t = 0; t < count_; ++t) {
             if ((to_.flags[t] & kDegenerate) == 0) continue;
             for (std::uint32_t k = 0; k < 3; ++k) {
-                const std::uint32_t to = slot(t, k), place = placeAt(t, k);
-                std::uint32_t from = kMark | place;
+                const std::uint32_t to = slot(t, k);
+                std::uint32_t from = kNone;
                 if (!done.empty()) {
                     if (done[to] != 0) continue;
                     done[to] = 2;
-                    from = copiedInFace(t, k, from, done);
+                    from = copiedInFace(t, k, done);
                 }
-                to_.copies.push({{to, from}, place});
+                const std::span<const NodeCorner> around = to_.around(to_.placesOf(t)[k]);
+                if (from == kNone && !around.empty()) from = around[0].slot;
+                to_.copies.push({to, from});
             }
         }
     }
 
-    /// The corner at the same position in the same triangle, if a good triangle of its face has it too.
-    std::uint32_t copiedInFace(std::size_t t, std::uint32_t k, std::uint32_t otherwise,
-                               const Buffer<std::uint8_t>& done) {
+    /// The corner at the same position in the same triangle, if a good triangle of its face has it too; else kNone.
+    std::uint32_t copiedInFace(std::size_t t, std::uint32_t k, const Buffer<std::uint8_t>& done) const {
         const auto position = [&](std::uint32_t corner) { return mesh_.positions[mesh_.indices[corner]]; };
         for (std::uint32_t j = 1; j < 3; ++j) {
-            const std::uint32_t other = slot(t, (k + j) % 3), place = placeAt(t, (k + j) % 3);
-            if (done[other] != 1 || !(position(other) == position(slot(t, k)))) continue;
-            const std::uint32_t own = placeAt(t, k);
-            if (place == own) {
-                to_.entangled[own] = std::max(to_.entangled[own], UnclearCorners::kSameNode);
-            } else {
-                to_.entangled[own] = to_.entangled[place] = UnclearCorners::kOtherNode;
-            }
-            return other;
+            const std::uint32_t other = slot(t, (k + j) % 3);
+            if (done[other] == 1 && position(other) == position(slot(t, k))) return other;
         }
-        return otherwise;
+        return kNone;
     }
 
     [[nodiscard]] std::uint32_t slot(std::size_t t, std::uint32_t k) const {
         return triangles_.corner(3 * std::size_t{to_.triangleOf(t)} + k);
     }
-    [[nodiscard]] std::uint32_t placeAt(std::size_t t, std::uint32_t k) const { return to_.placesOf(t)[k]; }
 
     const CornerReading& from_;
     const MeshView& mesh_;
     const TriangleList& triangles_;
-    UnclearCorners to_;
+    VertexCorners to_;
     std::size_t count_ = 0;        // of triangles
     Growing<std::uint32_t> good_;  // of one face
 };
 
 }  // namespace
 
-UnclearCorners readCorners(const CornerReading& reading) { return CornerReader(reading).run(); }
+VertexCorners readCorners(const CornerReading& reading) { return CornerReader(reading).run(); }
 
 }  // namespace tspace::mikk

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The corners of chosen nodes, node by node, with all that grouping and summing them needs: what
-// node_walk.cpp works on.
+// The corners of chosen nodes, node by node, with all that grouping and summing them needs: what the vertex path
+// (vertex_path.h) works on.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@ namespace tspace::mikk {
 /// More flags of a triangle, beside TriangleFlag.
 inline constexpr std::uint8_t kContested = 0x40, kDegenerate = 0x80;
 
-/// In UnclearCorner::common, beside marks: the orientation of the triangle.
+/// In NodeCorner::common, beside marks: the orientation of the triangle.
 inline constexpr std::uint32_t kIsUp = 0x10000, kIsDown = 0x20000;
 
 /// A corner of a triangle that is not degenerate. Those of a node lie side by side.
-struct UnclearCorner {
+struct NodeCorner {
     const float* s;                ///< its row of CornerTerms::s
     std::uint32_t next, previous;  ///< nodes
     std::uint32_t slot;            ///< corner of the mesh
@@ -34,7 +34,7 @@ struct UnclearCorner {
     }
 };
 
-struct UnclearCorners {
+struct VertexCorners {
     // One per triangle around a chosen node.
     Buffer<std::uint32_t> found;  ///< their numbers in the mesh, ascending; empty: all
     Buffer<std::uint8_t> flags;
@@ -44,40 +44,31 @@ struct UnclearCorners {
     Buffer<std::uint32_t> places;  ///< numbers of their nodes in `chosen`, of others its size; empty: as `nodes`
     std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;
 
-    Buffer<UnclearCorner> corners;  ///< node by node, ascending by triangle
+    Buffer<NodeCorner> corners;  ///< node by node, ascending by triangle
     // One per chosen node.
     Buffer<std::uint32_t> begin, end;  ///< its range of `corners`
     /// Which orientations the triangles that add to it have: kFacesUp, kFacesDown. One more, 0, for nodes
     /// that are not chosen.
     Marks facing;
-    /// Whether some corner copies one of the same node that may not be the first of its list, or a corner of
-    /// another node. Empty: all 0.
-    Marks entangled;
-    static constexpr std::uint8_t kSameNode = 1, kOtherNode = 2;
-    /// Corners of degenerate triangles, as corners of the mesh, with the corners that they copy; kMark | the
-    /// node's number in `chosen`: the first of its list. And the number of the node itself.
-    struct PlannedCopy {
-        Copy copy;
-        std::uint32_t place;
-    };
-    Growing<PlannedCopy> copies;
+    /// Corners that only degenerate triangles have, as corners of the mesh, with the corners that they copy, or kNone.
+    Growing<Copy> copies;
 
-    explicit UnclearCorners(const Allocator* allocator) : copies(allocator) {}
+    explicit VertexCorners(const Allocator* allocator) : copies(allocator) {}
 
-    [[nodiscard]] std::span<const UnclearCorner> around(std::size_t place) const {
+    [[nodiscard]] std::span<const NodeCorner> around(std::size_t place) const {
         return {corners.data() + begin[place], end[place] - begin[place]};
     }
     [[nodiscard]] std::uint32_t triangleOf(std::size_t t) const {
         return found.empty() ? static_cast<std::uint32_t>(t) : found[t];
     }
     /// 3 * the triangle's number in `found` + k.
-    [[nodiscard]] std::uint32_t tricornerOf(const UnclearCorner& corner) const {
+    [[nodiscard]] std::uint32_t halfEdgeOf(const NodeCorner& corner) const {
         const auto bytes = static_cast<std::size_t>(reinterpret_cast<const std::byte*>(corner.s) -
                                                     reinterpret_cast<const std::byte*>(terms.data()));
         const std::size_t block = bytes / sizeof(CornerTerms), row = bytes % sizeof(CornerTerms) / sizeof terms[0].s[0];
         return static_cast<std::uint32_t>(kTermCorners * block + row);
     }
-    [[nodiscard]] std::uint32_t numberOf(const UnclearCorner& corner) const { return tricornerOf(corner) / 3; }
+    [[nodiscard]] std::uint32_t numberOf(const NodeCorner& corner) const { return halfEdgeOf(corner) / 3; }
     [[nodiscard]] const std::uint32_t* placesOf(std::size_t t) const {
         return (places.empty() ? nodes.data() : places.data()) + 3 * t;
     }
@@ -87,7 +78,7 @@ struct UnclearCorners {
 struct CornerReading {
     const MeshView& mesh;
     const TriangleList& triangles;
-    const Nodes& nodes;
+    const Nodes& nodes;                     ///< nodes.vertex() must be valid
     std::span<const std::uint32_t> chosen;  ///< nodes, ascending
     CornerSource source;                    ///< tangents_only: terms without t and lengths_t
     CornerTermsFunction terms = nullptr;
@@ -96,6 +87,6 @@ struct CornerReading {
     const Allocator* allocator = nullptr;
     Parallel& parallel;
 };
-UnclearCorners readCorners(const CornerReading& reading);
+VertexCorners readCorners(const CornerReading& reading);
 
 }  // namespace tspace::mikk

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "tangents/mikktspace/node_results.h"
+
+#include "tangents/mikktspace/corner_source.h"
+#include "tangents/mikktspace/node_sums.h"
+#include "tangents/mikktspace/splits.h"
+
+namespace tspace::mikk {
+
+namespace {
+
+constexpr std::uint32_t kFewGroups = 8;
+
+Vec3 vectorOf(Float4 row) { return {row[0], row[1], row[2]}; }
+
+/// Corners of a polygon's triangles that are one corner of the mesh lie side by side, unless the polygon has two corners
+/// at this node. Returns whether they do, and are in one group.
+bool repeatsAgree(const NodeGroups& groups) {
+    for (std::size_t i = 1; i < groups.corners.size(); ++i) {
+        const std::uint32_t slot = groups.corners[i].slot, before = groups.corners[i - 1].slot;
+        if (slot < before || (slot == before && groups.of(i) != groups.of(i - 1))) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+NodeResults::NodeResults(const NodeSetting& setting, std::span<const std::uint32_t> chosen,
+                         const VertexCorners& corners, float threshold_cosine, Marks& defaults)
+    : setting_(setting),
+      chosen_(chosen),
+      sink_(setting.out, setting.options.convention),
+      corners_(corners),
+      threshold_cosine_(threshold_cosine),
+      defaults_(defaults),
+      may_split_(setting.maySplit()),
+      has_polygons_(setting.hasPolygons()),
+      tangents_only_(wantsTangentsOnly(setting.out)),
+      has_t_(has_polygons_ || !tangents_only_ || may_split_) {}
+
+inline void NodeResults::writeCorner(std::uint32_t slot, const Tangents& result) const {
+    if (tangents_only_) {
+        setting_.out.tangents[slot] = {result.s.x, result.s.y, result.s.z, sink_.sign(result.positive)};
+    } else {
+        sink_.write(slot, result);
+    }
+}
+
+bool NodeResults::write(std::size_t place, const NodeGroups& groups, NodeCounts& counts) const {
+    if (groups.count == 0) return writeDefaults(groups.corners, counts);
+    // One result can be written any number of times.
+    if (groups.count == 1) return writeGroups<1>(place, groups, counts);
+    if (groups.count > kFewGroups || (has_polygons_ && !repeatsAgree(groups))) return false;
+    return writeGroups<kFewGroups>(place, groups, counts);
+}
+
+template <std::size_t kMost>
+bool NodeResults::writeGroups(std::size_t place, const NodeGroups& groups, NodeCounts& counts) const {
+    Sum sums[kMost];
+    Tangents results[kMost];
+    bool any_without = false;
+    for (std::size_t i = 0; i < groups.corners.size(); ++i) {
+        const std::uint32_t group = groups.of(i);
+        any_without |= group == kNone;
+        if (group != kNone && !groups.corners[i].addsNothing())
+            add(groups.corners[i], has_polygons_ || !tangents_only_, sums[group]);
+    }
+    if (has_polygons_ && any_without && !repeatsAgree(groups)) return false;
+    for (std::uint32_t g = 0; g < groups.count; ++g) {
+        if (may_split_ && sums[g].adding > 1 && maySplit(place, groups, g, sums[g])) return false;
+        if (!resultOf(sums[g], results[g])) return false;
+    }
+    std::uint32_t before = kNone;
+    for (std::size_t i = 0; i < groups.corners.size(); ++i) {
+        const std::uint32_t slot = groups.corners[i].slot, group = groups.of(i);
+        writeCorner(slot, group != kNone ? results[group] : Tangents{});
+        if (group == kNone) {
+            counts.default_corners += slot != before ? 1 : 0;
+            if (!defaults_.empty()) defaults_[slot] = 1;
+        }
+        before = slot;
+    }
+    counts.groups += groups.count;
+    return true;
+}
+
+/// Of a node without groups.
+bool NodeResults::writeDefaults(std::span<const NodeCorner> around, NodeCounts& counts) const {
+    if (!repeatsAgree({around, nullptr, 0})) return false;
+    std::uint32_t before = kNone;
+    for (const NodeCorner& corner : around) {
+        counts.default_corners += corner.slot != before ? 1 : 0;
+        before = corner.slot;
+        writeCorner(before, Tangents{});
+        if (!defaults_.empty()) defaults_[before] = 1;
+    }
+    return true;
+}
+
+inline void NodeResults::add(const NodeCorner& corner, bool with_lengths, Sum& sum) const {
+    sum.common &= corner.common;
+    ++sum.adding;
+    sum.s += loadFloat4(corner.s);
+    if (has_t_) sum.t += loadFloat4(corner.t());
+    if (!with_lengths) return;
+    const std::uint32_t half_edge = corners_.halfEdgeOf(corner), row = half_edge % kTermCorners;
+    sum.length_t += corners_.terms[half_edge / kTermCorners].lengths_t[row % 3][row / 3];
+}
+
+/// The angular test. Nearly all groups keep together: their sum shows it, or it is plain for every two.
+bool NodeResults::maySplit(std::size_t place, const NodeGroups& groups, std::uint32_t group, const Sum& sum) const {
+    if (sum.adding > kSmallNode) return true;
+    if (sum.adding > 4 && threshold_cosine_ == -1.0f) {
+        float s[4];
+        storeFloat4(s, sum.s);
+        if (sumCannotSplit(s, sum.common, setting_.mesh.normals[setting_.nodes.vertex(chosen_[place])])) return false;
+    }
+    const NodeCorner* members[kSmallNode];
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < groups.corners.size(); ++i) {
+        if (groups.of(i) == group && !groups.corners[i].addsNothing()) members[count++] = &groups.corners[i];
+    }
+    return !areTogether({members, count}, threshold_cosine_);
+}
+
+/// Returns false when it is not finite or, but for mikktspace, vanishes. Where polygons may give a corner twice, a NaN in
+/// any field counts: it would be merged with itself.
+bool NodeResults::resultOf(const Sum& sum, Tangents& result) const {
+    result.positive = (sum.common & kIsUp) != 0;
+    result.s = unit(vectorOf(sum.s));
+    if (!isFinite(result.s) || !(may_split_ || notZero(result.s))) return false;
+    if (!has_polygons_ && tangents_only_) return true;
+    result.t = unit(vectorOf(sum.t));
+    result.mag_s = sum.t[3];
+    result.mag_t = sum.length_t;
+    if (sum.s[3] > 0) {
+        result.mag_s /= sum.s[3];
+        result.mag_t /= sum.s[3];
+    }
+    return !has_polygons_ || sameResult(result, result);
+}
+
+}  // namespace tspace::mikk

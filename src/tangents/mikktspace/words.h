@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Words and numbers of this folder:
+//
+// node        a welded vertex: all corners with equal position, normal and UV (see weld.h)
+// half-edge   3 * triangle + k: the edge of a triangle from its corner k to corner k+1, and also that corner itself
+// slot        the corner of the mesh that a half-edge's result belongs to; the two corners at a quad's diagonal are
+//             slots of two half-edges each
+// group       half-edges at one node that share tangents
+//
+// The reference names these "tri info", "group" and "tangent space"; its results are described in terms of
+// faces and recursion. Here every node is worked on alone: see corner_links.h for why that gives the same result.
+#pragma once
+
+#include "tspace/tangents.h"
+
+namespace tspace::mikk {
+
+inline constexpr std::uint32_t kNone = 0xffffffffu;
+/// A bit that no number of a half-edge, a corner or a group has.
+inline constexpr std::uint32_t kMark = 0x80000000u;
+inline constexpr std::uint32_t kValue = 0x7fffffffu;
+/// Most half-edges a mesh may have: they share 32 bits with a mark.
+inline constexpr std::uint64_t kMaxHalfEdges = kValue;
+
+enum TriangleFlag : std::uint8_t {
+    kPositive = 1,  ///< positive UV area (after quads were made uniform): the orientation of the triangle's groups
+    kAny = 2,       ///< no usable UV area: joins groups of either orientation, opens none, adds nothing
+    kGrouped = 4,   ///< used while grouping: some corner of this kAny triangle has a group
+};
+
+struct Copy {
+    std::uint32_t to = 0, from = 0;  ///< corners of the mesh
+};
+
+/// How many triangles the faces of a mesh are cut into.
+std::uint64_t countTriangles(const MeshView& mesh, Ngons ngons);
+
+}  // namespace tspace::mikk
