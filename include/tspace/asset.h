@@ -89,6 +89,15 @@ enum class VectorFormat : std::uint32_t {
     snorm8 = 2,   ///< a quarter; the same
 };
 
+/// Which normal maps get their green channel inverted.
+enum class FlipGreen : std::uint32_t {
+    none = 0,
+    /// Those whose green points down throughout, as checkFile finds them (greenFlipped). Not where tangents that stay have
+    /// inverted signs: the two cancel out.
+    down = 1,
+    all = 2,  ///< every normal map and clearcoat normal map
+};
+
 struct GenerateOptions {
     bool all = false;    ///< also primitives whose material needs no tangents
     bool strip = false;  ///< take tangents away where no material needs them; not together with `all` (invalidOption)
@@ -107,6 +116,10 @@ struct GenerateOptions {
     bool use_smoothing_groups = true;
     bool sanitize = true;
     SanitizeOptions sanitize_options = {};
+    /// PNG keeps its bits, JPEG is compressed once more, WebP is written without loss. An image that is something else as
+    /// well, such as a base colour, stays, and the normal maps get one of their own; files beside a .gltf stay too, and
+    /// the output names new ones.
+    FlipGreen flip_green = FlipGreen::none;
     Compression compression = Compression::keep;
     VectorFormat format = VectorFormat::float32;
     FileOptions file = {};
@@ -161,10 +174,19 @@ struct PrimitiveReport {
     std::uint64_t quad_count = 0;    ///< of those, the ones with four corners or more
 };
 
+/// What became of one image that is a normal map.
+struct NormalMapReport {
+    std::uint32_t image = 0;  ///< index in the input's images; for OBJ a running number
+    std::string name = {};    ///< name or URI; may be empty
+    bool flipped = false;     ///< its green channel was inverted
+    std::string reason = {};  ///< why not: half a sentence for a person
+};
+
 struct GenerateReport {
-    std::vector<PrimitiveReport> primitives = {};  ///< in file order
-    bool changed = false;                          ///< false: the output is byte for byte the input
-    std::uint64_t input_bytes = 0;                 ///< the model file and what it loads
+    std::vector<PrimitiveReport> primitives = {};   ///< in file order
+    std::vector<NormalMapReport> normal_maps = {};  ///< where flip_green is not none
+    bool changed = false;                           ///< false: the output is byte for byte the input
+    std::uint64_t input_bytes = 0;                  ///< the model file and what it loads
     std::uint64_t output_bytes = 0;
     std::vector<std::string> input_files = {};   ///< everything that was read, the model first
     std::vector<std::string> output_files = {};  ///< everything that was written, the model first

@@ -60,7 +60,8 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
     {"texturesDisagree",
      "Give both textures the same UV set and the same rotation and mirroring; a mesh can hold only one tangent per "
      "vertex."},
-    {"greenFlipped", "Look at the map: if it was baked for DirectX, invert its green channel."},
+    {"greenFlipped",
+     "Look at the map: if it was made for DirectX, invert its green channel: tspace generate --flip-green."},
     {"normalMapUnreadable", "Convert the image to PNG, JPEG or WebP to have it looked at."},
     {"fileRemark", "Mend the file where that matters. The rest of this report is about what could be read."},
     {"greenMixed",

@@ -15,6 +15,13 @@ inline constexpr const char* kBothOrNeither =
     "They "
     "cancel out.";
 
+/// The remedy of green that points down where the convention that is asked for has it so.
+inline constexpr const char* kNothingToDo = "Nothing needs to be done; a reader of plain glTF wants green to point up.";
+
+/// The remedy of green that points down where the signs of some meshes, but not of all, are made for that.
+inline constexpr const char* kSignsFirst =
+    "Do both together: negate every w of the meshes whose signs are inverted, and invert the green channel.";
+
 /// A finding with the tally's numbers, without a place.
 Finding makeFinding(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message);
 

@@ -223,16 +223,28 @@ void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings&
                  std::span<PrimitiveJudgement> judgements) {
     const Maps maps(images, options);
     std::vector<bool> is_needed(scene.images.size(), false);  // by a primitive whose signs are right
+    std::vector<bool> is_cancelled(scene.images.size(), false);
     for (std::size_t i = 0; i < judgements.size(); ++i) {
         const bool is_inverted = judgements[i].find(FindingCode::signsInverted) != nullptr;
         for (const TangentUse& use : scene.primitives[i].uses) {
             if (use.image && !is_inverted) is_needed[*use.image] = true;
         }
         weighSigns(judgements[i], maps.say(scene.primitives[i], i));
+        for (const TangentUse& use : scene.primitives[i].uses) {
+            if (use.image && judgements[i].signs != SignVerdict::plain) is_cancelled[*use.image] = true;
+        }
     }
     for (std::size_t i = 0; i < images.findings.size(); ++i) {
         Finding& finding = images.findings[i];
-        if (finding.code != FindingCode::greenFlipped || is_needed[images.images[i]]) continue;
+        if (finding.code != FindingCode::greenFlipped) continue;
+        if (options.convention.green == Green::down) {
+            finding.severity = Severity::note;
+            finding.message += "; that is what the convention wants which was asked for";
+            finding.remedy = kNothingToDo;
+            continue;
+        }
+        if (is_cancelled[images.images[i]]) finding.remedy = kSignsFirst;
+        if (is_needed[images.images[i]]) continue;
         finding.severity = Severity::note;
         finding.message += "; but the signs of its meshes are inverted too, and the two cancel out";
         finding.remedy = kBothOrNeither;

@@ -244,6 +244,20 @@ TEST(CheckFile, LeavesNothingOpenWhereAnotherConventionIsAskedFor) {
     EXPECT_EQ(codes(model.check()), Codes{"note normalMapUnreadable"});
 }
 
+TEST(CheckFile, TakesGreenThatPointsDownForRightWhereTheConventionHasItSo) {
+    const CheckReport report = TestModel(true, true).check({.convention = conventions::directx});
+    ASSERT_EQ(codes(report), Codes{"note greenFlipped"});
+    EXPECT_EQ(report.findings[0].remedy.find("tspace"), std::string::npos);
+}
+
+TEST(CheckFile, NamesNoCommandForAMapThatHalfOfItsMeshesAreMadeFor) {
+    TestModel model(true, true);
+    addPatch(model.builder, goodPatch(Seam::turned));
+    const CheckReport report = model.check();
+    ASSERT_EQ(codes(report), (Codes{"warning signsInverted", "warning greenFlipped"}));
+    for (const Finding& finding : report.findings) EXPECT_EQ(finding.remedy.find("tspace"), std::string::npos);
+}
+
 TEST(CheckFile, WeighsEveryNormalMapOfAPrimitive) {
     TestModel model(false, true);
     model.folder.write("down.png", pngFile(normalMapOf(256, bumps, true)));

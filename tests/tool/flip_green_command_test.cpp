@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace flip-green.
+// tspace flip-green, and generate --flip-green.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -81,6 +81,26 @@ TEST(FlipGreenCommand, RefusesWithOneLineAndWritesNothing) {
     }
     EXPECT_EQ(folder.files(), before);
     EXPECT_EQ(folder.read("n.png"), png);
+}
+
+TEST(FlipGreenCommand, MendsAModelWithTheCommandThatCheckNames) {
+    const TempFolder folder;
+    folder.write("m.mtl", "newmtl a\nnorm n.png\n");
+    folder.write("n.png", pngFile(normalMapOf(256, bumps, true)));
+    folder.write("a.obj",
+                 "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
+                 "usemtl a\nf 1/1/1 2/2/1 3/3/1 4/4/1\n");
+    ASSERT_EQ(runTool(folder, "generate a.obj -o a.glb").exit_code, 0);
+    const ToolRun found = runTool(folder, "check --fail-on warning a.glb");
+    EXPECT_EQ(found.exit_code, 1);
+    EXPECT_NE(found.out.find("tspace generate --flip-green"), std::string::npos) << found.out;
+    const ToolRun mended = runTool(folder, "generate --flip-green a.glb -o b.glb");
+    EXPECT_EQ(mended.exit_code, 0) << mended.err;
+    EXPECT_NE(mended.out.find("green inverted"), std::string::npos) << mended.out;
+    EXPECT_EQ(runTool(folder, "check --fail-on note b.glb").exit_code, 0);
+    const auto json = nlohmann::json::parse(runTool(folder, "generate --json --flip-green b.glb -o c.glb").out);
+    EXPECT_EQ(json["files"][0]["normalMaps"][0]["flipped"], false);
+    EXPECT_EQ(folder.read("b.glb"), folder.read("c.glb"));
 }
 
 }  // namespace

@@ -75,7 +75,9 @@ void expectDocumented(const std::string& arguments, const std::string& schema) {
     expectFieldsDocumented({document}, schema);
 }
 
-TEST(JsonOutput, OfGenerateIsAsDocumented) { expectDocumented("generate in -o out --json", "tspace.generate/1"); }
+TEST(JsonOutput, OfGenerateIsAsDocumented) {
+    expectDocumented("generate in -o out --json --flip-green", "tspace.generate/1");
+}
 
 TEST(JsonOutput, OfInspectIsAsDocumented) { expectDocumented("inspect in --json", "tspace.inspect/1"); }
 

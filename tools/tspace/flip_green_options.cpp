@@ -23,7 +23,8 @@ Command flipGreenCommand(FlipGreenArguments& arguments) {
         .description =
             "Makes a normal map for OpenGL and glTF, where green points up, of one for DirectX, where it points down; "
             "and back. Every texel gets exactly 255 - G, with 16 bits 65535 - G; all other channels, bits, palettes "
-            "and chunks stay. A JPEG is compressed once more, unless the output is a PNG.",
+            "and chunks stay. A JPEG is compressed once more, unless the output is a PNG. The maps in a model are "
+            "mended by tspace generate --flip-green.",
         .examples = {"tspace flip-green normal.png -o normal-gl.png", "tspace flip-green --in-place normal.png",
                      "tspace flip-green normal.jpg -o normal-gl.png"},
         .finish = [&arguments](const Given&) { return finish(arguments); },

@@ -139,6 +139,19 @@ void addTangentOptions(Command& command, GenerateOptions& options) {
                               "KHR_mesh_quantization."));
 }
 
+void addMapOptions(Command& command, GenerateOptions& options) {
+    const char* group = "Normal maps";
+    command.add(group,
+                setting("--flip-green", options.flip_green, FlipGreen::down,
+                        "Invert the green channel of normal maps whose green points down throughout (as DirectX "
+                        "has it), as check finds them; all others stay. Images beside a .gltf stay as they are, and "
+                        "the output gets new ones."));
+    command
+        .add(group, setting("--flip-green-all", options.flip_green, FlipGreen::all,
+                            "Invert the green channel of every normal map, whichever way it points."))
+        .excludes = {"--flip-green"};
+}
+
 void addOtherOptions(Command& command, GenerateOptions& options) {
     Option& weighting = command.add(
         "Normals", choice("--normals", "NAME", kWeightings, options.normals.weighting,
@@ -208,6 +221,7 @@ Command generateCommand(GenerateArguments& arguments) {
     addOutputOptions(command, arguments);
     addSelection(command, arguments.options);
     addTangentOptions(command, arguments.options);
+    addMapOptions(command, arguments.options);
     addOtherOptions(command, arguments.options);
     addBatch(command, arguments.batch, true);
     addReporting(command, arguments.json, arguments.quiet);

@@ -154,6 +154,13 @@ std::vector<std::string> warningsOf(const GenerateReport& report, const Totals& 
     return warnings;
 }
 
+std::string normalMapText(const NormalMapReport& map) {
+    const std::string name =
+        map.name.empty() ? fmt::format("image {}", map.image) : fmt::format("'{}'", printable(map.name));
+    if (map.flipped) return name + ": green inverted";
+    return fmt::format("{}: left as it is: {}", name, printable(map.reason));
+}
+
 std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     const GenerateReport& report = *outcome.result;
     Table table;
@@ -183,6 +190,7 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     if (totals.morph_deltas_computed != 0) {
         table.addRow({"morph targets", "tangent deltas computed for " + std::to_string(totals.morph_deltas_computed)});
     }
+    for (const NormalMapReport& map : report.normal_maps) table.addRow({"normal map", normalMapText(map)});
     for (const std::string& warning : warningsOf(report, totals)) table.addRow({"warning", printable(warning)});
     table.addRow({"time", fmt::format("{:.2f} s", outcome.seconds)});
     const std::string first = report.output_files.empty() ? outcome.job.output : report.output_files.front();
@@ -322,6 +330,11 @@ Json outcomeJson(const GenerateOutcome& outcome) {
     json["outputFiles"] = report.output_files;
     json["warnings"] = report.warnings;
     json["totals"] = totalsJson(report);
+    json["normalMaps"] = Json::array();
+    for (const NormalMapReport& map : report.normal_maps) {
+        json["normalMaps"].push_back(
+            {{"image", map.image}, {"name", map.name}, {"flipped", map.flipped}, {"reason", map.reason}});
+    }
     json["primitives"] = Json::array();
     for (const PrimitiveReport& primitive : report.primitives) json["primitives"].push_back(primitiveJson(primitive));
     return json;

@@ -153,7 +153,7 @@ void embedImages(Document& document, std::vector<std::string>& warnings) {
 /// Copies one file that the model names to the same relative place in the output's folder.
 void copyNamedFile(const Document& document, const OutputTarget& target, const std::string& uri,
                    const std::string& place, AtomicOutput& output, std::vector<std::string>& warnings) {
-    if (uri.empty() || uriKind(uri) != UriKind::path) return;
+    if (uri.empty() || uriKind(uri) != UriKind::path || document.new_files.contains(pathOfUri(uri))) return;
     if (output.isStream() || document.folder.empty()) {
         warnings.push_back("the file " + inQuotes(uri) + " that the model names does not come along");
         return;
@@ -188,6 +188,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
 
 void copyNamedFiles(const Document& document, const OutputTarget& target, AtomicOutput& output,
                     std::vector<std::string>& warnings) {
+    for (const auto& [path, bytes] : document.new_files) output.add(folderOf(target.path) / path, bytes);
     if (target.same_folder) return;
     const Json& buffers = rootArray(document, "buffers");
     for (std::size_t i = 0; i < buffers.size(); ++i) {
@@ -198,13 +199,6 @@ void copyNamedFiles(const Document& document, const OutputTarget& target, Atomic
     for (std::size_t i = 0; i < images.size(); ++i) {
         copyNamedFile(document, target, readString(images[i], "uri", ""), join("/images", i), output, warnings);
     }
-}
-
-bool namesFile(const Json& list, const std::string& name) {
-    return std::any_of(list.begin(), list.end(), [&](const Json& entry) {
-        const Json* uri = findMember(entry, "uri");
-        return uri != nullptr && uri->is_string() && pathOfUri(uri->get<std::string>()) == name;
-    });
 }
 
 std::span<const std::uint8_t> bytesOf(const std::string& text) {
@@ -232,14 +226,21 @@ OutputTarget outputTarget(const Document& document, const Path& path, bool is_st
     return target;
 }
 
+bool namesFile(const Document& document, const std::string& name) {
+    for (const char* list : {"buffers", "images"}) {
+        for (const Json& entry : rootArray(document, list)) {
+            const Json* uri = findMember(entry, "uri");
+            if (uri != nullptr && uri->is_string() && pathOfUri(uri->text()) == name) return true;
+        }
+    }
+    return false;
+}
+
 std::string freeFileName(const Document& document, const OutputTarget& target, const std::string& ending) {
     const std::string stem = fs::path(target.path).stem().string();
     const std::size_t dot = ending.rfind('.');
     std::string name = stem + ending;
-    const auto taken = [&] {
-        return namesFile(rootArray(document, "buffers"), name) || namesFile(rootArray(document, "images"), name);
-    };
-    for (int number = 2; taken(); ++number) {
+    for (int number = 2; namesFile(document, name); ++number) {
         name = stem + ending.substr(0, dot) + "-" + std::to_string(number) + ending.substr(dot);
     }
     return name;

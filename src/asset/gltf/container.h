@@ -30,6 +30,9 @@ OutputTarget outputTarget(const Document& document, const Path& path, bool is_st
 void convertContainer(Document& document, const OutputTarget& target, bool will_edit,
                       std::vector<std::string>& warnings);
 
+/// Whether a buffer or an image of the document names this file, a path from the model's folder.
+bool namesFile(const Document& document, const std::string& name);
+
 /// Name for a buffer file of the output that no URI of the document has: "<stem><ending>".
 std::string freeFileName(const Document& document, const OutputTarget& target, const std::string& ending);
 

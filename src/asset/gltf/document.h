@@ -70,6 +70,8 @@ struct Document {
     bool may_hide_tangents = false;             ///< that file may have tangents which the importer did not read
     std::string source_generator = {};          ///< what made that file; may be empty
     FileOptions options = {};
+    /// Images that the output has beside itself, by the path that their URIs stand for.
+    std::map<std::string, Bytes> new_files = {};
     std::vector<std::string> warnings = {};                                   ///< what reading had to say
     std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< what it may still take
 };

@@ -100,6 +100,8 @@ class Editor {
     void finish();
 
     [[nodiscard]] bool changed() const { return changed_; }
+    /// The caller has changed the document.
+    void touch() { changed_ = true; }
 
   private:
     /// How elements are stored: in the data of Draco primitives; or the meshopt extension of their view, and the

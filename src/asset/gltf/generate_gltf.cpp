@@ -2,11 +2,14 @@
 // The glTF pipeline: load, plan, compute pool by pool, put the frames in, write.
 #include "asset/gltf/generate_gltf.h"
 
+#include <algorithm>
+
 #include "asset/file_error.h"
 #include "asset/gltf/apply_frames.h"
 #include "asset/gltf/compression/recompress.h"
 #include "asset/gltf/compute_pools.h"
 #include "asset/gltf/container.h"
+#include "asset/gltf/flip_maps.h"
 #include "asset/gltf/generate_plan.h"
 #include "asset/gltf/repair_plan.h"
 #include "asset/gltf/strip_tangents.h"
@@ -69,10 +72,13 @@ GenerateReport generate(const std::string& input, const std::string& output_path
         return made;
     };
     GeneratePlan plan = makePlan();
+    MapFlips flips;
+    if (options.flip_green != FlipGreen::none) flips = planFlips(document, primitives, plan.reports, options);
     report.input_bytes = document.input_bytes;
     const bool converted = target.container != document.container || document.imported;
     const bool keeps_compression = options.compression == Compression::keep;
-    convertContainer(document, target, !plan.pools.empty() || !keeps_compression, report.warnings);
+    const bool will_edit = !plan.pools.empty() || !keeps_compression || !flips.images.empty();
+    convertContainer(document, target, will_edit, report.warnings);
     const std::string new_file = freeFileName(document, target, ".tspace.bin");
     const bool repacked = recompress(document, options.compression, new_file);
     if (repacked) {
@@ -99,6 +105,8 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     tell(options, "computing tangents", total, total);
     if (options.bitangents) noteMissingBitangents(primitives, plan.reports);
     stripTangents(editor, primitives, plan.reports);
+    report.normal_maps = std::move(flips.reports);
+    if (!flips.images.empty()) applyFlips(document, editor, target, std::move(flips));
     editor.finish();
     // Views that could not be packed may be free now of what stood in the way.
     const bool packed_more =
@@ -114,9 +122,14 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     }
     files.commit();
     tell(options, "writing", 1, 1);
-    report.input_files = std::move(document.input_files);
-    report.input_files.insert(report.input_files.begin(), input);
-    report.input_files.insert(report.input_files.end(), files.sources().begin(), files.sources().end());
+    report.input_files = {input};
+    for (const std::vector<std::string>& more : {document.input_files, files.sources()}) {
+        for (const std::string& file : more) {
+            const bool is_known =
+                std::find(report.input_files.begin(), report.input_files.end(), file) != report.input_files.end();
+            if (!is_known) report.input_files.push_back(file);
+        }
+    }
     report.output_files = files.files();
     report.output_bytes = files.files().empty() ? document.input_bytes : files.byteCount();
     report.primitives = std::move(plan.reports);

@@ -136,6 +136,14 @@ Bytes readImageBytes(const Document& document, const Json& image, const std::str
 
 }  // namespace
 
+Bytes tryReadImage(const Document& document, std::size_t image) {
+    try {
+        return readImageBytes(document, rootArray(document, "images")[image], join("/images", image));
+    } catch (const FileError&) {
+        return {};
+    }
+}
+
 void readImages(const Document& document, Scene& scene) {
     std::set<std::size_t> wanted;
     for (const ScenePrimitive& primitive : scene.primitives) {

@@ -17,4 +17,7 @@ Scene sceneOf(const Document& document, std::span<const Primitive> primitives);
 /// Reads the bytes of the images that the scene's primitives use. One that cannot be read stays empty.
 void readImages(const Document& document, Scene& scene);
 
+/// The image file of entry `image` of /images; empty where it cannot be had.
+Bytes tryReadImage(const Document& document, std::size_t image);
+
 }  // namespace tspace::gltf

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "asset/file_io.h"
 #include "asset/memory_budget.h"
 #include "asset/path.h"
 #include "tspace/vec.h"
@@ -36,6 +38,8 @@ struct Texture {
     std::string file = {};
     Path folder = {};
     [[nodiscard]] bool used() const { return !file.empty(); }
+    /// The same for all textures of one file, if they name it alike.
+    [[nodiscard]] std::string path() const { return (folder / file).string(); }
 };
 
 struct Material {
@@ -59,8 +63,10 @@ struct Model {
     std::vector<Corner> corners = {};  ///< every index is in range
     std::vector<Face> faces = {};      ///< in file order, at least 3 corners each; never empty
     std::vector<std::string> shape_names = {};
-    std::vector<Material> materials = {};       ///< in order of first use by a face
-    bool has_smoothing_groups = false;          ///< the file has `s` lines
+    std::vector<Material> materials = {};  ///< in order of first use by a face
+    bool has_smoothing_groups = false;     ///< the file has `s` lines
+    /// What the output has in place of some normal maps, by Texture::path.
+    std::map<std::string, Bytes> flipped_maps = {};
     std::uint64_t input_bytes = 0;              ///< the OBJ and its MTL files
     std::vector<std::string> input_files = {};  ///< the same
     std::vector<std::string> warnings = {};

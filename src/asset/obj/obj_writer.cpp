@@ -6,6 +6,8 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <string_view>
+#include <utility>
 
 #include "asset/file_error.h"
 #include "asset/uri.h"
@@ -118,6 +120,7 @@ class ImageBuilder {
     ImageBuilder(const Model& model, const Path& output, const FileOptions& options, BufferBuilder& buffer,
                  AtomicOutput& files, std::vector<std::string>& warnings)
         : names_by_uri_(isSameFile(folderOf(output), model.folder)),
+          flipped_maps_(model.flipped_maps),
           folder_(model.folder),
           options_(options),
           buffer_(buffer),
@@ -127,16 +130,19 @@ class ImageBuilder {
     /// Sets material[key] to a reference to the texture; nothing where it cannot be had.
     void addReference(const Texture& texture, Json& material, const char* key) {
         if (!texture.used()) return;
-        const std::string name = (texture.folder / texture.file).string();
-        const auto [entry, is_new] = textures_by_file_.emplace(name, -1);
-        if (is_new) entry->second = addTexture(texture);
+        const std::string name = texture.path();
+        const auto flipped = flipped_maps_.find(name);
+        const bool is_flipped = flipped != flipped_maps_.end() && std::string_view(key) == "normalTexture";
+        const auto [entry, is_new] = textures_by_file_.emplace(std::pair(name, is_flipped), -1);
+        if (is_new) entry->second = addTexture(texture, is_flipped ? &flipped->second : nullptr);
         if (entry->second >= 0) material[key] = {{"index", entry->second}};
     }
 
     [[nodiscard]] const Json& images() const { return images_; }
 
   private:
-    int addTexture(const Texture& texture) {
+    /// `flipped`: goes into the output in place of the file; may be null.
+    int addTexture(const Texture& texture, const Bytes* flipped) {
         try {
             const fs::path path =
                 resolveUri(texture.folder, percentEncode(texture.file), options_.allow_external, "material");
@@ -148,7 +154,8 @@ class ImageBuilder {
                 warnings_.push_back("the texture '" + texture.file + "' was left out: it is neither PNG nor JPEG");
                 return -1;
             }
-            images_.push_back(imageJson(path, bytes, mimeType(format)));
+            images_.push_back(flipped == nullptr ? imageJson(path, bytes, mimeType(format), names_by_uri_)
+                                                 : imageJson(path, *flipped, mimeType(format), false));
         } catch (const FileError& failure) {
             warnings_.push_back("a texture was left out: " + failure.error.message);
             return -1;
@@ -156,12 +163,12 @@ class ImageBuilder {
         return static_cast<int>(images_.size()) - 1;
     }
 
-    Json imageJson(const fs::path& path, const Bytes& bytes, const char* type) {
+    Json imageJson(const fs::path& path, const Bytes& bytes, const char* type, bool names_by_uri) {
         Json image = {{"name", path.stem().string()}};
         const fs::path root = fs::weakly_canonical(fs::absolute(folder_));
         const fs::path relative = fs::weakly_canonical(fs::absolute(path)).lexically_relative(root);
         const bool lies_below = !relative.empty() && *relative.begin() != "..";
-        if (names_by_uri_ && lies_below) {
+        if (names_by_uri && lies_below) {
             image["uri"] = percentEncode(relative.generic_string());
         } else {
             image["mimeType"] = type;
@@ -171,12 +178,13 @@ class ImageBuilder {
     }
 
     const bool names_by_uri_;
+    const std::map<std::string, Bytes>& flipped_maps_;
     const fs::path folder_;
     const FileOptions& options_;
     BufferBuilder& buffer_;
     AtomicOutput& files_;
     std::vector<std::string>& warnings_;
-    std::map<std::string, int> textures_by_file_ = {};
+    std::map<std::pair<std::string, bool>, int> textures_by_file_ = {};  ///< by path, and whether green is inverted
     Json images_ = Json::array();
 };
 

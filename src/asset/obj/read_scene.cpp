@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // An OBJ file as a Scene: the primitives that a glTF made from it would have, before any normal is made.
-#include "asset/scene.h"
+#include "asset/obj/read_scene.h"
 
 #include <map>
 
 #include "asset/file_error.h"
-#include "asset/obj/obj_primitives.h"
 #include "asset/obj/obj_reader.h"
 #include "asset/uri.h"
 #include "tspace/triangulate.h"
@@ -21,7 +20,7 @@ class NormalMaps {
         : options_(options), with_bytes_(with_bytes), memory_(memory) {}
 
     std::size_t indexOf(const Texture& texture) {
-        const auto [entry, is_new] = numbers_.emplace((texture.folder / texture.file).string(), images.size());
+        const auto [entry, is_new] = numbers_.emplace(texture.path(), images.size());
         if (is_new) {
             SceneImage& image = images.emplace_back();
             image.uri = texture.file;
@@ -83,20 +82,25 @@ ScenePrimitive loadPrimitive(const Model& model, const ObjPrimitive& primitive, 
 
 }  // namespace
 
-Scene readObjScene(const std::string& input, const FileOptions& options, bool with_images) {
-    Model model = readModel(input, options);
+Scene sceneOf(const Model& model, std::span<const ObjPrimitive> primitives, const FileOptions& options,
+              bool with_images) {
     Scene scene;
     scene.format = "obj";
-    scene.memory = std::move(model.memory);
+    scene.memory = model.memory;
     scene.warnings = model.warnings;
     NormalMaps maps(options, with_images, *scene.memory);
     std::vector<std::uint32_t> next_in_mesh(model.shape_names.size(), 0);
-    for (const ObjPrimitive& primitive : collectPrimitives(model)) {
+    for (const ObjPrimitive& primitive : primitives) {
         scene.primitives.push_back(loadPrimitive(model, primitive, maps));
         scene.primitives.back().primitive = next_in_mesh[primitive.shape]++;
     }
     scene.images = std::move(maps.images);
     return scene;
+}
+
+Scene readObjScene(const std::string& input, const FileOptions& options, bool with_images) {
+    const Model model = readModel(input, options);
+    return sceneOf(model, collectPrimitives(model), options, with_images);
 }
 
 }  // namespace tspace::obj

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+// From normal maps to images, and back to the textures that read them.
+#include "asset/gltf/flip_maps.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "asset/gltf/read_scene.h"
+#include "asset/uri.h"
+#include "generate/judge_maps.h"
+#include "maps/image.h"
+
+namespace tspace::gltf {
+
+namespace {
+
+/// Calls visit(name, object) for each reference to a texture: an object with an "index", as in glTF itself and in all of
+/// its extensions. `name`: that of the member it is.
+template <class Visit>
+void forTextureReferences(Json& value, const Visit& visit, const std::string& name = {}) {
+    if (value.is_array()) {
+        for (Json& element : value) forTextureReferences(element, visit);
+    }
+    if (!value.is_object()) return;
+    if (value.contains("index")) visit(name, value);
+    for (const auto& [key, member] : value.items()) forTextureReferences(member, visit, key);
+}
+
+bool isNormalMap(const std::string& name) { return name == "normalTexture" || name == "clearcoatNormalTexture"; }
+
+/// Calls visit(number) for each image that the texture may show: its source, and those in other formats.
+template <class Visit>
+void forSources(Json& texture, const Visit& visit) {
+    if (!texture.is_object()) return;
+    if (texture.contains("source")) visit(texture["source"]);
+    for (const char* name : {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"}) {
+        if (findExtension(texture, name) == nullptr) continue;
+        Json& extension = texture["extensions"][name];
+        if (extension.is_object() && extension.contains("source")) visit(extension["source"]);
+    }
+}
+
+bool isNumber(const Json& value, std::size_t number) {
+    return value.is_number_unsigned() && value.get<std::size_t>() == number;
+}
+
+/// How textures and images are used. Of what refers to an image outside of textures nothing is known.
+class TextureUses {
+  public:
+    explicit TextureUses(Document& document) : document_(document) {
+        for (const char* list : {"textures", "materials"}) {
+            if (!document.json.contains(list) || !document.json[list].is_array()) return;
+        }
+        uses_.resize(textures().size());
+        forTextureReferences(document.json["materials"], [&](const std::string& name, Json& reference) {
+            const Json& index = reference["index"];
+            if (!index.is_number_unsigned() || index.get<std::size_t>() >= uses_.size()) return;
+            Use& use = uses_[index.get<std::size_t>()];
+            (isNormalMap(name) ? use.is_normal_map : use.is_other) = true;
+        });
+        for (std::size_t i = 0; i < uses_.size(); ++i) {
+            for (const std::size_t image : sourcesOf(i)) textures_of_[image].push_back(i);
+        }
+    }
+
+    /// Something else than a normal map shows the image.
+    [[nodiscard]] bool isOther(std::size_t image) {
+        const std::vector<std::size_t>& all = textures_of_[image];
+        return std::any_of(all.begin(), all.end(), [&](std::size_t texture) { return uses_[texture].is_other; });
+    }
+    /// What the normal maps which show this image may show instead.
+    [[nodiscard]] std::set<std::size_t> alternatives(std::size_t image) {
+        std::set<std::size_t> others;
+        for (const std::size_t texture : textures_of_[image]) {
+            if (uses_[texture].is_normal_map) others.merge(sourcesOf(texture));
+        }
+        others.erase(image);
+        return others;
+    }
+    /// Normal maps that show `from` show `to` from now on; nothing else does. Call applyRedirections in the end.
+    void redirect(std::size_t from, std::size_t to) {
+        for (const std::size_t shared : textures_of_[from]) {
+            if (!uses_[shared].is_normal_map) continue;
+            const std::size_t texture = uses_[shared].is_other ? ownTexture(shared) : shared;
+            forSources(textures()[texture], [&](Json& source) {
+                if (isNumber(source, from)) source = to;
+            });
+        }
+    }
+    void applyRedirections() {
+        if (own_textures_.empty()) return;
+        forTextureReferences(document_.json["materials"], [&](const std::string& name, Json& reference) {
+            Json& index = reference["index"];
+            if (!isNormalMap(name) || !index.is_number_unsigned()) return;
+            const auto own = own_textures_.find(index.get<std::size_t>());
+            if (own != own_textures_.end()) index = own->second;
+        });
+    }
+
+  private:
+    struct Use {
+        bool is_normal_map = false, is_other = false;
+    };
+    Json& textures() { return document_.json["textures"]; }
+    std::set<std::size_t> sourcesOf(std::size_t texture) {
+        std::set<std::size_t> sources;
+        forSources(textures()[texture], [&](const Json& source) {
+            if (source.is_number_unsigned()) sources.insert(source.get<std::size_t>());
+        });
+        return sources;
+    }
+    /// A copy of the texture for normal maps alone: the same one for all of its images.
+    std::size_t ownTexture(std::size_t shared) {
+        const auto [own, is_new] = own_textures_.try_emplace(shared, textures().size());
+        if (is_new) {
+            Json copy = textures()[shared];
+            textures().push_back(std::move(copy));
+        }
+        return own->second;
+    }
+
+    Document& document_;
+    std::vector<Use> uses_ = {};                                        ///< by texture
+    std::map<std::size_t, std::vector<std::size_t>> textures_of_ = {};  ///< by image
+    std::map<std::size_t, std::size_t> own_textures_ = {};              ///< from shared ones to those of normal maps
+};
+
+/// Images that may be shown for one another, such as a PNG and a WebP of one texture, are inverted together. Where one
+/// of them cannot be or must not, none is: viewers choose among them.
+class Alternatives {
+  public:
+    Alternatives(Document& document, MapFlips& flips) : document_(document), uses_(document), flips_(flips) {
+        for (NormalMapReport& report : flips.reports) judged_[report.image] = &report;
+    }
+
+    void decide() {
+        for (const NormalMapReport& report : flips_.reports) {
+            if (report.flipped && !is_settled_.contains(report.image)) settle(together(report.image));
+        }
+    }
+
+  private:
+    /// The image, and all that hang together with it.
+    std::vector<std::size_t> together(std::size_t image) {
+        std::vector<std::size_t> images{image};
+        is_settled_.insert(image);
+        for (std::size_t i = 0; i < images.size(); ++i) {
+            for (const std::size_t other : uses_.alternatives(images[i])) {
+                if (is_settled_.insert(other).second) images.push_back(other);
+            }
+        }
+        return images;
+    }
+
+    void settle(const std::vector<std::size_t>& images) {
+        std::string why;
+        for (const std::size_t image : images) {
+            if (why.empty()) why = whyItStays(image);
+        }
+        if (why.empty()) return;
+        for (const std::size_t image : images) {
+            flips_.images.erase(image);
+            const auto judged = judged_.find(image);
+            if (judged == judged_.end() || !judged->second->flipped) continue;
+            judged->second->flipped = false;
+            judged->second->reason = why;
+        }
+    }
+
+    /// Empty where it is to be inverted, and can be; an image that was not judged is inverted here.
+    std::string whyItStays(std::size_t image) {
+        const std::string start = "image " + std::to_string(image) + " is the same map in another format, and ";
+        const auto judged = judged_.find(image);
+        if (judged != judged_.end()) return judged->second->flipped ? "" : start + "stays";
+        std::string why = "it cannot be read";
+        Bytes bytes;
+        if (image < rootArray(document_, "images").size()) bytes = tryReadImage(document_, image);
+        if (!bytes.empty()) bytes = flipImage(bytes, *document_.memory, why);
+        if (bytes.empty()) return start + "cannot be inverted: " + why;
+        document_.memory->take(bytes.size(), join("/images", image));
+        flips_.images[image] = std::move(bytes);
+        return {};
+    }
+
+    Document& document_;
+    TextureUses uses_;
+    MapFlips& flips_;
+    std::map<std::size_t, NormalMapReport*> judged_ = {};  ///< by image
+    std::set<std::size_t> is_settled_ = {};
+};
+
+/// Puts one image file in the place of another.
+class ImagePlacer {
+  public:
+    ImagePlacer(Document& document, Editor& editor, const OutputTarget& target)
+        : document_(document), editor_(editor), target_(target) {}
+
+    /// `keeps_old`: somebody else still needs what the image had.
+    void place(std::size_t image, Bytes&& bytes, bool keeps_old) {
+        Json& entry = document_.json["images"][image];
+        if (entry.contains("bufferView")) {
+            placeInView(image, std::move(bytes), keeps_old);
+            editor_.touch();
+            return;
+        }
+        const std::string uri = entry["uri"].text();
+        if (uriKind(uri) == UriKind::data) {
+            entry["uri"] = encodeDataUri(mimeType(imageFormat(bytes)), bytes);
+        } else if (target_.container == Container::glb) {
+            takeIn(image, std::move(bytes));
+        } else {
+            const auto known = files_.find(uri);
+            const std::string name = known != files_.end() ? known->second : freeName(uri, bytes);
+            files_[uri] = name;
+            entry["uri"] = percentEncode(name);
+            document_.new_files[name] = std::move(bytes);
+        }
+        editor_.touch();
+    }
+
+  private:
+    /// A GLB holds what is made for it, and so can go through a pipe.
+    void takeIn(std::size_t image, Bytes&& bytes) {
+        const char* type = mimeType(imageFormat(bytes));
+        const std::size_t view = editor_.storeBlob(std::move(bytes), std::nullopt);
+        Json& entry = document_.json["images"][image];
+        entry.erase("uri");
+        entry["bufferView"] = view;
+        entry["mimeType"] = type;
+    }
+
+    void placeInView(std::size_t image, Bytes&& bytes, bool keeps_old) {
+        const auto view = document_.json["images"][image]["bufferView"].get<std::size_t>();
+        if (!keeps_old) editor_.letGoOfView(view);
+        auto known = views_.find(view);
+        if (known == views_.end())
+            known = views_.emplace(view, editor_.storeBlob(std::move(bytes), std::nullopt)).first;
+        // Not through a reference from before: storing may move the members of the root.
+        document_.json["images"][image]["bufferView"] = known->second;
+    }
+
+    /// A name beside the old one that no other file has, or one with these bytes.
+    std::string freeName(const std::string& uri, const Bytes& bytes) {
+        namespace fs = std::filesystem;
+        fs::path old = fs::path(pathOfUri(uri)).lexically_normal();
+        // What lies outside of the model's folder gets its new file inside.
+        if (old.is_absolute() || *old.begin() == "..") old = old.filename();
+        for (int number = 1;; ++number) {
+            std::string ending = "-green-up";
+            if (number > 1) ending.append("-").append(std::to_string(number));
+            const fs::path name = old.parent_path() / (old.stem().string() + ending + old.extension().string());
+            const fs::path file = folderOf(target_.path) / name.string();
+            if (namesFile(document_, name.string())) continue;
+            std::error_code error;
+            if (!fs::exists(file, error)) return name.string();
+            const bool may_be_same = fs::is_regular_file(file, error) && fs::file_size(file, error) == bytes.size();
+            if (may_be_same && readFile(file) == bytes) return name.string();
+        }
+    }
+
+    Document& document_;
+    Editor& editor_;
+    const OutputTarget& target_;
+    std::map<std::size_t, std::size_t> views_ = {};  ///< from views to those that took their place
+    std::map<std::string, std::string> files_ = {};  ///< from URIs to new names
+};
+
+/// The file of an image, if it lies in one, is part of the input.
+void noteInputFile(Document& document, std::size_t image) {
+    const std::string place = join("/images", image);
+    const Json& entry = rootArray(document, "images")[image];
+    const std::string uri = readString(entry, "uri", place);
+    if (uri.empty() || uriKind(uri) != UriKind::path) return;
+    document.input_files.push_back(
+        resolveUri(document.folder, uri, document.options.allow_external, join(place, "uri")).string());
+}
+
+}  // namespace
+
+MapFlips planFlips(Document& document, std::span<const Primitive> primitives, std::span<const PrimitiveReport> reports,
+                   const GenerateOptions& options) {
+    MapFlips flips;
+    std::vector<bool> keeps_tangents;
+    for (const PrimitiveReport& report : reports) {
+        keeps_tangents.push_back(report.action == PrimitiveAction::kept ||
+                                 options.existing == ExistingTangents::repair);
+    }
+    const std::int64_t left = document.memory->left();
+    Scene scene = sceneOf(document, primitives);
+    readImages(document, scene);
+    std::vector<JudgedMap> maps = judgeMaps(scene, keeps_tangents, options);
+    document.memory->giveBack(left);
+    for (JudgedMap& map : maps) {
+        if (map.report.flipped) flips.images[map.image] = std::move(map.flipped);
+        flips.reports.push_back(std::move(map.report));
+    }
+    for (const auto& [image, bytes] : flips.images) document.memory->take(bytes.size(), join("/images", image));
+    Alternatives(document, flips).decide();
+    for (const auto& [image, bytes] : flips.images) noteInputFile(document, image);
+    return flips;
+}
+
+void applyFlips(Document& document, Editor& editor, const OutputTarget& target, MapFlips&& flips) {
+    TextureUses uses(document);
+    ImagePlacer placer(document, editor, target);
+    for (auto& [image, bytes] : flips.images) {
+        if (!uses.isOther(image)) {
+            placer.place(image, std::move(bytes), false);
+            continue;
+        }
+        Json& images = document.json["images"];
+        Json copy = images[image];
+        images.push_back(std::move(copy));
+        const std::size_t own = images.size() - 1;
+        placer.place(own, std::move(bytes), true);
+        uses.redirect(image, own);
+    }
+    uses.applyRedirections();
+}
+
+}  // namespace tspace::gltf
