@@ -24,6 +24,7 @@ inline constexpr std::uint32_t kUndecidedSign = 1u << 31;
 struct FrameHealth {
     /// Per vertex the bits of what it is counted for below; empty: nothing at all. Wrong signs have the bit of
     /// signsWrong, however many there are; where that is nearly all, others of the same patches have kUndecidedSign.
+    /// Where nearly all directions are wrong, others of the same patches have the bit of directionsWrong too.
     std::vector<std::uint32_t> faults = {};
     /// Vertices with the tangents that `generate` would give them, which nothing below holds against them; may be empty.
     std::vector<bool> settled = {};

@@ -4,6 +4,7 @@
 
 #include "check/equal_vertices.h"
 #include "check/frame_health.h"
+#include "check/vertex_patches.h"
 #include "core/angle.h"
 #include "core/unit.h"
 
@@ -17,6 +18,8 @@ constexpr double kInsideDeg = 2;
 constexpr double kSameDeg = 1;
 /// Vertices at one point that a vertex is compared with. More happens at poles, and one is enough.
 constexpr std::size_t kMostCompared = 64;
+/// Share of the surface from which wrong directions leave nothing that is right.
+constexpr double kNothingRight = 0.95;
 
 enum class Cause { unknown, uvSeam, mirroredSeam };
 
@@ -74,6 +77,33 @@ class SeamFinder {
     std::vector<DirectionCone> cones_ = {};
 };
 
+/// Where nearly all directions are wrong the others around them are too: cones are wide where triangles fold, and nearly
+/// anything lies inside. To mend the ones without the others would leave seams. In a patch where most are right they
+/// are right.
+void findUndecided(const TangentView& mesh, const Surface& surface, std::span<const float> directions,
+                   std::span<const std::uint32_t> far, FrameHealth& health) {
+    const std::size_t count = mesh.positions.size();
+    VertexPatches patches(count, mesh.corners, [](const std::uint32_t*) { return true; });
+    std::vector<double> judged(count, 0.0), wrong(count, 0.0);
+    double all_judged = 0, all_wrong = 0;
+    for (std::uint32_t v = 0; v < count; ++v) {
+        if (directions[v] == kUnknownDirection) continue;
+        judged[patches.of(v)] += surface.known_areas[v];
+        all_judged += surface.known_areas[v];
+    }
+    for (const std::uint32_t v : far) {
+        wrong[patches.of(v)] += surface.known_areas[v];
+        all_wrong += surface.known_areas[v];
+    }
+    const double share = all_wrong >= kNothingRight * all_judged ? 0.5 : kNothingRight;
+    for (std::uint32_t v = 0; v < count; ++v) {
+        if (directions[v] == kUnknownDirection || health.isSettled(v)) continue;
+        const std::uint32_t patch = patches.of(v);
+        if (wrong[patch] > 0 && wrong[patch] >= share * judged[patch])
+            health.fault(v, FindingCode::directionsWrong, count);
+    }
+}
+
 }  // namespace
 
 void examineDirections(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
@@ -103,6 +133,7 @@ void examineDirections(const TangentView& mesh, const Surface& surface, const Ch
                                                   : FindingCode::directionsWrong,
                      mesh.positions.size());
     }
+    findUndecided(mesh, surface, directions, far, health);
 }
 
 }  // namespace tspace

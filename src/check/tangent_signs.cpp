@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Signs against the orientation of the UVs.
 #include <cmath>
-#include <numeric>
 
 #include "check/frame_health.h"
+#include "check/vertex_patches.h"
 #include "core/unit.h"
 
 namespace tspace {
@@ -31,33 +31,15 @@ SignAreas sumAreas(const TangentView& mesh, const Surface& surface, const Conven
     return areas;
 }
 
-/// Vertices that triangles with one and the same sign at all corners connect.
-class SignPatches {
-  public:
-    SignPatches(const TangentView& mesh, const Surface& surface) : parents_(mesh.positions.size()) {
-        std::iota(parents_.begin(), parents_.end(), 0u);
-        for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-            const std::uint32_t* const v = mesh.corners.data() + 3 * f;
-            const bool positive = mesh.tangents[v[0]].w > 0;
-            if ((mesh.tangents[v[1]].w > 0) != positive || (mesh.tangents[v[2]].w > 0) != positive) continue;
-            parents_[of(v[1])] = of(v[0]);
-            parents_[of(v[2])] = of(v[0]);
-        }
-    }
-    std::uint32_t of(std::uint32_t vertex) {
-        while (parents_[vertex] != vertex) vertex = parents_[vertex] = parents_[parents_[vertex]];
-        return vertex;
-    }
-
-  private:
-    std::vector<std::uint32_t> parents_;
-};
-
 /// Where nearly all signs are inverted, others in the same patch are too, whatever their triangles say: a quad that
 /// folds, say, has triangles of both orientations, and one sign. So are those of patches about which nothing is known.
 /// In a patch where most signs are right they are right.
-void findUndecided(const TangentView& mesh, const Surface& surface, const SignAreas& areas, FrameHealth& health) {
-    SignPatches patches(mesh, surface);
+void findUndecided(const TangentView& mesh, const SignAreas& areas, FrameHealth& health) {
+    // Of triangles with one and the same sign at all corners.
+    VertexPatches patches(mesh.positions.size(), mesh.corners, [&](const std::uint32_t* v) {
+        const bool positive = mesh.tangents[v[0]].w > 0;
+        return (mesh.tangents[v[1]].w > 0) == positive && (mesh.tangents[v[2]].w > 0) == positive;
+    });
     std::vector<float> right(mesh.positions.size(), 0.0f), wrong(mesh.positions.size(), 0.0f);
     for (std::uint32_t v = 0; v < right.size(); ++v) {
         const bool is_positive = mesh.tangents[v].w > 0;
@@ -103,7 +85,7 @@ void examineSigns(const TangentView& mesh, const Surface& surface, const CheckOp
     }
     health.wrong_sign_share = judged > 0 ? wrong / judged : 0;
     health.all_signs_wrong = wrong > 0 && wrong >= kNearlyAll * judged;
-    if (health.all_signs_wrong) findUndecided(mesh, surface, areas, health);
+    if (health.all_signs_wrong) findUndecided(mesh, areas, health);
 }
 
 }  // namespace tspace

@@ -11,6 +11,7 @@
 #include "core/vec_math.h"
 #include "generate_run.h"
 #include "maps/images.h"
+#include "tspace/check.h"
 
 namespace tspace {
 namespace {
@@ -112,6 +113,19 @@ TEST(Repair, ReplacesTangentsThatAreSharedAcrossAMirroredSeam) {
     const Outcome outcome = run(builder, kRepair);
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::replaced);
     EXPECT_EQ(outcome.report.primitives.at(0).vertices_after, 56u) << "the seam is split now";
+}
+
+/// At vertices of a fold nearly any direction could be meant. Around them all are wrong, so they are too, and what is
+/// made anew must not meet what was left.
+TEST(Repair, MendsWhatCannotBeJudgedWithTheWrongDirectionsAroundIt) {
+    Grid grid(64, false);
+    const std::size_t folded = 32 * 65 + 32;
+    grid.uvs[2 * folded] = grid.uvs[2 * folded + 2] + 0.5f / 64;
+    Model model(gridModel(grid), Method::lengyel);
+    model.repair([](std::size_t, Vec4& t) { t = {-t.y, t.x, 0, t.w}; });
+    const Result<CheckReport> report = checkFile(model.repaired());
+    ASSERT_TRUE(report);
+    for (const Finding& finding : report->findings) ADD_FAILURE() << finding.message;
 }
 
 TEST(Repair, LeavesPrimitivesWithGoodTangentsAloneBesideWrongOnes) {
