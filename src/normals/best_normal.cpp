@@ -29,12 +29,11 @@ double square(double x) { return x * x; }
 
 /// Calls visit(edge, doubled area of the corner's triangle, corner at the other end) for both edges of each corner.
 template <class Visit>
-void forEdges(const BestSource& source, const Link* links, std::uint32_t first_slot, std::uint32_t count, Visit visit) {
+void forEdges(const BestSource& source, const PointCorners& at, const Link* links, std::uint32_t count, Visit visit) {
     for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t corner = source.points.corners[links != nullptr ? links[i].slot : first_slot + i];
-        const FaceTable& faces = source.faces;
-        if (faces.normals[faces.corner_faces[corner]].isDegenerate()) continue;
-        const std::uint32_t next = faces.next(corner), previous = faces.previous(corner);
+        const std::uint32_t corner = at.corner(links[i].slot);
+        if (source.rows[at.triangle(links[i].slot)].isDegenerate()) continue;
+        const std::uint32_t next = source.faces.next(corner), previous = source.faces.previous(corner);
         const auto position = [&](std::uint32_t c) { return toDouble(source.mesh.positions[source.mesh.indices[c]]); };
         const DVec3 here = position(corner), e1 = position(next) - here, e2 = position(previous) - here;
         const double area = length(cross(e1, e2));
@@ -177,12 +176,12 @@ class HeightFit {
 
 }  // namespace
 
-Vec3 bestNormal(const BestSource& source, const Link* links, std::uint32_t first_slot, std::uint32_t count) {
-    const std::uint32_t any = source.points.corners[links != nullptr ? links[0].slot : first_slot];
+Vec3 bestNormal(const BestSource& source, const PointCorners& at, const Link* links, std::uint32_t count) {
+    const std::uint32_t any = at.corner(links[0].slot);
     const DVec3 robust = toDouble(source.robust[any]), sharp = toDouble(source.sharp[any]);
     Doubt doubt(robust, sharp);
     HeightFit fit(sharp);
-    forEdges(source, links, first_slot, count, [&](const DVec3& edge, double area, std::uint32_t there) {
+    forEdges(source, at, links, count, [&](const DVec3& edge, double area, std::uint32_t there) {
         fit.add(edge);
         const DVec3 sharp_there = toDouble(source.sharp[there]);
         if (dot(sharp_there, sharp_there) > 0) doubt.add(edge, area, toDouble(source.robust[there]), sharp_there);

@@ -12,14 +12,11 @@
 #include "normals/best_sums.h"
 #include "tangents/estimators/estimator.h"
 #include "tangents/estimators/input_scale.h"
-#include "tangents/estimators/range_lists.h"
 #include "tangents/mikktspace/add_row.h"
 
 namespace tspace::smooth {
 
 namespace {
-
-using estimators::RangeLists, estimators::TriangleGroups;
 
 constexpr std::size_t kRangePoints = 4096;  // whose sums are half of a second cache
 constexpr std::size_t kTasksPerThread = 4;
@@ -180,7 +177,7 @@ void refineTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positi
     const std::size_t count = mesh.vertexCount();
     Buffer<float> sharp(allocator, 4 * count), results(allocator, 4 * count);
     const PointTriangles triangles(mesh, points);
-    const RangeLists lists(triangles, count, kRangePoints, allocator, parallel);
+    const RangeLists lists(triangles, kBestTriangles, count, kRangePoints, allocator, parallel);
     const std::size_t tasks =
         parallel.width() == 1 ? 1 : std::min(lists.count(), std::size_t{kTasksPerThread} * parallel.width());
     Buffer<float> sums(allocator, tasks * 4 * kFitRows * std::min(kRangePoints, wholeGroups(count)));

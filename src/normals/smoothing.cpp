@@ -3,9 +3,12 @@
 #include "normals/smoothing.h"
 
 #include <algorithm>
-#include <tuple>
+#include <bit>
+#include <cstring>
+#include <iterator>
 
 #include "core/angle.h"
+#include "core/float4.h"
 
 namespace tspace {
 
@@ -41,28 +44,153 @@ class Turn {
     DVec3 right_, up_;
 };
 
+[[gnu::noinline]] bool isSmoothByAngle(const SmoothingRule& rule, const FaceRow& a, const FaceRow& b) {
+    return angleBetween(a.unit(), b.unit()) <= rule.crease_rad;
+}
+/// Mostly decided without an angle: that of nearly equal cosines is taken, since the cosine says little near 0 and 180
+/// degrees.
+inline bool isSmooth(const SmoothingRule& rule, const FaceRow& a, const FaceRow& b) {
+    constexpr double kClear = 1e-12;  // rounding is below 1e-15
+    const double cosine = a.x * b.x + a.y * b.y + a.z * b.z, sizes = a.size * b.size;
+    const double above = cosine - rule.crease_cosine * sizes, clear = kClear * sizes;
+    if (above > clear) [[likely]]
+        return true;
+    return !(above < -clear) && isSmoothByAngle(rule, a, b);
+}
+
+using Four = std::int32_t __attribute__((vector_size(16)));
+
+/// The usual point: few corners, and edges that two faces share, so that its faces follow one another in one ring, or in
+/// one row between two edges that one face has.
+class FewCorners {
+  public:
+    static constexpr std::uint32_t kMost = 16;
+
+    FewCorners(const Surroundings& around, const PointCorners& at) : around_(around), at_(at), count_(at.count) {}
+
+    /// Null when it is not the usual point.
+    const Link* find(Link* links) {
+        if (!read() || !(count_ <= 8 ? follow<2>() : follow<4>()) || !isRing()) return nullptr;
+        findHard();
+        return hard_ == 0 ? oneComponent(count_, links) : cut(links);
+    }
+
+  private:
+    bool read() {
+        bool sound = true;
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            next_[i] = at_.next(i);
+            previous_[i] = at_.previous(i);
+            rows_[i] = around_.rows + at_.triangle(i);
+            sound &= !rows_[i]->isDegenerate();
+        }
+        return sound;
+    }
+
+    /// Finds who follows whom. False where an edge has more than two faces, or two that do not agree on its direction.
+    template <std::uint32_t kFours>
+    bool follow() {
+        Four previous[kFours];
+        std::memcpy(previous, previous_, sizeof previous);
+        const std::uint32_t all = (1u << count_) - 1;
+        std::uint32_t led_to = 0, last = count_, broken = 0;
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            std::uint32_t followers = 0;
+            for (std::uint32_t k = 0; k < kFours; ++k)
+                followers |= laneBits(previous[k] == static_cast<std::int32_t>(next_[i])) << 4 * k;
+            followers &= all;
+            broken |= followers & (led_to | (followers - 1));
+            led_to |= followers;
+            if (followers == 0) {
+                if (last != count_) return false;
+                last = i;
+                continue;
+            }
+            follower_[i] = static_cast<std::uint32_t>(std::countr_zero(followers));
+        }
+        if (last == count_) return broken == 0;
+        follower_[last] =
+            static_cast<std::uint32_t>(std::countr_zero(all & ~led_to));  // from the row's end to its begin
+        row_end_ = 1u << last;
+        return broken == 0;
+    }
+
+    [[nodiscard]] bool isRing() const {
+        std::uint32_t steps = 1;
+        for (std::uint32_t i = follower_[0]; i != 0; i = follower_[i]) ++steps;
+        return steps == count_;
+    }
+
+    void findHard() {
+        const bool has_groups = !around_.rule.groups.empty();
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            if (!isSmooth(around_.rule, *rows_[i], *rows_[follower_[i]]) ||
+                (has_groups && !mayConnect(i, follower_[i]))) {
+                hard_ |= 1u << i;
+            }
+        }
+        hard_ &= ~row_end_;
+    }
+    [[nodiscard, gnu::noinline]] bool mayConnect(std::uint32_t a, std::uint32_t b) const {
+        const std::uint32_t face_a = around_.faces.of(at_.corner(a)), face_b = around_.faces.of(at_.corner(b));
+        const std::uint32_t g = around_.rule.groups[face_a], h = around_.rule.groups[face_b];
+        return face_a == face_b || (around_.rule.groups_are_masks ? (g & h) != 0 : g == h && g != 0);
+    }
+
+    /// Cuts the ring at its hard edges.
+    const Link* cut(Link* links) const {
+        std::uint32_t keys[kMost];
+        const std::uint32_t ends = hard_ | row_end_;
+        std::uint32_t i = follower_[std::countr_zero(ends)], begin = i, key = i;
+        Link* link = links;
+        for (std::uint32_t step = 0; step < count_; ++step, i = follower_[i]) {
+            key = std::min(key, i);
+            if ((ends >> i & 1) == 0) continue;
+            for (std::uint32_t k = begin;; k = follower_[k]) {
+                keys[k] = key;
+                if (k == i) break;
+            }
+            begin = key = follower_[i];
+        }
+        for (std::uint32_t first = 0; first < count_; ++first) {
+            if (keys[first] != first) continue;
+            for (std::uint32_t slot = first; slot < count_; ++slot) {
+                if (keys[slot] == first) *link++ = {first, slot};
+            }
+        }
+        return links;
+    }
+
+    const Surroundings& around_;
+    const PointCorners& at_;
+    std::uint32_t count_;
+    std::uint32_t hard_ = 0, row_end_ = 0;  ///< bits of corners: before a hard edge, and with no edge to the next one
+    std::uint32_t follower_[kMost] = {}, next_[kMost];
+    alignas(16) std::uint32_t previous_[kMost];
+    const FaceRow* rows_[kMost];
+};
+
+/// Any point.
 class PointComponents {
   public:
-    PointComponents(const MeshView& mesh, const FaceTable& faces, const PointTable& points, const SmoothingRule& rule,
-                    std::uint32_t point, Link* links, std::uint32_t* parents)
-        : mesh_(mesh),
-          faces_(faces),
-          points_(points),
-          rule_(rule),
-          point_(point),
-          begin_(points.begins[point]),
-          end_(points.begins[point + 1]),
+    PointComponents(const Surroundings& around, const PointCorners& at, Link* links, std::uint32_t* parents)
+        : mesh_(around.mesh),
+          faces_(around.faces),
+          rule_(around.rule),
+          rows_(around.rows),
+          at_(at),
+          count_(at.count),
           links_(links),
           parents_(parents) {}
 
-    void find() {
-        for (std::uint32_t slot = begin_; slot < end_; ++slot) parents_[slot] = slot;
+    [[gnu::noinline]] void find() {
+        for (std::uint32_t slot = 0; slot < count_; ++slot) parents_[slot] = slot;
         if (rule_.any_angle)
             joinByGroup();
         else
             joinOverEdges();
-        for (std::uint32_t slot = begin_; slot < end_; ++slot) links_[slot - begin_] = {root(slot), slot};
-        sortLinks(links_, links_ + (end_ - begin_));
+        for (std::uint32_t slot = 0; slot < count_; ++slot) links_[slot] = {root(slot), slot};
+        sortLinks(links_, links_ + count_);
     }
 
   private:
@@ -71,11 +199,10 @@ class PointComponents {
         std::uint32_t first = kNoSlot, last = kNoSlot;
     };
 
-    [[nodiscard]] std::uint32_t corner(std::uint32_t slot) const { return points_.corners[slot]; }
-    [[nodiscard]] std::uint32_t face(std::uint32_t slot) const { return faces_.corner_faces[corner(slot)]; }
-    [[nodiscard]] const DVec3& normal(std::uint32_t slot) const { return faces_.normals[face(slot)].unit; }
+    [[nodiscard]] std::uint32_t corner(std::uint32_t slot) const { return at_.corner(slot); }
+    [[nodiscard]] const FaceRow& row(std::uint32_t slot) const { return rows_[at_.triangle(slot)]; }
     [[nodiscard]] std::uint32_t group(std::uint32_t slot) const {
-        return rule_.groups.empty() ? 1 : rule_.groups[face(slot)];
+        return rule_.groups.empty() ? 1 : rule_.groups[faces_.of(corner(slot))];
     }
 
     std::uint32_t root(std::uint32_t slot) {
@@ -93,19 +220,19 @@ class PointComponents {
             parents_[a] = b;
     }
     void joinIfSmooth(std::uint32_t a, std::uint32_t b) {
-        if (angleBetween(normal(a), normal(b)) <= rule_.crease_rad) join(a, b);
+        if (isSmooth(rule_, row(a), row(b))) join(a, b);
     }
 
     static void sortLinks(Link* begin, Link* end) {
         std::sort(begin, end,
-                  [](const Link& a, const Link& b) { return std::tie(a.key, a.slot) < std::tie(b.key, b.slot); });
+                  [](const Link& a, const Link& b) { return a.key != b.key ? a.key < b.key : a.slot < b.slot; });
     }
 
     void joinByGroup() {
         Link* end = links_;
         std::uint32_t first_of_bit[32];
         std::fill(std::begin(first_of_bit), std::end(first_of_bit), kNoSlot);
-        for (std::uint32_t slot = begin_; slot < end_; ++slot) {
+        for (std::uint32_t slot = 0; slot < count_; ++slot) {
             const std::uint32_t number = group(slot);
             if (!rule_.groups_are_masks) {
                 if (number != 0) *end++ = {number, slot};
@@ -127,7 +254,7 @@ class PointComponents {
 
     void joinOverEdges() {
         Link* end = links_;
-        for (std::uint32_t slot = begin_; slot < end_; ++slot) end = addEdges(slot, end);
+        for (std::uint32_t slot = 0; slot < count_; ++slot) end = addEdges(slot, end);
         sortLinks(links_, end);
         for (Link* run = links_; run != end;) {
             Link* past = run + 1;
@@ -140,12 +267,11 @@ class PointComponents {
     /// Adds the edges from the point to the next and previous one. Edges of length zero connect a face to
     /// itself.
     Link* addEdges(std::uint32_t slot, Link* end) {
-        const std::uint32_t next = faces_.next(corner(slot));
-        const std::uint32_t previous = faces_.previous(corner(slot));
-        if (points_.corner_points[previous] == point_) join(slot, slotOf(previous, slot));
-        if (faces_.normals[face(slot)].isDegenerate() || group(slot) == 0) return end;
-        if (points_.corner_points[next] != point_) *end++ = {points_.corner_points[next], slot};
-        if (points_.corner_points[previous] != point_) *end++ = {points_.corner_points[previous], slot};
+        const std::uint32_t next = at_.next(slot), previous = at_.previous(slot);
+        if (previous == at_.point) join(slot, slotOf(faces_.previous(corner(slot)), slot));
+        if (row(slot).isDegenerate() || group(slot) == 0) return end;
+        if (next != at_.point) *end++ = {next, slot};
+        if (previous != at_.point) *end++ = {previous, slot};
         return end;
     }
 
@@ -193,43 +319,51 @@ class PointComponents {
 
     void sortAboutEdge(Link* run, Link* past) {
         const std::uint32_t here = corner(run->slot);
-        std::uint32_t there = faces_.next(here);
-        if (points_.corner_points[there] != run->key) there = faces_.previous(here);
+        const std::uint32_t there = at_.next(run->slot) == run->key ? faces_.next(here) : faces_.previous(here);
         const Turn turn(toDouble(mesh_.positions[mesh_.indices[there]]) -
                         toDouble(mesh_.positions[mesh_.indices[here]]));
         std::sort(run, past, [&](const Link& a, const Link& b) {
             const std::uint32_t group_a = rule_.groups_are_masks ? 0 : group(a.slot);
             const std::uint32_t group_b = rule_.groups_are_masks ? 0 : group(b.slot);
             if (group_a != group_b) return group_a < group_b;
-            const double turn_a = turn.of(normal(a.slot));
-            const double turn_b = turn.of(normal(b.slot));
+            const double turn_a = turn.of(row(a.slot).unit());
+            const double turn_b = turn.of(row(b.slot).unit());
             return turn_a != turn_b ? turn_a < turn_b : a.slot < b.slot;
         });
     }
 
     const MeshView& mesh_;
-    const FaceTable& faces_;
-    const PointTable& points_;
+    const Faces& faces_;
     const SmoothingRule& rule_;
-    std::uint32_t point_, begin_, end_;
+    const FaceRow* rows_;
+    const PointCorners& at_;
+    std::uint32_t count_;
     Link* links_;
     std::uint32_t* parents_;
 };
 
 }  // namespace
 
-SmoothingRule makeSmoothingRule(const NormalOptions& options) {
-    SmoothingRule rule;
-    rule.any_angle = options.crease_angle_deg >= 180;
-    rule.crease_rad = double{options.crease_angle_deg} * (kPi / 180) + kCreaseSlackRad;
-    rule.groups = options.smoothing_groups;
-    rule.groups_are_masks = options.smoothing_groups_are_masks;
-    return rule;
+SmoothingRule::SmoothingRule(const NormalOptions& options)
+    : any_angle(options.crease_angle_deg >= 180),
+      crease_rad(double{options.crease_angle_deg} * (kPi / 180) + kCreaseSlackRad),
+      crease_cosine(sineCosine(crease_rad < kPi ? crease_rad : kPi).cosine),
+      groups(options.smoothing_groups),
+      groups_are_masks(options.smoothing_groups_are_masks) {}
+
+const Link* findComponents(const Surroundings& around, const PointCorners& at, Link* links, std::uint32_t* parents) {
+    if (!around.rule.any_angle && at.count <= FewCorners::kMost) {
+        if (const Link* const few = FewCorners(around, at).find(links); few != nullptr) return few;
+    }
+    PointComponents(around, at, links, parents).find();
+    return links;
 }
 
-void findComponents(const MeshView& mesh, const FaceTable& faces, const PointTable& points, const SmoothingRule& rule,
-                    std::uint32_t point, Link* links, std::uint32_t* parents) {
-    PointComponents(mesh, faces, points, rule, point, links, parents).find();
+const Link* oneComponent(std::uint32_t count, Link* links) {
+    static constexpr Link kFew[8] = {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}, {0, 6}, {0, 7}};
+    if (count <= std::size(kFew)) return kFew;
+    for (std::uint32_t slot = 0; slot < count; ++slot) links[slot] = {0, slot};
+    return links;
 }
 
 }  // namespace tspace

@@ -5,37 +5,76 @@
 #include <cstdint>
 #include <span>
 
-#include "normals/topology.h"
+#include "core/vec_math.h"
+#include "normals/faces.h"
 #include "tspace/normals.h"
 
 namespace tspace {
 
+/// The normal of a face times `size`, and `size`: zeros if it is degenerate.
+struct FaceRow {
+    double x, y, z, size;
+
+    [[nodiscard]] bool isDegenerate() const { return size == 0; }
+    [[nodiscard]] DVec3 unit() const { return (1 / size) * DVec3{x, y, z}; }
+};
+
+/// A triangle at hand; or, of another face, one of its corners with its neighbours, which has one entry.
+struct LocalTriangle {
+    std::uint32_t points[5];  ///< of the corners, and of the first two again. Named by their lowest vertices.
+    std::uint32_t corner;     ///< of the mesh: the first one's number
+    double weights[3];        ///< of the face's row
+};
+
+/// The corners at a point, ascending: entries, four times a triangle plus a corner of it.
+struct PointCorners {
+    std::uint32_t point, count;
+    const std::uint32_t* entries;
+    const LocalTriangle* triangles;
+
+    [[nodiscard]] std::uint32_t triangle(std::uint32_t slot) const { return entries[slot] >> 2; }
+    [[nodiscard]] const LocalTriangle& at(std::uint32_t slot) const { return triangles[entries[slot] >> 2]; }
+    [[nodiscard]] std::uint32_t corner(std::uint32_t slot) const { return at(slot).corner + (entries[slot] & 3); }
+    /// The points after and before it on the border of its face.
+    [[nodiscard]] std::uint32_t next(std::uint32_t slot) const { return at(slot).points[(entries[slot] & 3) + 1]; }
+    [[nodiscard]] std::uint32_t previous(std::uint32_t slot) const { return at(slot).points[(entries[slot] & 3) + 2]; }
+    [[nodiscard]] double weight(std::uint32_t slot) const { return at(slot).weights[entries[slot] & 3]; }
+};
+
 /// What keeps faces from being smoothed together.
 struct SmoothingRule {
-    bool any_angle = true;                       ///< no crease: every pair of faces at a point may be connected
-    double crease_rad = 0;                       ///< else only over edges that turn by no more than this
+    explicit SmoothingRule(const NormalOptions& options);
+
+    bool any_angle;                              ///< no crease: every pair of faces at a point may be connected
+    double crease_rad, crease_cosine;            ///< else only over edges that turn by no more than this
     std::span<const std::uint32_t> groups = {};  ///< one per face, or empty
     bool groups_are_masks = false;
 
     [[nodiscard]] bool connectsAll() const { return any_angle && groups.empty(); }
 };
 
-SmoothingRule makeSmoothingRule(const NormalOptions& options);
-
-/// Sorted by component, then by slot. A slot is the place of a corner in PointTable::corners.
+/// A corner around a point, by its place there, and the component that it is in.
 struct Link {
     std::uint32_t key, slot;
 };
 
-/// Finds the components around `point`, whose slots are [begin, end). Afterwards links[0 .. end - begin)
-/// holds one entry per slot with its component as key, sorted. `links` has room for 2 * (end - begin)
-/// entries; `parents` is indexed by slot. O(n log n) in the corners of the point, also when all faces share
-/// one edge.
+/// What decides about the corners around points.
+struct Surroundings {
+    const MeshView& mesh;
+    const Faces& faces;
+    const SmoothingRule& rule;
+    const FaceRow* rows;  ///< of the triangles at hand, by the mesh, not a pose
+};
+
+/// Finds the components of the corners at a point: returns all of them, sorted by component, then by slot. `links` has
+/// room for 2 * count entries, `parents` for count. O(n log n), also when all faces share one edge.
 ///
 /// Below 180 degrees two faces are connected over a shared edge. Where more than two faces meet in an edge,
 /// each is held against the next one of its smoothing group as they turn about it, which for flat faces
 /// connects the same faces as holding each against each.
-void findComponents(const MeshView& mesh, const FaceTable& faces, const PointTable& points, const SmoothingRule& rule,
-                    std::uint32_t point, Link* links, std::uint32_t* parents);
+const Link* findComponents(const Surroundings& around, const PointCorners& at, Link* links, std::uint32_t* parents);
+
+/// All corners as one component.
+const Link* oneComponent(std::uint32_t count, Link* links);
 
 }  // namespace tspace

@@ -175,7 +175,7 @@ void estimateGroups(Method method, const TriangleGroups& triangles, std::size_t 
         RangeWork(setting, room(0)).runAll(group_count);
         return;
     }
-    const RangeLists lists(triangles, group_count, range_size, execution.allocator, parallel);
+    const RangeLists lists(triangles, kBlockTriangles, group_count, range_size, execution.allocator, parallel);
     parallel.forTasks(tasks, [&](std::size_t task) {
         RangeWork work(setting, room(task));
         for (std::size_t r = ranges * task / tasks; r < ranges * (task + 1) / tasks; ++r) {

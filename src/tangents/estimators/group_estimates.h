@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/parallel.h"
+#include "core/range_lists.h"
 #include "tangents/estimators/input_scale.h"
-#include "tangents/estimators/range_lists.h"
 #include "tspace/tangents.h"
 
 namespace tspace::estimators {

@@ -4,10 +4,12 @@
 // one is chosen, nor whether all positions, or all UVs, are four times as large.
 #pragma once
 
-#include "tangents/estimators/range_lists.h"
+#include "core/range_lists.h"
 #include "tspace/tangents.h"
 
 namespace tspace::estimators {
+
+using tspace::TriangleGroups;
 
 struct InputScale {
     float positions = 1, uvs = 1;

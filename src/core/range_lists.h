@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Which triangles add to which range of groups. A group's sums take a hundred bytes, too much to keep all of
-// them near; so ranges of groups are worked on one after the other, each with the triangles that are listed
-// for it.
+// Owner computes, range by range: which triangles have corners in which range of groups (vertices, points, groups of
+// corners). What is kept per group is too much to keep all of it near, and has one writer only; so ranges are worked on
+// one after the other, or by different threads, each with the triangles that are listed for it, in their order. The
+// results have the same bits for any number of ranges and threads.
 #pragma once
 
 #include <span>
@@ -9,7 +10,7 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 
-namespace tspace::estimators {
+namespace tspace {
 
 /// The triangles of a call, in order, and the group that each corner adds to.
 class TriangleGroups {
@@ -31,11 +32,12 @@ class TriangleGroups {
 
 class RangeLists {
   public:
-    static constexpr std::uint32_t kBlock = 0x80000000u;  ///< mark: a block of kBlockTriangles, not a triangle
+    static constexpr std::uint32_t kBlock = 0x80000000u;  ///< mark: a block of triangles, not a triangle
+    static constexpr std::size_t kMostInBlock = 64;
 
-    /// Ranges of `range_size` groups, a power of two. Takes 4 bytes per triangle at the border of two ranges,
+    /// Ranges of `range_size` groups, a power of two; blocks of `block_size` triangles. Takes 4 bytes per triangle at the border of two ranges,
     /// or up to 12 where triangles are in no order. Linear. Throws OutOfMemory.
-    RangeLists(const TriangleGroups& triangles, std::size_t group_count, std::size_t range_size,
+    RangeLists(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count, std::size_t range_size,
                const Allocator* allocator, Parallel& parallel);
 
     [[nodiscard]] std::size_t count() const { return begin_.size() - 1; }
@@ -49,4 +51,4 @@ class RangeLists {
     Buffer<std::uint32_t> entries_;
 };
 
-}  // namespace tspace::estimators
+}  // namespace tspace

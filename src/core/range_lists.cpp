@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "tangents/estimators/range_lists.h"
+#include "core/range_lists.h"
 
 #include <algorithm>
 #include <bit>
 
-#include "tangents/estimators/estimator.h"
-
-namespace tspace::estimators {
+namespace tspace {
 
 namespace {
 
@@ -15,8 +13,11 @@ constexpr std::uint32_t kNoRange = 0xffffffffu, kSeveral = 0xfffffffeu;
 
 class Walk {
   public:
-    Walk(const TriangleGroups& triangles, std::size_t group_count, int shift)
-        : triangles_(triangles), group_count_(static_cast<std::uint32_t>(group_count)), shift_(shift) {}
+    Walk(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count, int shift)
+        : triangles_(triangles),
+          block_size_(block_size),
+          group_count_(static_cast<std::uint32_t>(group_count)),
+          shift_(shift) {}
 
     /// The range of a block, or kNoRange, or kSeveral.
     std::uint32_t rangeOfBlock(std::size_t block) {
@@ -43,7 +44,7 @@ class Walk {
         if (range == kSeveral) {
             const std::size_t size = read(block);
             for (std::size_t t = 0; t < size; ++t) {
-                enterTriangle(static_cast<std::uint32_t>(block * kBlockTriangles + t), groups_ + 3 * t, enter);
+                enterTriangle(static_cast<std::uint32_t>(block * block_size_ + t), groups_ + 3 * t, enter);
             }
         } else if (range != kNoRange) {
             enter(range, RangeLists::kBlock | static_cast<std::uint32_t>(block));
@@ -52,8 +53,8 @@ class Walk {
 
   private:
     std::size_t read(std::size_t block) {
-        const std::size_t first = block * kBlockTriangles;
-        const std::size_t size = std::min(kBlockTriangles, triangles_.count - first);
+        const std::size_t first = block * block_size_;
+        const std::size_t size = std::min(block_size_, triangles_.count - first);
         triangles_.read(first, size, nullptr, groups_);
         return size;
     }
@@ -71,18 +72,19 @@ class Walk {
     }
 
     const TriangleGroups& triangles_;
+    std::size_t block_size_;
     std::uint32_t group_count_;
     int shift_;
-    std::uint32_t groups_[3 * kBlockTriangles] = {};
+    std::uint32_t groups_[3 * RangeLists::kMostInBlock] = {};
 };
 
 }  // namespace
 
-RangeLists::RangeLists(const TriangleGroups& triangles, std::size_t group_count, std::size_t range_size,
-                       const Allocator* allocator, Parallel& parallel) {
+RangeLists::RangeLists(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count,
+                       std::size_t range_size, const Allocator* allocator, Parallel& parallel) {
     const int shift = std::countr_zero(range_size);
     const std::size_t ranges = (group_count + range_size - 1) >> shift;
-    const std::size_t blocks = (triangles.count + kBlockTriangles - 1) / kBlockTriangles;
+    const std::size_t blocks = (triangles.count + block_size - 1) / block_size;
     const std::size_t tasks = std::clamp<std::size_t>(blocks / kBlocksPerTask, 1, parallel.width());
     // First how many entries each task has for each range, then where they go: task after task within a
     // range.
@@ -92,7 +94,7 @@ RangeLists::RangeLists(const TriangleGroups& triangles, std::size_t group_count,
         for (std::size_t b = blocks * task / tasks; b < blocks * (task + 1) / tasks; ++b) body(b);
     };
     parallel.forTasks(tasks, [&](std::size_t task) {
-        Walk walk(triangles, group_count, shift);
+        Walk walk(triangles, block_size, group_count, shift);
         std::size_t* const mine = places.data() + task * ranges;
         forBlocks(task, [&](std::size_t block) {
             range_of[block] = walk.rangeOfBlock(block);
@@ -113,7 +115,7 @@ RangeLists::RangeLists(const TriangleGroups& triangles, std::size_t group_count,
     begin_[ranges] = total;
     entries_ = Buffer<std::uint32_t>(allocator, total);
     parallel.forTasks(tasks, [&](std::size_t task) {
-        Walk walk(triangles, group_count, shift);
+        Walk walk(triangles, block_size, group_count, shift);
         std::size_t* const mine = places.data() + task * ranges;
         forBlocks(task, [&](std::size_t block) {
             walk.enterBlock(block, range_of[block],
@@ -122,4 +124,4 @@ RangeLists::RangeLists(const TriangleGroups& triangles, std::size_t group_count,
     });
 }
 
-}  // namespace tspace::estimators
+}  // namespace tspace

@@ -1,0 +1,493 @@
+// SPDX-License-Identifier: MIT
+// Range by range of points: the corners at each point, with the normals of their faces and their weights, are put side
+// by side; then the components around each point are found, and each gets its mean. Normals and angles of triangles
+// come from the kernel.
+// Based on: Gouraud 1971 (uniform); Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998 (angle);
+// Max, "Weights for Computing Vertex Normals from Facet Normals", 1999 (max).
+#include "normals/smooth_faces.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "core/angle.h"
+#include "core/range_lists.h"
+#include "core/vertex_ranges.h"
+#include "normals/best_normal.h"
+#include "normals/face_terms.h"
+#include "normals/faces.h"
+#include "normals/smoothing.h"
+#include "normals/weld.h"
+
+namespace tspace {
+
+namespace {
+
+using smooth::FaceSource, smooth::FaceTerms;
+
+constexpr std::size_t kBlock = smooth::kTermTriangles;
+constexpr std::size_t kMostRange = 4096, kLeastRange = 64, kRanges = 8;  // points; ranges of a small mesh
+constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
+constexpr std::size_t kGrain = 4096;
+
+// Below the first fraction of the weights a sum is what rounding left of normals that cancel. Below the
+// second it shows how single-precision angles were rounded: it is then taken again, with angles in double.
+constexpr double kVanished = 1e-10, kDoubtful = 1e-2;
+
+/// What the lists are made of: triangles, or for other faces each corner for itself.
+class PointItems final : public TriangleGroups {
+  public:
+    PointItems(const MeshView& mesh, const Faces& faces, const Buffer<std::uint32_t>& points)
+        : TriangleGroups(areTriangles(mesh) ? mesh.faceCount() : mesh.cornerCount()),
+          mesh_(mesh),
+          faces_(faces),
+          points_(points) {}
+
+    static bool areTriangles(const MeshView& mesh) { return mesh.face_sizes.empty() && mesh.face_size == 3; }
+
+    [[nodiscard]] std::uint32_t pointOf(std::uint32_t corner) const {
+        const std::uint32_t vertex = mesh_.indices[corner];
+        return points_.empty() ? vertex : points_[vertex];
+    }
+    void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* points) const override {
+        if (areTriangles(mesh_)) {
+            const std::uint32_t* const v = blockVertices(mesh_.indices, first, size, points);
+            if (vertices != nullptr) std::copy_n(v, 3 * size, vertices);
+            if (v != points) std::copy_n(v, 3 * size, points);
+            for (std::size_t i = 0; !points_.empty() && i < 3 * size; ++i) points[i] = points_[points[i]];
+            return;
+        }
+        for (std::size_t i = 0; i < size; ++i) {
+            const auto corner = static_cast<std::uint32_t>(first + i);
+            std::fill_n(points + 3 * i, 3, faces_.isUsed(faces_.of(corner)) ? pointOf(corner) : kNoPoint);
+        }
+    }
+
+  private:
+    const MeshView& mesh_;
+    const Faces& faces_;
+    const Buffer<std::uint32_t>& points_;
+};
+
+/// A sum of normals times weights.
+struct Sum {
+    using Pair = double __attribute__((vector_size(16)));
+    Pair xy = {}, z_weights = {};
+
+    void add(double weight, const FaceRow& row) {
+        xy += weight * Pair{row.x, row.y};
+        z_weights += weight * Pair{row.z, row.size};
+    }
+    /// Writes the unit mean, unless it is not above `least` of the weights. Sums of products of floats neither overflow
+    /// nor vanish when squared.
+    [[nodiscard]] bool write(double least, Vec3& out) const {
+        const DVec3 sum{xy[0], xy[1], z_weights[0]};
+        const double l = length(sum);
+        if (!(l > least * z_weights[1])) return false;
+        out = toFloat((1 / l) * sum);
+        return true;
+    }
+};
+
+/// The interior angle, so that a polygon weighs the same however it is cut: above pi where the corner is reflex.
+double interiorAngle(const DVec3& e1, const DVec3& e2, const DVec3& outward) {
+    const DVec3 turn = cross(e1, e2);
+    const double angle = polarAngle(dot(e1, e2), length(turn));
+    return dot(turn, outward) < 0 ? 2 * kPi - angle : angle;
+}
+
+double maxWeight(const DVec3& e1, const DVec3& e2) {
+    const double lengths = dot(e1, e1) * dot(e2, e2);
+    return lengths > 0 ? length(cross(e1, e2)) / lengths : 0;
+}
+
+/// What all ranges have in common.
+struct Setting {
+    Setting(const MeshView& m, const MeshView& p, const NormalOptions& options, StridedSpan<Vec3> o, Parallel& parallel)
+        : mesh(m),
+          posed(p),
+          rule(options),
+          faces(m, options.execution.allocator),
+          points(options.weld_positions ? weldPositions(m, options.execution.allocator, parallel)
+                                        : Buffer<std::uint32_t>()),
+          items(m, faces, points),
+          kernel(smooth::faceKernelFor(options.execution.simd)),
+          is_best(options.weighting == NormalWeighting::best),
+          weighting(is_best ? NormalWeighting::angleArea : options.weighting),
+          by_area(weighting == NormalWeighting::area || weighting == NormalWeighting::angleArea),
+          by_angle(weighting == NormalWeighting::angle || weighting == NormalWeighting::angleArea),
+          are_triangles(PointItems::areTriangles(m)),
+          factor(normalFactor(options.convention)),
+          out(o) {}
+
+    /// Whether what is hard is decided by other positions.
+    [[nodiscard]] bool hasPose() const { return needsComponents() && mesh.positions.data != posed.positions.data; }
+    /// Without hard edges a point has one component, and `flat` has none.
+    [[nodiscard]] bool needsComponents() const { return weighting != NormalWeighting::flat && !rule.connectsAll(); }
+
+    /// What a face's row is multiplied with at a corner, in double. A face that visits a point with several corners in
+    /// a row (a collapsed edge) counts once, at the first of them: the others weigh 0.
+    [[nodiscard]] double weightOf(NormalWeighting by, std::uint32_t point, std::uint32_t corner,
+                                  const FaceRow& row) const {
+        const std::uint32_t previous = faces.previous(corner);
+        if (row.isDegenerate() || items.pointOf(previous) == point) return 0;
+        if (by != NormalWeighting::angle && by != NormalWeighting::angleArea && by != NormalWeighting::max) return 1;
+        std::uint32_t next = faces.next(corner);
+        while (items.pointOf(next) == point) next = faces.next(next);  // ends: `previous` is another point
+        const auto position = [&](std::uint32_t c) { return toDouble(posed.positions[mesh.indices[c]]); };
+        const DVec3 here = position(corner), e1 = position(next) - here, e2 = position(previous) - here;
+        return by == NormalWeighting::max ? maxWeight(e1, e2) / row.size
+                                          : interiorAngle(e1, e2, factor * DVec3{row.x, row.y, row.z});
+    }
+
+    const MeshView &mesh, &posed;
+    SmoothingRule rule;
+    Faces faces;
+    Buffer<std::uint32_t> points;
+    PointItems items;
+    smooth::FaceKernel kernel;
+    bool is_best;
+    NormalWeighting weighting;  ///< of the means
+    bool by_area, by_angle, are_triangles;
+    double factor;
+    StridedSpan<Vec3> out;
+    Vec3 *robust = nullptr,
+         *sharp = nullptr;  ///< for `best`, per corner: its means; `sharp` is zero where one vanishes
+};
+
+/// Memory for one range.
+struct Room {
+    FaceRow* rows;      ///< of each triangle, by the pose
+    FaceRow* deciding;  ///< by the mesh, which says what is hard; may be `rows`
+    LocalTriangle* triangles;
+    Link* links;
+    std::uint32_t *entries, *parents, *begins;  ///< entries of PointCorners by point, and where those of each begin
+};
+
+class RangeWork {
+  public:
+    RangeWork(const Setting& setting, const Room& room) : setting_(setting), room_(room) {}
+
+    /// Reads what lies at the points from `first` on; returns how many faces are degenerate, each counted once.
+    std::uint64_t read(std::span<const std::uint32_t> entries, std::size_t first, std::size_t point_count) {
+        first_ = static_cast<std::uint32_t>(first);
+        count_ = static_cast<std::uint32_t>(point_count);
+        size_ = pending_ = 0;
+        degenerate_ = 0;
+        std::fill_n(room_.begins, count_ + 3, 0u);
+        for (const std::uint32_t entry : entries) {
+            const bool is_block = (entry & RangeLists::kBlock) != 0;
+            const std::size_t item = is_block ? (entry & ~RangeLists::kBlock) * kBlock : entry;
+            const std::size_t size = is_block ? std::min(kBlock, setting_.items.count - item) : 1;
+            if (pending_ + size > kBlock) flush();
+            setting_.items.read(item, size, vertices_ + 3 * pending_, points_ + 3 * pending_);
+            for (std::size_t i = 0; i < size; ++i) numbers_[pending_ + i] = static_cast<std::uint32_t>(item + i);
+            pending_ += size;
+        }
+        flush();
+        sortByPoint();
+        return degenerate_;
+    }
+
+    /// Writes means, or what stands for them; returns how many corners got a substitute.
+    std::uint64_t average() {
+        std::uint64_t substitutes = 0;
+        forComponents([&](const PointCorners& at, const Link* links, std::uint32_t count) {
+            substitutes += write(at, links, count);
+        });
+        return substitutes;
+    }
+
+    /// From the means by angle * area to the normals of `best`. Where a mean vanishes, the corners keep what they have.
+    void refine() {
+        const BestSource source{setting_.posed, setting_.faces, room_.rows, setting_.robust, setting_.sharp};
+        forComponents([&](const PointCorners& at, const Link* links, std::uint32_t count) {
+            if (setting_.sharp[at.corner(links[0].slot)] == Vec3{}) return;
+            const Vec3 normal = bestNormal(source, at, links, count);
+            for (std::uint32_t i = 0; i < count; ++i) setting_.out[at.corner(links[i].slot)] = normal;
+        });
+    }
+
+  private:
+    /// The place of a point in `begins`; those of other ranges share one.
+    [[nodiscard]] std::uint32_t placeOf(std::uint32_t point) const { return std::min(point - first_, count_); }
+    /// `begins` counts two places up: after the sums and the filling it holds the begins.
+    void count(std::uint32_t point) { ++room_.begins[placeOf(point) + 2]; }
+    void enter(std::uint32_t point, std::uint32_t entry) { room_.entries[room_.begins[placeOf(point) + 1]++] = entry; }
+
+    void flush() {
+        if (setting_.are_triangles)
+            addTriangles();
+        else
+            addCorners();
+        pending_ = 0;
+    }
+
+    void addTriangles() {
+        if (pending_ == 0) return;
+        const std::uint32_t* const v = fillGroup(vertices_, pending_, smooth::kTermGroup, vertices_);
+        if (room_.deciding != room_.rows) {
+            setting_.kernel.compute(sourceOf(setting_.mesh.positions, false, false), v, pending_, terms_);
+            std::memcpy(room_.deciding + size_, terms_.normal, pending_ * sizeof(FaceRow));
+        }
+        const std::size_t degenerate = setting_.kernel.compute(
+            sourceOf(setting_.posed.positions, setting_.by_angle, setting_.by_area), v, pending_, terms_);
+        std::memcpy(room_.rows + size_, terms_.normal, pending_ * sizeof(FaceRow));
+        for (std::size_t t = 0; t < pending_; ++t) {
+            const std::uint32_t* const p = points_ + 3 * t;
+            room_.triangles[size_ + t] = {{p[0], p[1], p[2], p[0], p[1]},
+                                          3 * numbers_[t],
+                                          {terms_.angle[0][t], terms_.angle[1][t], terms_.angle[2][t]}};
+            for (std::size_t k = 0; k < 3; ++k) count(p[k]);
+        }
+        if (degenerate != 0 || setting_.weighting == NormalWeighting::max || room_.deciding != room_.rows) mend();
+        size_ += pending_;
+    }
+
+    /// What the kernel does not know.
+    void mend() {
+        for (std::size_t t = size_; t < size_ + pending_; ++t) {
+            LocalTriangle& triangle = room_.triangles[t];
+            const FaceRow& row = room_.rows[t];
+            if (row.isDegenerate() && placeOf(triangle.points[0]) < count_) ++degenerate_;
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const std::uint32_t point = triangle.points[k];
+                if (setting_.weighting == NormalWeighting::max)
+                    triangle.weights[k] = setting_.weightOf(NormalWeighting::max, point, triangle.corner + k, row);
+                else if (triangle.points[k + 2] == point)
+                    triangle.weights[k] = 0;
+            }
+        }
+    }
+
+    [[nodiscard]] FaceSource sourceOf(const StridedSpan<const Vec3>& positions, bool by_angle, bool by_area) const {
+        return {reinterpret_cast<const std::byte*>(positions.data),
+                positions.stride_bytes,
+                static_cast<std::uint32_t>(positions.count - 1),
+                setting_.factor,
+                by_angle,
+                by_area};
+    }
+
+    /// Of other faces the items are corners.
+    void addCorners() {
+        for (std::size_t i = 0; i < pending_; ++i) {
+            const std::uint32_t corner = numbers_[i], point = points_[3 * i], face = setting_.faces.of(corner);
+            if (placeOf(point) == count_) continue;
+            const std::uint32_t next = setting_.items.pointOf(setting_.faces.next(corner));
+            const std::uint32_t previous = setting_.items.pointOf(setting_.faces.previous(corner));
+            addFace(face);
+            const FaceRow& row = room_.rows[size_];
+            if (row.isDegenerate() && corner == setting_.faces.first(face)) ++degenerate_;
+            room_.triangles[size_++] = {{point, next, previous, kNoPoint, kNoPoint},
+                                        corner,
+                                        {setting_.weightOf(setting_.weighting, point, corner, row), 0, 0}};
+            count(point);
+        }
+    }
+
+    void addFace(std::uint32_t face) {
+        const auto rowOf = [&](const MeshView& mesh, bool by_area) {
+            const FaceNormal n =
+                faceNormal(mesh, setting_.faces.first(face), setting_.faces.past(face), setting_.factor);
+            const double size = n.length == 0 ? 0 : by_area ? n.length : 1;
+            return FaceRow{size * n.unit.x, size * n.unit.y, size * n.unit.z, size};
+        };
+        if (size_ != 0 && face == last_face_) {
+            room_.rows[size_] = room_.rows[size_ - 1];
+            room_.deciding[size_] = room_.deciding[size_ - 1];
+            return;
+        }
+        last_face_ = face;
+        room_.rows[size_] = rowOf(setting_.posed, setting_.by_area);
+        if (room_.deciding != room_.rows) room_.deciding[size_] = rowOf(setting_.mesh, false);
+    }
+
+    void sortByPoint() {
+        for (std::uint32_t p = 2; p < count_ + 3; ++p) room_.begins[p] += room_.begins[p - 1];
+        for (std::uint32_t t = 0; t < size_; ++t) {
+            const std::uint32_t* const p = room_.triangles[t].points;
+            enter(p[0], 4 * t);
+            if (!setting_.are_triangles) continue;
+            enter(p[1], 4 * t + 1);
+            enter(p[2], 4 * t + 2);
+        }
+    }
+
+    /// body(at, links, count) for each component of each point.
+    template <class Body>
+    void forComponents(const Body& body) {
+        const Surroundings around{setting_.mesh, setting_.faces, setting_.rule, room_.deciding};
+        const bool is_one = !setting_.needsComponents();
+        for (std::uint32_t p = 0; p < count_; ++p) {
+            const std::uint32_t begin = room_.begins[p], count = room_.begins[p + 1] - begin;
+            if (count == 0) continue;
+            const PointCorners at{first_ + p, count, room_.entries + begin, room_.triangles};
+            const Link* const links =
+                is_one ? oneComponent(count, room_.links) : findComponents(around, at, room_.links, room_.parents);
+            for (std::uint32_t first = 0, past = 0; first < count; first = past) {
+                while (past < count && links[past].key == links[first].key) ++past;
+                body(at, links + first, past - first);
+            }
+        }
+    }
+
+    std::uint64_t write(const PointCorners& at, const Link* links, std::uint32_t count) {
+        Vec3 normal;
+        if (setting_.weighting == NormalWeighting::flat || !mean(at, links, count, normal))
+            return writeSubstitutes(at, links, count);
+        for (std::uint32_t i = 0; i < count; ++i) setting_.out[at.corner(links[i].slot)] = normal;
+        if (setting_.is_best && exactMean(NormalWeighting::max, at, links, count, normal)) {
+            for (std::uint32_t i = 0; i < count; ++i) setting_.sharp[at.corner(links[i].slot)] = normal;
+        }
+        return 0;
+    }
+
+    bool mean(const PointCorners& at, const Link* links, std::uint32_t count, Vec3& normal) const {
+        Sum sum;
+        for (std::uint32_t i = 0; i < count; ++i)
+            sum.add(at.weight(links[i].slot), room_.rows[at.triangle(links[i].slot)]);
+        return sum.write(kDoubtful, normal) || exactMean(setting_.weighting, at, links, count, normal);
+    }
+    [[gnu::noinline]] bool exactMean(NormalWeighting weighting, const PointCorners& at, const Link* links,
+                                     std::uint32_t count, Vec3& normal) const {
+        Sum sum;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const FaceRow& row = room_.rows[at.triangle(links[i].slot)];
+            sum.add(setting_.weightOf(weighting, at.point, at.corner(links[i].slot), row), row);
+        }
+        return sum.write(kVanished, normal);
+    }
+
+    /// A corner without a mean takes the normal of its face, or of the others at its point; `flat` always does. Returns
+    /// for how many this is a substitute.
+    [[gnu::noinline]] std::uint64_t writeSubstitutes(const PointCorners& at, const Link* links, std::uint32_t count) {
+        std::uint64_t degenerate = 0;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint32_t corner = at.corner(links[i].slot);
+            const FaceRow& row = room_.rows[at.triangle(links[i].slot)];
+            if (!row.isDegenerate()) {
+                setting_.out[corner] = toFloat(row.unit());
+                continue;
+            }
+            if (others_point_ != at.point) {  // taken once, however many components vanish
+                others_point_ = at.point;
+                const Link* const all = oneComponent(at.count, room_.links + at.count);
+                if (!mean(at, all, at.count, of_others_)) of_others_ = {0, 0, 1};
+            }
+            setting_.out[corner] = of_others_;
+            ++degenerate;
+        }
+        return setting_.weighting == NormalWeighting::flat ? degenerate : count;
+    }
+
+    const Setting& setting_;
+    Room room_;
+    std::uint32_t first_ = 0, count_ = 0;  ///< points of the range
+    std::uint32_t size_ = 0;               ///< triangles at hand
+    std::uint32_t last_face_ = 0;
+    std::uint64_t degenerate_ = 0;
+    std::uint32_t others_point_ = kNoPoint;
+    Vec3 of_others_;           ///< the mean of all corners at that point
+    std::size_t pending_ = 0;  ///< items that wait for the kernel
+    std::uint32_t vertices_[3 * kBlock], points_[3 * kBlock], numbers_[kBlock];
+    FaceTerms terms_;
+};
+
+/// The room of each task.
+class Rooms {
+  public:
+    Rooms(const Setting& setting, const RangeLists& lists, std::size_t range_points, std::size_t tasks,
+          const Allocator* allocator)
+        : items_(mostItems(lists)),
+          corners_(setting.are_triangles ? 3 * items_ : items_),
+          numbers_each_(2 * corners_ + range_points + 3),
+          rows_(allocator, tasks * items_),
+          deciding_(allocator, setting.hasPose() ? tasks * items_ : 0),
+          triangles_(allocator, tasks * items_),
+          links_(allocator, tasks * 2 * corners_),
+          numbers_(allocator, tasks * numbers_each_) {}
+
+    Room of(std::size_t task) {
+        std::uint32_t* const numbers = numbers_.data() + task * numbers_each_;
+        FaceRow* const rows = rows_.data() + task * items_;
+        return {rows,
+                deciding_.empty() ? rows : deciding_.data() + task * items_,
+                triangles_.data() + task * items_,
+                links_.data() + task * 2 * corners_,
+                numbers,
+                numbers + corners_,
+                numbers + 2 * corners_};
+    }
+
+  private:
+    static std::size_t mostItems(const RangeLists& lists) {
+        std::size_t most = 0;
+        for (std::size_t range = 0; range < lists.count(); ++range) {
+            std::size_t here = 0;
+            for (const std::uint32_t entry : lists.entries(range))
+                here += (entry & RangeLists::kBlock) != 0 ? kBlock : 1;
+            most = std::max(most, here);
+        }
+        return most;
+    }
+
+    std::size_t items_, corners_, numbers_each_;
+    Buffer<FaceRow> rows_, deciding_;
+    Buffer<LocalTriangle> triangles_;
+    Buffer<Link> links_;
+    Buffer<std::uint32_t> numbers_;
+};
+
+}  // namespace
+
+NormalReport smoothFaces(const MeshView& mesh, const MeshView& posed, const NormalOptions& options,
+                         StridedSpan<Vec3> out, Parallel& parallel) {
+    const Allocator* const allocator = options.execution.allocator;
+    const std::size_t corner_count = mesh.cornerCount(), point_count = mesh.vertexCount();
+    Setting setting(mesh, posed, options, out, parallel);
+    if (setting.faces.usedCount() != mesh.faceCount()) {
+        for (std::size_t c = 0; c < corner_count; ++c) {
+            if (!setting.faces.isUsed(setting.faces.of(static_cast<std::uint32_t>(c)))) out[c] = {};
+        }
+    }
+    NormalReport report{setting.faces.usedCount(), 0, 0};
+    if (report.face_count == 0) return report;
+
+    const std::size_t range_points =
+        std::clamp(std::bit_floor(point_count / (kRanges * parallel.width())), kLeastRange, kMostRange);
+    const RangeLists lists(setting.items, kBlock, point_count, range_points, allocator, parallel);
+    const std::size_t tasks = std::min<std::size_t>(lists.count(), parallel.width());
+    Rooms rooms(setting, lists, range_points, tasks, allocator);
+    const auto forRanges = [&](const auto& body) {
+        parallel.forTasks(tasks, [&](std::size_t task) {
+            RangeWork work(setting, rooms.of(task));
+            for (std::size_t r = lists.count() * task / tasks; r < lists.count() * (task + 1) / tasks; ++r) {
+                const std::size_t first = r * range_points;
+                body(work, work.read(lists.entries(r), first, std::min(range_points, point_count - first)));
+            }
+        });
+    };
+    Buffer<Vec3> robust, sharp;
+    if (setting.is_best) sharp = Buffer<Vec3>(allocator, corner_count, Vec3{});
+    setting.sharp = sharp.data();
+    std::atomic<std::uint64_t> degenerate{0}, substitutes{0};
+    forRanges([&](RangeWork& work, std::uint64_t degenerate_here) {
+        degenerate += degenerate_here;
+        substitutes += work.average();
+    });
+    report.degenerate_face_count = degenerate;
+    report.fallback_corner_count = substitutes;
+    if (!setting.is_best) return report;
+    robust = Buffer<Vec3>(allocator, corner_count);
+    setting.robust = robust.data();
+    parallel.forRanges(corner_count, kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) robust[c] = out[c];
+    });
+    forRanges([&](RangeWork& work, std::uint64_t) { work.refine(); });
+    return report;
+}
+
+}  // namespace tspace
