@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 
 #include "tspace/execution.h"
@@ -16,7 +17,10 @@ namespace tspace {
 /// should take longer. Not thread-safe itself: one owner, loops one after the other.
 class Parallel {
   public:
-    explicit Parallel(const Execution& execution);
+    /// `corners`: how large the work is, in corners of usual cost (about 20 ns); those of a method that takes n times as
+    /// long count n times. A thread that has less than its share of them costs more than it brings, and is not started.
+    /// An executor's threads are there already: work of any size is cut for them.
+    explicit Parallel(const Execution& execution, std::uint64_t corners = ~std::uint64_t{0});
     ~Parallel();
     Parallel(const Parallel&) = delete;
     Parallel& operator=(const Parallel&) = delete;

@@ -241,7 +241,7 @@ bool equalsItself(const Vec3& v) { return v == v; }
 class Sanitizer {
   public:
     Sanitizer(const MeshView& mesh, StridedSpan<Vec4> tangents, const SanitizeOptions& options)
-        : mesh_(mesh), tangents_(tangents), options_(options), parallel_(options.execution) {
+        : mesh_(mesh), tangents_(tangents), options_(options), parallel_(options.execution, mesh.cornerCount()) {
         cutIntoBlocks();
     }
 

@@ -105,7 +105,7 @@ class Splitter {
              const Execution& execution)
         : attributes_(attributes),
           vertex_count_(vertex_count),
-          parallel_(execution),
+          parallel_(execution, corner_count),
           pending_(execution.allocator, (corner_count + kCornersPerTask - 1) / kCornersPerTask),
           variants_(attributes, result_, execution.allocator) {
         resizeAtOnce(result_.indices, corner_count, corner_count);

@@ -36,7 +36,10 @@ Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& pose
     if (!is_short) {
         if (Error e = checkIndices(mesh.indices, mesh.vertexCount()); e.code != ErrorCode::ok) return e;
     }
-    Parallel parallel(options.execution);
+    // Cones and patches of faces are looked for at each point.
+    constexpr std::uint64_t kSlow = 4;
+    const bool is_slow = options.weighting == NormalWeighting::best || options.crease_angle_deg < 180;
+    Parallel parallel(options.execution, (is_slow ? kSlow : 1) * mesh.cornerCount());
     if (is_short) return smoothTriangles(mesh, posed.positions, options, out, parallel);
     return smoothFaces(mesh, posed, options, out, parallel);
 }

@@ -8,6 +8,7 @@
 
 #include "core/border.h"
 #include "core/parallel.h"
+#include "tangents/estimators/group_estimates.h"
 #include "tangents/indexed_plan.h"
 #include "tangents/mikktspace/evaluation_plan.h"
 #include "tangents/mikktspace/generate.h"
@@ -57,6 +58,12 @@ Error checkOptions(const TangentOptions& options) {
         return {ErrorCode::invalidOption, "only lengyel and basis have one result per vertex"};
     }
     return {ErrorCode::ok, {}};
+}
+
+/// For Parallel: estimators take several times as long as sums.
+std::uint64_t work(Method method, std::uint64_t corners) {
+    constexpr std::uint64_t kSlow = 4;
+    return (estimators::isEstimated(method) ? kSlow : 1) * corners;
 }
 
 Error checkInput(const MeshView& mesh, const TangentOptions& options, Parallel& parallel) {
@@ -122,7 +129,7 @@ std::size_t TangentPlan::memoryBytes() const {
 
 Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out) {
     return atBorder([&]() -> Result<TangentReport> {
-        Parallel parallel(options.execution);
+        Parallel parallel(options.execution, work(options.method, mesh.cornerCount()));
         if (Error e = checkInput(mesh, options, parallel); e.code != ErrorCode::ok) return e;
         if (Error e = checkOutput(out, outputCount(mesh, options)); e.code != ErrorCode::ok) return e;
         if (options.frame == FrameShape::gramSchmidt) return generateFrames(mesh, options, out, parallel);
@@ -138,7 +145,7 @@ Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOption
 
 Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& options) {
     return atBorder([&]() -> Result<TangentPlan> {
-        Parallel parallel(options.execution);
+        Parallel parallel(options.execution, work(options.method, mesh.cornerCount()));
         if (Error e = checkInput(mesh, options, parallel); e.code != ErrorCode::ok) return e;
         auto state = std::make_unique<TangentPlan::State>();
         state->method = options.method;
@@ -168,7 +175,7 @@ Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose
             if (e.code == ErrorCode::countMismatch) e.code = ErrorCode::planMismatch;
             return e;
         }
-        Parallel parallel(execution);
+        Parallel parallel(execution, work(state.method, state.corner_count));
         if (!state.is_symmetric) return state.evaluate(pose, out, execution, parallel);
         const NeededBitangents needed(out, execution.allocator);
         const TangentReport report = state.evaluate(pose, needed.out, execution, parallel);

@@ -85,6 +85,16 @@ TEST(Parallel, WakesThreadsThatFellAsleepBetweenLoops) {
     }
 }
 
+TEST(Parallel, StartsNoThreadThatCostsMoreThanItBrings) {
+    const Execution eight{.thread_count = 8};
+    EXPECT_EQ(Parallel(eight, 0).width(), 1u);
+    EXPECT_EQ(Parallel(eight, 75'000).width(), 1u);  // 25,000 triangles
+    EXPECT_EQ(Parallel(eight, 120'000).width(), 2u);
+    EXPECT_EQ(Parallel(eight, 30'000'000).width(), 8u);
+    const Executor team{.run = [](void*, std::size_t, void (*)(void*, std::size_t), void*) {}, .concurrency = 8};
+    EXPECT_EQ(Parallel(Execution{.executor = &team}, 0).width(), 8u);
+}
+
 TEST(Parallel, UsesTheCallersExecutor) {
     std::atomic<int> runs{0};
     const Executor executor{.run =

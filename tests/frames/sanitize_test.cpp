@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tspace/sanitize.h"
+#include "support/thread_team.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -369,7 +370,7 @@ TEST(Sanitize, GivesTheSameBitsForAnyThreadCount) {
     const SanitizeReport expected = serial.sanitize({.execution = {.thread_count = 1}});
     for (const unsigned threads : {2u, 3u, 8u}) {
         Scene parallel = scene;
-        const SanitizeReport report = parallel.sanitize({.execution = {.thread_count = threads}});
+        const SanitizeReport report = parallel.sanitize({.execution = {.executor = test::threadTeam(threads)}});
         EXPECT_TRUE(sameBits(parallel.tangents, serial.tangents));
         EXPECT_EQ(report.mendedCount(), expected.mendedCount());
         EXPECT_EQ(report.from_neighbor_count, expected.from_neighbor_count);

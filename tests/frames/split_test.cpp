@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tspace/split.h"
+#include "support/thread_team.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -223,7 +224,8 @@ RC_GTEST_PROP(Split, GivesTheSameResultForAnyThreadCount, ()) {
     const std::vector<CornerAttribute> attributes{floats(values, *rc::gen::element(0.0f, 1e-3f), 4)};
     const SplitResult serial = split(indices, vertex_count, attributes, {.thread_count = 1});
     for (const unsigned threads : {2u, 5u}) {
-        RC_ASSERT(equalResults(serial, split(indices, vertex_count, attributes, {.thread_count = threads})));
+        RC_ASSERT(
+            equalResults(serial, split(indices, vertex_count, attributes, {.executor = test::threadTeam(threads)})));
     }
 }
 

@@ -9,6 +9,7 @@
 
 #include "normals/weld.h"
 #include "support/simple_mesh.h"
+#include "support/thread_team.h"
 #include "tspace/normals.h"
 
 namespace tspace {
@@ -123,7 +124,7 @@ TEST(Threads, DoNotChangeABit) {
     const auto expectSameBits = [&](NormalOptions options) {
         const std::vector<Vec3> one = normalsOf(mesh.view(), options);
         for (const unsigned threads : {2u, 3u, 8u}) {
-            options.execution.thread_count = threads;
+            options.execution = {.executor = test::threadTeam(threads)};
             const std::vector<Vec3> many = normalsOf(mesh.view(), options);
             ASSERT_EQ(std::memcmp(one.data(), many.data(), one.size() * sizeof(Vec3)), 0) << threads;
         }
@@ -164,7 +165,7 @@ TEST(Threads, DoNotChangeABitOfTriangles) {
                 EXPECT_GT(one_report.fallback_corner_count, 10'000u);
             }
             for (const unsigned threads : {2u, 3u, 8u}) {
-                options.execution.thread_count = threads;
+                options.execution = {.executor = test::threadTeam(threads)};
                 const std::vector<Vec3> many = normalsOf(mesh.view(), options, &report);
                 ASSERT_EQ(std::memcmp(one.data(), many.data(), one.size() * sizeof(Vec3)), 0) << threads;
                 EXPECT_EQ(report.degenerate_face_count, one_report.degenerate_face_count);

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "support/simple_mesh.h"
+#include "support/thread_team.h"
 #include "tspace/normals.h"
 
 namespace tspace {
@@ -110,7 +111,7 @@ TEST(Simd, EveryTargetGivesTheNormalsOfPlainCode) {
             const Outcome plain = compute(mesh.view(), options);
             for (const SimdTarget target : kTargets) {
                 for (const unsigned threads : {1u, 3u}) {
-                    options.execution = {.thread_count = threads, .simd = target};
+                    options.execution = {.executor = test::threadTeam(threads), .simd = target};
                     SCOPED_TRACE(static_cast<int>(target));
                     expectSameBits(plain, compute(mesh.view(), options));
                 }
@@ -207,7 +208,8 @@ TEST(Indices, BeyondTheVerticesAreFoundInMeshesOfAnySizeAndOrder) {
                 for (const unsigned threads : {1u, 3u}) {
                     for (const bool weld : {false, true}) {
                         const auto result = generateNormals(
-                            broken.view(), {.weld_positions = weld, .execution = {.thread_count = threads}}, out);
+                            broken.view(),
+                            {.weld_positions = weld, .execution = {.executor = test::threadTeam(threads)}}, out);
                         ASSERT_FALSE(result.ok());
                         EXPECT_EQ(result.error().code, ErrorCode::indexOutOfRange);
                         EXPECT_EQ(out[0], (Vec3{7, 7, 7}));
@@ -226,7 +228,7 @@ TEST(Welding, OfAnIndexedMeshIsThatOfTheSameVerticesWithoutIndices) {
         MeshView view = soup.view();
         view.indices = {};
         for (const unsigned threads : {1u, 3u}) {
-            const NormalOptions options{.execution = {.thread_count = threads}};
+            const NormalOptions options{.execution = {.executor = test::threadTeam(threads)}};
             expectSameBits(compute(mesh.view(), options), compute(view, options));
         }
     }

@@ -6,6 +6,7 @@
 
 #include <numeric>
 
+#include "support/thread_team.h"
 #include "tangents/golden_mesh.h"
 #include "tangents/shapes.h"
 
@@ -176,10 +177,10 @@ TEST(GroupedThreads, GiveTheSameBits) {
         {}, {.angular_threshold_deg = 10.0f}, {.method = Method::fast}, {.method = Method::best}};
     for (const Shape& shape : shapes) {
         for (TangentOptions options : ways) {
-            options.execution.thread_count = 1;
+            options.execution = {.thread_count = 1};
             const Outputs want = generate(shape.view(), options);
             for (const unsigned threads : {2u, 3u, 8u}) {
-                options.execution.thread_count = threads;
+                options.execution = {.executor = test::threadTeam(threads)};
                 const Outputs got = generate(shape.view(), options);
                 EXPECT_TRUE(sameBits(want, got)) << threads << " threads";
                 EXPECT_EQ(want.report.group_count, got.report.group_count);

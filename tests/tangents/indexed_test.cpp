@@ -10,6 +10,7 @@
 #include <random>
 
 #include "support/simple_mesh.h"
+#include "support/thread_team.h"
 #include "tangents/indexed_plan.h"
 
 namespace tspace {
@@ -432,7 +433,8 @@ TEST(Threads, DoNotChangeABit) {
     for (const Method method : {Method::lengyel, Method::flat, Method::basis}) {
         const Outputs one = tangentsOf(mesh.view(), {.method = method, .execution = {.thread_count = 1}});
         for (const unsigned threads : {2u, 3u, 8u}) {
-            const Outputs many = tangentsOf(mesh.view(), {.method = method, .execution = {.thread_count = threads}});
+            const Outputs many =
+                tangentsOf(mesh.view(), {.method = method, .execution = {.executor = test::threadTeam(threads)}});
             EXPECT_EQ(std::memcmp(one.tangents.data(), many.tangents.data(), one.tangents.size() * sizeof(Vec4)), 0);
             EXPECT_EQ(std::memcmp(one.bitangents.data(), many.bitangents.data(), one.bitangents.size() * sizeof(Vec3)),
                       0);

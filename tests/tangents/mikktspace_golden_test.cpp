@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "support/shared_data.h"
+#include "support/thread_team.h"
 #include "tangents/golden_mesh.h"
 
 namespace tspace::test {
@@ -34,7 +35,7 @@ TangentOptions goldenOptions(const GoldenMesh& golden, unsigned threads) {
     TangentOptions options;
     options.angular_threshold_deg = golden.angular_threshold_deg;
     options.ngons = Ngons::skip;
-    options.execution.thread_count = threads;
+    options.execution.executor = test::threadTeam(threads);
     return options;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "support/thread_team.h"
 #include "tangents/golden_mesh.h"
 #include "tangents/shapes.h"
 
@@ -52,7 +53,7 @@ RC_GTEST_PROP(ReportCounts, AreTheSameInOneCallAndByPlanAndEvaluation, ()) {
     for (const Method method : {Method::mikktspace, Method::uniform, Method::angle, Method::area, Method::fast,
                                 Method::best, Method::lengyel, Method::flat, Method::basis}) {
         for (const unsigned threads : {1u, 3u}) {
-            const TangentOptions options{.method = method, .execution = {.thread_count = threads}};
+            const TangentOptions options{.method = method, .execution = {.executor = test::threadTeam(threads)}};
             Outputs one_call(mesh.cornerCount()), planned(mesh.cornerCount());
             const auto report = generateTangents(mesh, options, one_call.view());
             const auto plan = planTangents(mesh, options);

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "simd/dispatch.h"
+#include "support/thread_team.h"
 #include "tangents/golden_mesh.h"
 #include "tangents/mikktspace/one_pass.h"
 #include "tangents/shapes.h"
@@ -165,7 +166,7 @@ TEST(OnePass, GivesTheBitsOfPlanAndEvaluationForAnyNumberOfThreads) {
             Outputs want(shape.cornerCount());
             ASSERT_NO_FATAL_FAILURE(planAndEvaluate(shape, options, want));
             for (const unsigned threads : {1u, 2u, 3u, 8u}) {
-                options.execution.thread_count = threads;
+                options.execution.executor = test::threadTeam(threads);
                 ASSERT_TRUE(sameBits(want, generate(shape, options)))
                     << threads << " threads, method " << static_cast<int>(method);
             }
@@ -240,10 +241,10 @@ TEST(OnePass, AndALookAtEachNodeGiveTheSameBits) {
             TangentOptions options;
             options.method = method;
             options.pairing = Pairing::corrected;
-            options.execution.thread_count = 1;
+            options.execution.executor = nullptr;
             Outputs want(shape.cornerCount());
             ASSERT_NO_FATAL_FAILURE(planAndEvaluate(shape, options, want));
-            options.execution.thread_count = 1 + compared % 3;
+            options.execution.executor = test::threadTeam(1 + compared % 3);
             for (const auto first : {mikk::FirstLook::onePass, mikk::FirstLook::eachNode}) {
                 const auto got = look(shape, options, first, false);
                 ++compared;
@@ -278,7 +279,7 @@ TEST(OnePass, InBucketsOfNodesGivesTheSameBits) {
             Outputs want(shape.cornerCount());
             ASSERT_NO_FATAL_FAILURE(planAndEvaluate(shape, options, want));
             for (const unsigned shift : {6u, 9u, 13u}) {
-                options.execution.thread_count = 1 + compared % 3;
+                options.execution.executor = test::threadTeam(1 + compared % 3);
                 const auto got = look(shape, options, mikk::FirstLook::onePass, compared % 2 != 0, shift);
                 ++compared;
                 for (std::size_t c = 0; c < shape.cornerCount(); ++c) {
@@ -322,7 +323,7 @@ TEST(OnePass, WritesLargeOutputsAsItWritesOthers) {
     ASSERT_TRUE(generateTangents(shape.view(), {}, {.tangents = with_gaps}).ok());
     for (const unsigned threads : {1u, 2u}) {
         TangentOptions options;
-        options.execution.thread_count = threads;
+        options.execution.executor = test::threadTeam(threads);
         std::vector<Vec4> tangents(corners);
         ASSERT_TRUE(generateTangents(shape.view(), options, {.tangents = tangents}).ok());
         std::size_t different = 0;
