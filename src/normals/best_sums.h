@@ -15,11 +15,12 @@ namespace tspace::smooth {
 struct BestSource {
     const std::byte* positions = nullptr;
     std::size_t stride = 0;
-    std::uint32_t last_vertex = 0;      ///< right after its position nothing may be read
-    float scale = 1;                    ///< of positions: a power of four that brings them near 1
-    float factor = 1;                   ///< normalFactor(convention)
-    const std::byte* robust = nullptr;  ///< by angle * area: eight floats per point, the first three of which count
-    const std::byte* sharp = nullptr;   ///< by max: four floats per point
+    std::uint32_t last_vertex = 0;  ///< right after its position nothing may be read
+    float scale = 1;                ///< of positions: a power of four that brings them near 1
+    float factor = 1;               ///< normalFactor(convention)
+    /// Means by angle * area, and by `max`: three floats and four bytes that are read too.
+    const std::byte *robust = nullptr, *sharp = nullptr;
+    std::size_t robust_stride = 32, sharp_stride = 16;
 };
 
 inline constexpr std::size_t kBestTriangles = 32;  ///< of one block

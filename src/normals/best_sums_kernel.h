@@ -1,18 +1,41 @@
 // SPDX-License-Identifier: MIT
-// The kernel behind best_sums.h: best_normal.cpp, which says what all this means, in single precision and from sums, so
-// that no list of the corners around a point is needed. Included once per CPU, after lanes_*.h and with TSPACE_LANES
-// set to its namespace. Each lane is one triangle, or one point.
+// The kernel behind best_sums.h: the normal of the quadratic surface through the edges around a point, unless these look
+// like noise or a bevel: then the mean by angle * area. In between a blend. From sums, in single precision, so that no
+// list of the corners around a point is needed.
+// Based on: Zhang & Naga, "A New Finite Element Gradient Recovery Method: Superconvergence Property", 2005 (a quadratic
+// fit around each point, here of the height above a plane; a ridge keeps it solvable); Max, "Weights for Computing
+// Vertex Normals from Facet Normals", 1999 (the plane).
+//
+// A fit follows noise, and across a bevel it bends what is flat. What tells these from a smooth surface is an edge e
+// between normals m and n: on a circle, and nearly on everything that is smooth at the mesh's scale, dot(e, m + n) is 0.
+//
+// Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its namespace. Each lane is one triangle, or one
+// point.
 #pragma once
 
-#include "normals/best_constants.h"
 #include "normals/best_sums.h"
-#include "tangents/estimators/estimator_lanes.h"
+#include "simd/plane_kernel.h"
 
 namespace tspace::smooth::TSPACE_LANES {
 
-using namespace estimators::TSPACE_LANES;
+using namespace simd::TSPACE_LANES;
 
 namespace {
+
+// Where each doubt is even (the blend half and half), found by trying values on analytic surfaces with and without
+// noise and on bevels (docs/accuracy.md).
+constexpr double kNoise = 0.45;   // of the bend of the edges, what no normal explains
+constexpr double kKink = 1.5;     // misfit of the sharp normals, in that of the robust ones
+constexpr double kJump = 2.5;     // turn over the longest edge if all of it bent like the most bent one, in
+                                  // radians, times the sine between the two means
+constexpr double kTurn = 0.8;     // twice the sine of half the angle between the sharp normals at an edge's ends
+constexpr double kSpread = 0.42;  // sine between fit and robust mean
+
+// Of the quadratic part's own size: enough for rings with too few edges, and too little to matter elsewhere. Weighed as
+// in the method `best` (tangents/estimators/quadratic_recovery_kernel.h): second derivatives by their Frobenius norm.
+constexpr double kFitRidge = 3e-4, kFitRidgeShare = 0.3;
+
+constexpr double kNoTrust = 1e12;  // so large that a blend has the bits of one side
 
 constexpr std::size_t kFitStep = 12 * kFitRows;  // floats from triangle to triangle
 
@@ -95,8 +118,8 @@ struct EdgeDoubt {
 struct Seen {
     Floats x, y, slope, b0, b1, b2, misfit, curvature;
 
-    Seen(const estimators::TSPACE_LANES::Plane& plane, Vectors robust, Vectors e, Floats inverse, Floats size,
-         Floats facing, const EdgeDoubt& doubt) {
+    Seen(const Plane& plane, Vectors robust, Vectors e, Floats inverse, Floats size, Floats facing,
+         const EdgeDoubt& doubt) {
         const Floats scale = facing * inverse, half = broadcast(0.5f);
         x = scale * dot(plane.x, e);
         y = scale * dot(plane.y, e);
@@ -132,8 +155,8 @@ inline void addFitOf(const BestSource& source, const std::uint32_t* vertices, co
     const Floats area_square = dot(t.turn, t.turn), one = broadcast(1.0f);
     Vectors robust[3], sharp[3];
     for (std::size_t k = 0; k < 3; ++k) {
-        robust[k] = gatherVectors(source.robust, 32, points + k, false);
-        sharp[k] = gatherVectors(source.sharp, 16, points + k, false);
+        robust[k] = gatherVectors(source.robust, source.robust_stride, points + k, false);
+        sharp[k] = gatherVectors(source.sharp, source.sharp_stride, points + k, false);
     }
     Floats size[3], inverse[3];
     for (std::size_t k = 0; k < 3; ++k) {

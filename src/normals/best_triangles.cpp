@@ -7,12 +7,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/float4.h"
+#include "core/input_scale.h"
+#include "core/range_lists.h"
 #include "core/vertex_ranges.h"
-#include "normals/best_sums.h"
-#include "tangents/estimators/estimator.h"
-#include "tangents/estimators/input_scale.h"
-#include "tangents/mikktspace/add_row.h"
 
 namespace tspace::smooth {
 
@@ -22,7 +19,6 @@ constexpr std::size_t kRangePoints = 4096;  // whose sums are half of a second c
 constexpr std::size_t kTasksPerThread = 4;
 constexpr std::size_t kGrain = 16384;
 constexpr std::size_t kNormalFloats = 8;  // from one of the given normals to the next
-static_assert(kBestTriangles == estimators::kBlockTriangles);
 
 std::size_t wholeGroups(std::size_t count) { return (count + kBestGroup - 1) / kBestGroup * kBestGroup; }
 
@@ -44,11 +40,6 @@ class PointTriangles final : public TriangleGroups {
     const MeshView& mesh_;
     const Buffer<std::uint32_t>& points_;
 };
-
-/// to[0..3] = the larger ones; both aligned to 16 bytes.
-void raiseRow(float* to, const float* row) {
-    for (int i = 0; i < 4; ++i) to[i] = row[i] > to[i] ? row[i] : to[i];
-}
 
 struct Setting {
     const TriangleGroups& triangles;
@@ -102,14 +93,15 @@ class RangeWork {
         } else {
             setting_.kernel.add_fit(setting_.source, vertices_, points_, pending_, rows_);
         }
-        constexpr std::size_t kSums = kRows == 1 ? 1 : kRows - 1;
         for (std::size_t i = 0; i < 3 * pending_; ++i) {
             const std::uint32_t place = points_[i] - first_;
             if (place >= count_) continue;
             float* const sums = sums_ + 4 * kRows * place;
             const float* const rows = rows_ + 4 * kRows * i;
-            for (std::size_t r = 0; r < kSums; ++r) mikk::addRow(sums + 4 * r, rows + 4 * r);
-            if constexpr (kRows != 1) raiseRow(sums + 4 * kSums, rows + 4 * kSums);
+            if constexpr (kRows == 1)
+                addRow(sums, rows);
+            else
+                addFitRows(sums, rows);
         }
         pending_ = 0;
     }
@@ -155,20 +147,17 @@ void runRound(const Setting& setting, const RangeLists& lists, Buffer<float>& su
     });
 }
 
-BestSource sourceOf(const TriangleGroups& triangles, const StridedSpan<const Vec3>& positions,
-                    const NormalOptions& options, const float* normals, const float* sharp) {
+}  // namespace
+
+BestSource bestSource(const TriangleGroups& triangles, const StridedSpan<const Vec3>& positions, double factor) {
     BestSource source;
     source.positions = reinterpret_cast<const std::byte*>(positions.data);
     source.stride = positions.stride_bytes;
     source.last_vertex = static_cast<std::uint32_t>(positions.count - 1);
-    source.scale = estimators::inputScale(triangles, positions, {}).positions;
-    source.factor = static_cast<float>(normalFactor(options.convention));
-    source.robust = reinterpret_cast<const std::byte*>(normals);
-    source.sharp = reinterpret_cast<const std::byte*>(sharp);
+    source.scale = inputScale(triangles, positions, {}).positions;
+    source.factor = static_cast<float>(factor);
     return source;
 }
-
-}  // namespace
 
 void refineTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positions,
                      const Buffer<std::uint32_t>& points, const NormalOptions& options, float* normals,
@@ -181,13 +170,11 @@ void refineTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positi
     const std::size_t tasks =
         parallel.width() == 1 ? 1 : std::min(lists.count(), std::size_t{kTasksPerThread} * parallel.width());
     Buffer<float> sums(allocator, tasks * 4 * kFitRows * std::min(kRangePoints, wholeGroups(count)));
-    const Setting setting{triangles,
-                          bestKernelFor(options.execution.simd),
-                          sourceOf(triangles, positions, options, normals, sharp.data()),
-                          normals,
-                          sharp.data(),
-                          results.data(),
-                          count};
+    BestSource source = bestSource(triangles, positions, normalFactor(options.convention));
+    source.robust = reinterpret_cast<const std::byte*>(normals);
+    source.sharp = reinterpret_cast<const std::byte*>(sharp.data());
+    const Setting setting{
+        triangles, bestKernelFor(options.execution.simd), source, normals, sharp.data(), results.data(), count};
     runRound<1>(setting, lists, sums, tasks, parallel);
     runRound<kFitRows>(setting, lists, sums, tasks, parallel);
     parallel.forRanges(count, kGrain, [&](std::size_t begin, std::size_t end) {

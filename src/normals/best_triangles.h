@@ -2,11 +2,24 @@
 // NormalWeighting::best where every point has one normal: triangles without hard edges.
 #pragma once
 
+#include "core/add_row.h"
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "core/range_lists.h"
+#include "normals/best_sums.h"
 #include "tspace/normals.h"
 
 namespace tspace::smooth {
+
+/// A source without means. `factor` is normalFactor(convention).
+BestSource bestSource(const TriangleGroups& triangles, const StridedSpan<const Vec3>& positions, double factor);
+
+/// Adds what add_fit wrote for a corner; both aligned to 16 bytes.
+inline void addFitRows(float* sums, const float* rows) {
+    constexpr std::size_t kLast = 4 * (kFitRows - 1);
+    for (std::size_t i = 0; i < kLast; i += 4) addRow(sums + i, rows + i);
+    for (std::size_t i = kLast; i < kLast + 4; ++i) sums[i] = rows[i] > sums[i] ? rows[i] : sums[i];
+}
 
 /// From the means by angle * area to the normals of `best`, in place.
 ///

@@ -13,9 +13,8 @@
 #include <cstring>
 
 #include "core/angle.h"
-#include "core/range_lists.h"
 #include "core/vertex_ranges.h"
-#include "normals/best_normal.h"
+#include "normals/best_triangles.h"
 #include "normals/face_terms.h"
 #include "normals/faces.h"
 #include "normals/smoothing.h"
@@ -61,7 +60,13 @@ class PointItems final : public TriangleGroups {
         }
         for (std::size_t i = 0; i < size; ++i) {
             const auto corner = static_cast<std::uint32_t>(first + i);
-            std::fill_n(points + 3 * i, 3, faces_.isUsed(faces_.of(corner)) ? pointOf(corner) : kNoPoint);
+            const bool is_used = faces_.isUsed(faces_.of(corner));
+            std::fill_n(points + 3 * i, 3, is_used ? pointOf(corner) : kNoPoint);
+            if (vertices == nullptr) continue;
+            for (std::size_t k = 0; k < 3; ++k) vertices[3 * i + k] = mesh_.indices[corner];
+            if (!is_used) continue;
+            vertices[3 * i + 1] = mesh_.indices[faces_.next(corner)];
+            vertices[3 * i + 2] = mesh_.indices[faces_.previous(corner)];
         }
     }
 
@@ -114,6 +119,7 @@ struct Setting {
                                         : Buffer<std::uint32_t>()),
           items(m, faces, points),
           kernel(smooth::faceKernelFor(options.execution.simd)),
+          best_kernel(smooth::bestKernelFor(options.execution.simd)),
           is_best(options.weighting == NormalWeighting::best),
           weighting(is_best ? NormalWeighting::angleArea : options.weighting),
           by_area(weighting == NormalWeighting::area || weighting == NormalWeighting::angleArea),
@@ -148,6 +154,7 @@ struct Setting {
     Buffer<std::uint32_t> points;
     PointItems items;
     smooth::FaceKernel kernel;
+    smooth::BestKernel best_kernel;
     bool is_best;
     NormalWeighting weighting;  ///< of the means
     bool by_area, by_angle, are_triangles;
@@ -201,12 +208,19 @@ class RangeWork {
     }
 
     /// From the means by angle * area to the normals of `best`. Where a mean vanishes, the corners keep what they have.
-    void refine() {
-        const BestSource source{setting_.posed, setting_.faces, room_.rows, setting_.robust, setting_.sharp};
+    void refine(const smooth::BestSource& source) {
         forComponents([&](const PointCorners& at, const Link* links, std::uint32_t count) {
-            if (setting_.sharp[at.corner(links[0].slot)] == Vec3{}) return;
-            const Vec3 normal = bestNormal(source, at, links, count);
-            for (std::uint32_t i = 0; i < count; ++i) setting_.out[at.corner(links[i].slot)] = normal;
+            const std::uint32_t any = at.corner(links[0].slot);
+            if (setting_.sharp[any] == Vec3{}) return;
+            alignas(64) float sums[4 * smooth::kFitRows * smooth::kBestGroup] = {};
+            for (std::uint32_t i = 0; i < count; i += smooth::kBestTriangles)
+                addFits(source, at, links + i, std::min<std::size_t>(count - i, smooth::kBestTriangles), sums);
+            alignas(64) float robust[4 * smooth::kBestGroup] = {}, sharp[4 * smooth::kBestGroup] = {};
+            std::memcpy(robust, setting_.robust + any, sizeof(Vec3));
+            std::memcpy(sharp, setting_.sharp + any, sizeof(Vec3));
+            setting_.best_kernel.finish_fit(sums, robust, sharp, smooth::kBestGroup);
+            for (std::uint32_t i = 0; i < count; ++i)
+                setting_.out[at.corner(links[i].slot)] = {sums[0], sums[1], sums[2]};
         });
     }
 
@@ -260,6 +274,29 @@ class RangeWork {
                     triangle.weights[k] = 0;
             }
         }
+    }
+
+    /// Each corner with its neighbours is a triangle, of which that corner counts.
+    void addFits(const smooth::BestSource& source, const PointCorners& at, const Link* links, std::size_t count,
+                 float* sums) const {
+        std::uint32_t vertices[3 * smooth::kBestTriangles], corners[3 * smooth::kBestTriangles];
+        std::size_t used = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint32_t corner = at.corner(links[i].slot);
+            if (room_.rows[at.triangle(links[i].slot)].isDegenerate()) continue;
+            const std::uint32_t around[3] = {corner, setting_.faces.next(corner), setting_.faces.previous(corner)};
+            for (std::size_t k = 0; k < 3; ++k) {
+                corners[3 * used + k] = around[k];
+                vertices[3 * used + k] = setting_.mesh.indices[around[k]];
+            }
+            ++used;
+        }
+        if (used == 0) return;
+        fillGroup(corners, used, smooth::kBestGroup, corners);
+        alignas(64) float rows[3 * smooth::kBestTriangles * 4 * smooth::kFitRows];
+        setting_.best_kernel.add_fit(source, fillGroup(vertices, used, smooth::kBestGroup, vertices), corners, used,
+                                     rows);
+        for (std::size_t t = 0; t < used; ++t) smooth::addFitRows(sums, rows + std::size_t{12} * smooth::kFitRows * t);
     }
 
     [[nodiscard]] FaceSource sourceOf(const StridedSpan<const Vec3>& positions, bool by_angle, bool by_area) const {
@@ -471,7 +508,7 @@ NormalReport smoothFaces(const MeshView& mesh, const MeshView& posed, const Norm
         });
     };
     Buffer<Vec3> robust, sharp;
-    if (setting.is_best) sharp = Buffer<Vec3>(allocator, corner_count, Vec3{});
+    if (setting.is_best) sharp = Buffer<Vec3>(allocator, corner_count + 1, Vec3{});
     setting.sharp = sharp.data();
     std::atomic<std::uint64_t> degenerate{0}, substitutes{0};
     forRanges([&](RangeWork& work, std::uint64_t degenerate_here) {
@@ -481,12 +518,16 @@ NormalReport smoothFaces(const MeshView& mesh, const MeshView& posed, const Norm
     report.degenerate_face_count = degenerate;
     report.fallback_corner_count = substitutes;
     if (!setting.is_best) return report;
-    robust = Buffer<Vec3>(allocator, corner_count);
+    robust = Buffer<Vec3>(allocator, corner_count + 1, Vec3{});
     setting.robust = robust.data();
     parallel.forRanges(corner_count, kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) robust[c] = out[c];
     });
-    forRanges([&](RangeWork& work, std::uint64_t) { work.refine(); });
+    smooth::BestSource source = smooth::bestSource(setting.items, posed.positions, setting.factor);
+    source.robust = reinterpret_cast<const std::byte*>(robust.data());
+    source.sharp = reinterpret_cast<const std::byte*>(sharp.data());
+    source.robust_stride = source.sharp_stride = sizeof(Vec3);
+    forRanges([&](RangeWork& work, std::uint64_t) { work.refine(source); });
     return report;
 }
 

@@ -3,7 +3,7 @@
 // its namespace. Each lane is one triangle, or one group.
 #pragma once
 
-#include "simd/vectors_kernel.h"
+#include "simd/plane_kernel.h"
 #include "tangents/estimators/estimator.h"
 
 namespace tspace::estimators::TSPACE_LANES {
@@ -11,61 +11,6 @@ namespace tspace::estimators::TSPACE_LANES {
 using namespace simd::TSPACE_LANES;
 
 namespace {
-
-inline Floats constant(float x) { return broadcast(x); }
-inline Floats zero() { return broadcast(0.0f); }
-inline Floats minus(Floats a) { return broadcast(-0.0f) - a; }
-inline Mask isFinite(Floats a) { return absolute(a) < broadcast(__builtin_huge_valf()); }
-inline Floats keep(Mask m, Floats a) { return select(m, a, zero()); }
-inline Vectors keep(Mask m, Vectors v) { return {keep(m, v.x), keep(m, v.y), keep(m, v.z)}; }
-/// a / b, and 0 where b is not above zero or the quotient is not finite.
-inline Floats quotient(Floats a, Floats b) {
-    const Floats q = a / b;
-    return keep((b > zero()) & isFinite(q), q);
-}
-
-/// A vector in the tangent plane.
-struct Flat {
-    Floats x, y;
-};
-inline Flat operator+(Flat a, Flat b) { return {a.x + b.x, a.y + b.y}; }
-inline Flat operator-(Flat a, Flat b) { return {a.x - b.x, a.y - b.y}; }
-inline Flat operator*(Floats k, Flat a) { return {k * a.x, k * a.y}; }
-inline Floats dot(Flat a, Flat b) { return a.x * b.x + a.y * b.y; }
-
-/// Zero where a vector has no direction.
-inline Flat unit(Flat v) {
-    const Floats square = dot(v, v), scale = broadcast(1.0f) / squareRoot(square);
-    const Mask sound = (square > zero()) & isFinite(square) & isFinite(scale);
-    return {keep(sound, scale * v.x), keep(sound, scale * v.y)};
-}
-inline Vectors unit(Vectors v) {
-    const Floats square = dot(v, v), scale = broadcast(1.0f) / squareRoot(square);
-    const Mask sound = (square > zero()) & isFinite(square) & isFinite(scale);
-    return keep(sound, scale * v);
-}
-
-/// Of length 1, with -0 as +0; the z axis where a normal has no direction.
-inline Vectors unitNormal(Vectors n) {
-    const Vectors u = unit(n);
-    const Mask none = !(dot(u, u) > zero());
-    return {u.x + zero(), u.y + zero(), select(none, broadcast(1.0f), u.z) + zero()};
-}
-
-/// A normal with two axes in the plane across it.
-/// Based on: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
-struct Plane {
-    Vectors n, x, y;
-
-    explicit Plane(Vectors normal) : n(unitNormal(normal)) {
-        const Floats one = broadcast(1.0f), s = select(n.z < zero(), broadcast(-1.0f), one);
-        const Floats a = broadcast(-1.0f) / (s + n.z), b = n.x * n.y * a;
-        x = {one + s * n.x * n.x * a, s * b, minus(s * n.x)};
-        y = {b, s + n.y * n.y * a, minus(n.y)};
-    }
-    [[nodiscard]] Flat flatten(Vectors v) const { return {dot(x, v), dot(y, v)}; }
-    [[nodiscard]] Vectors raise(Flat f) const { return f.x * x + f.y * y; }
-};
 
 /// kWidth triangles. Edge k goes from corner k to corner k + 1. Where a value is not finite, all edges are
 /// zero.

@@ -7,8 +7,8 @@
 #include <bit>
 #include <cstring>
 
+#include "core/add_row.h"
 #include "tangents/estimators/estimator.h"
-#include "tangents/mikktspace/add_row.h"
 
 namespace tspace::estimators {
 
@@ -104,7 +104,7 @@ class RangeWork {
             room_.vertices[place] = vertices_[i];
             float* const sums = room_.sums + 4 * kRows * place;
             const float* const rows = rows_ + 4 * kRows * i;
-            for (std::size_t r = 0; r < kRows; ++r) mikk::addRow(sums + 4 * r, rows + 4 * r);
+            for (std::size_t r = 0; r < kRows; ++r) addRow(sums + 4 * r, rows + 4 * r);
         }
     }
 

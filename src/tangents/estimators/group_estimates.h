@@ -2,9 +2,9 @@
 // The methods `fast` and `best` for all groups of a mesh in one pose.
 #pragma once
 
+#include "core/input_scale.h"
 #include "core/parallel.h"
 #include "core/range_lists.h"
-#include "tangents/estimators/input_scale.h"
 #include "tspace/tangents.h"
 
 namespace tspace::estimators {

@@ -9,7 +9,7 @@
 #include <atomic>
 #include <cstring>
 
-#include "tangents/mikktspace/add_row.h"
+#include "core/add_row.h"
 #include "tangents/mikktspace/fan_list.h"
 
 namespace tspace::mikk {

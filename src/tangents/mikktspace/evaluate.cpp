@@ -23,7 +23,7 @@ constexpr std::size_t kGroupGrain = 8192, kCornerGrain = 16384;
 
 /// A plan's triangles, as estimators read them. Groups with kMark, to which a triangle adds nothing, are no groups
 /// there.
-class PlanTriangles final : public estimators::TriangleGroups {
+class PlanTriangles final : public TriangleGroups {
   public:
     explicit PlanTriangles(const EvaluationPlan& plan) : TriangleGroups(plan.triangle_count), plan_(plan) {}
     void read(std::size_t first, std::size_t triangles, std::uint32_t* vertices, std::uint32_t* groups) const override {
@@ -38,8 +38,7 @@ class PlanTriangles final : public estimators::TriangleGroups {
 class Evaluation {
   public:
     Evaluation(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,
-               const TangentOutput& out, const Execution& execution, Parallel& parallel,
-               const estimators::InputScale* scale)
+               const TangentOutput& out, const Execution& execution, Parallel& parallel, const InputScale* scale)
         : plan_(plan),
           pose_(pose),
           uvs_(uvs),
@@ -78,8 +77,7 @@ class Evaluation {
   private:
     void estimate() {
         const PlanTriangles triangles(plan_);
-        const estimators::InputScale scale =
-            scale_ != nullptr ? *scale_ : estimators::inputScale(triangles, pose_.positions, uvs_);
+        const InputScale scale = scale_ != nullptr ? *scale_ : inputScale(triangles, pose_.positions, uvs_);
         sums_.groups = Buffer<GroupSum>(allocator_, plan_.group_count);
         if (!source_.tangents_only) sums_.rest = Buffer<GroupRest>(allocator_, plan_.group_count);
         const estimators::GroupEstimates to{
@@ -235,7 +233,7 @@ class Evaluation {
     const EvaluationPlan& plan_;
     const Pose& pose_;
     const StridedSpan<const Vec2>& uvs_;
-    const estimators::InputScale* scale_;
+    const InputScale* scale_;
     const Execution& execution_;
     TangentOutput out_;
     Sink sink_;
@@ -252,7 +250,7 @@ class Evaluation {
 
 TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,
                              const TangentOutput& out, const Execution& execution, Parallel& parallel,
-                             const estimators::InputScale* scale) {
+                             const InputScale* scale) {
     return Evaluation(plan, pose, uvs, out, execution, parallel, scale).run();
 }
 

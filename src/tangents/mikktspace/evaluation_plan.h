@@ -3,8 +3,8 @@
 // result each corner of the mesh holds.
 #pragma once
 
+#include "core/input_scale.h"
 #include "core/memory.h"
-#include "tangents/estimators/input_scale.h"
 #include "tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
@@ -71,6 +71,6 @@ EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, 
 /// from the pose itself. Throws OutOfMemory.
 TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,
                              const TangentOutput& out, const Execution& execution, Parallel& parallel,
-                             const estimators::InputScale* scale = nullptr);
+                             const InputScale* scale = nullptr);
 
 }  // namespace tspace::mikk

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "tangents/mikktspace/add_row.h"
+#include "core/add_row.h"
 
 namespace tspace::mikk {
 

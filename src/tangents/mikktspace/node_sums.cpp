@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "tangents/mikktspace/add_row.h"
+#include "core/add_row.h"
 #include "tangents/mikktspace/bucket_sums.h"
 #include "tangents/mikktspace/node_buckets.h"
 

@@ -36,7 +36,7 @@ constexpr float kUnclearSign = 2.0f;
 
 /// The mesh's triangles, as estimators read them: each node is a group. Triangles without UV area add
 /// nothing.
-class MeshTriangles final : public estimators::TriangleGroups {
+class MeshTriangles final : public TriangleGroups {
   public:
     MeshTriangles(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const NodeSums& sums)
         : TriangleGroups(triangles.count),
@@ -146,7 +146,7 @@ class OnePass {
             sums_.lengths_t = Buffer<float>(allocator_, nodes_.count);
         }
         const MeshTriangles triangles(mesh_, triangles_, nodes_, sums_);
-        scale_ = estimators::inputScale(triangles, mesh_.positions, mesh_.uvs);
+        scale_ = inputScale(triangles, mesh_.positions, mesh_.uvs);
         const estimators::GroupEstimates to{reinterpret_cast<std::byte*>(sums_.row(0)),           sums_.rowBytes(),
                                             reinterpret_cast<std::byte*>(sums_.rest.data()),      sizeof(NodeRest),
                                             reinterpret_cast<std::byte*>(sums_.lengths_t.data()), sizeof(float)};
@@ -406,7 +406,7 @@ class OnePass {
     Parallel& parallel_;
     const Allocator* allocator_;
     bool estimates_;  // fast and best: the estimators sum, and this class only groups
-    estimators::InputScale scale_;
+    InputScale scale_;
     float sign_factor_;  // what the sign of the UV determinant is multiplied with
 
     NodeSums sums_;

@@ -58,7 +58,7 @@ Marks cornerMarks(const VertexPath& path, const VertexCorners& corners) {
 
 }  // namespace
 
-TangentReport writeNodes(const VertexPath& path, const estimators::InputScale* scale) {
+TangentReport writeNodes(const VertexPath& path, const InputScale* scale) {
     const NodeSetting& setting = path.setting;
     const Allocator* allocator = setting.options.execution.allocator;
     const bool estimates = estimators::isEstimated(setting.options.method);

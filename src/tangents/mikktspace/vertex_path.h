@@ -28,7 +28,7 @@ struct VertexPath {
 /// Writes the results of all corners at chosen nodes. `scale`: for `fast` and `best`, that of the whole mesh. The report
 /// counts triangles around these nodes, and their groups and corners. Takes about 210 bytes per triangle around these
 /// nodes. Throws OutOfMemory.
-TangentReport writeNodes(const VertexPath& path, const estimators::InputScale* scale);
+TangentReport writeNodes(const VertexPath& path, const InputScale* scale);
 
 /// A plan of all nodes, to be kept.
 EvaluationPlan planAllNodes(const VertexPath& path);

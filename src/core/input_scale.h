@@ -7,9 +7,7 @@
 #include "core/range_lists.h"
 #include "tspace/tangents.h"
 
-namespace tspace::estimators {
-
-using tspace::TriangleGroups;
+namespace tspace {
 
 struct InputScale {
     float positions = 1, uvs = 1;
@@ -23,4 +21,4 @@ struct InputScale {
 InputScale inputScale(const TriangleGroups& triangles, const StridedSpan<const Vec3>& positions,
                       const StridedSpan<const Vec2>& uvs);
 
-}  // namespace tspace::estimators
+}  // namespace tspace

@@ -7,7 +7,7 @@
 #include <emmintrin.h>
 #endif
 
-namespace tspace::mikk {
+namespace tspace {
 
 /// to[0..3] += row[0..3]; both aligned to 16 bytes.
 inline void addRow(float* to, const float* row) {
@@ -38,4 +38,4 @@ inline void addVector(float* to, const float* row) {
 #endif
 }
 
-}  // namespace tspace::mikk
+}  // namespace tspace

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "tangents/estimators/input_scale.h"
+#include "core/input_scale.h"
 
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
 
-namespace tspace::estimators {
+namespace tspace {
 
 namespace {
 
@@ -64,4 +64,4 @@ InputScale inputScale(const TriangleGroups& triangles, const StridedSpan<const V
     return {of_positions.scale(), of_uvs.scale()};
 }
 
-}  // namespace tspace::estimators
+}  // namespace tspace
