@@ -52,6 +52,8 @@ struct PrimitiveDiff {
     std::uint64_t triangle_count_a = 0, triangle_count_b = 0;
     std::uint64_t paired_triangle_count = 0;
     bool has_tangents_a = false, has_tangents_b = false;
+    /// It has none as it was read, but the importer cannot tell that there are none in the file.
+    bool tangents_not_read_a = false, tangents_not_read_b = false;
     bool has_normals_a = false, has_normals_b = false;
     std::uint64_t sign_change_count = 0;  ///< pairs of corners whose signs differ
     AngleStatistics tangents = {};

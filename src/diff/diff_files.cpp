@@ -91,6 +91,7 @@ class Comparison {
             diff.primitive_a = a->primitive;
             diff.triangle_count_a = a->corners.size() / 3;
             diff.has_tangents_a = !a->tangents.empty();
+            diff.tangents_not_read_a = a->tangents_not_read;
             diff.has_normals_a = !a->normals.empty();
         }
         if (b != nullptr) {
@@ -99,6 +100,7 @@ class Comparison {
             diff.primitive_b = b->primitive;
             diff.triangle_count_b = b->corners.size() / 3;
             diff.has_tangents_b = !b->tangents.empty();
+            diff.tangents_not_read_b = b->tangents_not_read;
             diff.has_normals_b = !b->normals.empty();
         }
         diff.mesh_name = a != nullptr ? a->mesh_name : b->mesh_name;

@@ -12,6 +12,7 @@
 #include "tool/run_tool.h"
 #include "tspace/asset.h"
 #include "tspace/check.h"
+#include "tspace/diff.h"
 #include "tspace/identify.h"
 
 namespace tspace::test {
@@ -166,6 +167,66 @@ TEST(ImportTangents, NobodySaysThatThereAreNoneWhereTheyWereNotRead) {
     ASSERT_EQ(checked->findings.size(), 1U);
     EXPECT_EQ(checked->findings[0].code, FindingCode::tangentsMissing);
     EXPECT_NE(checked->findings[0].message.find("not read"), std::string::npos) << checked->findings[0].message;
+}
+
+TEST(ImportTangents, ThatWereNotReadAreNotComparedAndDiffSaysSo) {
+    const TempFolder folder;
+    writePly(folder);
+    ASSERT_EQ(runTool(folder, "generate a.ply -q -o a.glb").exit_code, 0);
+    for (const char* files : {"a.ply a.ply", "a.ply a.glb", "a.glb a.ply"}) {
+        const ToolRun run = runTool(folder, std::string("diff ") + files);
+        EXPECT_LE(run.exit_code, 1) << run.err;
+        EXPECT_NE(run.out.find("were not read: the importer cannot give them"), std::string::npos) << run.out;
+        EXPECT_EQ(run.out.find("in both"), std::string::npos) << run.out;
+    }
+    EXPECT_NE(runTool(folder, "diff a.glb a.glb").out.find("no primitive has tangents in both"), std::string::npos);
+    const Result<FrameDiff> diff =
+        diffFiles(folder.path("a.ply").string(), folder.path("a.glb").string(), {.file = kWithImporter});
+    ASSERT_TRUE(diff) << diff.error().message;
+    EXPECT_TRUE(diff->primitives.at(0).tangents_not_read_a);
+    EXPECT_FALSE(diff->primitives.at(0).tangents_not_read_b);
+}
+
+/// A square in COLLADA, with what the exporters call texture tangents.
+std::string writeDae(const TempFolder& folder, const std::string& bitangent) {
+    const auto source = [](const std::string& id, const std::string& values, int count, const std::string& names) {
+        std::string params;
+        for (const char name : names) params += std::string("<param name=\"") + name + "\" type=\"float\"/>";
+        const std::string width = std::to_string(names.size()), floats = std::to_string(count * names.size());
+        return "<source id=\"" + id + "\"><float_array id=\"" + id + "-a\" count=\"" + floats + "\">" + values +
+               "</float_array><technique_common><accessor source=\"#" + id + "-a\" count=\"" + std::to_string(count) +
+               "\" stride=\"" + width + "\">" + params + "</accessor></technique_common></source>";
+    };
+    const auto input = [](const std::string& semantic, const std::string& id, int offset) {
+        return "<input semantic=\"" + semantic + "\" source=\"#" + id + "\" offset=\"" + std::to_string(offset) +
+               "\" set=\"0\"/>";
+    };
+    return folder.write(
+        "square.dae",
+        "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">"
+        "<asset><up_axis>Y_UP</up_axis></asset><library_geometries><geometry id=\"g\"><mesh>" +
+            source("p", "0 0 0 1 0 0 1 1 0 0 1 0", 4, "XYZ") + source("n", "0 0 1", 1, "XYZ") +
+            source("t", "0 0 1 0 1 1 0 1", 4, "ST") + source("x", "1 0 0", 1, "XYZ") +
+            source("y", bitangent, 1, "XYZ") +
+            "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices><polylist count=\"1\">" +
+            input("VERTEX", "v", 0) + input("NORMAL", "n", 1) + input("TEXCOORD", "t", 2) +
+            input("TEXTANGENT", "x", 3) + input("TEXBINORMAL", "y", 4) +
+            "<vcount>4</vcount><p>0 0 0 0 0 1 0 1 0 0 2 0 2 0 0 3 0 3 0 0</p></polylist></mesh></geometry>"
+            "</library_geometries><library_visual_scenes><visual_scene id=\"s\"><node id=\"o\">"
+            "<instance_geometry url=\"#g\"/></node></visual_scene></library_visual_scenes>"
+            "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>");
+}
+
+TEST(ImportTangents, OfColladaAreReadWithTheirSigns) {
+    const TempFolder folder;
+    for (const auto& [bitangent, sign] : {std::pair("0 1 0", 1.0F), {"0 -1 0", -1.0F}}) {
+        const Scene scene = readScene(writeDae(folder, bitangent), kWithImporter, false);
+        ASSERT_EQ(scene.primitives.size(), 1U);
+        const ScenePrimitive& primitive = scene.primitives[0];
+        EXPECT_FALSE(primitive.tangents_not_read);
+        ASSERT_EQ(primitive.tangents.size(), 4U);
+        for (const Vec4& t : primitive.tangents) EXPECT_EQ(t, (Vec4{1, 0, 0, sign}));
+    }
 }
 
 TEST(ImportTangents, TheGeneratorIsTheProgramThatWroteTheFile) {

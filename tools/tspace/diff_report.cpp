@@ -12,11 +12,23 @@ namespace {
 /// Few digits, and as many as a small angle needs.
 std::string degrees(double value) { return fmt::format("{:.{}f}", value, value != 0 && value < 0.1 ? 4 : 2); }
 
+/// "" or a sentence on files whose importer cannot give tangents.
+std::string notReadText(const DiffArguments& arguments, const FrameDiff& diff) {
+    const auto any = [&](bool PrimitiveDiff::*not_read) {
+        return std::any_of(diff.primitives.begin(), diff.primitives.end(), [&](const auto& p) { return p.*not_read; });
+    };
+    const bool in_a = any(&PrimitiveDiff::tangents_not_read_a), in_b = any(&PrimitiveDiff::tangents_not_read_b);
+    if (!in_a && !in_b) return "";
+    const std::string files = in_a && in_b ? "either file" : printable(in_a ? arguments.a : arguments.b);
+    return "the tangents of " + files + ", if it has any, were not read: the importer cannot give them\n";
+}
+
 std::string summary(const DiffArguments& arguments, const FrameDiff& diff) {
     const bool has_tangents = diff.tangents.count + diff.tangents.unusable_count != 0;
     std::string text = fmt::format("{} against {}: ", printable(arguments.a), printable(arguments.b));
     if (diff.corner_count == 0) return text + "no triangle of one is in the other\n";
-    if (!has_tangents) return text + "no primitive has tangents in both\n";
+    const std::string not_read = notReadText(arguments, diff);
+    if (!has_tangents) return text + (not_read.empty() ? "no primitive has tangents in both\n" : not_read);
     const bool equal = diff.isWithin(0);
     if (equal) return text + fmt::format("equal frames at all {}\n", counted(diff.corner_count, "corner"));
     text += fmt::format("tangents differ by {} degrees at half of the corners, {} at most",
@@ -24,7 +36,7 @@ std::string summary(const DiffArguments& arguments, const FrameDiff& diff) {
     if (diff.sign_change_count != 0) {
         text += fmt::format("; {} of {} signs differ", diff.sign_change_count, diff.tangents.count);
     }
-    return text + "\n";
+    return text + "\n" + (not_read.empty() ? "" : "  " + not_read);
 }
 
 void addAngles(Table& table, const char* name, const AngleStatistics& angles) {
@@ -106,22 +118,21 @@ Json anglesJson(const AngleStatistics& angles) {
             {"histogram", angles.histogram}};
 }
 
-Json sideJson(bool there, const std::string& place, std::uint32_t mesh, std::uint32_t primitive,
-              std::uint64_t triangles, bool has_tangents, bool has_normals) {
-    if (!there) return nullptr;
+Json sideJson(const PrimitiveDiff& p, bool is_a) {
+    const std::string& place = is_a ? p.place_a : p.place_b;
+    if (place.empty()) return nullptr;
     return {{"place", place},
-            {"mesh", mesh},
-            {"primitive", primitive},
-            {"triangles", triangles},
-            {"hasTangents", has_tangents},
-            {"hasNormals", has_normals}};
+            {"mesh", is_a ? p.mesh_a : p.mesh_b},
+            {"primitive", is_a ? p.primitive_a : p.primitive_b},
+            {"triangles", is_a ? p.triangle_count_a : p.triangle_count_b},
+            {"hasTangents", is_a ? p.has_tangents_a : p.has_tangents_b},
+            {"tangentsNotRead", is_a ? p.tangents_not_read_a : p.tangents_not_read_b},
+            {"hasNormals", is_a ? p.has_normals_a : p.has_normals_b}};
 }
 
 Json primitiveJson(const PrimitiveDiff& p) {
-    return {{"a", sideJson(!p.place_a.empty(), p.place_a, p.mesh_a, p.primitive_a, p.triangle_count_a, p.has_tangents_a,
-                           p.has_normals_a)},
-            {"b", sideJson(!p.place_b.empty(), p.place_b, p.mesh_b, p.primitive_b, p.triangle_count_b, p.has_tangents_b,
-                           p.has_normals_b)},
+    return {{"a", sideJson(p, true)},
+            {"b", sideJson(p, false)},
             {"meshName", p.mesh_name},
             {"pairedBy", p.paired_by},
             {"pairedTriangles", p.paired_triangle_count},
@@ -152,7 +163,7 @@ std::string diffText(const DiffArguments& arguments, const FrameDiff& diff) {
     if (diff.unpaired_triangle_count != 0) {
         text += fmt::format("  {} without a partner\n", counted(diff.unpaired_triangle_count, "triangle"));
     }
-    if (diff.missing_count != 0) {
+    if (diff.missing_count != 0 && notReadText(arguments, diff).empty()) {
         text += fmt::format("  {} with tangents in one file only\n", counted(diff.missing_count, "primitive"));
     }
     for (const std::string& part :
