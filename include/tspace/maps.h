@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,6 +29,13 @@ struct FlipGreenOptions {
     int jpeg_quality = 98;
     /// As FileOptions::memory_limit_bytes.
     std::uint64_t memory_limit_bytes = 0;
+
+    // For flipGreenFile.
+
+    std::span<const std::uint8_t> content = {};  ///< the image, in place of the file `input`; must stay while it runs
+    /// As GenerateOptions::sink: gets the bytes in place of the file `output`, of which nothing is asked then.
+    std::function<bool(std::span<const std::uint8_t>)> sink = {};
+    bool dry_run = false;  ///< everything but writing
 };
 
 struct FlipGreenReport {

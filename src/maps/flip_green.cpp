@@ -135,9 +135,10 @@ Result<FlipGreenReport> flipGreenFile(const std::string& input, const std::strin
                                       const FlipGreenOptions& options) {
     return atFileBorder([&]() -> Result<FlipGreenReport> {
         FlipGreenOptions chosen = options;
-        if (chosen.format == ImageFileFormat::sameAsInput) chosen.format = namedFormat(output);
-        FlippedImage flipped = flip(readFile(input), chosen);
-        AtomicOutput files;
+        if (chosen.format == ImageFileFormat::sameAsInput && !options.sink) chosen.format = namedFormat(output);
+        FlippedImage flipped =
+            options.content.data() != nullptr ? flip(options.content, chosen) : flip(readFile(input), chosen);
+        AtomicOutput files(options.sink, options.dry_run);
         files.add(output, std::span<const std::uint8_t>(flipped.bytes));
         files.commit();
         return std::move(flipped.report);

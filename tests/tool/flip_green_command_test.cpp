@@ -53,6 +53,56 @@ TEST(FlipGreenCommand, PrintsJson) {
     EXPECT_EQ(failed["exitCode"], 4);
 }
 
+TEST(FlipGreenCommand, TakesAndGivesPipes) {
+    const TempFolder folder;
+    folder.write("n.png", pngFile(normalMapOf(16, bumps)));
+    folder.write("n.jpg", jpegFile(normalMapOf(16, bumps), 90));
+    for (const std::string name : {"n.png", "n.jpg"}) {
+        ASSERT_EQ(runTool(folder, "flip-green -q " + name + " -o out/" + name).exit_code, 0);
+        const std::string expected = folder.read("out/" + name);
+        const ToolRun run = runTool(folder, "flip-green - -o - < " + name);
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(run.out, expected) << name;
+        EXPECT_NE(run.err.find("- -> -"), std::string::npos) << "the report goes to stderr\n" << run.err;
+        EXPECT_EQ(runTool(folder, "flip-green -q -o - " + name).out, expected);
+        EXPECT_EQ(runTool(folder, "flip-green -q - -o piped-" + name, "cat " + name + " |").exit_code, 0);
+        EXPECT_EQ(folder.read("piped-" + name), expected);
+    }
+    const ToolRun json = runTool(folder, "flip-green --json - -o - < n.png");
+    EXPECT_EQ(json.out, folder.read("out/n.png"));
+    EXPECT_EQ(nlohmann::json::parse(json.err)["output"], "-");
+    for (const auto& [arguments, exit_code, says] :
+         {std::tuple("flip-green - -o - < /dev/null", 3, "standard input is empty"),
+          {"flip-green - -o - < made.txt", 3, "neither PNG, JPEG nor WebP"},
+          {"flip-green - --in-place < n.png", 2, "standard input"}}) {
+        folder.write("made.txt", "text");
+        const ToolRun run = runTool(folder, arguments);
+        EXPECT_EQ(run.exit_code, exit_code) << arguments << run.err;
+        EXPECT_EQ(run.errorLines(), 1) << run.err;
+        EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
+        EXPECT_EQ(run.out, "");
+    }
+    const ToolRun full = runTool(folder, "flip-green n.png -o -", kIntoFullDisk);
+    EXPECT_EQ(full.exit_code, 4);
+    EXPECT_NE(full.err.find("cannot write standard output: No space left on device"), std::string::npos) << full.err;
+}
+
+TEST(FlipGreenCommand, WritesNothingInADryRun) {
+    const TempFolder folder;
+    const std::string png = pngFile(normalMapOf(16, bumps));
+    folder.write("n.png", png);
+    const std::set<std::string> before = folder.files();
+    const ToolRun run = runTool(folder, "flip-green --dry-run n.png -o new/b.png");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("n.png -> new/b.png (not written)"), std::string::npos) << run.out;
+    EXPECT_EQ(runTool(folder, "flip-green --dry-run --in-place n.png").exit_code, 0);
+    EXPECT_EQ(runTool(folder, "flip-green --dry-run -q n.png -o -").out, "");
+    EXPECT_EQ(runTool(folder, "flip-green --dry-run n.png -o b.tga").exit_code, 3) << "it says what would go wrong";
+    EXPECT_EQ(nlohmann::json::parse(runTool(folder, "flip-green --json --dry-run n.png -o b.png").out)["dryRun"], true);
+    EXPECT_EQ(folder.files(), before);
+    EXPECT_EQ(folder.read("n.png"), png);
+}
+
 TEST(FlipGreenCommand, RefusesWithOneLineAndWritesNothing) {
     const TempFolder folder;
     const std::string png = pngFile(normalMapOf(16, bumps));

@@ -32,6 +32,9 @@ inline ToolRun runTool(const TempFolder& folder, const std::string& arguments, c
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), output.read("out"), output.read("err")};
 }
 
+/// A runner whose standard output takes nothing.
+inline constexpr const char* kIntoFullDisk = R"(sh -c '"$0" "$@" > /dev/full')";
+
 /// The options that the help of a command names, without their values.
 inline std::set<std::string> optionsInHelp(const std::string& command) {
     std::set<std::string> names;

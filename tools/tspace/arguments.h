@@ -91,6 +91,7 @@ struct FlipGreenArguments {
     std::string input = {};
     std::string output = {};  ///< the input, where it is written over
     bool in_place = false;
+    bool dry_run = false;
     FileOptions file = {};
     bool json = false;
     bool quiet = false;

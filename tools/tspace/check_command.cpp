@@ -52,7 +52,8 @@ ExitCode runCheck(const CheckArguments& arguments) {
     CheckOptions options = arguments.options;
     options.execution.thread_count = threadsPerFile(options.execution.thread_count, workers);
     const auto files = readFiles<CheckReport>(
-        jobs, arguments.batch, wants_text, [&](const std::string& input) { return check(input, options, arguments); },
+        jobs, arguments.batch, {.progress = !arguments.quiet, .text = wants_text},
+        [&](const std::string& input) { return check(input, options, arguments); },
         [&](const CheckOutcome& outcome) { return checkText(outcome, in_color); });
     if (files.output_is_closed) return ExitCode::cannotReadOrWrite;
     ExitCode exit_code = files.exit_code;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // tspace flip-green: one image, its green channel inverted.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <filesystem>
 
 #include "commands.h"
 #include "console.h"
 #include "report.h"
+#include "standard_input.h"
 
 namespace tspace::tool {
 namespace {
@@ -31,7 +33,8 @@ std::string textOf(const FlipGreenArguments& arguments, const FlipGreenReport& r
                                        report.height, report.bits)});
     table.addRow({"green", report.is_exact ? "inverted exactly" : "inverted, and compressed once more"});
     for (const std::string& warning : report.warnings) table.addRow({"warning", printable(warning)});
-    return fmt::format("{} -> {}\n{}", printable(arguments.input), printable(arguments.output), table.text("  "));
+    return fmt::format("{} -> {}{}\n{}", printable(arguments.input), printable(arguments.output),
+                       arguments.dry_run ? " (not written)" : "", table.text("  "));
 }
 
 std::string jsonOf(const FlipGreenArguments& arguments, const Result<FlipGreenReport>& result, ExitCode exit_code) {
@@ -42,6 +45,7 @@ std::string jsonOf(const FlipGreenArguments& arguments, const Result<FlipGreenRe
         {"exitCode", static_cast<int>(exit_code)},
         {"input", arguments.input},
         {"output", arguments.output},
+        {"dryRun", arguments.dry_run},
         {"error", errorJson(result ? nullptr : &result.error())},
     };
     if (!result) return jsonText(json);
@@ -54,6 +58,29 @@ std::string jsonOf(const FlipGreenArguments& arguments, const Result<FlipGreenRe
     return jsonText(json);
 }
 
+/// Of any format: what it is, the library says better.
+bool isAnything(std::string_view) { return true; }
+
+Result<FlipGreenReport> flip(const FlipGreenArguments& arguments) {
+    FlipGreenOptions options;
+    options.memory_limit_bytes = arguments.file.memory_limit_bytes;
+    options.dry_run = arguments.dry_run;
+    std::vector<std::uint8_t> bytes;
+    if (arguments.input == "-") {
+        Result<std::vector<std::uint8_t>> read =
+            readStandardInput("an image", options.memory_limit_bytes, isAnything, "");
+        if (!read) return std::move(read).error();
+        bytes = *std::move(read);
+        options.content = bytes;
+    }
+    StandardOutput standard_output;
+    if (arguments.output == "-")
+        options.sink = [&](std::span<const std::uint8_t> part) { return standard_output.write(part); };
+    Result<FlipGreenReport> report = flipGreenFile(arguments.input, arguments.output, options);
+    if (const Result<Done> closed = standard_output.close(); !closed) return closed.error();
+    return report;
+}
+
 }  // namespace
 
 ExitCode runFlipGreen(const FlipGreenArguments& arguments) {
@@ -61,8 +88,10 @@ ExitCode runFlipGreen(const FlipGreenArguments& arguments) {
     if (!arguments.in_place && std::filesystem::equivalent(arguments.input, arguments.output, ignored)) {
         return printUsageError("the output " + arguments.output + " is the input; --in-place writes over it");
     }
-    const Result<FlipGreenReport> result =
-        flipGreenFile(arguments.input, arguments.output, {.memory_limit_bytes = arguments.file.memory_limit_bytes});
+    const bool to_stdout = arguments.output == "-";
+    if (to_stdout && !arguments.dry_run && isatty(STDOUT_FILENO) != 0)
+        return printUsageError("an image is no text for a terminal; send stdout to a file or a pipe");
+    const Result<FlipGreenReport> result = flip(arguments);
     const ExitCode exit_code = result ? ExitCode::done : printError(arguments.input, result.error());
     std::string text;
     if (arguments.json) {
@@ -70,7 +99,7 @@ ExitCode runFlipGreen(const FlipGreenArguments& arguments) {
     } else if (!arguments.quiet && result) {
         text = textOf(arguments, *result);
     }
-    return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+    return printResult(text, to_stdout ? stderr : stdout) ? exit_code : ExitCode::cannotReadOrWrite;
 }
 
 }  // namespace tspace::tool

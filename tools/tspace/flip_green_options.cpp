@@ -7,7 +7,7 @@ namespace tspace::tool {
 namespace {
 
 std::string finish(FlipGreenArguments& arguments) {
-    if (arguments.input == "-" || arguments.output == "-") return "an image needs a file name, not '-'";
+    if (arguments.in_place && arguments.input == "-") return "standard input cannot be written over; say -o OUT";
     if (arguments.output.empty() && !arguments.in_place) return "say where to write: -o OUT, or --in-place";
     if (arguments.in_place) arguments.output = arguments.input;
     return {};
@@ -30,17 +30,18 @@ Command flipGreenCommand(FlipGreenArguments& arguments) {
         .finish = [&arguments](const Given&) { return finish(arguments); },
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input, "An image: PNG, JPEG or WebP."));
+    command.add(group, operand("IN", arguments.input, "An image: PNG, JPEG or WebP; - for stdin."));
     command
         .add(group, text("-o, --output", "OUT", arguments.output,
-                         "Where to write: a file that ends in .png, .jpg, .jpeg or .webp. The format is that of the "
-                         "input, or PNG."))
+                         "Where to write: a file that ends in .png, .jpg, .jpeg or .webp, or - for stdout. The format "
+                         "is that of the input, or PNG."))
         .is_file = true;
     Option& in_place =
         command.add(group, flag("--in-place", arguments.in_place,
                                 "Write over the input, once the result is complete. Without this, an output that "
                                 "is the input is refused."));
     in_place.excludes = {"--output"};
+    command.add(group, flag("--dry-run", arguments.dry_run, "Do everything but write."));
     addMemoryLimit(command, arguments.file);
     addReporting(command, arguments.json, arguments.quiet);
     return command;

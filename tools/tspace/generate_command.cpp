@@ -109,12 +109,10 @@ class GenerateRun {
         StandardInput standard_input;
         if (const Result<Done> opened = standard_input.open(job.input, options.file); !opened) return opened.error();
         if (job.output != "-") return generateFile(job.input, job.output, options);
-        options.sink = [](std::span<const std::uint8_t> bytes) {
-            return std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
-        };
+        StandardOutput standard_output;
+        options.sink = [&](std::span<const std::uint8_t> bytes) { return standard_output.write(bytes); };
         Result<GenerateReport> report = generateFile(job.input, "stdout.glb", options);
-        if (report && std::fflush(stdout) != 0)
-            return Error{ErrorCode::cannotWrite, std::string("cannot write standard output: ") + std::strerror(errno)};
+        if (const Result<Done> closed = standard_output.close(); !closed) return closed.error();
         if (report) report->output_files = {"-"};
         return report;
     }

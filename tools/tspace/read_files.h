@@ -20,25 +20,35 @@ struct ReadFiles {
     bool output_is_closed = false;        ///< nobody reads stdout any more; files may have been left out
 };
 
-/// Calls read(path) for each job, which gives a Result<Value>. Errors are printed, and textOf(outcome) of what was read
-/// if `wants_text`: of several files the first line, where the user did not ask for all.
+/// What is said on the way.
+struct Telling {
+    bool progress = false;  ///< on a terminal, when it takes long
+    bool text = false;      ///< about each file
+};
+
+/// Calls read(path) for each job, which gives a Result<Value>. Errors are printed, and textOf(outcome) of what was read:
+/// of several files the first line, where the user did not ask for all.
 template <class Value, class Read, class TextOf>
-ReadFiles<Value> readFiles(const std::vector<Job>& jobs, const BatchArguments& batch, bool wants_text, Read read,
+ReadFiles<Value> readFiles(const std::vector<Job>& jobs, const BatchArguments& batch, Telling telling, Read read,
                            TextOf textOf) {
     const bool wants_details = jobs.size() == 1 || batch.verbose;
     ReadFiles<Value> files;
     files.outcomes.resize(jobs.size());
     std::atomic<bool> output_is_closed = false;
+    ProgressLine progress(jobs.size(), telling.progress);
     const auto work = [&](std::size_t number) {
         const Job& job = jobs[number];
+        progress.update(job.input, "reading", 0, 0);
         files.outcomes[number] = {
             .job = job, .result = job.error.code == ErrorCode::ok ? read(job.input) : Result<Value>(job.error)};
+        progress.fileDone(files.outcomes[number].result.ok());
     };
     const auto finished = [&](std::size_t number) {
         const Outcome<Value>& outcome = files.outcomes[number];
+        progress.clear();
         if (!outcome.result) {
             files.exit_code = worse(files.exit_code, printError(outcome.job.input, outcome.result.error()));
-        } else if (wants_text && !output_is_closed) {
+        } else if (telling.text && !output_is_closed) {
             std::string text = wants_details && number > 0 ? "\n" : "";
             text.append(textOf(outcome));
             if (!wants_details) text.erase(text.find('\n') + 1);

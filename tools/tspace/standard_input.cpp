@@ -25,26 +25,46 @@ bool looksLikeModel(std::string_view text) {
 
 }  // namespace
 
-Result<Done> StandardInput::open(const std::string& input, FileOptions& options) {
-    if (input != "-") return Done{};
-    if (isatty(STDIN_FILENO) != 0) return Error{ErrorCode::cannotRead, "standard input is a terminal, not a model"};
-    const std::uint64_t limit = options.memory_limit_bytes;
-    const std::uint64_t most = limit == 0 || limit == kNoMemoryLimit ? kMostBytes : std::min(kMostBytes, limit);
-    std::vector<std::uint8_t> block(std::size_t{1} << 20);
+Result<std::vector<std::uint8_t>> readStandardInput(const char* what, std::uint64_t memory_limit_bytes,
+                                                    bool (*looks_right)(std::string_view), const char* why_not) {
+    if (isatty(STDIN_FILENO) != 0)
+        return Error{ErrorCode::cannotRead, std::string("standard input is a terminal, not ") + what};
+    const bool is_limited = memory_limit_bytes != 0 && memory_limit_bytes != kNoMemoryLimit;
+    const std::uint64_t most = is_limited ? std::min(kMostBytes, memory_limit_bytes) : kMostBytes;
+    std::vector<std::uint8_t> bytes, block(std::size_t{1} << 20);
     while (const std::size_t count = std::fread(block.data(), 1, block.size(), stdin)) {
         const std::string_view text(reinterpret_cast<const char*>(block.data()), count);
-        if (bytes_.empty() && !looksLikeModel(text)) {
-            return Error{ErrorCode::unsupportedFile,
-                         "standard input is neither GLB nor glTF; models of other formats are read from files"};
-        }
-        if (count > most - bytes_.size()) return Error{ErrorCode::tooLarge, "standard input does not end in time"};
-        bytes_.insert(bytes_.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(count));
+        if (bytes.empty() && !looks_right(text)) return Error{ErrorCode::unsupportedFile, why_not};
+        if (count > most - bytes.size()) return Error{ErrorCode::tooLarge, "standard input does not end in time"};
+        bytes.insert(bytes.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(count));
     }
     if (std::ferror(stdin) != 0)
         return Error{ErrorCode::cannotRead, std::string("cannot read standard input: ") + std::strerror(errno)};
-    if (bytes_.empty()) return Error{ErrorCode::invalidFile, "standard input is empty"};
+    if (bytes.empty()) return Error{ErrorCode::invalidFile, "standard input is empty"};
+    return bytes;
+}
+
+Result<Done> StandardInput::open(const std::string& input, FileOptions& options) {
+    if (input != "-") return Done{};
+    Result<std::vector<std::uint8_t>> bytes =
+        readStandardInput("a model", options.memory_limit_bytes, looksLikeModel,
+                          "standard input is neither GLB nor glTF; models of other formats are read from files");
+    if (!bytes) return std::move(bytes).error();
+    bytes_ = *std::move(bytes);
     options.content = bytes_;
     return Done{};
+}
+
+bool StandardOutput::write(std::span<const std::uint8_t> bytes) {
+    errno = 0;
+    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size()) failure_ = errno;
+    return failure_ == 0;
+}
+
+Result<Done> StandardOutput::close() {
+    if (failure_ == 0 && std::fflush(stdout) != 0) failure_ = errno;
+    if (failure_ == 0) return Done{};
+    return Error{ErrorCode::cannotWrite, std::string("cannot write standard output: ") + std::strerror(failure_)};
 }
 
 }  // namespace tspace::tool

@@ -1,13 +1,26 @@
 // SPDX-License-Identifier: MIT
-// "-" as an input: the model that comes through a pipe.
+// "-" as an input or output: bytes that come and go through pipes.
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tspace/asset.h"
 
 namespace tspace::tool {
+
+/// All of stdin.
+///
+/// what                  for a message: "a model"
+/// memory_limit_bytes    as FileOptions::memory_limit_bytes
+/// looks_right           looks at the first bytes
+/// why_not               the message where those are not right
+///
+/// Fails with cannotRead, unsupportedFile, invalidFile (nothing there) and tooLarge.
+Result<std::vector<std::uint8_t>> readStandardInput(const char* what, std::uint64_t memory_limit_bytes,
+                                                    bool (*looks_right)(std::string_view), const char* why_not);
 
 /// The bytes of a model on stdin, for as long as it is worked on.
 class StandardInput {
@@ -18,6 +31,18 @@ class StandardInput {
 
   private:
     std::vector<std::uint8_t> bytes_ = {};
+};
+
+/// "-" as an output.
+class StandardOutput {
+  public:
+    /// False where it cannot be written; errno of the library's message may be another one's by then.
+    bool write(std::span<const std::uint8_t> bytes);
+    /// Call at the end, whatever came before: says why not all was written.
+    Result<Done> close();
+
+  private:
+    int failure_ = 0;
 };
 
 }  // namespace tspace::tool
