@@ -9,22 +9,10 @@
 #include "check/frame_health.h"
 #include "check/quad_reading.h"
 #include "check/surface.h"
+#include "check/uv_reading.h"
 #include "tspace/check.h"
 
 namespace tspace {
-
-/// UVs that tangents may follow.
-struct UvReading {
-    std::size_t uv_set = 0;
-    bool transformed = false;        ///< by the use's texture transform, which changes frames
-    std::vector<Vec2> own = {};      ///< the transformed ones
-    std::span<const Vec2> uvs = {};  ///< empty: the primitive has no such set
-};
-
-/// The UVs that a texture of this use is read with.
-UvReading readingOf(const ScenePrimitive& primitive, const TangentUse& use);
-/// A set as it is in the file.
-UvReading plainReading(const ScenePrimitive& primitive, std::size_t uv_set);
 
 /// What the checks of one primitive share.
 struct PrimitiveFacts {

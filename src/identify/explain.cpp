@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "check/uv_reading.h"
 #include "check/uv_votes.h"
 #include "core/angle.h"
-#include "generate/uv_matrix.h"
 #include "quads/fit_quads.h"
 
 namespace tspace {
@@ -24,35 +24,16 @@ std::size_t texturesSet(const ScenePrimitive& primitive) {
     return set;
 }
 
-/// UVs that tangents may follow.
-struct Reading {
-    std::size_t uv_set = 0;
-    bool is_transformed = false;
-    std::vector<Vec2> own = {};  ///< the transformed ones
-    std::span<const Vec2> uvs = {};
-};
-
 /// Every set as it is stored. The texture's set comes before that as its transform makes it, where that changes frames.
-std::vector<Reading> readingsOf(const ScenePrimitive& primitive) {
-    std::vector<Reading> readings;
+std::vector<UvReading> readingsOf(const ScenePrimitive& primitive) {
+    std::vector<UvReading> readings;
     for (std::size_t set = 0; set < primitive.uv_sets.size(); ++set) {
         if (primitive.uv_sets[set].empty()) continue;
         if (!primitive.uses.empty() && set == texturesSet(primitive)) {
-            const UvTransform& transform = primitive.uses.front().transform;
-            const UvMatrix matrix = uvMatrix(transform.rotation, transform.scale[0], transform.scale[1]);
-            if (!matrix.isIdentity()) {
-                Reading& reading = readings.emplace_back();
-                reading.uv_set = set;
-                reading.is_transformed = true;
-                reading.own = transformUvs(primitive.uv_sets[set].span(), matrix);
-            }
+            UvReading transformed = readingOf(primitive, primitive.uses.front());
+            if (transformed.transformed) readings.push_back(std::move(transformed));
         }
-        Reading& plain = readings.emplace_back();
-        plain.uv_set = set;
-        plain.uvs = primitive.uv_sets[set].span();
-    }
-    for (Reading& reading : readings) {
-        if (reading.is_transformed) reading.uvs = reading.own;
+        readings.push_back(plainReading(primitive, set));
     }
     return readings;
 }
@@ -106,7 +87,7 @@ void compare(const ScenePrimitive& primitive, std::span<const std::uint8_t> vote
 /// Along one reading of the UVs.
 class Explainer {
   public:
-    Explainer(const ScenePrimitive& primitive, const Reading& reading, std::vector<std::uint8_t> votes,
+    Explainer(const ScenePrimitive& primitive, const UvReading& reading, std::vector<std::uint8_t> votes,
               const IdentifyOptions& options)
         : primitive_(primitive),
           reading_(reading),
@@ -148,12 +129,12 @@ class Explainer {
         explanation.faces = faces;
         explanation.uv_set = static_cast<std::int32_t>(reading_.uv_set);
         explanation.is_textures_set = reading_.uv_set == texturesSet(primitive_);
-        explanation.is_transformed = reading_.is_transformed;
+        explanation.is_transformed = reading_.transformed;
         compare(primitive_, votes_, computed, options_.tolerance_deg, explanation);
     }
 
     const ScenePrimitive& primitive_;
-    const Reading& reading_;
+    const UvReading& reading_;
     std::vector<std::uint8_t> votes_;
     const IdentifyOptions& options_;
     MeshView mesh_;
@@ -183,7 +164,7 @@ std::vector<Method> knownMethods() {
 
 Result<std::vector<Explanation>> explainTangents(const ScenePrimitive& primitive, const IdentifyOptions& options) {
     std::vector<Explanation> explanations;
-    for (const Reading& reading : readingsOf(primitive)) {
+    for (const UvReading& reading : readingsOf(primitive)) {
         std::vector<std::uint8_t> votes = votesOf(primitive, reading.uvs);
         if (votes.empty()) continue;
         const Explainer explainer(primitive, reading, std::move(votes), options);
