@@ -1,5 +1,5 @@
 # Installs COMPONENTS of BUILD into an empty PREFIX and looks whether the headers are there, and no others; with tspace_tool
-# also whether all PROGRAMS are.
+# also whether all PROGRAMS, the documentation, man pages and completions are, of PAGES (TRUE: this build makes them).
 cmake_minimum_required(VERSION 3.22)
 file(REMOVE_RECURSE "${PREFIX}")
 foreach(component IN LISTS COMPONENTS)
@@ -20,6 +20,18 @@ foreach(program IN LISTS PROGRAMS)
         message(FATAL_ERROR "bin/${program} was not installed")
     endif()
 endforeach()
+if("tspace_tool" IN_LIST COMPONENTS)
+    set(files share/doc/tspace/check.md share/doc/tspace/images/pipeline.svg)
+    if(PAGES)
+        list(APPEND files share/man/man1/tspace.1 share/man/man1/tspace-generate.1 share/bash-completion/completions/tspace
+             share/zsh/site-functions/_tspace share/fish/vendor_completions.d/tspace.fish)
+    endif()
+    foreach(file IN LISTS files)
+        if(NOT EXISTS "${PREFIX}/${file}")
+            message(FATAL_ERROR "${file} was not installed")
+        endif()
+    endforeach()
+endif()
 if(EXISTS "${PREFIX}/include/tspace/asset.h")
     set(has_asset TRUE)
 else()

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Many files at once, as a user meets them: several at one time, shares, patterns, and a manifest to go on from.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "asset/temporary_name.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {
@@ -223,6 +226,42 @@ TEST(Batch, ResumeInPlaceLooksAtWhatWasWritten) {
     const std::string command = "generate models --in-place --overwrite --json --manifest m.jsonl --resume";
     EXPECT_EQ(countOf(doneBy(runTool(folder, command)), "written"), 3U);
     EXPECT_EQ(countOf(doneBy(runTool(folder, command)), "skipped"), 3U);
+}
+
+/// Writes the file that a run on `target` would have left when it was killed.
+void leaveTemporaryFile(const TempFolder& folder, const std::string& target) {
+    const pid_t child = fork();
+    if (child == 0) {
+        folder.write(target, "half");
+        std::error_code ignored;
+        const std::filesystem::path file = folder.path(target);
+        std::filesystem::rename(file, besideName(Path(file.string()), kTemporaryEnding).string(), ignored);
+        _exit(0);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+}
+
+TEST(Batch, ResumeRemovesTemporaryFilesOfKilledRuns) {
+    const TempFolder folder;
+    writeModels(folder, 2);
+    leaveTemporaryFile(folder, "out/even/a.glb");
+    leaveTemporaryFile(folder, "out/even/deep/b.glb");
+    leaveTemporaryFile(folder, "elsewhere/c.glb");
+    EXPECT_EQ(folder.files("out").size(), 2U);
+    // Of this process, which is running, and of the user.
+    const std::string mine =
+        std::filesystem::path(besideName(Path("out/even/d.glb"), kTemporaryEnding).string()).string();
+    folder.write(mine, "at work");
+    folder.write("out/even/e.glb.tmp", "the user's");
+    const std::string command = "generate in -o out -q --manifest m.jsonl";
+    ASSERT_EQ(runTool(folder, command).exit_code, 0);
+    EXPECT_EQ(folder.files("out").size(), 6U) << "without --resume other runs may be at work";
+    ASSERT_EQ(runTool(folder, command + " --resume").exit_code, 0);
+    EXPECT_EQ(folder.files("out").size(), 4U);
+    EXPECT_TRUE(folder.has(mine));
+    EXPECT_TRUE(folder.has("out/even/e.glb.tmp"));
+    EXPECT_EQ(folder.files("elsewhere").size(), 1U) << "not a folder of outputs";
 }
 
 TEST(Batch, ResumeWithoutAManifestIsWrongUsage) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // tspace check in a build: what is left out, colours, many files, and SARIF.
+#include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "tool/run_tool.h"
+#include "tool/sarif_schema.h"
 #include "tspace/check.h"
 
 namespace tspace::test {
@@ -109,32 +111,19 @@ TEST(ManyFiles, GetOneLineEachAndASummaryByCode) {
     EXPECT_NE(runTool(folder, "generate in -o out2 -v").out.find("  mesh  prim"), std::string::npos);
 }
 
-/// What the schema of SARIF 2.1.0 asks for, as far as tspace writes it.
+/// The schema's rules, and what CI systems ask for besides.
 void expectValidSarif(const Json& log) {
-    EXPECT_EQ(log.at("version"), "2.1.0");
-    EXPECT_NE(log.at("$schema").get<std::string>().find("sarif-2.1.0.json"), std::string::npos);
+    SarifSchema().expectValid(log);
     ASSERT_EQ(log.at("runs").size(), 1U);
-    const Json& run = log["runs"][0];
-    const Json& driver = run.at("tool").at("driver");
+    const Json& driver = log["runs"][0]["tool"]["driver"];
     EXPECT_EQ(driver.at("name"), "tspace");
     std::set<std::string> ids;
-    for (const Json& rule : driver.at("rules")) {
-        EXPECT_TRUE(ids.insert(rule.at("id")).second) << "ids are unique";
-        EXPECT_FALSE(rule.at("shortDescription").at("text").get<std::string>().empty());
-        EXPECT_NE(rule.at("helpUri").get<std::string>().find("://"), std::string::npos) << "absolute";
-    }
-    for (const Json& result : run.at("results")) {
+    for (const Json& rule : driver.at("rules")) EXPECT_TRUE(ids.insert(rule.at("id")).second) << "ids are unique";
+    for (const Json& result : log["runs"][0].at("results")) {
         EXPECT_EQ(driver["rules"].at(result.at("ruleIndex").get<std::size_t>()).at("id"), result.at("ruleId"));
-        EXPECT_TRUE((std::set<std::string>{"note", "warning", "error"}).count(result.at("level"))) << result;
+        EXPECT_TRUE(result.at("locations").at(0).at("physicalLocation").contains("region")) << "CI systems want a line";
         EXPECT_FALSE(result.at("message").at("text").get<std::string>().empty());
-        const Json& place = result.at("locations").at(0).at("physicalLocation");
-        const auto uri = place.at("artifactLocation").at("uri").get<std::string>();
-        EXPECT_EQ(uri.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~/%:"),
-                  std::string::npos)
-            << uri;
-        EXPECT_GE(place.at("region").at("startLine").get<int>(), 1);
     }
-    for (const Json& invocation : run.at("invocations")) EXPECT_TRUE(invocation.at("executionSuccessful").is_boolean());
 }
 
 TEST(Sarif, HoldsEveryFindingWhereItIs) {
@@ -187,6 +176,26 @@ TEST(Sarif, SaysWhichFilesCouldNotBeRead) {
     ASSERT_EQ(invocation["toolExecutionNotifications"].size(), 1U);
     EXPECT_EQ(invocation["toolExecutionNotifications"][0]["level"], "error");
     EXPECT_EQ(log["runs"][0]["results"].size(), 0U);
+}
+
+TEST(SarifSchemaOfTheTests, FindsWhatTheSchemaForbids) {
+    const Json good = Json::parse(R"({"version":"2.1.0","runs":[{"tool":{"driver":{"name":"a"}},"results":[]}]})");
+    SarifSchema().expectValid(good);
+    for (const auto& [pointer, value] :
+         {std::pair("/version", Json("2.0.0")),
+          {"/other", Json(1)},
+          {"/runs/0/tool/driver/rules", Json::parse(R"([{"id":"a"},{"id":"a"}])")},
+          {"/runs/0/results", Json::parse(R"([{"message":{"text":"a"},"level":"bad"}])")},
+          {"/runs/0/results", Json::parse(R"([{"level":"note"}])")}}) {
+        Json bad = good;
+        bad[Json::json_pointer(pointer)] = value;
+        testing::TestPartResultArray failures;
+        {
+            testing::ScopedFakeTestPartResultReporter reporter(&failures);
+            SarifSchema().expectValid(bad);
+        }
+        EXPECT_GT(failures.size(), 0) << pointer;
+    }
 }
 
 TEST(Sarif, ThatCannotBeWrittenIsExitCodeFour) {
