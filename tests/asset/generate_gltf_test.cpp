@@ -354,6 +354,19 @@ TEST(GenerateGltf, KeepsTheUriOfAMissingImageAndWarns) {
     }
 }
 
+/// Exporters name the folder of a texture that was never saved.
+TEST(GenerateGltf, TakesAFolderInPlaceOfAnImageForAMissingOne) {
+    const TempFolder folder;
+    writeWithFiles(folder, "a.gltf", gridModel(Grid(4)), "tex/.");
+    for (const char* name : {"out/a.glb", "out/a.gltf"}) {
+        const auto report = generateFile(folder.path("in/a.gltf").string(), folder.path(name).string());
+        ASSERT_TRUE(report) << report.error().message;
+        ASSERT_EQ(report->warnings.size(), 1u);
+        EXPECT_NE(report->warnings[0].find("is a folder"), std::string::npos) << report->warnings[0];
+        EXPECT_EQ(gltf::loadDocument(folder.path(name), {}).json["images"][0]["uri"], "tex/.");
+    }
+}
+
 TEST(GenerateGltf, RefusesOtherOutputs) {
     const TempFolder folder;
     const std::string input = folder.write("in.glb", gridModel(Grid(4)).glb());

@@ -33,8 +33,11 @@ std::optional<DataUri> loadImage(Document& document, const std::string& uri, con
     } else {
         const fs::path path = resolveUri(document.folder, uri, document.options.allow_external, join(place, "uri"));
         std::error_code error;
-        if (!fs::exists(path, error)) {
-            warnings.push_back("the image " + inQuotes(uri) + " does not exist; its URI is kept");
+        // FBX files name the folder of an image that has no name.
+        const bool is_folder = fs::is_directory(path, error);
+        if (is_folder || !fs::exists(path, error)) {
+            warnings.push_back("the image " + inQuotes(uri) + (is_folder ? " is a folder" : " does not exist") +
+                               "; its URI is kept");
             return {};
         }
         image.bytes = readFile(path, join(place, "uri"));
@@ -165,10 +168,13 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
         return;
     }
     std::error_code error;
-    if (!fs::exists(from, error)) {
+    const bool is_folder = fs::is_directory(from, error);
+    if (is_folder || !fs::exists(from, error)) {
         // Taking it in failed before, with a warning.
-        if (!target.takes_images_in)
-            warnings.push_back("the file " + inQuotes(uri) + " does not exist and was not copied");
+        if (!target.takes_images_in) {
+            warnings.push_back("the file " + inQuotes(uri) + (is_folder ? " is a folder" : " does not exist") +
+                               " and was not copied");
+        }
         return;
     }
     output.addSource(from);
