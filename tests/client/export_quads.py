@@ -24,7 +24,7 @@ def normal_mapped():
     return material
 
 
-def export(name, add, modifier=None, levels=0, shape_key=False, tangents=True):
+def export(name, add, modifier=None, levels=0, shape_key=False, tangents=True, fbx=False):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     add()
     thing = bpy.context.object
@@ -42,14 +42,16 @@ def export(name, add, modifier=None, levels=0, shape_key=False, tangents=True):
     bpy.ops.export_scene.gltf(
         filepath=f"{folder}/{name}.glb", export_format="GLB", export_tangents=tangents, export_morph_normal=True
     )
+    if fbx:
+        bpy.ops.export_scene.fbx(filepath=f"{folder}/{name}.fbx", use_tspace=True)
 
 
 mesh = bpy.ops.mesh
 export("cube", mesh.primitive_cube_add, "SUBSURF", 3)
-export("monkey", mesh.primitive_monkey_add)
-export("monkey_subdivided", mesh.primitive_monkey_add, "SUBSURF", 2)
+export("monkey", mesh.primitive_monkey_add, fbx=True)
+export("monkey_subdivided", mesh.primitive_monkey_add, "SUBSURF", 2, fbx=True)
 export("monkey_morph", mesh.primitive_monkey_add, shape_key=True)
 export("monkey_bare", mesh.primitive_monkey_add, tangents=False)
-export("monkey_triangulated", mesh.primitive_monkey_add, "TRIANGULATE")
+export("monkey_triangulated", mesh.primitive_monkey_add, "TRIANGULATE", fbx=True)
 export("triangulated_bare", mesh.primitive_monkey_add, "TRIANGULATE", tangents=False)
 export("sphere", mesh.primitive_uv_sphere_add)
