@@ -29,7 +29,7 @@ using smooth::FaceSource, smooth::FaceTerms;
 constexpr std::size_t kBlock = smooth::kTermTriangles;
 constexpr std::size_t kMostRange = 4096, kLeastRange = 64, kRanges = 8;  // points; ranges of a small mesh
 constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
-constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kGrain = 4096, kItemsPerTask = 1024;
 
 // Below the first fraction of the weights a sum is what rounding left of normals that cancel. Below the
 // second it shows how single-precision angles were rounded: it is then taken again, with angles in double.
@@ -493,10 +493,11 @@ NormalReport smoothFaces(const MeshView& mesh, const MeshView& posed, const Norm
     NormalReport report{setting.faces.usedCount(), 0, 0};
     if (report.face_count == 0) return report;
 
+    const std::size_t most_tasks = std::clamp<std::size_t>(setting.items.count / kItemsPerTask, 1, parallel.width());
     const std::size_t range_points =
-        std::clamp(std::bit_floor(point_count / (kRanges * parallel.width())), kLeastRange, kMostRange);
+        std::clamp(std::bit_floor(point_count / (kRanges * most_tasks)), kLeastRange, kMostRange);
     const RangeLists lists(setting.items, kBlock, point_count, range_points, allocator, parallel);
-    const std::size_t tasks = std::min<std::size_t>(lists.count(), parallel.width());
+    const std::size_t tasks = std::min(lists.count(), most_tasks);
     Rooms rooms(setting, lists, range_points, tasks, allocator);
     const auto forRanges = [&](const auto& body) {
         parallel.forTasks(tasks, [&](std::size_t task) {
