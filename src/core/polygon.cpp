@@ -24,11 +24,6 @@ constexpr std::uint32_t kMaxTestedCorners = 1024;
 /// than this.
 constexpr double kOnLine = 1e-12;
 
-/// A vertex is convex for isFar, by far, when it and its neighbours span more than this part of the squared
-/// extent (twice the area): 8 * kOnLine would do, since no x and y of two points differ by more than four
-/// extents together. The rest is for rounding.
-constexpr double kTurns = 1e-9;
-
 /// Of more corners the next ear is never searched among all: they are bits of a word.
 constexpr std::uint32_t kMostSearched = 64;
 
@@ -103,14 +98,11 @@ class Cutter {
         for (std::uint32_t v = 0; v < count_; ++v) positions_[v] = toDouble(corner_positions_[original(v)]);
         projectToPlane();
         link();
-        const bool is_clearly_convex = findReflex();
-        if (few && is_clearly_convex) {
-            cutBy<SearchAll<true>, true>(triangles);
-        } else if (few) {
-            cutBy<SearchAll<false>>(triangles);
-        } else {
+        findReflex();
+        if (few)
+            cutBy<SearchAll>(triangles);
+        else
             cutBy<Heap>(triangles);
-        }
     }
 
   private:
@@ -128,7 +120,7 @@ class Cutter {
     }
 
     /// Orders two corners of the caller by position and then UV.
-    [[nodiscard]] int compareCorners(std::uint32_t a, std::uint32_t b) const {
+    [[nodiscard, gnu::noinline]] int compareCorners(std::uint32_t a, std::uint32_t b) const {
         const Vec3 &p = corner_positions_[a], &q = corner_positions_[b];
         if (int c = compare(p.x, q.x); c != 0) return c;
         if (int c = compare(p.y, q.y); c != 0) return c;
@@ -203,7 +195,6 @@ class Cutter {
             points_[v] = {dot(x_axis, p), dot(y_axis, p)};
             extent = std::max({extent, std::abs(points_[v].x), std::abs(points_[v].y)});
         }
-        extent_ = extent;
         on_line_ = kOnLine * extent;
     }
 
@@ -216,29 +207,11 @@ class Cutter {
         next_[count_ - 1] = 0;
     }
 
-    /// Notes all reflex vertices. Returns whether there are clearly none, and will be none whatever is cut
-    /// off: each corner turns left, by far, and the boundary goes around once. Of all triangles between
-    /// vertices of a convex polygon one of three neighbours is the smallest: the distance of vertices from
-    /// the line through two of them rises to the farthest one and falls behind it. So no triangle that
-    /// appears later is smaller than all these.
-    bool findReflex() {
-        const double least = kTurns * extent_ * extent_;
-        bool turns_left = true;
-        std::uint32_t changes = 0;  // between rising and falling: two when it goes around once
-        bool was_rising = points_[0].y > points_[count_ - 1].y;
+    void findReflex() {
         for (std::uint32_t v = 0; v < count_; ++v) {
-            const PlanePoint here = points_[v], before = points_[previous_[v]], after = points_[next_[v]];
-            const LeftSide side(after, before);
-            const double distance = side.across(here);
-            turns_left &= distance > least;  // not so for a NaN
-            const bool is_rising = after.y > here.y, is_reflex = !side.isFar(distance, on_line_);
-            changes += is_rising != was_rising ? 1 : 0;
-            was_rising = is_rising;
-            is_reflex_[v] = is_reflex ? 1 : 0;
-            reflex_[reflex_count_] = v;
-            reflex_count_ += is_tested_ && is_reflex ? 1 : 0;
+            is_reflex_[v] = isConvex(v) ? 0 : 1;
+            if (is_tested_ && is_reflex_[v] != 0) reflex_[reflex_count_++] = v;
         }
-        return turns_left && changes == 2;
     }
 
     [[nodiscard]] bool isConvex(std::uint32_t v) const {
@@ -309,7 +282,7 @@ class Cutter {
         return a.order != b.order ? a.order < b.order : isBeforeOfSameOrder(a, b);
     }
 
-    [[nodiscard]] bool isBeforeOfSameOrder(const PolygonEar& a, const PolygonEar& b) const {
+    [[nodiscard, gnu::noinline]] bool isBeforeOfSameOrder(const PolygonEar& a, const PolygonEar& b) const {
         if (a.length2_uv != b.length2_uv) return a.length2_uv < b.length2_uv;
         struct Ends {
             std::uint32_t lesser, greater;
@@ -327,14 +300,13 @@ class Cutter {
         return a.vertex < b.vertex;
     }
 
-    /// The vertices that are left, by the order of their ears. `kConvex`: nothing is reflex.
-    template <bool kConvex>
+    /// The vertices that are left, by the order of their ears.
     class SearchAll {
       public:
         explicit SearchAll(Cutter& cutter) : cutter_(cutter) {
             for (std::uint32_t v = 0; v < cutter.count_; ++v) renew(v);
         }
-        void renew(std::uint32_t v) { order_[v] = cutter_.orderOf(v, !kConvex && cutter_.isBlocked(v)); }
+        void renew(std::uint32_t v) { order_[v] = cutter_.orderOf(v, cutter_.isBlocked(v)); }
 
         std::uint32_t takeBest() {
             const std::uint32_t count = cutter_.count_;
@@ -413,8 +385,7 @@ class Cutter {
         std::vector<std::uint32_t>& version_;
     };
 
-    /// `kConvex`: nothing is reflex, and nothing becomes so.
-    template <class Ears, bool kConvex = false>
+    template <class Ears>
     void cutBy(std::uint32_t* triangles) {
         Ears ears(*this);
         std::uint32_t any_left = 0;
@@ -423,15 +394,13 @@ class Cutter {
             *triangles++ = original(before);
             *triangles++ = original(ear);
             *triangles++ = original(after);
-            if (!kConvex && is_reflex_[ear] != 0) dropReflex(ear);
+            if (is_reflex_[ear] != 0) dropReflex(ear);
             next_[before] = after;
             previous_[after] = before;
             any_left = std::min(before, after);
             if (left == 4) break;
-            if (!kConvex) {
-                noteReflex(before);
-                noteReflex(after);
-            }
+            noteReflex(before);
+            noteReflex(after);
             ears.renew(before);
             ears.renew(after);
         }
@@ -448,8 +417,7 @@ class Cutter {
     bool is_tested_;       // ears are tested for emptiness
     std::uint32_t start_;  // the caller's number of the first vertex
     PolygonScratch& scratch_;
-    double extent_ = 0;  // the largest coordinate in the plane
-    double on_line_ = 0;
+    double on_line_ = 0;  // from there on a point is not on a line
     std::uint32_t reflex_count_ = 0;
     // The lists of scratch_.
     DVec3* positions_;

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 #include <span>
 
 #include "core/memory.h"
@@ -48,13 +47,13 @@ class ScratchBlock {
 
     static void release(void* user, void* memory, std::size_t bytes, std::size_t) {
         auto& self = *static_cast<ScratchBlock*>(user);
-        auto* const first = static_cast<std::byte*>(memory);
-        const std::byte *begin = self.block_, *end = begin + self.size_;
-        if (!std::less_equal<>{}(begin, first) || !std::less<>{}(first, end)) {
+        // As numbers, since pointers into different memory must not be compared.
+        const std::size_t offset =
+            reinterpret_cast<std::uintptr_t>(memory) - reinterpret_cast<std::uintptr_t>(self.block_);
+        if (offset >= self.size_) {
             releaseBytes(self.parent_, memory, bytes);
             return;
         }
-        const auto offset = static_cast<std::size_t>(first - begin);
         if (std::min(offset + rounded(bytes), self.size_) == self.used_) self.used_ = offset;
     }
 
