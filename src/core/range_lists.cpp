@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace tspace {
 
@@ -52,10 +53,11 @@ class Walk {
     }
 
   private:
+    /// Into groups_, where the last one that was read stays.
     std::size_t read(std::size_t block) {
         const std::size_t first = block * block_size_;
         const std::size_t size = std::min(block_size_, triangles_.count - first);
-        triangles_.read(first, size, nullptr, groups_);
+        if (block != std::exchange(held_, block)) triangles_.read(first, size, nullptr, groups_);
         return size;
     }
 
@@ -67,6 +69,7 @@ class Walk {
     void enterTriangle(std::uint32_t triangle, const std::uint32_t* groups, const Enter& enter) const {
         const std::uint32_t a = rangeOf(groups[0]), b = rangeOf(groups[1]), c = rangeOf(groups[2]);
         if (a != kNoRange) enter(a, triangle);
+        if (((a ^ b) | (a ^ c)) == 0) return;
         if (b != kNoRange && b != a) enter(b, triangle);
         if (c != kNoRange && c != a && c != b) enter(c, triangle);
     }
@@ -75,6 +78,7 @@ class Walk {
     std::size_t block_size_;
     std::uint32_t group_count_;
     int shift_;
+    std::size_t held_ = ~std::size_t{0};
     std::uint32_t groups_[3 * RangeLists::kMostInBlock] = {};
 };
 

@@ -210,25 +210,20 @@ Shape ring(std::uint32_t rows, std::uint32_t columns) {
     return shape;
 }
 
-/// The outputs for one first look. `bucket_shift`: take the
-/// triangles for scattered ones, with buckets of so many nodes.
+/// The outputs for one first look. `range_shift`: ranges of so many nodes.
 Outputs look(const Shape& shape, const TangentOptions& options, mikk::FirstLook first_look, bool tangents_only,
-             std::optional<unsigned> bucket_shift = {}) {
+             unsigned range_shift = 0) {
     const MeshView mesh = shape.view();
     Parallel parallel(options.execution);
     const mikk::TriangleList triangles = mikk::cutFaces(mesh, options.ngons, nullptr);
     mikk::Nodes nodes = mikk::weld(mesh, triangles, nullptr, parallel);
     mikk::listVertices(nodes, nullptr, parallel);
-    if (bucket_shift) {
-        nodes.blocks.scattered = true;
-        nodes.blocks.ranges = {};
-        nodes.blocks.bucket_shift = *bucket_shift;
-    }
     Outputs outputs(shape.cornerCount());
     TangentOutput to = outputs.view();
     if (tangents_only) to = {.tangents = to.tangents};
     ScratchBlock brief(nullptr, std::as_writable_bytes(std::span(to.tangents.data, to.tangents.count)));
-    outputs.report = mikk::evaluateInOnePass({mesh, options, triangles, nodes, to}, {}, brief, parallel, first_look);
+    outputs.report =
+        mikk::evaluateInOnePass({mesh, options, triangles, nodes, to}, {}, brief, parallel, {first_look, range_shift});
     return outputs;
 }
 
@@ -260,7 +255,7 @@ TEST(OnePass, AndALookAtEachNodeGiveTheSameBits) {
     EXPECT_GT(compared, list.size());
 }
 
-TEST(OnePass, InBucketsOfNodesGivesTheSameBits) {
+TEST(OnePass, InRangesOfNodesGivesTheSameBits) {
     std::vector<Shape> list = shapes();
     list.push_back(foldedSheet(200, 7));
     list.push_back(ring(500, 70));  // farther apart than lists of fans can say

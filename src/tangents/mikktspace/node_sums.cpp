@@ -1,92 +1,118 @@
 // SPDX-License-Identifier: MIT
-// The sums of all nodes. A task owns a range of nodes: it goes through all triangles in order, computes those
-// that have a node in its range, and adds to these nodes only. So each sum is made by one task, in the
-// reference's order, and no task waits for another. Triangles at the border of two ranges are computed twice.
+// The sums of all nodes. A task owns a range of nodes: it goes through the triangles that have a node there, in order, and
+// adds to these nodes only. So each sum is made by one task, in the reference's order, and no task waits for another.
+// Triangles at the border of two ranges are computed twice. Triangles that lie close together need few ranges, one for
+// each task; for others ranges are so small that all data of their nodes stay in the second cache. And while fans are
+// followed triangle by triangle where those lie close together, in other orders a processor cannot foresee what each
+// does: there the triangles of a node are listed, up to so many, and looked at together.
 #include "tangents/mikktspace/node_sums.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <cstdlib>
+#include <optional>
 
 #include "core/add_row.h"
-#include "tangents/mikktspace/bucket_sums.h"
-#include "tangents/mikktspace/node_buckets.h"
+#include "core/range_lists.h"
+#include "core/typed_indices.h"
+#include "tangents/mikktspace/fan_list.h"
 
 namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kManyShare = 16;       // one fan in so many may have more than two paths at a time
-constexpr std::size_t kNodesPerTask = 4096;  // at least: below, another thread costs more than it saves
+constexpr std::size_t kManyShare = 16;  // one fan in so many may have more than two paths at a time
+constexpr unsigned kTaskShift = 12;     // nodes of a task at least: below, another thread costs more than it saves
+/// Measured for triangles in random order: 8192 nodes 97 ns per triangle, 4096 99, 16384 102, 65536 117, 1024 137.
+constexpr unsigned kScatteredShift = 13;
+constexpr std::size_t kTasksPerThread = 4;
 /// Where early requests put memory (__builtin_prefetch): there is more of it than a block needs of the first
 /// cache, which the kernel works in. Measured: 120 ns per triangle with the first cache, 67 with the second.
 constexpr int kSecondCache = 2;
 
-static_assert(NodeBlocks::kTriangles == kTermTriangles);
+/// What to sum.
+struct Sweep {
+    const MeshView& mesh;
+    const TriangleList& triangles;
+    const Nodes& nodes;
+    const CornerSource& source;
+    CornerTermsFunction terms;
+    NodeSums& sums;
+    const RangeLists* lists = nullptr;  // of the ranges; null: there is one
+    bool asks = false;                  // for memory that is in no near cache
+
+    [[nodiscard]] std::uint32_t vertexAt(std::size_t half_edge) const {
+        return mesh.indices[triangles.corner(half_edge)];
+    }
+    [[nodiscard]] std::uint32_t nodeAt(std::size_t half_edge) const { return nodes.ofVertex(vertexAt(half_edge)); }
+
+    /// The vertices of some triangles, where they lie or in `to`.
+    const std::uint32_t* readVertices(std::size_t first, std::size_t count, std::uint32_t* to) const {
+        if (mesh.indices.type == IndexType::u32 && triangles.corners.empty())
+            return static_cast<const std::uint32_t*>(mesh.indices.data) + 3 * first;
+        withIndices(mesh.indices, [&](auto vertexOf) {
+            for (std::size_t i = 0; i < 3 * count; ++i) to[i] = vertexOf(triangles.corner(3 * first + i));
+        });
+        return to;
+    }
+    /// The nodes of some vertices, where they lie or in `to`.
+    const std::uint32_t* readNodes(const std::uint32_t* vertices, std::size_t count, std::uint32_t* to) const {
+        if (nodes.of_vertex.empty()) return vertices;
+        for (std::size_t i = 0; i < 3 * count; ++i) to[i] = nodes.of_vertex[vertices[i]];
+        return to;
+    }
+};
 
 /// Triangles to compute. The numbers are the caller's own where they can be taken as they are.
 struct Block {
     const std::uint32_t* vertices = nullptr;  // where data is read
     const std::uint32_t* nodes = nullptr;     // where it is added
     std::size_t count = 0;
+    bool is_whole = false;  // consecutive, and all their nodes are in the range
     std::uint32_t own_vertices[kTermCorners] = {};
     std::uint32_t own_nodes[kTermCorners] = {};
     std::uint32_t triangles[kTermTriangles] = {};  // their numbers
 };
 
-/// All that a kernel reads of a node, in half a cache line.
-struct PackedNode {
-    Vec3 position, normal;
-    Vec2 uv;
+/// A node while its range is worked on and triangles are listed: a cache line.
+struct alignas(64) OpenNode {
+    float s[4];
+    FanList list;
+    std::uint32_t marks;
+    std::uint32_t count;  // of listed triangles
+
+    void clear() {
+        *this = {{0, 0, 0, 0}, {}, kAllMarks, 0};
+        list.clear();
+    }
 };
-static_assert(sizeof(PackedNode) == 32);
 
-/// Copies node data side by side, so that a triangle's corner is one place in memory and not three.
-void packNodes(const MeshView& mesh, const Nodes& nodes, PackedNode* packed, CornerSource& source, Parallel& parallel) {
-    constexpr std::size_t kGrain = 16384;
-    parallel.forRanges(nodes.count, kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t n = begin; n < end; ++n) {
-            const std::uint32_t v = nodes.vertex(n);
-            packed[n] = {mesh.positions[v], mesh.normals[v], mesh.uvs[v]};
-        }
-    });
-    source.positions = reinterpret_cast<const std::byte*>(packed);
-    source.normals = source.positions + offsetof(PackedNode, normal);
-    source.uvs = source.positions + offsetof(PackedNode, uv);
-    source.position_stride = source.normal_stride = source.uv_stride = sizeof(PackedNode);
-    source.last_vertex = kNone;  // a record holds the four bytes after its vectors
-}
+/// What a task needs for one range.
+struct RangeWork {
+    FanRoom fan_room;
+    OpenNode* open;  // one per node; null: fans are followed at once
+};
 
+/// One task's worth of ranges.
 class Summer {
   public:
-    struct Setting {
-        const MeshView& mesh;
-        const TriangleList& triangles;
-        const Nodes& nodes;
-        CornerSource source;
-        CornerTermsFunction terms;
-        bool scattered = false;  ///< consecutive triangles lie far apart
-        bool packed = false;     ///< the source is numbered by nodes, all data of one side by side
-    };
+    explicit Summer(const Sweep& sweep) : sweep_(sweep), sums_(sweep.sums) {}
 
-    Summer(const Setting& setting, NodeSums& sums, FanRoom fan_room, std::size_t first_node, std::size_t end_node)
-        : setting_(setting),
-          triangles_(setting.triangles),
-          sums_(sums),
-          fan_room_(fan_room),
-          first_node_(static_cast<std::uint32_t>(first_node)),
-          node_count_(static_cast<std::uint32_t>(end_node - first_node)),
-          owns_all_(end_node - first_node == sums.nodes.size()) {
-        const IndexView& indices = setting.mesh.indices;
-        if (indices.type == IndexType::u32 && triangles_.corners.empty())
-            direct_ = static_cast<const std::uint32_t*>(indices.data);
-    }
-
-    void run() {
+    void run(std::size_t range, std::size_t first_node, std::size_t end_node, const RangeWork& work) {
+        fan_room_ = work.fan_room;
+        open_ = work.open;
+        first_node_ = static_cast<std::uint32_t>(first_node);
+        node_count_ = static_cast<std::uint32_t>(end_node - first_node);
         std::fill_n(sums_.nodes.data() + first_node_, node_count_, NodeSum{});
+        std::fill_n(sums_.marks.data() + first_node_, node_count_, std::uint16_t{kAllMarks});
         if (!sums_.rest.empty()) {
             std::fill_n(sums_.rest.data() + first_node_, node_count_, NodeRest{});
             std::fill_n(sums_.lengths_t.data() + first_node_, node_count_, 0.0f);
         }
+        for (std::uint32_t place = 0; open_ != nullptr && place < node_count_; ++place) open_[place].clear();
+        next_ = 0;
+        if (sweep_.lists != nullptr) entries_ = sweep_.lists->entries(range);
         // One block is read, and memory asked for what it needs, before the one before it is computed.
         Block blocks[2];
         fill(blocks[0]);
@@ -94,204 +120,151 @@ class Summer {
             fill(blocks[current ^ 1]);
             compute(blocks[current]);
         }
-        endFace();
+        for (std::uint32_t place = 0; open_ != nullptr && place < node_count_; ++place) close(place);
     }
 
     std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;
 
   private:
     [[nodiscard]] bool owns(std::uint32_t node) const { return node - first_node_ < node_count_; }
-    [[nodiscard]] std::uint32_t nodeAt(std::size_t i) const {
-        return setting_.nodes.ofVertex(setting_.mesh.indices[triangles_.corner(i)]);
-    }
 
-    /// The next triangles: all of them, or those with a node in the range.
+    /// The next triangles.
     void fill(Block& block) {
-        constexpr std::size_t kFull = kTermTriangles - 16;
         block.count = 0;
-        block.vertices = block.own_vertices;
-        block.nodes = block.own_nodes;
-        while (block.count <= kFull && next_ < triangles_.count) {
-            if (!owns_all_ && skipsBlock()) continue;
-            const std::size_t count = std::min(triangles_.count - next_, kTermTriangles - block.count);
-            if (count == kTermTriangles && direct_ != nullptr && ownsAllFrom(next_)) {
-                take(block, next_);
-                next_ += count;
-                break;
-            }
-            read(block, next_, count);
-            next_ += count;
+        if (sweep_.lists == nullptr) {
+            fillWhole(block, next_);
+            next_ += kTermTriangles;
+            return;
         }
-        if (setting_.scattered) askFor(block);
+        constexpr std::uint32_t kBlock = RangeLists::kBlock;
+        if (next_ < entries_.size() && (entries_[next_] & kBlock) != 0) {
+            fillWhole(block, std::size_t{entries_[next_++] & ~kBlock} * kTermTriangles);
+            return;
+        }
+        while (block.count < kTermTriangles && next_ < entries_.size() && (entries_[next_] & kBlock) == 0)
+            block.triangles[block.count++] = entries_[next_++];
+        block.is_whole = false;
+        withIndices(sweep_.mesh.indices, [&](auto vertexOf) {
+            std::uint32_t* to = block.own_vertices;
+            for (std::size_t t = 0; t < block.count; ++t, to += 3) {
+                const std::size_t first = 3 * std::size_t{block.triangles[t]};
+                for (std::size_t k = 0; k < 3; ++k) to[k] = vertexOf(sweep_.triangles.corner(first + k));
+            }
+        });
+        block.vertices = block.own_vertices;
+        finish(block);
     }
 
-    /// Goes on to the next block when none of this one's triangles has a node in the range. (Triangles of one
-    /// face may be in two blocks, and stay together.)
-    bool skipsBlock() {
-        const std::size_t block = next_ / kTermTriangles;
-        if (!triangles_.faces.empty() ||
-            setting_.nodes.blocks.mayUse(block, first_node_, first_node_ + node_count_ - 1))
-            return false;
-        next_ = (block + 1) * kTermTriangles;
-        return true;
-    }
-
-    /// Whether all nodes of so many triangles as a block has are known to be in the range.
-    [[nodiscard]] bool ownsAllFrom(std::size_t triangle) const {
-        if (owns_all_) return true;
-        const auto& ranges = setting_.nodes.blocks.ranges;
-        if (ranges.empty()) return false;
-        const auto ownsAll = [&](const NodeBlocks::Range& r) { return owns(r.first) && owns(r.last); };
-        return ownsAll(ranges[triangle / kTermTriangles]) &&
-               ownsAll(ranges[(triangle + kTermTriangles - 1) / kTermTriangles]);
-    }
-
-    /// A whole block whose vertices can be used where they are.
-    void take(Block& block, std::size_t first) const {
-        const Nodes& map = setting_.nodes;
-        const std::uint32_t* vertices = direct_ + 3 * first;
-        block.count = kTermTriangles;
+    void fillWhole(Block& block, std::size_t first) {
+        if (first >= sweep_.triangles.count) return;
+        block.count = std::min(kTermTriangles, sweep_.triangles.count - first);
+        block.is_whole = true;
         for (std::size_t t = 0; t < kTermTriangles; ++t) block.triangles[t] = static_cast<std::uint32_t>(first + t);
-        block.vertices = block.nodes = vertices;
-        if (map.of_vertex.empty()) return;
-        for (std::size_t i = 0; i < kTermCorners; ++i) block.own_nodes[i] = map.of_vertex[vertices[i]];
-        block.nodes = block.own_nodes;
-        if (setting_.packed) {
-            block.vertices = block.own_nodes;
-        } else if (map.mixed) {
-            for (std::size_t i = 0; i < kTermCorners; ++i) block.own_vertices[i] = map.vertex(block.own_nodes[i]);
+        block.vertices = sweep_.readVertices(first, block.count, block.own_vertices);
+        if (block.count < kTermTriangles && block.vertices != block.own_vertices) {
+            std::copy_n(block.vertices, 3 * block.count, block.own_vertices);
             block.vertices = block.own_vertices;
         }
+        finish(block);
+    }
+
+    /// Looks up the nodes. Kernels read whole groups, so what follows the last triangle must be valid.
+    void finish(Block& block) {
+        const Nodes& map = sweep_.nodes;
+        if (block.count == 0) return;
+        if (block.count < kTermTriangles)
+            std::fill(block.own_vertices + 3 * block.count, block.own_vertices + kTermCorners, block.own_vertices[0]);
+        block.nodes = sweep_.readNodes(block.vertices, kTermTriangles, block.own_nodes);
+        if (map.mixed) {
+            for (std::size_t i = 0; i < kTermCorners; ++i) block.own_vertices[i] = map.vertex(block.nodes[i]);
+            block.vertices = block.own_vertices;
+        }
+        if (sweep_.asks) askFor(block);
     }
 
     /// Inlined by force: GCC 12 sees a function that only asks for memory as one without effect, and drops
     /// calls to it.
     [[gnu::always_inline]] void askFor(const Block& block) const {
-        const CornerSource& source = setting_.source;
+        const CornerSource& source = sweep_.source;
         for (std::size_t i = 0; i < 3 * block.count; ++i) {
             __builtin_prefetch(&sums_.nodes[block.nodes[i]], 1, kSecondCache);
             __builtin_prefetch(source.positions + source.position_stride * block.vertices[i], 0, kSecondCache);
-            if (setting_.packed) continue;
             __builtin_prefetch(source.normals + source.normal_stride * block.vertices[i], 0, kSecondCache);
             __builtin_prefetch(source.uvs + source.uv_stride * block.vertices[i], 0, kSecondCache);
         }
     }
 
-    void read(Block& block, std::size_t first, std::size_t count) {
-        std::uint32_t* vertices = block.own_vertices + 3 * block.count;
-        std::uint32_t* nodes = block.own_nodes + 3 * block.count;
-        readVertices(3 * first, 3 * count, vertices);
-        const Nodes& map = setting_.nodes;
-        if (map.of_vertex.empty()) {
-            std::copy_n(vertices, 3 * count, nodes);
-        } else {
-            for (std::size_t i = 0; i < 3 * count; ++i) nodes[i] = map.of_vertex[vertices[i]];
-            if (setting_.packed) {
-                std::copy_n(nodes, 3 * count, vertices);
-            } else if (map.mixed) {
-                for (std::size_t i = 0; i < 3 * count; ++i) vertices[i] = map.vertex(nodes[i]);
-            }
-        }
-        std::uint32_t* numbers = block.triangles + block.count;
-        for (std::size_t t = 0; t < count; ++t) numbers[t] = static_cast<std::uint32_t>(first + t);
-        block.count += owns_all_ ? count : keepOwn(vertices, nodes, numbers, count);
-    }
-
-    void readVertices(std::size_t first, std::size_t count, std::uint32_t* to) const {
-        const IndexView& indices = setting_.mesh.indices;
-        if (!triangles_.corners.empty()) {
-            for (std::size_t i = 0; i < count; ++i) to[i] = indices[triangles_.corners[first + i]];
-            return;
-        }
-        switch (indices.type) {
-            case IndexType::u32:
-                std::copy_n(static_cast<const std::uint32_t*>(indices.data) + first, count, to);
-                break;
-            case IndexType::u16:
-                std::copy_n(static_cast<const std::uint16_t*>(indices.data) + first, count, to);
-                break;
-            case IndexType::u8:
-                std::copy_n(static_cast<const std::uint8_t*>(indices.data) + first, count, to);
-                break;
-            case IndexType::none:
-                for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<std::uint32_t>(first + i);
-                break;
-        }
-    }
-
-    std::size_t keepOwn(std::uint32_t* vertices, std::uint32_t* nodes, std::uint32_t* numbers, std::size_t count) {
-        std::size_t kept = 0;
-        for (std::size_t t = 0; t < count; ++t) {
-            const std::uint32_t number = numbers[t];
-            const bool mine = triangles_.faces.empty()
-                                  ? int{owns(nodes[3 * t])} | int{owns(nodes[3 * t + 1])} | int{owns(nodes[3 * t + 2])}
-                                  : ownsFaceOf(number);
-            for (std::size_t k = 0; k < 3; ++k) {
-                vertices[3 * kept + k] = vertices[3 * t + k];
-                nodes[3 * kept + k] = nodes[3 * t + k];
-            }
-            numbers[kept] = number;
-            kept += mine ? 1 : 0;
-        }
-        return kept;
-    }
-
-    /// A face is taken or left as a whole: its triangles have to agree. Asked in the order of triangles.
-    bool ownsFaceOf(std::uint32_t triangle) {
-        const std::uint32_t face = triangles_.faces[triangle];
-        if (face == asked_face_) return owns_asked_face_;
-        asked_face_ = face;
-        owns_asked_face_ = false;
-        for (std::size_t t = triangle; t < triangles_.count && triangles_.faces[t] == face; ++t) {
-            for (std::size_t k = 0; k < 3; ++k) owns_asked_face_ |= owns(nodeAt(3 * t + k));
-        }
-        return owns_asked_face_;
-    }
-
     void compute(const Block& block) {
-        setting_.terms(setting_.source, block.vertices, block.count, terms_);
-        if (owns_all_) {
+        sweep_.terms(sweep_.source, block.vertices, block.count, terms_);
+        if (block.is_whole) {
             degenerate_count += terms_.degenerate_count;
             no_uv_area_count += terms_.no_uv_area_count;
             mirrored_count += terms_.mirrored_count;
         } else {
             countOwn(block);
         }
-        if (!triangles_.faces.empty()) compareFaces(block);
-        if (setting_.source.weighting == Weighting::none) {
-            owns_all_ ? add<true, Sums::none>(block) : add<false, Sums::none>(block);
+        if (!sweep_.triangles.faces.empty()) keepKinds(block);
+        if (sweep_.source.weighting == Weighting::none) {
+            open_ != nullptr ? add<Sums::none, true>(block) : add<Sums::none, false>(block);
         } else if (sums_.rest.empty()) {
-            owns_all_ ? add<true, Sums::tangents>(block) : add<false, Sums::tangents>(block);
+            open_ != nullptr ? add<Sums::tangents, true>(block) : add<Sums::tangents, false>(block);
         } else {
-            owns_all_ ? add<true, Sums::all>(block) : add<false, Sums::all>(block);
+            open_ != nullptr ? add<Sums::all, true>(block) : add<Sums::all, false>(block);
         }
     }
 
     enum class Sums { none, tangents, all };
 
+    [[nodiscard]] std::uint8_t kindOf(std::size_t t) const {
+        static_assert(kFacesUp == kUvFacesUp && kFacesDown == kUvFacesDown);
+        const std::uint32_t m = terms_.marks[0][t];
+        if ((m & kDegenerateMark) != 0) return kCollapsed;
+        return static_cast<std::uint8_t>((m & kNoUvArea) != 0 ? std::uint32_t{kFlatUv} : m & (kFacesUp | kFacesDown));
+    }
+
     /// Each triangle is counted by the task that owns its first node.
     void countOwn(const Block& block) {
         for (std::size_t t = 0; t < block.count; ++t) {
             if (!owns(block.nodes[3 * t])) continue;
-            const std::uint32_t m = terms_.marks[0][t];
-            const bool degenerate = (m & kDegenerateMark) != 0, flat = !degenerate && (m & kNoUvArea) != 0;
-            degenerate_count += degenerate ? 1 : 0;
-            no_uv_area_count += flat ? 1 : 0;
-            mirrored_count += !degenerate && !flat && (m & kFacesDown) != 0 ? 1 : 0;
+            const std::uint8_t kind = kindOf(t);
+            degenerate_count += kind == kCollapsed ? 1 : 0;
+            no_uv_area_count += kind == kFlatUv ? 1 : 0;
+            mirrored_count += kind == kUvFacesDown ? 1 : 0;
         }
     }
 
-    template <bool kOwnsAll, Sums kSums>
+    void keepKinds(const Block& block) {
+        for (std::size_t t = 0; t < block.count; ++t) {
+            if (owns(block.nodes[3 * t])) sums_.kinds[block.triangles[t]] = kindOf(t);
+        }
+    }
+
+    /// Where sums are made: a copy, so that pointers stay in registers.
+    struct Target {
+        NodeSum* nodes;
+        std::uint16_t* marks;
+        OpenNode* open;
+        std::uint32_t first_node;
+    };
+
+    template <Sums kSums, bool kLists>
     void add(const Block& block) {
+        const Target to{sums_.nodes.data(), sums_.marks.data(), open_, first_node_};
         for (std::size_t t = 0; t < block.count; ++t) {
             const std::uint32_t* n = block.nodes + 3 * t;
             if ((terms_.marks[0][t] & (kDegenerateMark | kNoUvArea)) != 0) [[unlikely]] {
                 addUnusual(block, t);
-                continue;
+            } else if (block.is_whole || (owns(n[0]) && owns(n[1]) && owns(n[2]))) [[likely]] {
+                addCorner<kSums, kLists>(to, t, 0, n[0], n[1], n[2]);
+                addCorner<kSums, kLists>(to, t, 1, n[1], n[2], n[0]);
+                addCorner<kSums, kLists>(to, t, 2, n[2], n[0], n[1]);
+            } else {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    if (!owns(n[k])) continue;
+                    addTerms<kSums, kLists>(to, t, k, n[k]);
+                    link(n[k], n[(k + 1) % 3], n[(k + 2) % 3]);
+                }
             }
-            addCorner<kOwnsAll, kSums>(t, 0, n[0], n[1], n[2]);
-            addCorner<kOwnsAll, kSums>(t, 1, n[1], n[2], n[0]);
-            addCorner<kOwnsAll, kSums>(t, 2, n[2], n[0], n[1]);
         }
     }
 
@@ -301,87 +274,163 @@ class Summer {
         const bool degenerate = (terms_.marks[0][t] & kDegenerateMark) != 0;
         for (std::size_t k = 0; k < 3; ++k) {
             if (!owns(n[k])) continue;
-            const bool known = !degenerate && sums_.nodes[n[k]].fan.add(n[(k + 1) % 3], n[(k + 2) % 3], fan_room_);
-            if (!known) sums_.marks[n[k]] &= static_cast<std::uint16_t>(degenerate ? 0 : ~kFanKnown);
+            if (degenerate) {
+                unmark(n[k], 0);
+            } else {
+                link(n[k], n[(k + 1) % 3], n[(k + 2) % 3]);
+            }
         }
-        if (!degenerate && owns(n[0])) sums_.flat[block.triangles[t]] = 1;
+        if (!degenerate && owns(n[0])) sums_.kinds[block.triangles[t]] = kFlatUv;
     }
 
-    template <bool kOwnsAll, Sums kSums>
-    void addCorner(std::size_t t, std::size_t k, std::uint32_t node, std::uint32_t next, std::uint32_t previous) {
-        if (!kOwnsAll && !owns(node)) return;
-        NodeSum& sum = sums_.nodes[node];
+    template <Sums kSums, bool kLists>
+    void addTerms(const Target& to, std::size_t t, std::size_t k, std::uint32_t node) {
         const std::size_t row = 3 * t + k;
-        if constexpr (kSums != Sums::none) addRow(sum.s, terms_.s[row]);  // and the weight
-        std::uint16_t& marks = sums_.marks[node];
-        marks = static_cast<std::uint16_t>(marks & terms_.marks[k][t]);
-        if (!sum.fan.add(next, previous, fan_room_)) [[unlikely]]
-            marks &= static_cast<std::uint16_t>(~kFanKnown);
+        if constexpr (kLists) {
+            OpenNode& open = to.open[node - to.first_node];
+            if constexpr (kSums != Sums::none) addRow(open.s, terms_.s[row]);  // and the weight
+            open.marks &= terms_.marks[k][t];
+        } else {
+            if constexpr (kSums != Sums::none) addRow(to.nodes[node].s, terms_.s[row]);
+            to.marks[node] = static_cast<std::uint16_t>(to.marks[node] & terms_.marks[k][t]);
+        }
         if constexpr (kSums == Sums::all) {
             addRow(sums_.rest[node].t, terms_.t[row]);
             sums_.lengths_t[node] += terms_.lengths_t[k][t];
         }
     }
 
-    /// The vertex path gives all triangles of a face one orientation and treats degenerate ones in a way of
-    /// their own. Faces whose triangles do not simply agree are left to it.
-    void compareFaces(const Block& block) {
-        for (std::size_t t = 0; t < block.count; ++t) {
-            const std::uint32_t triangle = block.triangles[t], face = triangles_.faces[triangle];
-            const std::uint32_t m = terms_.marks[0][t] & (kFacesUp | kFacesDown | kDegenerateMark);
-            if (face != open_face_) {
-                endFace();
-                open_face_ = face;
-                open_first_ = triangle;
-                open_marks_ = 0;
-                open_count_ = 0;
-                open_starts_flat_ = (terms_.marks[0][t] & kNoUvArea) != 0;
-            }
-            ++open_count_;
-            open_degenerate_ |= (m & kDegenerateMark) != 0;
-            // One without UV area takes the orientation of others, and gives its own only as the first one of
-            // a quad.
-            if ((terms_.marks[0][t] & kNoUvArea) != 0) continue;
-            open_differs_ |= m == 0 || (open_marks_ != 0 && m != open_marks_);
-            open_marks_ = m;
+    /// With neighbours in the range.
+    template <Sums kSums, bool kLists>
+    void addCorner(const Target& to, std::size_t t, std::size_t k, std::uint32_t node, std::uint32_t next,
+                   std::uint32_t previous) {
+        addTerms<kSums, kLists>(to, t, k, node);
+        if constexpr (kLists) {
+            const std::uint32_t place = node - to.first_node;
+            if (to.open[place].count == FanList::kMost) [[unlikely]]
+                followListed(place);
+            to.open[place].list.set(to.open[place].count++, next - to.first_node, previous - to.first_node);
+        } else if (!to.nodes[node].fan.add(next, previous, fan_room_)) [[unlikely]] {
+            unmark(node, ~kFanKnown);
         }
     }
 
-    void endFace() {
-        open_differs_ |= open_count_ == 2 && open_starts_flat_ && open_marks_ != 0;
-        if (open_count_ > 1 && (open_differs_ || open_degenerate_)) {
-            for (std::size_t t = open_first_; t < triangles_.count && triangles_.faces[t] == open_face_; ++t) {
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const std::uint32_t node = nodeAt(3 * t + k);
-                    if (owns(node)) sums_.marks[node] = 0;
-                }
-            }
-        }
-        open_differs_ = open_degenerate_ = false;
+    /// Adds a corner to the node's fan.
+    [[gnu::noinline]] void link(std::uint32_t node, std::uint32_t next, std::uint32_t previous) {
+        if (open_ == nullptr) return follow(node, next, previous);
+        const std::uint32_t place = node - first_node_, to_next = next - first_node_,
+                            to_previous = previous - first_node_;
+        const bool fits = FanList::holds(to_next) && FanList::holds(to_previous);
+        OpenNode& open = open_[place];
+        if (!fits || open.count == FanList::kMost) followListed(place);
+        if (!fits) return follow(node, next, previous);
+        open.list.set(open.count++, to_next, to_previous);
     }
 
-    const Setting& setting_;
-    const TriangleList& triangles_;
+    void follow(std::uint32_t node, std::uint32_t next, std::uint32_t previous) {
+        if (!sums_.nodes[node].fan.add(next, previous, fan_room_)) [[unlikely]]
+            unmark(node, ~kFanKnown);
+    }
+
+    [[gnu::noinline]] void unmark(std::uint32_t node, std::uint32_t kept) {
+        sums_.marks[node] &= static_cast<std::uint16_t>(kept);
+        if (open_ != nullptr) open_[node - first_node_].marks &= kept;
+    }
+
+    /// Nodes of many corners, or with distant neighbours.
+    [[gnu::noinline]] void followListed(std::uint32_t place) {
+        OpenNode& open = open_[place];
+        for (std::uint32_t i = 0; i < open.count; ++i) {
+            follow(first_node_ + place, first_node_ + static_cast<std::uint32_t>(std::int32_t{open.list.next[i]}),
+                   first_node_ + static_cast<std::uint32_t>(std::int32_t{open.list.previous[i]}));
+        }
+        open.count = 0;
+        open.list.clear();
+    }
+
+    void close(std::uint32_t place) {
+        OpenNode& open = open_[place];
+        NodeSum& sum = sums_.nodes[first_node_ + place];
+        if (!sum.fan.isEmpty()) {
+            followListed(place);
+        } else if (open.count != 0) {
+            sum.fan.leaves[0] = Fan::kClosed;
+            if (!isOneFan(open.list, open.count)) open.marks &= ~kFanKnown;
+        }
+        std::copy_n(open.s, 4, sum.s);
+        sums_.marks[first_node_ + place] = static_cast<std::uint16_t>(open.marks);
+    }
+
+    const Sweep& sweep_;
     NodeSums& sums_;
-    FanRoom fan_room_;
-    std::uint32_t first_node_, node_count_;
-    bool owns_all_;
-    std::uint32_t asked_face_ = kNone;
-    bool owns_asked_face_ = false;
-    std::uint32_t open_face_ = kNone, open_first_ = 0, open_marks_ = 0;
-    std::uint32_t open_count_ = 0;
-    bool open_differs_ = false, open_degenerate_ = false, open_starts_flat_ = false;
-    std::size_t next_ = 0;                   // triangle to read
-    const std::uint32_t* direct_ = nullptr;  // the vertices of all triangles, when they are there as such
+    OpenNode* open_ = nullptr;
+    FanRoom fan_room_{nullptr, 0};
+    std::uint32_t first_node_ = 0, node_count_ = 0;
+    std::span<const std::uint32_t> entries_;
+    std::size_t next_ = 0;  // triangle or entry to read
     CornerTerms terms_;
 };
 
+/// Of the triangles of a sample, how many test(t) says yes to, of 1024.
+template <class Test>
+std::size_t outOf1024(std::size_t count, const Test& test) {
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < 1024; ++i) found += test(count * i / 1024);
+    return found;
+}
+
+/// Whether consecutive triangles lie far apart.
+bool isScattered(const Sweep& sweep) {
+    constexpr std::int64_t kFar = 2048;                                                  // vertices
+    if (sweep.triangles.count < 2 || sweep.mesh.vertexCount() < 4 * kFar) return false;  // nothing is far
+    return outOf1024(sweep.triangles.count - 1, [&](std::size_t t) -> std::size_t {
+               const std::int64_t a = sweep.vertexAt(3 * t), b = sweep.vertexAt(3 * t + 3);
+               return std::abs(a - b) > kFar ? 1 : 0;
+           }) > 256;
+}
+
+/// Whether triangles mostly have their nodes in one range.
+bool areWorthRanges(const Sweep& sweep, unsigned shift) {
+    return outOf1024(sweep.triangles.count, [&](std::size_t t) -> std::size_t {
+               const auto range = [&](std::size_t k) { return sweep.nodeAt(3 * t + k) >> shift; };
+               const std::uint32_t a = range(0), b = range(1), c = range(2);
+               return (b != a ? 1 : 0) + (c != a && c != b ? 1 : 0);
+           }) <= 256;
+}
+
+unsigned rangeShift(const Sweep& sweep, unsigned width) {
+    if (sweep.sums.scattered && areWorthRanges(sweep, kScatteredShift)) return kScatteredShift;
+    const std::size_t wanted = width == 1 ? 1 : sweep.sums.scattered ? width : kTasksPerThread * width;
+    unsigned shift = kTaskShift;
+    while (((sweep.nodes.count - 1) >> shift) >= wanted) ++shift;
+    return shift;
+}
+
 }  // namespace
+
+void MeshTriangles::read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const {
+    withIndices(mesh_.indices, [&](auto vertexOf) {
+        if (triangles_.corners.empty()) {
+            for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = vertexOf(3 * first + i);
+        } else {
+            for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = vertexOf(triangles_.corners[3 * first + i]);
+        }
+    });
+    if (vertices != nullptr) std::copy_n(groups, 3 * size, vertices);
+    if (!nodes_.of_vertex.empty()) {
+        for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = nodes_.of_vertex[groups[i]];
+    }
+    if (vertices != nullptr && nodes_.mixed) {
+        for (std::size_t i = 0; i < 3 * size; ++i) vertices[i] = nodes_.vertex(groups[i]);
+    }
+    for (std::size_t t = 0; kinds_ != nullptr && t < size; ++t) {
+        if ((kinds_[first + t] & kFlatUv) != 0) std::fill_n(groups + 3 * t, 3, kNone);
+    }
+}
 
 bool NodeSums::isOneGroup(std::size_t node, const Vec3& normal, bool may_split) const {
     const std::uint32_t m = marks[node];
-    if ((m & (kFacesUp | kFacesDown)) == 0 || (m & kFanKnown) == 0) return false;
-    if (!nodes.empty() && !nodes[node].fan.isOne()) return false;
+    if ((m & (kFacesUp | kFacesDown)) == 0 || (m & kFanKnown) == 0 || !nodes[node].fan.isOne()) return false;
     return !may_split || sumCannotSplit(row(node), m, normal);
 }
 
@@ -407,60 +456,54 @@ void finishInRanges(std::size_t count, const FinishNodes& finish, Parallel& para
 
 void sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const CornerSource& source,
               CornerTermsFunction terms, ScratchBlock& brief, const Allocator* allocator, Parallel& parallel,
-              NodeSums& sums, const FinishNodes& finish) {
+              NodeSums& sums, const FinishNodes& finish, unsigned range_shift) {
+    sums.nodes = Buffer<NodeSum>(allocator, nodes.count);
+    sums.marks = Buffer<std::uint16_t>(allocator, nodes.count);
     if (!source.tangents_only) {
         sums.rest = Buffer<NodeRest>(allocator, nodes.count);
         sums.lengths_t = Buffer<float>(allocator, nodes.count);
     }
-    sums.flat = Buffer<std::uint8_t>(brief.allocator(), triangles.count, std::uint8_t{0});
-    sums.scattered = nodes.blocks.scattered;
-    if (sums.scattered && triangles.faces.empty()) {
-        NodeBuckets buckets(mesh, triangles, nodes, allocator, parallel);
-        if (buckets.fill(brief)) {
-            sums.makeRows(allocator, nodes.count);
-            sums.marks = Buffer<std::uint16_t>(allocator, nodes.count);
-            sumBuckets(buckets, nodes, source, terms, sums, finish, allocator, parallel);
-            return;
-        }
-    }
-    sums.makeNodes(allocator, nodes.count);
-    sums.marks = Buffer<std::uint16_t>(allocator, nodes.count, std::uint16_t{kAllMarks});
-    if (triangles.count == 0) {
-        std::fill(sums.nodes.begin(), sums.nodes.end(), NodeSum{});
-        std::fill(sums.rest.begin(), sums.rest.end(), NodeRest{});
-        std::fill(sums.lengths_t.begin(), sums.lengths_t.end(), 0.0f);
-        finishInRanges(nodes.count, finish, parallel);
-        return;
-    }
-    Summer::Setting setting{mesh, triangles, nodes, source, terms};
-    setting.scattered = sums.scattered;
-    Buffer<PackedNode> packed;
-    if (setting.scattered && brief.has(nodes.count * sizeof(PackedNode))) {
-        packed = Buffer<PackedNode>(brief.allocator(), nodes.count);
-        packNodes(mesh, nodes, packed.data(), setting.source, parallel);
-        setting.packed = true;
+    sums.kinds = Buffer<std::uint8_t>(brief.allocator(), triangles.count, std::uint8_t{0});
+    if (nodes.count == 0) return;
+    Sweep sweep{mesh, triangles, nodes, source, terms, sums};
+    sums.scattered = isScattered(sweep);
+    const unsigned shift = range_shift != 0 ? range_shift : rangeShift(sweep, parallel.width());
+    const std::size_t ranges = ((nodes.count - 1) >> shift) + 1;
+    const bool lists_fans = sums.scattered && shift <= kScatteredShift;
+    sweep.asks = sums.scattered && !lists_fans;
+    std::optional<RangeLists> range_lists;
+    if (ranges > 1) {
+        range_lists.emplace(MeshTriangles(mesh, triangles, nodes, nullptr), kTermTriangles, nodes.count,
+                            std::size_t{1} << shift, brief.allocator(), parallel);
+        sweep.lists = &*range_lists;
     }
     struct Counts {
         std::uint64_t degenerate, no_uv_area, mirrored;
     };
-    const std::size_t tasks =
-        std::clamp<std::size_t>(nodes.count / kNodesPerTask, 1, std::max<std::size_t>(1, parallel.width()));
+    const std::size_t tasks = std::min<std::size_t>(ranges, parallel.width());
     Buffer<Counts> counts(allocator, tasks);
-    const std::size_t fans_each = nodes.count / kManyShare / tasks + 64;
+    const std::size_t fans_each = std::min(nodes.count, std::size_t{1} << shift) / kManyShare + 64;
     Buffer<ManyPaths> many_paths(brief.allocator(), tasks * fans_each);
+    const std::size_t open_each = lists_fans ? std::min(nodes.count, std::size_t{1} << shift) : 0;
+    Buffer<OpenNode> open(allocator, tasks * open_each);
+    std::atomic<std::size_t> next{0};
     parallel.forTasks(tasks, [&](std::size_t task) {
-        Summer summer(setting, sums, {many_paths.data() + task * fans_each, fans_each}, nodes.count * task / tasks,
-                      nodes.count * (task + 1) / tasks);
-        summer.run();
+        Summer summer(sweep);
+        for (std::size_t range = next++; range < ranges; range = next++) {
+            const std::size_t end = std::min((range + 1) << shift, nodes.count);
+            summer.run(range, range << shift, end,
+                       {{many_paths.data() + task * fans_each, fans_each},
+                        open_each == 0 ? nullptr : open.data() + task * open_each});
+            if (ranges > 1) finish(range << shift, end);
+        }
         counts[task] = {summer.degenerate_count, summer.no_uv_area_count, summer.mirrored_count};
     });
-    for (std::size_t task = 0; task < tasks; ++task) {
-        const Counts& c = counts[task];
+    for (const Counts& c : counts) {
         sums.degenerate_count += c.degenerate;
         sums.no_uv_area_count += c.no_uv_area;
         sums.mirrored_count += c.mirrored;
     }
-    finishInRanges(nodes.count, finish, parallel);
+    if (ranges == 1) finishInRanges(nodes.count, finish, parallel);
 }
 
 }  // namespace tspace::mikk

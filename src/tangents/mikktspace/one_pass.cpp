@@ -29,61 +29,20 @@ namespace {
 constexpr std::size_t kCornerGrain = 16384, kTriangleGrain = 16384;
 constexpr std::size_t kBlockCorners = 3 * kCollectBlock;
 constexpr std::uint32_t kBothFacings = kFacesUp | kFacesDown;
-/// In NodeSums::flat: nothing shows that the triangle's nodes agree.
-constexpr std::uint8_t kDoubtful = 2;
 /// In the place of the sign, with a bit that no sign has.
 constexpr float kUnclearSign = 2.0f;
 
-/// The mesh's triangles, as estimators read them: each node is a group. Triangles without UV area add
-/// nothing.
-class MeshTriangles final : public TriangleGroups {
-  public:
-    MeshTriangles(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const NodeSums& sums)
-        : TriangleGroups(triangles.count),
-          mesh_(mesh),
-          triangles_(triangles),
-          nodes_(nodes),
-          flat_(sums.flat),
-          has_flat_(sums.no_uv_area_count != 0) {}
-
-    void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const override {
-        if (triangles_.corners.empty()) {
-            withIndices(mesh_.indices, [&](auto vertexOf) {
-                for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = vertexOf(3 * first + i);
-            });
-        } else {
-            for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = mesh_.indices[triangles_.corners[3 * first + i]];
-        }
-        if (vertices != nullptr) std::copy_n(groups, 3 * size, vertices);
-        if (!nodes_.of_vertex.empty()) {
-            for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = nodes_.of_vertex[groups[i]];
-        }
-        if (vertices != nullptr && nodes_.mixed) {
-            for (std::size_t i = 0; i < 3 * size; ++i) vertices[i] = nodes_.vertex(groups[i]);
-        }
-        if (!has_flat_) return;
-        for (std::size_t t = 0; t < size; ++t) {
-            if (flat_[first + t] != 0) std::fill_n(groups + 3 * t, 3, kNone);
-        }
-    }
-
-  private:
-    const MeshView& mesh_;
-    const TriangleList& triangles_;
-    const Nodes& nodes_;
-    const Buffer<std::uint8_t>& flat_;  // one mark per triangle
-    bool has_flat_;
-};
-
 class OnePass {
   public:
-    OnePass(const NodeSetting& setting, const TailPairs& tail, ScratchBlock& brief, Parallel& parallel)
+    OnePass(const NodeSetting& setting, const TailPairs& tail, ScratchBlock& brief, Parallel& parallel,
+            const PassOptions& pass)
         : setting_(setting),
           mesh_(setting.mesh),
           options_(setting.options),
           triangles_(setting.triangles),
           nodes_(setting.nodes),
           tail_(tail),
+          pass_(pass),
           out_(setting.out),
           brief_(brief),
           parallel_(parallel),
@@ -91,10 +50,10 @@ class OnePass {
           estimates_(estimators::isEstimated(options_.method)),
           sign_factor_(signFactor(options_.convention) * normalFactor(options_.convention)) {}
 
-    TangentReport run(FirstLook first_look) {
+    TangentReport run() {
         const bool has_threshold = setting_.maySplit() && thresholdCosine(options_.angular_threshold_deg) != -1.0f;
-        const bool walks = has_threshold || first_look == FirstLook::eachNode ||
-                           (first_look == FirstLook::asItSeems && mostNodesSeemUnclear(mesh_, triangles_));
+        const bool walks = has_threshold || pass_.first_look == FirstLook::eachNode ||
+                           (pass_.first_look == FirstLook::asItSeems && mostNodesSeemUnclear(mesh_, triangles_));
         TangentReport report = walks && !estimates_ ? writeAll() : passOverTriangles();
         report.triangle_count = triangles_.count;
         report.skipped_face_count = triangles_.skipped_face_count;
@@ -115,11 +74,15 @@ class OnePass {
                                            estimates_ || wantsTangentsOnly(out_));
         source.adding_only = true;
         unclear_ = Buffer<std::uint64_t>(allocator_, nodes_.count / 64 + 1, std::uint64_t{0});
-        sumNodes(mesh_, triangles_, nodes_, source, cornerTermsFor(options_.execution.simd), brief_, allocator_,
-                 parallel_, sums_, [&](std::size_t first, std::size_t end) {
-                     if (!estimates_) finishNodes(first, end);
-                 });
+        sumNodes(
+            mesh_, triangles_, nodes_, source, cornerTermsFor(options_.execution.simd), brief_, allocator_, parallel_,
+            sums_,
+            [&](std::size_t first, std::size_t end) {
+                if (!estimates_) finishNodes(first, end);
+            },
+            pass_.range_shift);
         if (estimates_) estimateNodes();
+        checkFaces();
         checkFlatTriangles();
         for (const std::uint32_t node : tail_.nodes) {
             if (!sums_.isEmpty(node)) leaveNode(node);
@@ -145,9 +108,10 @@ class OnePass {
             sums_.rest = Buffer<NodeRest>(allocator_, nodes_.count);
             sums_.lengths_t = Buffer<float>(allocator_, nodes_.count);
         }
-        const MeshTriangles triangles(mesh_, triangles_, nodes_, sums_);
+        const bool has_flat = sums_.no_uv_area_count != 0;
+        const MeshTriangles triangles(mesh_, triangles_, nodes_, has_flat ? sums_.kinds.data() : nullptr);
         scale_ = inputScale(triangles, mesh_.positions, mesh_.uvs);
-        const estimators::GroupEstimates to{reinterpret_cast<std::byte*>(sums_.row(0)),           sums_.rowBytes(),
+        const estimators::GroupEstimates to{reinterpret_cast<std::byte*>(sums_.nodes.data()),     sizeof(NodeSum),
                                             reinterpret_cast<std::byte*>(sums_.rest.data()),      sizeof(NodeRest),
                                             reinterpret_cast<std::byte*>(sums_.lengths_t.data()), sizeof(float)};
         Execution execution = options_.execution;
@@ -184,7 +148,7 @@ class OnePass {
                     defaults_here += counts ? 1 : 0;
                 }
                 if (facing != kBothFacings) return;
-                sums_.flat[triangle] = kDoubtful;
+                sums_.kinds[triangle] |= kDoubtful;
                 doubtful = true;
             });
             defaults += defaults_here;
@@ -201,7 +165,7 @@ class OnePass {
 
     void leaveDoubtful() {
         forEachFlat(0, triangles_.count, [&](std::size_t triangle) {
-            if (sums_.flat[triangle] != kDoubtful) return;
+            if ((sums_.kinds[triangle] & kDoubtful) == 0) return;
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t node = nodeAt(3 * triangle + k);
                 if (!sums_.isEmpty(node)) leaveNode(node);
@@ -209,7 +173,7 @@ class OnePass {
         });
     }
 
-    /// Takes back what was finished.
+    /// Takes back what was finished. (A node without groups was not counted.)
     void leaveNode(std::uint32_t node) {
         std::uint64_t& word = unclear_[node / 64];
         const std::uint64_t bit = std::uint64_t{1} << (node % 64);
@@ -217,7 +181,7 @@ class OnePass {
         word |= bit;
         sums_.row(node)[3] = kUnclearSign;
         ++unclear_count_;
-        --group_count_;
+        if (!sums_.isEmpty(node)) --group_count_;
     }
 
     [[nodiscard]] std::uint32_t nodeAt(std::size_t i) const {
@@ -227,13 +191,34 @@ class OnePass {
     /// body(triangle) for those of [begin, end) without UV area.
     template <class Body>
     void forEachFlat(std::size_t begin, std::size_t end, const Body& body) const {
-        const Buffer<std::uint8_t>& flat = sums_.flat;
+        constexpr std::uint64_t kFlat = 0x0101010101010101u * kFlatUv;
+        const Buffer<std::uint8_t>& kinds = sums_.kinds;
         for (; begin < end; begin += sizeof(std::uint64_t)) {
             const std::size_t count = std::min(sizeof(std::uint64_t), end - begin);
             std::uint64_t any = 0;
-            std::memcpy(&any, flat.data() + begin, count);
-            for (std::size_t t = begin; any != 0 && t < begin + count; ++t) {
-                if (flat[t] != 0) body(t);
+            std::memcpy(&any, kinds.data() + begin, count);
+            for (std::size_t t = begin; (any & kFlat) != 0 && t < begin + count; ++t) {
+                if ((kinds[t] & kFlatUv) != 0) body(t);
+            }
+        }
+    }
+
+    /// The vertex path gives all triangles of a face one orientation and treats degenerate ones in a way of its own.
+    /// Nodes of faces whose triangles do not simply agree are left to it.
+    void checkFaces() {
+        const Buffer<std::uint32_t>& faces = triangles_.faces;
+        for (std::size_t first = 0, end = 0; first < faces.size(); first = end) {
+            std::uint32_t kinds = 0;
+            for (end = first; end < faces.size() && faces[end] == faces[first]; ++end)
+                kinds |= sums_.kinds[end] == 0 ? kUvFacesUp | kUvFacesDown : sums_.kinds[end];
+            if (end - first == 1) continue;
+            const std::uint32_t facing = kinds & (kUvFacesUp | kUvFacesDown);
+            // One without UV area takes the orientation of others, and gives its own only as the first one of a quad.
+            const bool flat_one_may_choose = end - first == 2 && (sums_.kinds[first] & kFlatUv) != 0 && facing != 0;
+            if (facing != (kUvFacesUp | kUvFacesDown) && (kinds & kCollapsed) == 0 && !flat_one_may_choose) continue;
+            for (std::size_t i = 3 * first; i < 3 * end; ++i) {
+                leaveNode(nodeAt(i));
+                sums_.marks[nodeAt(i)] = 0;
             }
         }
     }
@@ -401,6 +386,7 @@ class OnePass {
     const TriangleList& triangles_;
     const Nodes& nodes_;
     const TailPairs& tail_;
+    PassOptions pass_;
     TangentOutput out_;
     ScratchBlock& brief_;
     Parallel& parallel_;
@@ -420,8 +406,8 @@ class OnePass {
 }  // namespace
 
 TangentReport evaluateInOnePass(const NodeSetting& setting, const TailPairs& tail, ScratchBlock& brief,
-                                Parallel& parallel, FirstLook first_look) {
-    return OnePass(setting, tail, brief, parallel).run(first_look);
+                                Parallel& parallel, const PassOptions& pass) {
+    return OnePass(setting, tail, brief, parallel, pass).run();
 }
 
 }  // namespace tspace::mikk

@@ -13,9 +13,14 @@ namespace tspace::mikk {
 /// the same bits, and tests ask for both.
 enum class FirstLook { asItSeems, onePass, eachNode };
 
+struct PassOptions {
+    FirstLook first_look = FirstLook::asItSeems;
+    unsigned range_shift = 0;  ///< log2 of the nodes of a range; 0: what suits the mesh
+};
+
 /// Writes tangents of the mesh's own pose. `brief`: for what is not needed any more when tangents are written: their own
 /// memory, unless somebody looks at it. Throws OutOfMemory.
 TangentReport evaluateInOnePass(const NodeSetting& setting, const TailPairs& tail, ScratchBlock& brief,
-                                Parallel& parallel, FirstLook first_look = FirstLook::asItSeems);
+                                Parallel& parallel, const PassOptions& pass = {});
 
 }  // namespace tspace::mikk
