@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Names to meshes, and what is kept between rows.
 #include <filesystem>
+#include <memory>
 
 #include "job.h"
 #include "rows.h"

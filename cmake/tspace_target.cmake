@@ -35,6 +35,12 @@ function(tspace_configure_core target)
     endforeach()
 endfunction()
 
+# tspace_small_sources(FILE...): sources of the core's current folder that gain nothing from what -O3 adds to -O2, but grow by
+# a half.
+function(tspace_small_sources)
+    set_source_files_properties(${ARGN} TARGET_DIRECTORY tspace PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O2>")
+endfunction()
+
 # A second library from the core's sources with other optimisation flags, to prove that the bits do not change.
 function(tspace_core_variant target)
     get_target_property(sources tspace SOURCES)

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 
 #include "tspace/execution.h"
 
@@ -38,7 +37,7 @@ class Arena {
 
   private:
     class Impl;
-    std::unique_ptr<Impl> impl_;
+    Impl* impl_;
     Allocator allocator_;
 };
 

@@ -62,9 +62,9 @@ struct NormalReport {
 /// mesh      positions and indices; UVs and normals are not looked at
 /// out       one per corner (count == mesh.cornerCount()); must not overlap the inputs
 /// Errors: those of validate(); countMismatch (out, smoothing_groups), invalidOption, outOfMemory.
-/// O(corners). Scratch memory: about 36 bytes per vertex for a mesh of triangles (no face_sizes) without hard edges, in
-/// which angles are good to 2e-7; else about 40 bytes per corner, with `best` 64. Thread-safe; same bits for any thread
-/// count.
+/// Angles in triangles are good to 2e-7, those of polygons (face_sizes, or a face_size other than 3) are exact.
+/// O(corners). Scratch memory: about 36 bytes per vertex; with hard edges or polygons less for large meshes and up to 40
+/// bytes per triangle for small ones; with `best` 24 bytes per corner more. Thread-safe; same bits for any thread count.
 Result<NormalReport> generateNormals(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out);
 
 }  // namespace tspace

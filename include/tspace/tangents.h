@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 
 #include "tspace/convention.h"
 #include "tspace/execution.h"
@@ -135,12 +134,12 @@ class TangentPlan {
     /// Bytes held by the plan.
     [[nodiscard]] std::size_t memoryBytes() const;
 
-    struct State;  ///< private
-    explicit TangentPlan(std::unique_ptr<State> state);
+    struct State;                        ///< private
+    explicit TangentPlan(State* state);  ///< private; deletes it in the end
     [[nodiscard]] const State& state() const { return *state_; }
 
   private:
-    std::unique_ptr<State> state_;
+    State* state_;
 };
 
 /// Tangents for a mesh in one call: the bits of planTangents and then evaluateTangents on the mesh's own pose, but most

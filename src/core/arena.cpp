@@ -171,14 +171,14 @@ class Arena::Impl {
 };
 
 Arena::Arena()
-    : impl_(std::make_unique<Impl>()),
+    : impl_(new Impl),
       allocator_{.allocate = [](void* user, std::size_t bytes,
                                 std::size_t) { return static_cast<Impl*>(user)->allocate(bytes); },
                  .release = [](void* user, void* memory, std::size_t bytes,
                                std::size_t) { static_cast<Impl*>(user)->release(memory, bytes); },
-                 .user = impl_.get()} {}
+                 .user = impl_} {}
 
-Arena::~Arena() = default;
+Arena::~Arena() { delete impl_; }
 
 std::size_t Arena::heldBytes() const { return impl_->heldBytes(); }
 std::size_t Arena::usedBytes() const { return impl_->usedBytes(); }

@@ -139,7 +139,7 @@ Parallel::Parallel(const Execution& execution, std::uint64_t corners) {
     width_ = std::clamp(wanted, 1u, useful);
 }
 
-Parallel::~Parallel() = default;
+Parallel::~Parallel() { delete pool_; }
 
 void Parallel::run(std::size_t count, void (*task)(void*, std::size_t), void* context) {
     if (executor_ != nullptr) {
@@ -147,7 +147,7 @@ void Parallel::run(std::size_t count, void (*task)(void*, std::size_t), void* co
         return;
     }
     // More threads than cores would only take time from each other while they look out.
-    if (!pool_) pool_ = std::make_unique<Pool>(width_ <= std::thread::hardware_concurrency());
+    if (pool_ == nullptr) pool_ = new Pool(width_ <= std::thread::hardware_concurrency());
     pool_->startHelpers(std::min<std::size_t>(width_, count) - 1);
     pool_->run(count, task, context);
 }

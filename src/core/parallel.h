@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <type_traits>
 
 #include "tspace/execution.h"
 
@@ -57,7 +57,7 @@ class Parallel {
 
     unsigned width_ = 1;
     const Executor* executor_ = nullptr;
-    std::unique_ptr<Pool> pool_;
+    Pool* pool_ = nullptr;
 };
 
 }  // namespace tspace

@@ -2,6 +2,7 @@
 // The public entry points: checks, and the choice between the plans that group faces and those that do not.
 #include "tspace/tangents.h"
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -113,10 +114,13 @@ Error checkPose(const Pose& pose, std::size_t vertex_count) {
 
 }  // namespace
 
-TangentPlan::TangentPlan(std::unique_ptr<State> state) : state_(std::move(state)) {}
-TangentPlan::TangentPlan(TangentPlan&&) noexcept = default;
-TangentPlan& TangentPlan::operator=(TangentPlan&&) noexcept = default;
-TangentPlan::~TangentPlan() = default;
+TangentPlan::TangentPlan(State* state) : state_(state) {}
+TangentPlan::TangentPlan(TangentPlan&& other) noexcept : state_(std::exchange(other.state_, nullptr)) {}
+TangentPlan& TangentPlan::operator=(TangentPlan&& other) noexcept {
+    std::swap(state_, other.state_);
+    return *this;
+}
+TangentPlan::~TangentPlan() { delete state_; }
 
 std::size_t TangentPlan::vertexCount() const { return state_->vertex_count; }
 std::size_t TangentPlan::cornerCount() const { return state_->corner_count; }
@@ -162,7 +166,7 @@ Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& opt
             state->corner_vertices = Buffer<std::uint32_t>(options.execution.allocator, mesh.cornerCount());
             for (std::size_t c = 0; c < mesh.cornerCount(); ++c) state->corner_vertices[c] = mesh.indices[c];
         }
-        return TangentPlan(std::move(state));
+        return TangentPlan(state.release());
     });
 }
 
