@@ -17,6 +17,9 @@ namespace tspace {
 /// should take longer. Not thread-safe itself: one owner, loops one after the other.
 class Parallel {
   public:
+    /// Items of a loop that a task has at least, where nothing says otherwise.
+    static constexpr std::size_t kGrain = 4096;
+
     /// `corners`: how large the work is, in corners of usual cost (about 20 ns); those of a method that takes n times as
     /// long count n times. A thread that has less than its share of them costs more than it brings, and is not started.
     /// An executor's threads are there already: work of any size is cut for them.

@@ -28,16 +28,16 @@ namespace {
 
 /// The glTF validator's tolerance for the length of a tangent.
 constexpr double kUnitTolerance = 5e-4;
-/// sin(1 degree)
-constexpr double kParallelSine = 0.017452406437283512;
+/// Its sine.
+constexpr double kOneDegree = 0.017452406437283512;
 /// Sound tangents this close to unit and orthogonal are left alone by orthogonalize_all. Rounding to float
 /// leaves less than 1.5e-7, so what was written once is not written again.
 constexpr double kOrthogonalTolerance = 5e-7;
 
 /// Triangles that the scan looks at together. More would draw more sound faces into the slow work.
 constexpr std::size_t kFacesPerBlock = 4;
-constexpr std::size_t kBlocksPerTask = 1024;
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::size_t kScanGrain = 1024;
+constexpr std::uint32_t kEmptySlot = 0xffffffffu;
 
 enum class Cause : std::uint8_t {
     sound,
@@ -120,7 +120,7 @@ bool isUsable(const Vec3& direction, const DVec3& n) {
     if (!isFinite(direction)) return false;
     const DVec3 t = toDouble(direction);
     const double size = length(t);
-    return size >= double{FLT_MIN} && length(cross(n, t)) >= (isZero(n) ? 0.0 : kParallelSine * size);
+    return size >= double{FLT_MIN} && length(cross(n, t)) >= (isZero(n) ? 0.0 : kOneDegree * size);
 }
 
 /// Whether nobody chose this direction: see sanitize.h.
@@ -188,20 +188,20 @@ class SoundPositions {
 
     void ask(const Vec3& position, std::uint32_t corner) {
         Slot& slot = slots_[slotOf(position)];
-        if (slot.corner != kNone) return;
+        if (slot.corner != kEmptySlot) return;
         slot.position = position;
         slot.corner = corner;
     }
 
     void offer(const Vec3& position, const Vec4& tangent) {
         Slot& slot = slots_[slotOf(position)];
-        if (slot.corner == kNone || slot.is_filled) return;
+        if (slot.corner == kEmptySlot || slot.is_filled) return;
         slot.tangent = tangent;
         slot.is_filled = true;
     }
 
     [[nodiscard]] bool isAsked(const Vec3& position) const {
-        return position == position && slots_[slotOf(position)].corner != kNone;
+        return position == position && slots_[slotOf(position)].corner != kEmptySlot;
     }
 
     /// Null when there is none.
@@ -214,7 +214,7 @@ class SoundPositions {
   private:
     struct Slot {
         Vec3 position;
-        std::uint32_t corner = kNone;
+        std::uint32_t corner = kEmptySlot;
         Vec4 tangent;
         bool is_filled = false;
     };
@@ -229,7 +229,7 @@ class SoundPositions {
     [[nodiscard]] std::size_t slotOf(const Vec3& position) const {
         const std::size_t mask = slots_.size() - 1;
         std::size_t slot = hashPosition(position) & mask;
-        while (slots_[slot].corner != kNone && !(slots_[slot].position == position)) slot = (slot + 1) & mask;
+        while (slots_[slot].corner != kEmptySlot && !(slots_[slot].position == position)) slot = (slot + 1) & mask;
         return slot;
     }
 
@@ -288,7 +288,7 @@ class Sanitizer {
     /// Marks the blocks in which something may have to be counted or changed; false when there is none.
     bool scan() {
         const std::uint64_t found =
-            sumRanges(parallel_, suspects_.size(), kBlocksPerTask, [this](std::size_t begin, std::size_t end) {
+            sumRanges(parallel_, suspects_.size(), kScanGrain, [this](std::size_t begin, std::size_t end) {
                 std::uint64_t count = 0;
                 for (std::size_t block = begin; block < end; ++block) {
                     const bool fine = !options_.orthogonalize_all && isFine(block);
@@ -340,7 +340,7 @@ class Sanitizer {
     /// body(first_corner, corner_count, counts) for each face that scan() did not clear; faces are independent.
     template <class Body>
     void forEachSuspect(Body&& body) {
-        parallel_.forRanges(suspects_.size(), kBlocksPerTask, [&](std::size_t begin, std::size_t end) {
+        parallel_.forRanges(suspects_.size(), kScanGrain, [&](std::size_t begin, std::size_t end) {
             Counts counts;
             for (std::size_t block = begin; block < end; ++block) {
                 if (suspects_[block] == 0) continue;
@@ -396,7 +396,7 @@ class Sanitizer {
         }
         // Few positions are asked for, so vertices are sorted out before corners are offered in their order.
         Buffer<std::uint8_t> is_asked(options_.execution.allocator, mesh_.vertexCount());
-        parallel_.forRanges(is_asked.size(), kBlocksPerTask * kFacesPerBlock, [&](std::size_t begin, std::size_t end) {
+        parallel_.forRanges(is_asked.size(), kScanGrain * kFacesPerBlock, [&](std::size_t begin, std::size_t end) {
             for (std::size_t v = begin; v < end; ++v) is_asked[v] = positions.isAsked(mesh_.positions[v]) ? 1 : 0;
         });
         withIndices(mesh_.indices, [&](auto vertexOf) {

@@ -21,7 +21,6 @@ namespace tspace {
 
 namespace {
 
-constexpr std::uint32_t kNone = kNoCorner;
 constexpr std::size_t kCornersPerTask = 1 << 13;
 /// Fewer tasks are done sooner than threads are started.
 constexpr std::size_t kTasksForThreads = 16;
@@ -142,7 +141,7 @@ class Splitter {
             // the way.
             for (std::size_t task = 0; task < pending_.size(); ++task) {
                 compare(task, vertexOf, attributes, [](std::uint32_t& first, std::uint32_t corner) {
-                    static_assert(kNone == 0xffffffffu);  // above all corners
+                    static_assert(kNoCorner == 0xffffffffu);  // above all corners
                     return first = std::min(first, corner);
                 });
                 resolve(task, vertexOf);
@@ -157,7 +156,7 @@ class Splitter {
             compare(task, vertexOf, attributes, [](std::uint32_t first, std::uint32_t) { return first; });
         });
         for (std::size_t task = 0; task < pending_.size(); ++task) {
-            for (std::uint32_t corner = pending_[task]; corner != kNone; corner = result_.indices[corner]) {
+            for (std::uint32_t corner = pending_[task]; corner != kNoCorner; corner = result_.indices[corner]) {
                 attributes.fetch(corner);
             }
             resolve(task, vertexOf);
@@ -172,7 +171,7 @@ class Splitter {
         std::uint32_t* const indices = result_.indices.data();
         std::uint32_t* const known_firsts = result_.source_corners.data();
         const std::size_t end = std::min((task + 1) * kCornersPerTask, result_.indices.size());
-        std::uint32_t first = kNone, last = kNone;
+        std::uint32_t first = kNoCorner, last = kNoCorner;
         for (std::size_t begin = task * kCornersPerTask; begin < end; begin += kBlock) {
             const std::size_t count = std::min(kBlock, end - begin);
             std::array<std::uint32_t, kBlock> different;
@@ -185,20 +184,20 @@ class Splitter {
                 different_count += attributes.areEqual(corner, firstOf(known_firsts[vertex], corner)) ? 0 : 1;
             }
             for (std::size_t i = 0; i < different_count; ++i) {
-                (last == kNone ? first : indices[last]) = different[i];
+                (last == kNoCorner ? first : indices[last]) = different[i];
                 last = different[i];
             }
         }
-        if (last != kNone) indices[last] = kNone;
+        if (last != kNoCorner) indices[last] = kNoCorner;
         pending_[task] = first;
     }
 
     /// Task after task, because copies are numbered in corner order.
     template <class VertexOf>
     void resolve(std::size_t task, VertexOf vertexOf) {
-        if (pending_[task] == kNone) return;
+        if (pending_[task] == kNoCorner) return;
         if (result_.source_vertices.empty()) variants_.prepare();
-        for (std::uint32_t corner = pending_[task]; corner != kNone;) {
+        for (std::uint32_t corner = pending_[task]; corner != kNoCorner;) {
             const std::uint32_t next = result_.indices[corner];
             result_.indices[corner] = variants_.variantOf(corner, vertexOf(corner));
             corner = next;

@@ -13,8 +13,6 @@ namespace tspace {
 
 namespace {
 
-constexpr std::uint32_t kNone = NodeTable::kNone;
-
 /// A vertex's first variants are compared one by one; only later ones are worth an index.
 constexpr std::uint32_t kScannedVariants = 8;
 
@@ -96,13 +94,13 @@ void NodeTable::grow() {
 void Variants::prepare() {
     next_.reserve(corners_.capacity());
     askForPages(next_.data(), corners_.size() * sizeof(std::uint32_t));
-    next_.assign(corners_.size(), kNone);
+    next_.assign(corners_.size(), NodeTable::kNone);
 }
 
 std::uint32_t Variants::variantOf(std::uint32_t corner, std::uint32_t vertex) {
     std::uint32_t variant = vertex;
     for (std::uint32_t scanned = 1; scanned < kScannedVariants; ++scanned) {
-        if (next_[variant] == kNone) {
+        if (next_[variant] == NodeTable::kNone) {
             const std::uint32_t added = append(corner);
             next_[variant] = added;
             return added;
@@ -110,7 +108,7 @@ std::uint32_t Variants::variantOf(std::uint32_t corner, std::uint32_t vertex) {
         variant = next_[variant];
         if (equalCorners(attributes_, corner, corners_[variant])) return variant;
     }
-    if (const std::uint32_t found = findIndexed(corner, vertex); found != kNone) return found;
+    if (const std::uint32_t found = findIndexed(corner, vertex); found != NodeTable::kNone) return found;
     const std::uint32_t added = append(corner);
     addToIndex(corner, vertex, added);
     return added;
@@ -118,7 +116,7 @@ std::uint32_t Variants::variantOf(std::uint32_t corner, std::uint32_t vertex) {
 
 std::uint32_t Variants::append(std::uint32_t corner) {
     corners_.push_back(corner);
-    next_.push_back(kNone);
+    next_.push_back(NodeTable::kNone);
     return static_cast<std::uint32_t>(corners_.size() - 1);
 }
 
@@ -148,7 +146,7 @@ void Variants::addToIndex(std::uint32_t corner, std::uint32_t vertex, std::uint3
     // A value is the number of a node, or on the last level the variant that the leaf's list starts with.
     std::uint32_t* value = &edges_.at(kRoot, exactKey(corner, vertex));
     forEachTolerant(corner, [&](float component, float tolerance) {
-        if (*value == kNone) *value = ++node_count_;
+        if (*value == NodeTable::kNone) *value = ++node_count_;
         const std::uint32_t node = *value;
         value = &edges_.at(node, cellOf(component, tolerance).key);
     });
@@ -158,7 +156,7 @@ void Variants::addToIndex(std::uint32_t corner, std::uint32_t vertex, std::uint3
 
 std::uint32_t Variants::findIndexed(std::uint32_t corner, std::uint32_t vertex) {
     reached_.clear();
-    if (const std::uint32_t node = edges_.find(kRoot, exactKey(corner, vertex)); node != kNone) {
+    if (const std::uint32_t node = edges_.find(kRoot, exactKey(corner, vertex)); node != NodeTable::kNone) {
         reached_.push_back(node);
     }
     forEachTolerant(corner, [&](float component, float tolerance) {
@@ -166,9 +164,9 @@ std::uint32_t Variants::findIndexed(std::uint32_t corner, std::uint32_t vertex) 
         for (const std::uint32_t node : reached_) follow(node, component, tolerance);
         reached_.swap(further_);
     });
-    std::uint32_t earliest = kNone;
+    std::uint32_t earliest = NodeTable::kNone;
     for (std::uint32_t variant : reached_) {
-        for (; variant != kNone; variant = next_[variant]) {
+        for (; variant != NodeTable::kNone; variant = next_[variant]) {
             if (variant < earliest && equalCorners(attributes_, corner, corners_[variant])) earliest = variant;
         }
     }
@@ -177,7 +175,7 @@ std::uint32_t Variants::findIndexed(std::uint32_t corner, std::uint32_t vertex) 
 
 void Variants::follow(std::uint32_t node, float component, float tolerance) {
     const auto visit = [&](std::uint64_t key) {
-        if (const std::uint32_t value = edges_.find(node, key); value != kNone) further_.push_back(value);
+        if (const std::uint32_t value = edges_.find(node, key); value != NodeTable::kNone) further_.push_back(value);
     };
     const Cell cell = cellOf(component, tolerance);
     visit(cell.key);

@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::size_t kRangePoints = 4096;  // whose sums are half of a second cache
 constexpr std::size_t kTasksPerThread = 4;
-constexpr std::size_t kGrain = 16384;
 constexpr std::size_t kNormalFloats = 8;  // from one of the given normals to the next
 
 std::size_t wholeGroups(std::size_t count) { return (count + kBestGroup - 1) / kBestGroup * kBestGroup; }
@@ -177,7 +176,7 @@ void refineTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positi
         triangles, bestKernelFor(options.execution.simd), source, normals, sharp.data(), results.data(), count};
     runRound<1>(setting, lists, sums, tasks, parallel);
     runRound<kFitRows>(setting, lists, sums, tasks, parallel);
-    parallel.forRanges(count, kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel.forRanges(count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p) {
             float* const normal = normals + kNormalFloats * p;
             if (!std::signbit(normal[3])) std::copy_n(results.data() + 4 * p, 3, normal);

@@ -24,16 +24,11 @@ namespace tspace {
 
 namespace {
 
-using smooth::FaceSource, smooth::FaceTerms;
+using smooth::FaceSource, smooth::FaceTerms, smooth::kDoubtful, smooth::kTermTriangles, smooth::kVanished;
 
-constexpr std::size_t kBlock = smooth::kTermTriangles;
 constexpr std::size_t kMostRange = 4096, kLeastRange = 64, kRanges = 8;  // points; ranges of a small mesh
 constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
-constexpr std::size_t kGrain = 4096, kItemsPerTask = 1024;
-
-// Below the first fraction of the weights a sum is what rounding left of normals that cancel. Below the
-// second it shows how single-precision angles were rounded: it is then taken again, with angles in double.
-constexpr double kVanished = 1e-10, kDoubtful = 1e-2;
+constexpr std::size_t kItemsPerTask = 1024;
 
 /// What the lists are made of: triangles, or for other faces each corner for itself.
 class PointItems final : public TriangleGroups {
@@ -186,9 +181,9 @@ class RangeWork {
         std::fill_n(room_.begins, count_ + 3, 0u);
         for (const std::uint32_t entry : entries) {
             const bool is_block = (entry & RangeLists::kBlock) != 0;
-            const std::size_t item = is_block ? (entry & ~RangeLists::kBlock) * kBlock : entry;
-            const std::size_t size = is_block ? std::min(kBlock, setting_.items.count - item) : 1;
-            if (pending_ + size > kBlock) flush();
+            const std::size_t item = is_block ? (entry & ~RangeLists::kBlock) * kTermTriangles : entry;
+            const std::size_t size = is_block ? std::min(kTermTriangles, setting_.items.count - item) : 1;
+            if (pending_ + size > kTermTriangles) flush();
             setting_.items.read(item, size, vertices_ + 3 * pending_, points_ + 3 * pending_);
             for (std::size_t i = 0; i < size; ++i) numbers_[pending_ + i] = static_cast<std::uint32_t>(item + i);
             pending_ += size;
@@ -429,7 +424,7 @@ class RangeWork {
     std::uint32_t others_point_ = kNoPoint;
     Vec3 of_others_;           ///< the mean of all corners at that point
     std::size_t pending_ = 0;  ///< items that wait for the kernel
-    std::uint32_t vertices_[3 * kBlock], points_[3 * kBlock], numbers_[kBlock];
+    std::uint32_t vertices_[3 * kTermTriangles], points_[3 * kTermTriangles], numbers_[kTermTriangles];
     FaceTerms terms_;
 };
 
@@ -465,7 +460,7 @@ class Rooms {
         for (std::size_t range = 0; range < lists.count(); ++range) {
             std::size_t here = 0;
             for (const std::uint32_t entry : lists.entries(range))
-                here += (entry & RangeLists::kBlock) != 0 ? kBlock : 1;
+                here += (entry & RangeLists::kBlock) != 0 ? kTermTriangles : 1;
             most = std::max(most, here);
         }
         return most;
@@ -496,7 +491,7 @@ NormalReport smoothFaces(const MeshView& mesh, const MeshView& posed, const Norm
     const std::size_t most_tasks = std::clamp<std::size_t>(setting.items.count / kItemsPerTask, 1, parallel.width());
     const std::size_t range_points =
         std::clamp(std::bit_floor(point_count / (kRanges * most_tasks)), kLeastRange, kMostRange);
-    const RangeLists lists(setting.items, kBlock, point_count, range_points, allocator, parallel);
+    const RangeLists lists(setting.items, kTermTriangles, point_count, range_points, allocator, parallel);
     const std::size_t tasks = std::min(lists.count(), most_tasks);
     Rooms rooms(setting, lists, range_points, tasks, allocator);
     const auto forRanges = [&](const auto& body) {
@@ -521,7 +516,7 @@ NormalReport smoothFaces(const MeshView& mesh, const MeshView& posed, const Norm
     if (!setting.is_best) return report;
     robust = Buffer<Vec3>(allocator, corner_count + 1, Vec3{});
     setting.robust = robust.data();
-    parallel.forRanges(corner_count, kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel.forRanges(corner_count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) robust[c] = out[c];
     });
     smooth::BestSource source = smooth::bestSource(setting.items, posed.positions, setting.factor);

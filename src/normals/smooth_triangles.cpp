@@ -27,19 +27,12 @@ namespace tspace {
 
 namespace {
 
-using smooth::FaceTerms, smooth::FaceSource, smooth::kTermGroup;
+using smooth::FaceTerms, smooth::FaceSource, smooth::kTermGroup, smooth::kDoubtful, smooth::kVanished;
 
 constexpr std::size_t kBlock = PointRanges::kBlock;
 static_assert(kBlock == smooth::kTermTriangles && kBlock % kTermGroup == 0);
-constexpr std::size_t kGrain = 16384;
-// In triangles. An estimate, from some 50 us for a thread to start; not yet measured on idle cores.
-constexpr std::size_t kWorthThreads = 16384;
 constexpr std::size_t kNearPoints = 16384;   ///< and up to twice as many: their sums fit into a second cache
 constexpr std::size_t kRangesPerThread = 4;  ///< at least
-
-// Below the first fraction of the weights a sum is what rounding left of normals that cancel. Below the
-// second it shows how single-precision angles were rounded: it is then taken again, with angles in double.
-constexpr double kVanished = 1e-10, kDoubtful = 1e-2;
 
 /// The weighted sum of the unit normals at a point. Later its place holds four floats: the normal, and a mark
 /// whose sign is set when there is none.
@@ -109,7 +102,7 @@ class TriangleSmoother {
           ranges_(mesh.indices, triangle_count_, mesh.vertexCount(), points_.data()) {}
 
     Result<NormalReport> run() {
-        const bool threads = parallel_.width() > 1 && triangle_count_ >= kWorthThreads;
+        const bool threads = parallel_.width() > 1;
         const std::size_t near = std::max(mesh_.vertexCount() / kNearPoints,
                                           threads ? kRangesPerThread * parallel_.width() : std::size_t{1});
         NormalReport report{triangle_count_, 0, 0};
@@ -167,7 +160,7 @@ class TriangleSmoother {
         if (is_best_) smooth::refineTriangles(mesh_, positions_, points_, options_, sums_.data()->floats(), parallel_);
         copyToRepeated();
         report.fallback_corner_count =
-            sumRanges(parallel_, triangle_count_, kGrain,
+            sumRanges(parallel_, triangle_count_, Parallel::kGrain,
                       [&](std::size_t begin, std::size_t end) { return writeCorners(begin, end); });
     }
 
@@ -325,7 +318,7 @@ class TriangleSmoother {
 
     /// Where few vertices share a point with another one, these get its normal: then each corner's is at its vertex.
     void copyToRepeated() {
-        parallel_.forRanges(points_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        parallel_.forRanges(points_.size(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t v = begin; v < end; ++v) {
                 if (points_[v] != v) sums_[v] = sums_[points_[v]];
             }

@@ -19,9 +19,8 @@ namespace {
 constexpr std::uint32_t kFree = ~std::uint32_t{0};
 constexpr std::size_t kBatch = 32;  ///< vertices whose places are fetched into the cache together
 // In vertices. An estimate, from some 50 us for a thread to start; not yet measured on idle cores.
-constexpr std::size_t kWorthThreads = 32768;
 constexpr std::size_t kFew = 4096;           ///< vertices; so few are all looked up
-constexpr std::size_t kBlock = 256;          ///< vertices; their hashes stay in the first cache
+constexpr std::size_t kHashBlock = 256;      ///< vertices; their hashes stay in the first cache
 constexpr std::size_t kPlacesPerVertex = 4;  ///< of a counting table: leaves 1 vertex of 5 or fewer to be looked up
 
 struct Key {
@@ -138,7 +137,7 @@ Buffer<std::uint32_t> findCandidates(StridedSpan<const Vec3> positions, std::uin
         repeated.clear(range);
         const std::size_t end = positions.count * (range + 1) / ranges;
         for (std::size_t v = positions.count * range / ranges; v < end;) {
-            const std::size_t first = v, stop = std::min(v + kBlock, end);
+            const std::size_t first = v, stop = std::min(v + kHashBlock, end);
             for (; v < stop; ++v) {
                 hashes[v] = static_cast<std::uint32_t>(hashOf(positions[v]) >> 32);
                 lowest[v] = static_cast<std::uint32_t>(v);
@@ -180,7 +179,7 @@ Buffer<std::uint32_t> weldPositions(const MeshView& mesh, const Allocator* alloc
     if (mesh.indices.type != IndexType::none && count >= kFew)
         candidates = findCandidates(positions, lowest.data(), count, allocator, parallel);
     if (!candidates.empty()) count = lookAgain(positions, candidates.data(), count, allocator, parallel);
-    const bool shared = parallel.width() > 1 && count >= kWorthThreads;
+    const bool shared = parallel.width() > 1;
     const unsigned part_bits = shared ? std::min(6u, static_cast<unsigned>(std::bit_width(parallel.width() - 1))) : 0;
     std::atomic<bool> crowded{false};
     {

@@ -12,8 +12,6 @@ namespace tspace {
 
 namespace {
 
-constexpr std::size_t kGrain = 2048;
-
 CornerFrame basisFrame(const Vec3& normal, float sign_factor) {
     DVec3 n = toDouble(normal);
     const bool has_direction = normalize(n);
@@ -39,7 +37,7 @@ void evaluateBasis(const IndexedPlan& plan, const Pose& pose, const TangentOutpu
     const Buffer<std::uint8_t> used = findUsedVertices(plan, allocator);
     report.group_count = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), std::uint8_t{1}));
     report.default_corner_count =
-        sumRanges(parallel, plan.outputCount(), kGrain, [&](std::size_t begin, std::size_t end) {
+        sumRanges(parallel, plan.outputCount(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
             std::uint64_t count = 0;
             for (std::size_t i = begin; i < end; ++i) {
                 const bool is_used = per_vertex ? used[i] != 0 : plan.isUsed(i);

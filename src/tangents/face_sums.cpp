@@ -10,12 +10,12 @@
 
 namespace tspace {
 
-using derivatives::DerivativeTerms, derivatives::kTermGroup;
+using derivatives::DerivativeTerms;
 
 /// Some triangles of one block: three vertices for each, of the mesh or in the buffer.
 struct FaceSums::Block {
     static constexpr std::size_t kMost = VertexRanges::kBlock;
-    static_assert(kMost == derivatives::kTermTriangles && kMost % kTermGroup == 0);
+    static_assert(kMost == derivatives::kTermTriangles && kMost % derivatives::kTermGroup == 0);
 
     const std::uint32_t* vertices = nullptr;
     std::size_t count = 0;
@@ -74,7 +74,7 @@ TriangleCounts FaceSums::sum(unsigned index) const {
         askForLines(block.vertices, 3 * Block::kMost * sizeof(std::uint32_t));
         const bool is_whole = ranges_.namesOnly(b, index);
         if (!is_whole) block.select(range);
-        block.vertices = fillGroup(block.vertices, block.count, kTermGroup, block.buffer);
+        block.vertices = fillGroup(block.vertices, block.count, derivatives::kTermGroup, block.buffer);
         kernel_.compute(source, block.vertices, block.count, block.terms);
         addBlock(block, range, is_whole, counts);
     }

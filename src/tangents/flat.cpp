@@ -11,8 +11,6 @@ namespace tspace {
 
 namespace {
 
-constexpr std::size_t kGrain = 1024;
-
 Derivatives faceDerivatives(const IndexedPlan& plan, const Pose& pose, std::uint32_t first, std::uint32_t past) {
     const std::uint32_t v0 = plan.corner_vertices[first];
     UvFrame sum;
@@ -33,21 +31,23 @@ Derivatives faceDerivatives(const IndexedPlan& plan, const Pose& pose, std::uint
 
 void evaluateFlat(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out, Parallel& parallel,
                   TangentReport& report) {
-    report.default_corner_count = sumRanges(parallel, plan.face_count, kGrain, [&](std::size_t begin, std::size_t end) {
-        std::uint64_t count = 0;
-        for (std::size_t face = begin; face < end; ++face) {
-            const std::uint32_t first = plan.faceBegin(face);
-            const std::uint32_t past = plan.faceBegin(face + 1);
-            if (first == past || !plan.isUsed(first)) continue;
-            const Derivatives d = faceDerivatives(plan, pose, first, past);
-            for (std::uint32_t c = first; c < past; ++c) {
-                const CornerFrame frame = makeCornerFrame(d, pose.normals[plan.corner_vertices[c]], plan.sign_factor);
-                writeFrame(out, c, frame);
-                count += frame.is_default ? 1 : 0;
+    report.default_corner_count =
+        sumRanges(parallel, plan.face_count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
+            std::uint64_t count = 0;
+            for (std::size_t face = begin; face < end; ++face) {
+                const std::uint32_t first = plan.faceBegin(face);
+                const std::uint32_t past = plan.faceBegin(face + 1);
+                if (first == past || !plan.isUsed(first)) continue;
+                const Derivatives d = faceDerivatives(plan, pose, first, past);
+                for (std::uint32_t c = first; c < past; ++c) {
+                    const CornerFrame frame =
+                        makeCornerFrame(d, pose.normals[plan.corner_vertices[c]], plan.sign_factor);
+                    writeFrame(out, c, frame);
+                    count += frame.is_default ? 1 : 0;
+                }
             }
-        }
-        return count;
-    });
+            return count;
+        });
 }
 
 }  // namespace tspace

@@ -18,8 +18,6 @@ namespace tspace {
 
 namespace {
 
-constexpr std::size_t kGrain = 4096;
-
 bool isUsed(std::uint32_t face_size, Ngons ngons) {
     return face_size >= 3 && (face_size <= 4 || ngons == Ngons::triangulate);
 }
@@ -88,7 +86,7 @@ void cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator, Ind
 void keepIndices(const Allocator* allocator, Parallel& parallel, IndexedPlan& plan) {
     const IndexView from = plan.corner_vertices;
     plan.kept_vertices = Buffer<std::uint32_t>(allocator, from.count);
-    parallel.forRanges(from.count, kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel.forRanges(from.count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) plan.kept_vertices[c] = from[c];
     });
     plan.corner_vertices = {plan.kept_vertices.data(), from.count, IndexType::u32};
@@ -96,7 +94,7 @@ void keepIndices(const Allocator* allocator, Parallel& parallel, IndexedPlan& pl
 
 void keepUvs(const Allocator* allocator, Parallel& parallel, IndexedPlan& plan) {
     plan.kept_uvs = Buffer<Vec2>(allocator, plan.uvs.count);
-    parallel.forRanges(plan.uvs.count, kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel.forRanges(plan.uvs.count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) plan.kept_uvs[v] = plan.uvs[v];
     });
     plan.uvs = {plan.kept_uvs.data(), plan.kept_uvs.size()};
@@ -104,7 +102,7 @@ void keepUvs(const Allocator* allocator, Parallel& parallel, IndexedPlan& plan) 
 
 void countUvs(Parallel& parallel, IndexedPlan& plan) {
     std::atomic<std::uint64_t> degenerate{0}, mirrored{0};
-    parallel.forRanges(plan.triangleCount(), kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel.forRanges(plan.triangleCount(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
         std::uint64_t without_area = 0, negative = 0;
         for (std::size_t i = 3 * begin; i < 3 * end; i += 3) {
             const auto uv = [&](std::size_t k) { return plan.uvs[plan.triangle_vertices[i + k]]; };
@@ -122,7 +120,7 @@ void countUvs(Parallel& parallel, IndexedPlan& plan) {
 }
 
 std::uint64_t countDegenerate(const IndexedPlan& plan, const Pose& pose, Parallel& parallel) {
-    return sumRanges(parallel, plan.triangleCount(), kGrain, [&](std::size_t begin, std::size_t end) {
+    return sumRanges(parallel, plan.triangleCount(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
         std::uint64_t count = 0;
         for (std::size_t i = 3 * begin; i < 3 * end; i += 3) {
             const Vec3& a = pose.positions[plan.triangle_vertices[i]];

@@ -17,10 +17,6 @@ namespace tspace {
 
 namespace {
 
-constexpr std::size_t kGrain = 16384;
-// In triangles. An estimate, from some 50 us for a thread to start; not yet measured on idle cores.
-constexpr std::size_t kWorthThreads = 32768;
-
 struct VertexCounts {
     std::uint64_t used = 0, defaults = 0;
 };
@@ -239,9 +235,7 @@ void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOut
     Buffer<std::uint8_t> is_default(allocator, per_corner ? plan.vertex_count : 0, 0);
 
     FaceSums faces(plan, pose.positions, kernel, sums, visits.data());
-    if (parallel.width() > 1 && plan.triangleCount() >= kWorthThreads) {
-        faces.cutIntoRanges(parallel.width(), allocator, parallel);
-    }
+    if (parallel.width() > 1) faces.cutIntoRanges(parallel.width(), allocator, parallel);
     const VertexFrames frames(kernel, sums, visits.data(), pose.normals, plan.sign_factor,
                               per_corner ? extras.output() : out, is_default.data());
     const unsigned range_count = faces.ranges().count();
@@ -262,7 +256,7 @@ void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOut
     if (!per_corner) return;
     if (report.default_corner_count == 0) is_default = {};
     report.default_corner_count =
-        sumRanges(parallel, plan.cornerCount(), kGrain, [&](std::size_t begin, std::size_t end) {
+        sumRanges(parallel, plan.cornerCount(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
             copyToCorners(plan, extras.bitangents.data(), out.bitangents, begin, end);
             copyToCorners(plan, extras.magnitudes_s.data(), out.magnitudes_s, begin, end);
             copyToCorners(plan, extras.magnitudes_t.data(), out.magnitudes_t, begin, end);

@@ -21,8 +21,7 @@ Vec3 symmetricTangent(const Vec3& tangent, const Vec3& bitangent, const Vec3& no
 template <class NormalOf>
 void makeSymmetric(const StridedSpan<Vec4>& tangents, const StridedSpan<Vec3>& bitangents, const NormalOf& normalOf,
                    Parallel& parallel) {
-    constexpr std::size_t kGrain = 8192;
-    parallel.forRanges(tangents.count, kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel.forRanges(tangents.count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             Vec4& tangent = tangents[i];
             const Vec3 turned = symmetricTangent(xyz(tangent), bitangents[i], normalOf(i));

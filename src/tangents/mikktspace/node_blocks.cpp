@@ -11,8 +11,8 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kFew = 4096;   // triangles; to read all of them costs less
-constexpr std::size_t kGrain = 256;  // blocks
+constexpr std::size_t kFew = 4096;           // triangles; to read all of them costs less
+constexpr std::size_t kBlocksPerTask = 256;  // blocks
 
 /// Judged by a sample.
 bool isScattered(const MeshView& mesh, const TriangleList& triangles) {
@@ -49,7 +49,7 @@ class PartsOfVertices {
     PartsOfVertices(const Nodes& nodes, const Allocator* allocator, Parallel& parallel)
         : node_count_(nodes.count), parts_(allocator, (nodes.of_vertex.size() + kPart - 1) / kPart) {
         const std::uint32_t* node_of = nodes.of_vertex.data();
-        parallel.forRanges(parts_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        parallel.forRanges(parts_.size(), kBlocksPerTask, [&](std::size_t begin, std::size_t end) {
             for (std::size_t part = begin; part < end; ++part) {
                 parts_[part] = rangeOf(part * kPart, std::min((part + 1) * kPart, nodes.of_vertex.size()),
                                        [=](std::size_t v) { return node_of[v]; });
@@ -87,7 +87,7 @@ NodeBlocks findNodeBlocks(const MeshView& mesh, const TriangleList& triangles, c
     blocks.ranges = Buffer<NodeBlocks::Range>(allocator, count);
     const PartsOfVertices parts(nodes, allocator, parallel);
     withListedVertices(mesh, triangles, [&](auto vertexOf) {
-        parallel.forRanges(count, kGrain, [&](std::size_t first, std::size_t end) {
+        parallel.forRanges(count, kBlocksPerTask, [&](std::size_t first, std::size_t end) {
             for (std::size_t block = first; block < end; ++block) {
                 const std::size_t begin = 3 * NodeBlocks::kTriangles * block;
                 blocks.ranges[block] = parts.nodesOf(
