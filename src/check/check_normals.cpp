@@ -16,8 +16,6 @@ constexpr double kLeastFacing = -0.1;
 constexpr double kMostly = 0.5;
 constexpr double kNearlyAll = 0.95;
 constexpr double kSomeNormals = 0.01;
-/// Lengths below cannot be told from zero.
-constexpr double kShortest = 1e-6;
 
 std::vector<bool> usedVertices(const TangentView& mesh) {
     std::vector<bool> used(mesh.positions.size(), false);

@@ -21,6 +21,9 @@ inline constexpr std::uint32_t faultBit(FindingCode code) { return 1u << static_
 /// Another bit: the sign goes with the inverted ones around.
 inline constexpr std::uint32_t kUndecidedSign = 1u << 31;
 
+/// Lengths of normals and tangents below cannot be told from zero.
+inline constexpr double kShortest = 1e-6;
+
 struct FrameHealth {
     /// Per vertex the bits of what it is counted for below; empty: nothing at all. Wrong signs have the bit of
     /// signsWrong, however many there are; where that is nearly all, others of the same patches have kUndecidedSign.

@@ -11,7 +11,7 @@ namespace tspace {
 namespace {
 
 /// Share of the surface from which wrong signs are a wrong convention and no accident.
-constexpr double kNearlyAll = 0.95;
+constexpr double kEverySign = 0.95;
 
 /// Areas of the triangles around each vertex, by the sign that their UVs ask for.
 struct SignAreas {
@@ -84,7 +84,7 @@ void examineSigns(const TangentView& mesh, const Surface& surface, const CheckOp
         health.fault(v, FindingCode::signsWrong, count);
     }
     health.wrong_sign_share = judged > 0 ? wrong / judged : 0;
-    health.all_signs_wrong = wrong > 0 && wrong >= kNearlyAll * judged;
+    health.all_signs_wrong = wrong > 0 && wrong >= kEverySign * judged;
     if (health.all_signs_wrong) findUndecided(mesh, areas, health);
 }
 

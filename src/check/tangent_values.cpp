@@ -14,9 +14,6 @@ namespace {
 /// Lengths from which nobody's normalisation hides the fault.
 constexpr double kFarFromUnit = 0.1;
 
-/// Lengths below cannot be told from zero.
-constexpr double kShortest = 1e-6;
-
 /// Beyond there is hardly a frame left, whatever a renderer does.
 constexpr double kParallel = 85;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scaling to length 1 that no finite vector defeats.
+// Which vectors have a direction, and scaling to length 1 that no finite vector defeats.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,9 @@
 #include "core/vec_math.h"
 
 namespace tspace {
+
+inline bool isZero(const Vec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+inline bool isDirection(const Vec3& v) { return isFinite(v) && !isZero(v); }
 
 /// Scales v to length 1; false, and v unchanged, when it is zero or not finite. The largest component is
 /// brought to 1 first: squares of small products of floats would vanish even in double.

@@ -6,12 +6,11 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "core/unit.h"
 
 namespace tspace {
 
 namespace {
-
-bool isDirection(const Vec3& v) { return isFinite(v) && (v.x != 0 || v.y != 0 || v.z != 0); }
 
 /// The smallest value that `share` of all do not exceed.
 double percentile(const std::vector<float>& sorted, double share) {

@@ -23,8 +23,7 @@ struct FrameSamples {
     }
 };
 
-Vec3 directionOf(const Vec4& tangent) { return {tangent.x, tangent.y, tangent.z}; }
-Vec3 bitangentOf(const Vec3& normal, const Vec4& tangent) { return tangent.w * cross(normal, directionOf(tangent)); }
+Vec3 bitangentOf(const Vec3& normal, const Vec4& tangent) { return tangent.w * cross(normal, xyz(tangent)); }
 
 /// The worst places found so far, each vertex of A once.
 class WorstPlaces {
@@ -141,7 +140,7 @@ class Comparison {
         if (diff.has_tangents_a && diff.has_tangents_b) {
             const Vec4& tangent_a = a.tangents[vertex_a];
             const Vec4& tangent_b = b.tangents[vertex_b];
-            difference.tangent_deg = samples.tangents.add(directionOf(tangent_a), directionOf(tangent_b));
+            difference.tangent_deg = samples.tangents.add(xyz(tangent_a), xyz(tangent_b));
             // Written so that a NaN differs from everything.
             difference.sign_differs = !(tangent_a.w * tangent_b.w > 0);
             diff.sign_change_count += difference.sign_differs;

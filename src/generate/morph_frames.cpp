@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "core/vec_math.h"
+#include "core/unit.h"
 #include "tspace/frame.h"
 #include "tspace/sanitize.h"
 
@@ -22,8 +22,6 @@ namespace {
 
 constexpr double kCosineOfFiveDegrees = 0.99619469809174555;
 constexpr double kTenthOfADegree = 0.0017453283658983088;  // its sine
-
-bool isZero(const Vec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
 Vec3 sum(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 

@@ -8,11 +8,11 @@
 #include <numeric>
 #include <utility>
 
+#include "core/unit.h"
+
 namespace tspace {
 
 namespace {
-
-bool isZero(const Vec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
 bool areClose(const Vec3& a, const Vec3& b, float tolerance) {
     return std::fabs(a.x - b.x) <= tolerance && std::fabs(a.y - b.y) <= tolerance && std::fabs(a.z - b.z) <= tolerance;

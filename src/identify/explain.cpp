@@ -7,14 +7,12 @@
 #include "check/uv_reading.h"
 #include "check/uv_votes.h"
 #include "core/angle.h"
+#include "core/unit.h"
 #include "quads/fit_quads.h"
 
 namespace tspace {
 
 namespace {
-
-Vec3 directionOf(const Vec4& tangent) { return {tangent.x, tangent.y, tangent.z}; }
-bool isDirection(const Vec3& v) { return isFinite(v) && (v.x != 0 || v.y != 0 || v.z != 0); }
 
 /// The set that the first use reads; the first there is when no texture asks.
 std::size_t texturesSet(const ScenePrimitive& primitive) {
@@ -57,18 +55,17 @@ void compare(const ScenePrimitive& primitive, std::span<const std::uint8_t> vote
     for (std::size_t c = 0; c < computed.size(); ++c) {
         const std::uint32_t vertex = primitive.corners[c];
         const Vec4& stored = primitive.tangents[vertex];
-        if (!isDirection(directionOf(stored))) continue;
+        if (!isDirection(xyz(stored))) continue;
         if (votes[c / 3] == 0) {
             ++explanation.undecided_count;
             continue;
         }
         counted.push_back(vertex);
-        if (!isDirection(directionOf(computed[c]))) {
+        if (!isDirection(xyz(computed[c]))) {
             sum_deg += 180;
             continue;
         }
-        const double angle =
-            angleBetween(toDouble(directionOf(stored)), toDouble(directionOf(computed[c]))) * (180 / kPi);
+        const double angle = angleBetween(toDouble(xyz(stored)), toDouble(xyz(computed[c]))) * (180 / kPi);
         sum_deg += angle;
         if (angle <= tolerance_deg) {
             ++explanation.near_count;

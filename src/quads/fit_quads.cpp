@@ -18,7 +18,7 @@ constexpr double kExplainedPart = 0.4;
 /// And this share of all corners.
 constexpr double kExplainedShare = 0.01;
 /// What explains less than half of the corners has not made them.
-constexpr double kLikelyShare = 0.5;
+constexpr double kMakerShare = 0.5;
 /// Where the first two choices of pairs explain less than this share, no other will explain half.
 constexpr double kHopelessShare = 0.25;
 
@@ -151,7 +151,7 @@ QuadPairs turnedPairs(QuadPairs pairs) {
 bool quadsWin(std::uint64_t corner_count, std::uint64_t near_on_triangles, std::uint64_t near_on_quads) {
     if (near_on_quads <= near_on_triangles) return false;
     const std::uint64_t gained = near_on_quads - near_on_triangles;
-    return shareOf(near_on_quads, corner_count) >= kLikelyShare && shareOf(gained, corner_count) >= kExplainedShare &&
+    return shareOf(near_on_quads, corner_count) >= kMakerShare && shareOf(gained, corner_count) >= kExplainedShare &&
            shareOf(gained, corner_count - near_on_triangles) >= kExplainedPart;
 }
 

@@ -10,6 +10,7 @@
 #include "asset/obj/obj_writer.h"
 #include "asset/obj/read_scene.h"
 #include "generate/judge_maps.h"
+#include "generate/local_mesh.h"
 #include "generate/unit_lattice.h"
 #include "tspace/triangulate.h"
 
@@ -23,14 +24,6 @@ void checkOutput(const std::string& output) {
     if (extension != ".glb" && extension != ".gltf") {
         failFile(ErrorCode::invalidOption, "the output must end in .glb or .gltf: " + output);
     }
-}
-
-template <class T>
-std::vector<T> gather(const std::vector<T>& values, const std::vector<std::uint32_t>& sources) {
-    std::vector<T> result;
-    result.reserve(sources.size());
-    for (const std::uint32_t source : sources) result.push_back(values[source]);
-    return result;
 }
 
 /// Sets action and reason. true when tangents are to be computed.
@@ -56,9 +49,9 @@ bool decide(const Material& material, const ObjPrimitive& primitive, const Gener
 FinishedPrimitive finishWithFrames(ObjGeometry geometry, const GenerateOptions& options, PrimitiveReport& report) {
     PoolFrames frames = valueOrThrow(computeFrames(geometry.pool, {&geometry.polygons, 1}, options, {&report, 1}));
     FinishedPrimitive finished;
-    finished.positions = gather(geometry.pool.positions, frames.source_vertices);
-    finished.normals = gather(geometry.pool.normals, frames.source_vertices);
-    if (!geometry.pool.uvs.empty()) finished.uvs = gather(geometry.pool.uvs, frames.source_vertices);
+    finished.positions = gather(std::span<const Vec3>(geometry.pool.positions), frames.source_vertices);
+    finished.normals = gather(std::span<const Vec3>(geometry.pool.normals), frames.source_vertices);
+    finished.uvs = gather(std::span<const Vec2>(geometry.pool.uvs), frames.source_vertices);
     finished.tangents = std::move(frames.tangents);
     finished.bitangents = std::move(frames.bitangents);
     finished.indices = std::move(frames.indices.front());
@@ -68,7 +61,7 @@ FinishedPrimitive finishWithFrames(ObjGeometry geometry, const GenerateOptions& 
 FinishedPrimitive finishWithoutFrames(ObjGeometry geometry, PrimitiveReport& report) {
     const Triangulation triangles = valueOrThrow(triangulate(geometry.view()));
     FinishedPrimitive finished;
-    finished.indices = gather(geometry.polygons.indices, triangles.corners);
+    finished.indices = gather(spanOf(geometry.polygons.indices), triangles.corners);
     report.triangle_count = finished.indices.size() / 3;
     report.vertices_before = report.vertices_after = geometry.pool.positions.size();
     finished.positions = std::move(geometry.pool.positions);

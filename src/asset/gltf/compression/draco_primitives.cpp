@@ -46,10 +46,6 @@ struct Packed {
     [[nodiscard]] std::string place() const { return primitivePlace() + "/extensions/" + kDraco; }
 };
 
-[[noreturn]] void failAt(std::string message, std::string place) {
-    failFile(ErrorCode::invalidFile, std::move(message), std::move(place));
-}
-
 Packed readPacked(const Document& document, const Json& primitive, std::size_t mesh, std::size_t index) {
     Packed packed;
     packed.mesh = mesh;
@@ -59,22 +55,25 @@ Packed readPacked(const Document& document, const Json& primitive, std::size_t m
     const std::size_t accessor_count = rootArray(document, "accessors").size();
     const auto view =
         readIndex(extension, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
-    if (!view) failAt("the member 'bufferView' is missing", place);
+    if (!view) failFile(ErrorCode::invalidFile, "the member 'bufferView' is missing", place);
     packed.view = *view;
     packed.mode = readSize(primitive, "mode", packed.primitivePlace(), kTriangles);
     if (packed.mode < kTriangles)
-        failAt("Draco data are triangles, not points or lines", join(packed.primitivePlace(), "mode"));
+        failFile(ErrorCode::invalidFile, "Draco data are triangles, not points or lines",
+                 join(packed.primitivePlace(), "mode"));
     packed.indices = readIndex(primitive, "indices", packed.primitivePlace(), accessor_count, "accessor");
     const Json* ids = readObject(extension, "attributes", place);
-    if (ids == nullptr) failAt("the member 'attributes' is missing", place);
+    if (ids == nullptr) failFile(ErrorCode::invalidFile, "the member 'attributes' is missing", place);
     const Json* attributes = readObject(primitive, "attributes", packed.primitivePlace());
-    if (attributes == nullptr) failAt("the member 'attributes' is missing", packed.primitivePlace());
+    if (attributes == nullptr)
+        failFile(ErrorCode::invalidFile, "the member 'attributes' is missing", packed.primitivePlace());
     for (const auto& [name, id] : ids->items()) {
         const auto accessor =
             readIndex(*attributes, name.c_str(), packed.primitivePlace() + "/attributes", accessor_count, "accessor");
         if (!accessor) continue;
         const std::size_t number = readSize(*ids, name.c_str(), place + "/attributes");
-        if (number > 0xffffffffu) failAt("the Draco id is out of range", join(place + "/attributes", name));
+        if (number > 0xffffffffu)
+            failFile(ErrorCode::invalidFile, "the Draco id is out of range", join(place + "/attributes", name));
         packed.attributes.push_back({name, *accessor, static_cast<std::uint32_t>(number)});
     }
     return packed;
@@ -188,9 +187,10 @@ class Decoder {
             return;
         }
         if (bytes > budget_) {
-            failAt("the accessors of the Draco primitive claim " + std::to_string(bytes) +
-                       " bytes, which is too much for a file of this size (--memory-limit allows more)",
-                   place);
+            failFile(ErrorCode::invalidFile,
+                     "the accessors of the Draco primitive claim " + std::to_string(bytes) +
+                         " bytes, which is too much for a file of this size (--memory-limit allows more)",
+                     place);
         }
         budget_ -= bytes;
     }
@@ -216,9 +216,10 @@ class Decoder {
         limits.bytes = bytes * kWorkFactor;
         const BufferView view = readBufferView(document_, packed.view);
         if (document_.buffers[view.buffer].source == BufferSource::absent)
-            failAt("the Draco data lie in a buffer without data", packed.place());
+            failFile(ErrorCode::invalidFile, "the Draco data lie in a buffer without data", packed.place());
         const auto data = document_.buffers[view.buffer].bytes.range(view.begin, view.byte_count);
-        if (const std::string fault = decodeDraco(data, limits, mesh); !fault.empty()) failAt(fault, packed.place());
+        if (const std::string fault = decodeDraco(data, limits, mesh); !fault.empty())
+            failFile(ErrorCode::invalidFile, fault, packed.place());
         return mesh;
     }
 
@@ -244,10 +245,11 @@ class Decoder {
         const Accessor indices = readAccessor(document_, *packed.indices);
         const std::size_t width = bytesOf(indices.component);
         if (indices.component_count != 1 || indices.component == ComponentType::f32)
-            failAt("the indices are no unsigned scalars", indices.place());
+            failFile(ErrorCode::invalidFile, "the indices are no unsigned scalars", indices.place());
         if (width < 4 && mesh.point_count > std::size_t{1} << (8 * width))
-            failAt("the points of the Draco data have no room in indices of " + std::to_string(width) + " bytes",
-                   packed.place());
+            failFile(ErrorCode::invalidFile,
+                     "the points of the Draco data have no room in indices of " + std::to_string(width) + " bytes",
+                     packed.place());
         Bytes elements(mesh.corners.size() * width);
         for (std::size_t i = 0; i < mesh.corners.size(); ++i)
             std::memcpy(elements.data() + i * width, &mesh.corners[i], width);  // little-endian, as the file
@@ -305,7 +307,7 @@ class Encoder {
             mesh.attributes.push_back(attributeOf(first, name, readAccessor(document_, accessor)));
             mesh.point_count = readAccessor(document_, accessor).count;
         }
-        if (!first.indices) failAt("a Draco primitive has no indices", first.place());
+        if (!first.indices) failFile(ErrorCode::invalidFile, "a Draco primitive has no indices", first.place());
         mesh.corners = decodeIndices(document_, readAccessor(document_, *first.indices), mesh.point_count,
                                      join(first.primitivePlace(), "indices"));
         Bytes data;
