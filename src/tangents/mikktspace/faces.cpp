@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Step 1: cutting faces into triangles. Triangles stay, quads are cut along the diagonal that MikkTSpace
+// Cutting faces into triangles. Triangles stay, quads are cut along the diagonal that MikkTSpace
 // takes, n-gons by the rule of triangulate.h.
 #include "tangents/mikktspace/faces.h"
 
@@ -8,6 +8,7 @@
 
 #include "core/face_walk.h"
 #include "core/polygon.h"
+#include "core/typed_indices.h"
 #include "core/vec_math.h"
 #include "tangents/mikktspace/words.h"
 
@@ -159,6 +160,16 @@ TriangleList cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* alloca
         }
     });
     return list;
+}
+
+const std::uint32_t* readTriangles(const MeshView& mesh, const TriangleList& triangles, std::size_t first,
+                                   std::size_t count, std::uint32_t* buffer) {
+    if (triangles.corners.empty()) return readIndices(mesh.indices, 3 * first, 3 * count, buffer);
+    const std::uint32_t* corners = triangles.corners.data() + 3 * first;
+    withIndices(mesh.indices, [&](auto vertexOf) {
+        for (std::size_t i = 0; i < 3 * count; ++i) buffer[i] = vertexOf(corners[i]);
+    });
+    return buffer;
 }
 
 }  // namespace tspace::mikk

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Step 1: cutting faces into triangles.
+// Cutting faces into triangles.
 #pragma once
 
 #include "core/memory.h"
@@ -24,5 +24,9 @@ struct TriangleList {
 };
 
 TriangleList cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator);
+
+/// The vertices of the triangles [first, first + count), three each: where they lie, or in `buffer`.
+const std::uint32_t* readTriangles(const MeshView& mesh, const TriangleList& triangles, std::size_t first,
+                                   std::size_t count, std::uint32_t* buffer);
 
 }  // namespace tspace::mikk

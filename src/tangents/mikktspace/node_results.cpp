@@ -49,9 +49,23 @@ inline void NodeResults::writeCorner(std::uint32_t slot, const Tangents& result)
 bool NodeResults::write(std::size_t place, const NodeGroups& groups, NodeCounts& counts) const {
     if (groups.count == 0) return writeDefaults(groups.corners, counts);
     // One result can be written any number of times.
+    if (groups.group == nullptr) return writeGroup(place, groups, counts);
     if (groups.count == 1) return writeGroups<1>(place, groups, counts);
     if (groups.count > kFewGroups || (has_polygons_ && !repeatsAgree(groups))) return false;
     return writeGroups<kFewGroups>(place, groups, counts);
+}
+
+/// Of a node with all corners in one group.
+bool NodeResults::writeGroup(std::size_t place, const NodeGroups& groups, NodeCounts& counts) const {
+    Sum sum;
+    for (const NodeCorner& corner : groups.corners) {
+        if (!corner.addsNothing()) add(corner, has_polygons_ || !tangents_only_, sum);
+    }
+    Tangents result;
+    if ((may_split_ && sum.adding > 1 && maySplit(place, groups, 0, sum)) || !resultOf(sum, result)) return false;
+    for (const NodeCorner& corner : groups.corners) writeCorner(corner.slot, result);
+    ++counts.groups;
+    return true;
 }
 
 template <std::size_t kMost>
@@ -120,7 +134,7 @@ bool NodeResults::maySplit(std::size_t place, const NodeGroups& groups, std::uin
     for (std::size_t i = 0; i < groups.corners.size(); ++i) {
         if (groups.of(i) == group && !groups.corners[i].addsNothing()) members[count++] = &groups.corners[i];
     }
-    return !areTogether({members, count}, threshold_cosine_);
+    return !areTogether({members, count}, vectorOf(sum.s), vectorOf(sum.t), threshold_cosine_);
 }
 
 /// Returns false when it is not finite or, but for mikktspace, vanishes. Where polygons may give a corner twice, a NaN in

@@ -47,6 +47,7 @@ class NodeResults {
         bool positive = false;
     };
 
+    [[nodiscard]] bool writeGroup(std::size_t place, const NodeGroups& groups, NodeCounts& counts) const;
     template <std::size_t kMost>
     [[nodiscard]] bool writeGroups(std::size_t place, const NodeGroups& groups, NodeCounts& counts) const;
     void add(const NodeCorner& corner, bool with_lengths, Sum& sum) const;

@@ -47,15 +47,6 @@ struct Sweep {
     }
     [[nodiscard]] std::uint32_t nodeAt(std::size_t half_edge) const { return nodes.ofVertex(vertexAt(half_edge)); }
 
-    /// The vertices of some triangles, where they lie or in `to`.
-    const std::uint32_t* readVertices(std::size_t first, std::size_t count, std::uint32_t* to) const {
-        if (mesh.indices.type == IndexType::u32 && triangles.corners.empty())
-            return static_cast<const std::uint32_t*>(mesh.indices.data) + 3 * first;
-        withIndices(mesh.indices, [&](auto vertexOf) {
-            for (std::size_t i = 0; i < 3 * count; ++i) to[i] = vertexOf(triangles.corner(3 * first + i));
-        });
-        return to;
-    }
     /// The nodes of some vertices, where they lie or in `to`.
     const std::uint32_t* readNodes(const std::uint32_t* vertices, std::size_t count, std::uint32_t* to) const {
         if (nodes.of_vertex.empty()) return vertices;
@@ -160,7 +151,7 @@ class Summer {
         block.count = std::min(kTermTriangles, sweep_.triangles.count - first);
         block.is_whole = true;
         for (std::size_t t = 0; t < kTermTriangles; ++t) block.triangles[t] = static_cast<std::uint32_t>(first + t);
-        block.vertices = sweep_.readVertices(first, block.count, block.own_vertices);
+        block.vertices = readTriangles(sweep_.mesh, sweep_.triangles, first, block.count, block.own_vertices);
         if (block.count < kTermTriangles && block.vertices != block.own_vertices) {
             std::copy_n(block.vertices, 3 * block.count, block.own_vertices);
             block.vertices = block.own_vertices;
@@ -409,13 +400,8 @@ unsigned rangeShift(const Sweep& sweep, unsigned width) {
 }  // namespace
 
 void MeshTriangles::read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const {
-    withIndices(mesh_.indices, [&](auto vertexOf) {
-        if (triangles_.corners.empty()) {
-            for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = vertexOf(3 * first + i);
-        } else {
-            for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = vertexOf(triangles_.corners[3 * first + i]);
-        }
-    });
+    const std::uint32_t* found = readTriangles(mesh_, triangles_, first, size, groups);
+    if (found != groups) std::copy_n(found, 3 * size, groups);
     if (vertices != nullptr) std::copy_n(groups, 3 * size, vertices);
     if (!nodes_.of_vertex.empty()) {
         for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = nodes_.of_vertex[groups[i]];

@@ -27,7 +27,6 @@ namespace tspace::mikk {
 namespace {
 
 constexpr std::size_t kCornerGrain = 16384, kTriangleGrain = 16384;
-constexpr std::size_t kBlockCorners = 3 * kCollectBlock;
 constexpr std::uint32_t kBothFacings = kFacesUp | kFacesDown;
 /// In the place of the sign, with a bit that no sign has.
 constexpr float kUnclearSign = 2.0f;
@@ -133,13 +132,13 @@ class OnePass {
         if (has_polygons) counted = noMarks(allocator_, mesh_.cornerCount());
         std::atomic<std::uint64_t> defaults{0};
         std::atomic<bool> any_doubtful{false};
-        const auto look = [&](std::size_t begin, std::size_t end, const auto& vertexOf) {
+        const auto look = [&](std::size_t begin, std::size_t end) {
             std::uint64_t defaults_here = 0;
             bool doubtful = false;
             forEachFlat(begin, end, [&](std::size_t triangle) {
                 std::uint32_t facing = 0;
                 for (std::size_t i = 3 * triangle; i < 3 * triangle + 3; ++i) {
-                    const std::uint32_t here = sums_.marks[nodes_.ofVertex(vertexOf(i))] & kBothFacings;
+                    const std::uint32_t here = sums_.marks[nodeAt(i)] & kBothFacings;
                     // A node that is left aside may have any.
                     facing |= here == 0 ? kBothFacings : here == kBothFacings ? 0 : here;
                     const bool counts =
@@ -154,11 +153,7 @@ class OnePass {
             defaults += defaults_here;
             if (doubtful) any_doubtful = true;
         };
-        withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
-            const std::size_t grain = has_polygons ? triangles_.count : kTriangleGrain;
-            parallel_.forRanges(triangles_.count, grain,
-                                [&](std::size_t begin, std::size_t end) { look(begin, end, vertexOf); });
-        });
+        parallel_.forRanges(triangles_.count, has_polygons ? triangles_.count : kTriangleGrain, look);
         default_corner_count_ = defaults;
         if (any_doubtful) leaveDoubtful();
     }
@@ -257,7 +252,9 @@ class OnePass {
         Buffer<std::uint32_t> chosen(allocator_, unclear_count_);
         std::size_t count = 0;
         forEachUnclear([&](std::uint32_t node) { chosen[count++] = node; });
-        return writeNodes({setting_, tail_, {chosen.data(), count}, &sums_, unclearBlocks(), parallel_}, &scale_);
+        return writeNodes(
+            {setting_, tail_, {chosen.data(), count}, &sums_, {has_unclear_.data(), has_unclear_.size()}, parallel_},
+            &scale_);
     }
 
     bool finishNode(std::size_t n) {
@@ -296,16 +293,8 @@ class OnePass {
     void writeCorners() {
         const std::size_t blocks = (mesh_.cornerCount() + kBlockCorners - 1) / kBlockCorners;
         has_unclear_ = Marks(allocator_, blocks);
-        withIndices(mesh_.indices, [&](auto vertexOf) {
-            parallel_.forRanges(blocks, kCornerGrain / kBlockCorners, [&](std::size_t begin, std::size_t end) {
-                const std::uint32_t* node_of = nodes_.of_vertex.data();
-                if (node_of != nullptr) {
-                    writeBlocks(begin, end, [&](std::size_t c) { return node_of[vertexOf(c)]; });
-                } else {
-                    writeBlocks(begin, end, vertexOf);
-                }
-            });
-        });
+        parallel_.forRanges(blocks, kCornerGrain / kBlockCorners,
+                            [&](std::size_t begin, std::size_t end) { writeBlocks(begin, end); });
         for (const std::uint32_t c : triangles_.skipped_corners) {
             out_.tangents[c] = {};
             if (!sums_.rest.empty()) writeRest(c, NodeRest{}, 0);
@@ -313,22 +302,19 @@ class OnePass {
     }
 
     /// Nodes of one part are looked up, and asked for, before the part before it is written.
-    template <class NodeOf>
-    void writeBlocks(std::size_t first_block, std::size_t end_block, const NodeOf& nodeOf) {
+    void writeBlocks(std::size_t first_block, std::size_t end_block) {
         constexpr std::size_t kPart = 64;
         static_assert(kBlockCorners % kPart == 0);
         const std::size_t end = std::min(end_block * kBlockCorners, mesh_.cornerCount());
         const bool streamed = out_.tangents.stride_bytes == sizeof(Vec4) &&
                               areStreamed(out_.tangents.data, out_.tangents.count * sizeof(Vec4));
-        const bool are_indices = mesh_.indices.type == IndexType::u32 && nodes_.of_vertex.empty();
         std::uint32_t rooms[2][kPart];
-        const auto lookUp = [&](std::size_t first, std::uint32_t* room) -> const std::uint32_t* {
+        const auto lookUp = [&](std::size_t first, std::uint32_t* room) {
             const std::size_t count = std::min(kPart, end - first);
-            const std::uint32_t* nodes = room;
-            if (are_indices) {
-                nodes = static_cast<const std::uint32_t*>(mesh_.indices.data) + first;
-            } else {
-                for (std::size_t i = 0; i < count; ++i) room[i] = nodeOf(first + i);
+            const std::uint32_t* nodes = readIndices(mesh_.indices, first, count, room);
+            if (!nodes_.of_vertex.empty()) {
+                for (std::size_t i = 0; i < count; ++i) room[i] = nodes_.of_vertex[nodes[i]];
+                nodes = room;
             }
             if (!sums_.scattered) return nodes;
             for (std::size_t i = 0; i < count; ++i) __builtin_prefetch(sums_.row(nodes[i]));
@@ -366,12 +352,6 @@ class OnePass {
             }
         }
         return (std::bit_cast<std::uint32_t>(any[3]) & std::bit_cast<std::uint32_t>(kUnclearSign)) != 0;
-    }
-
-    /// Corners of the mesh are those of its triangles only where no polygon was cut and none left out.
-    [[nodiscard]] MarkedBlocks unclearBlocks() const {
-        if (!triangles_.corners.empty()) return {};
-        return {has_unclear_.data(), has_unclear_.size()};
     }
 
     void writeRest(std::size_t c, const NodeRest& rest, float length_t) const {

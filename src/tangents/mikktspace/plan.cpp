@@ -160,10 +160,14 @@ class Planner {
     void splitGroup(std::size_t place, const NodeCorner* corners, Members members) {
         if (members.size() < 2) return;
         adding_.drop(adding_.size());
+        Vec3 s, t;
         for (const NodeCorner* corner : members) {
-            if (!corner->addsNothing()) adding_.push(corner);
+            if (corner->addsNothing()) continue;
+            adding_.push(corner);
+            s = s + Vec3{corner->s[0], corner->s[1], corner->s[2]};
+            t = t + Vec3{corner->t()[0], corner->t()[1], corner->t()[2]};
         }
-        if (areTogether({adding_.begin(), adding_.size()}, from_.threshold_cosine)) return;
+        if (areTogether({adding_.begin(), adding_.size()}, s, t, from_.threshold_cosine)) return;
         const std::size_t rows = splits_.rows.size(), leaders = splits_.leaders.size();
         if (!splits_.splits(members, mesh_.normals[from_.setting.nodes.vertex(from_.chosen[place])])) return;
         const auto begin = static_cast<std::uint32_t>(split_members_.size());

@@ -24,12 +24,7 @@ Vec3 vectorOf(const float* row) { return {row[0], row[1], row[2]}; }
 float halfAngleLimit(float threshold_cosine) { return std::sqrt((1.0f + threshold_cosine) * 0.5f) + kOffPlane; }
 
 /// Whether all lie near the direction of their sum.
-bool areNearSum(Members members, float limit) {
-    Vec3 s, t;
-    for (const NodeCorner* corner : members) {
-        s = s + vectorOf(corner->s);
-        t = t + vectorOf(corner->t());
-    }
+bool areNearSum(Members members, const Vec3& s, const Vec3& t, float limit) {
     const float limit_s = limit * length(s), limit_t = limit * length(t);
     for (const NodeCorner* corner : members) {
         const float weight = corner->s[3];
@@ -80,11 +75,11 @@ void triangleDirections(const Vec3 (&p)[3], const Vec2 (&uv)[3], Vec3& s, Vec3& 
 
 }  // namespace
 
-bool areTogether(Members members, float threshold_cosine) {
+bool areTogether(Members members, const Vec3& sum_s, const Vec3& sum_t, float threshold_cosine) {
     if (members.size() <= 1) return true;
     const float near = threshold_cosine + kMargin;
     if (members.size() <= 4) return areNearEachOther(members, near);
-    return areNearSum(members, halfAngleLimit(threshold_cosine)) ||
+    return areNearSum(members, sum_s, sum_t, halfAngleLimit(threshold_cosine)) ||
            (members.size() <= kFewMembers && areNearEachOther(members, near));
 }
 

@@ -16,8 +16,8 @@ float thresholdCosine(float degrees);
 using Members = std::span<const NodeCorner* const>;
 
 /// Whether it is plain that every two members are within the threshold. No may also mean that it is not plain. Needs rows
-/// with bitangents (CornerTerms::t).
-bool areTogether(Members members, float threshold_cosine);
+/// with bitangents (CornerTerms::t), and takes the sums of all rows.
+bool areTogether(Members members, const Vec3& sum_s, const Vec3& sum_t, float threshold_cosine);
 
 /// Subsets are quadratic in the size of a group by definition: every member may have another one, and float
 /// sums cannot be shared. Above this size, groups that might split would take quadratic time here too.

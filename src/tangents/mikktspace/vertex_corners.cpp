@@ -49,8 +49,7 @@ class CornerReader {
             from_.sums->setNumber(from_.chosen[i], static_cast<std::uint32_t>(i));
         Marks at_nodes = noMarks(from_.allocator, from_.nodes.count);
         for (const std::uint32_t node : from_.chosen) at_nodes[node] = 1;
-        return collectAround(mesh_, triangles_, from_.nodes, std::move(at_nodes), from_.blocks, from_.allocator,
-                             from_.parallel);
+        return collectAround(mesh_, triangles_, from_.nodes, at_nodes, from_.blocks, from_.allocator, from_.parallel);
     }
 
     /// A node's row holds its number in `chosen` from here on; what it held before is no such number, or that of
@@ -68,30 +67,32 @@ class CornerReader {
         to_.flags = Buffer<std::uint8_t>(from_.allocator, count_);
         to_.terms = Buffer<CornerTerms>(from_.allocator, (count_ + kTermTriangles - 1) / kTermTriangles);
         std::atomic<std::uint64_t> degenerate{0}, flat{0}, mirrored{0};
-        withListedVertices(mesh_, triangles_, [&](auto vertexOf) {
-            from_.parallel.forRanges(to_.terms.size(), kBlockGrain, [&](std::size_t begin, std::size_t end) {
-                Counts counts;
-                for (std::size_t block = begin; block < end; ++block) readBlock(block, vertexOf, counts);
-                degenerate += counts.degenerate;
-                flat += counts.flat;
-                mirrored += counts.mirrored;
-            });
+        from_.parallel.forRanges(to_.terms.size(), kBlockGrain, [&](std::size_t begin, std::size_t end) {
+            Counts counts;
+            for (std::size_t block = begin; block < end; ++block) readBlock(block, counts);
+            degenerate += counts.degenerate;
+            flat += counts.flat;
+            mirrored += counts.mirrored;
         });
         to_.degenerate_count = degenerate;
         to_.no_uv_area_count = flat;
         to_.mirrored_count = mirrored;
     }
 
-    template <class VertexOf>
-    void readBlock(std::size_t block, const VertexOf& vertexOf, Counts& counts) {
+    void readBlock(std::size_t block, Counts& counts) {
         const std::size_t begin = block * kTermTriangles, count = std::min(kTermTriangles, count_ - begin);
         std::uint32_t vertices[kTermCorners];
-        for (std::size_t t = 0; t < count; ++t) {
-            const std::size_t first = 3 * std::size_t{to_.triangleOf(begin + t)};
-            for (std::size_t k = 0; k < 3; ++k) vertices[3 * t + k] = vertexOf(first + k);
+        if (to_.found.empty()) {
+            const std::uint32_t* read = mikk::readTriangles(mesh_, triangles_, begin, count, vertices);
+            if (read != vertices) std::copy_n(read, 3 * count, vertices);
+        } else {
+            for (std::size_t t = 0; t < count; ++t) {
+                const std::size_t first = 3 * std::size_t{to_.found[begin + t]};
+                for (std::size_t k = 0; k < 3; ++k) vertices[3 * t + k] = mesh_.indices[triangles_.corner(first + k)];
+            }
         }
         // The rest of the block may be any vertex; a block has one triangle at least.
-        std::fill(vertices + 3 * count, vertices + kTermCorners, vertexOf(3 * std::size_t{to_.triangleOf(begin)}));
+        std::fill(vertices + 3 * count, vertices + kTermCorners, vertices[0]);
         readNodes(3 * begin, 3 * count, vertices);
         CornerTerms& terms = to_.terms[block];
         from_.terms(from_.source, vertices, count, terms);

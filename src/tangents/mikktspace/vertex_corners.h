@@ -83,7 +83,7 @@ struct CornerReading {
     CornerSource source;                    ///< tangents_only: terms without t and lengths_t
     CornerTermsFunction terms = nullptr;
     NodeSums* sums;       ///< the rows are used; null: `chosen` are all nodes
-    MarkedBlocks blocks;  ///< those with a triangle at a chosen node
+    MarkedBlocks blocks;  ///< those with a corner at a chosen node
     const Allocator* allocator = nullptr;
     Parallel& parallel;
 };

@@ -21,7 +21,7 @@ struct VertexPath {
     /// agree (node_sums.cpp).
     std::span<const std::uint32_t> chosen;
     NodeSums* sums = nullptr;  ///< the rows are used; null: `chosen` are all nodes
-    MarkedBlocks blocks = {};  ///< those with a triangle at a chosen node
+    MarkedBlocks blocks = {};  ///< those with a corner at a chosen node
     Parallel& parallel;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Step 2: welding. The reference sorts corners into cells and compares all of a small cell with each other;
+// Welding. The reference sorts corners into cells and compares all of a small cell with each other;
 // here the vertices of the mesh are hashed. The classes are the same; their representative, where it matters,
 // comes from weld_order.cpp.
 //
@@ -275,7 +275,7 @@ class VertexWelder {
     VertexWelder(const MeshView& mesh, const Allocator* allocator, const Allocator* brief, Parallel& parallel)
         : mesh_(mesh), count_(mesh.vertexCount()), allocator_(allocator), brief_(brief), parallel_(parallel) {}
 
-    /// Fills count, of_vertex and mixed. Returns whether all vertices are tame.
+    /// Fills count, of_vertex and mixed. Returns whether all vertices are finite and not huge.
     bool run(Nodes& nodes) {
         nodes.count = count_;
         hashes_ = Buffer<std::uint32_t>(brief_, count_);
@@ -422,7 +422,6 @@ Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator*
     nodes.all_finite = VertexWelder(mesh, allocator, brief != nullptr ? brief : allocator, parallel).run(nodes) ||
                        usesFiniteVerticesOnly(mesh, triangles);
     if (nodes.mixed && nodes.all_finite) resolveMixed(mesh, triangles, nodes, allocator, parallel);
-    nodes.blocks = findNodeBlocks(mesh, triangles, nodes, allocator, parallel);
     return nodes;
 }
 

@@ -5,7 +5,6 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "tangents/mikktspace/faces.h"
-#include "tangents/mikktspace/node_blocks.h"
 
 namespace tspace::mikk {
 
@@ -21,7 +20,6 @@ struct Nodes {
     /// One per node: the vertex whose data stand for it. There when `mixed`, and after
     /// listVertices; empty: node == vertex.
     Buffer<std::uint32_t> vertices;
-    NodeBlocks blocks;
 
     [[nodiscard]] std::uint32_t ofVertex(std::uint32_t vertex) const {
         return of_vertex.empty() ? vertex : of_vertex[vertex];

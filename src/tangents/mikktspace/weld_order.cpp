@@ -273,8 +273,14 @@ void WeldOrder::followLong(std::uint8_t cell, const Places& places, const Marks&
         if ((in_cells[vertex] & kCellNumber) == cell) wanted.push(mesh_.positions[vertex]);
     }
     const auto isInCell = [&](std::size_t v) { return used[v] != 0 && (in_cells[v] & kCellNumber) == cell; };
-    const auto mayBe = [](std::size_t, std::size_t) { return true; };
-    const LongCell long_cell(mesh_.positions, collect(vertex_count, isInCell, mayBe, allocator_, parallel_),
+    const auto bitsOf = [&](std::size_t block) {
+        std::uint64_t bits = 0;
+        for (std::size_t v = kCollectBlock * block; v < std::min(vertex_count, kCollectBlock * (block + 1)); ++v)
+            bits |= std::uint64_t{isInCell(v) ? 1u : 0u} << (v % kCollectBlock);
+        return bits;
+    };
+    const std::size_t block_count = (vertex_count + kCollectBlock - 1) / kCollectBlock;
+    const LongCell long_cell(mesh_.positions, collectBits(block_count, bitsOf, allocator_, parallel_),
                              {wanted.begin(), wanted.size()}, vertex_count, allocator_, parallel_);
     NumberedCorners corners(places.count(cell), allocator_);
     places.forCell(cell, [&](std::uint32_t place, std::uint32_t entry, std::uint32_t vertex) {

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "tangents/mikktspace/collect.h"
+
+namespace tspace::mikk {
+
+Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles, const Marks& marks,
+                                       const std::uint32_t* node_of, MarkedBlocks blocks, const Allocator* allocator,
+                                       Parallel& parallel) {
+    const bool has_polygons = !triangles.corners.empty();
+    const auto bitsOf = [&](std::size_t block) -> std::uint64_t {
+        if (!has_polygons && !blocks.empty() && blocks[block] == 0) return 0;
+        const std::size_t first = block * kCollectBlock, count = std::min(kCollectBlock, triangles.count - first);
+        unsigned any = !has_polygons || blocks.empty() ? 1 : 0;
+        for (std::size_t i = 3 * first; any == 0 && i < 3 * (first + count); ++i)
+            any |= blocks[triangles.corners[i] / kBlockCorners];
+        if (any == 0) return 0;
+        std::uint32_t buffer[kBlockCorners];
+        const std::uint32_t* vertex = readTriangles(mesh, triangles, first, count, buffer);
+        unsigned marked[kBlockCorners];
+        if (node_of != nullptr) {
+            for (std::size_t i = 0; i < 3 * count; ++i) marked[i] = marks[node_of[vertex[i]]];
+        } else {
+            for (std::size_t i = 0; i < 3 * count; ++i) marked[i] = marks[vertex[i]];
+        }
+        std::uint64_t bits = 0;
+        for (std::size_t t = 0; t < count; ++t)
+            bits |= std::uint64_t{(marked[3 * t] | marked[3 * t + 1] | marked[3 * t + 2]) != 0 ? 1u : 0u} << t;
+        return bits;
+    };
+    return collectBits((triangles.count + kCollectBlock - 1) / kCollectBlock, bitsOf, allocator, parallel);
+}
+
+}  // namespace tspace::mikk
