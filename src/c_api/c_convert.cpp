@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/border.h"
+
 namespace tspace::c_api {
 
 // The numbers are one set: a C program and a C++ program can show each other their codes.
@@ -56,15 +58,14 @@ tspace_ErrorCode finish(const Error& error, tspace_Error* out) noexcept {
 
 Error checkStructSize(std::uint32_t size, std::size_t expected, const char* name) {
     if (size == expected) return {ErrorCode::ok};
-    return {ErrorCode::invalidOption, std::string(name) + ".struct_size is " + std::to_string(size) +
-                                          ", this version knows " + std::to_string(expected) +
-                                          ": prepare the struct with TSPACE_INIT"};
+    return makeError(ErrorCode::invalidOption, kNoElement,
+                     "%s.struct_size is %u, this version knows %zu: prepare the struct with TSPACE_INIT", name, size,
+                     expected);
 }
 
 Error checkChoice(std::uint32_t value, std::uint32_t largest, const char* name) {
     if (value <= largest) return {ErrorCode::ok};
-    return {ErrorCode::invalidOption,
-            std::string(name) + " is " + std::to_string(value) + ", the largest value is " + std::to_string(largest)};
+    return makeError(ErrorCode::invalidOption, kNoElement, "%s is %u, the largest value is %u", name, value, largest);
 }
 
 IndexView toIndices(const tspace_Indices& indices) {

@@ -36,7 +36,7 @@ Error checkSized(const Struct* sized, const char* name) {
 /// The same for a struct that must be given.
 template <class Struct>
 Error checkNeeded(const Struct* sized, const char* name) {
-    if (sized == nullptr) return {ErrorCode::nullData, std::string(name) + " is null"};
+    if (sized == nullptr) return makeError(ErrorCode::nullData, kNoElement, "%s is null", name);
     return checkSized(sized, name);
 }
 

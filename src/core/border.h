@@ -2,8 +2,6 @@
 // What every public function does first and last: check the caller's spans, and let no exception out.
 #pragma once
 
-#include <new>
-#include <string>
 #include <type_traits>
 
 #include "core/memory.h"
@@ -14,17 +12,19 @@ namespace tspace {
 
 class Parallel;
 
+/// An error with a message as printf makes it. In one place, because strings that are put together take 2 KB of code each.
+[[gnu::format(printf, 3, 4)]] Error makeError(ErrorCode code, std::uint64_t element, const char* format, ...);
+
+/// What the exception means that is being handled.
+Error caughtError();
+
 /// Runs `body`, which returns a Result, and turns running out of memory (and any defect of our own) into an Error.
 template <class Body>
 auto atBorder(Body&& body) -> std::invoke_result_t<Body> {
     try {
         return body();
-    } catch (const OutOfMemory&) {
-        return Error{ErrorCode::outOfMemory, "out of memory"};
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::outOfMemory, "out of memory"};
     } catch (...) {
-        return Error{ErrorCode::internal, "internal error: an exception reached the library's border"};
+        return caughtError();
     }
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
-#include <string>
 
 #include "core/border.h"
 #include "core/early_lines.h"
@@ -22,8 +21,8 @@ Error checkFaces(const MeshView& mesh) {
     if (mesh.face_sizes.empty()) {
         if (mesh.face_size == 0) return {ErrorCode::invalidOption, "face_size is 0"};
         if (corners % mesh.face_size != 0) {
-            return {ErrorCode::countMismatch, std::to_string(corners) + " corners are not a whole number of faces of " +
-                                                  std::to_string(mesh.face_size)};
+            return makeError(ErrorCode::countMismatch, kNoElement, "%zu corners are not a whole number of faces of %u",
+                             corners, mesh.face_size);
         }
         return fine();
     }
@@ -33,13 +32,13 @@ Error checkFaces(const MeshView& mesh) {
     for (std::size_t f = 0; f < mesh.face_sizes.size(); ++f) {
         sum += mesh.face_sizes[f];
         if (sum > corners) {
-            return {ErrorCode::countMismatch,
-                    "face sizes need more corners than the " + std::to_string(corners) + " there are", f};
+            return makeError(ErrorCode::countMismatch, f, "face sizes need more corners than the %zu there are",
+                             corners);
         }
     }
     if (sum != corners) {
-        return {ErrorCode::countMismatch,
-                "face sizes add up to " + std::to_string(sum) + " corners, but there are " + std::to_string(corners)};
+        return makeError(ErrorCode::countMismatch, kNoElement, "face sizes add up to %zu corners, but there are %zu",
+                         static_cast<std::size_t>(sum), corners);
     }
     return fine();
 }
@@ -101,7 +100,7 @@ Error checkIndexSpan(const IndexView& indices) {
     }
     const auto bytes = static_cast<std::size_t>(indices.type);
     if (bytes != 1 && bytes != 2 && bytes != 4) {
-        return {ErrorCode::invalidOption, "unknown index type " + std::to_string(bytes)};
+        return makeError(ErrorCode::invalidOption, kNoElement, "unknown index type %zu", bytes);
     }
     return checkSpan(indices.data, indices.count, bytes, bytes, kNoElement, "indices");
 }
@@ -128,23 +127,23 @@ Error check(const MeshView& mesh, const CheckTheIndices& checkTheIndices) {
 
 Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, std::size_t element_bytes,
                 std::size_t expected_count, const char* name) {
-    const auto what = [=] { return std::string(name); };
     if (expected_count != kNoElement && count != expected_count) {
-        return {ErrorCode::countMismatch, what() + " has " + std::to_string(count) + " entries, " +
-                                              std::to_string(expected_count) + " are needed"};
+        return makeError(ErrorCode::countMismatch, kNoElement, "%s has %zu entries, %zu are needed", name, count,
+                         expected_count);
     }
     if (count == 0) return fine();
-    if (data == nullptr) return {ErrorCode::nullData, what() + " is null but has a count of " + std::to_string(count)};
+    if (data == nullptr)
+        return makeError(ErrorCode::nullData, kNoElement, "%s is null but has a count of %zu", name, count);
     if (count > 1 && stride_bytes < element_bytes) {
-        return {ErrorCode::strideTooSmall, what() + " has a stride of " + std::to_string(stride_bytes) +
-                                               " bytes, but its elements take " + std::to_string(element_bytes)};
+        return makeError(ErrorCode::strideTooSmall, kNoElement,
+                         "%s has a stride of %zu bytes, but its elements take %zu", name, stride_bytes, element_bytes);
     }
     const std::size_t alignment = element_bytes % 4 == 0 ? 4 : element_bytes;  // floats, u32; or u16, u8 indices
     if (reinterpret_cast<std::uintptr_t>(data) % alignment != 0 || (count > 1 && stride_bytes % alignment != 0)) {
-        return {ErrorCode::misaligned, what() + " is not aligned to " + std::to_string(alignment) + " bytes"};
+        return makeError(ErrorCode::misaligned, kNoElement, "%s is not aligned to %zu bytes", name, alignment);
     }
     if (count > 1 && (count - 1) > (std::numeric_limits<std::size_t>::max() - element_bytes) / stride_bytes) {
-        return {ErrorCode::tooLarge, what() + " with its stride does not fit the address space"};
+        return makeError(ErrorCode::tooLarge, kNoElement, "%s with its stride does not fit the address space", name);
     }
     return fine();
 }
@@ -155,10 +154,8 @@ Error checkIndices(const IndexView& indices, std::size_t vertex_count, Parallel*
     std::size_t c = 0;
     while (c < indices.count && indices[c] < vertex_count) ++c;
     if (c == indices.count) return fine();
-    return {ErrorCode::indexOutOfRange,
-            "index " + std::to_string(indices[c]) + " of corner " + std::to_string(c) + " is not below the " +
-                std::to_string(vertex_count) + " vertices",
-            c};
+    return makeError(ErrorCode::indexOutOfRange, c, "index %u of corner %zu is not below the %zu vertices", indices[c],
+                     c, vertex_count);
 }
 
 Error checkAllButIndices(const MeshView& mesh) { return check(mesh, checkIndexSpan); }

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Names of error codes and convention presets.
+// Errors and their names, and those of convention presets.
 #include "tspace/result.h"
 
+#include <cstdarg>
+#include <cstdio>
+#include <new>
 #include <string_view>
 
+#include "core/border.h"
 #include "tspace/convention.h"
 
 namespace tspace {
@@ -63,6 +67,36 @@ const Convention* findConvention(const char* name) {
         if (preset.name == name) return &preset.convention;
     }
     return nullptr;
+}
+
+Error makeError(ErrorCode code, std::uint64_t element, const char* format, ...) {
+    Error error{code, {}, element};
+    char text[256];
+    std::va_list arguments, again;
+    va_start(arguments, format);
+    va_copy(again, arguments);
+    const int length = std::vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    if (length >= 0 && static_cast<std::size_t>(length) < sizeof text) {
+        error.message = text;
+    } else if (length > 0) {  // only with a very long name
+        error.message.resize(static_cast<std::size_t>(length));
+        std::vsnprintf(error.message.data(), error.message.size() + 1, format, again);
+    }
+    va_end(again);
+    return error;
+}
+
+Error caughtError() {
+    try {
+        throw;
+    } catch (const OutOfMemory&) {
+        return {ErrorCode::outOfMemory, "out of memory"};
+    } catch (const std::bad_alloc&) {
+        return {ErrorCode::outOfMemory, "out of memory"};
+    } catch (...) {
+        return {ErrorCode::internal, "internal error: an exception reached the library's border"};
+    }
 }
 
 }  // namespace tspace

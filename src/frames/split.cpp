@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <numeric>
 #include <utility>
@@ -224,16 +225,18 @@ class Splitter {
 Error checkAttributes(std::span<const CornerAttribute> attributes, std::size_t corner_count) {
     for (std::size_t i = 0; i < attributes.size(); ++i) {
         const CornerAttribute& attribute = attributes[i];
-        const std::string name = "attribute " + std::to_string(i);
         if (attribute.component_count < 1 || attribute.component_count > 16) {
-            return {ErrorCode::invalidOption,
-                    name + " has " + std::to_string(attribute.component_count) + " components, not 1 to 16", i};
+            return makeError(ErrorCode::invalidOption, i, "attribute %zu has %u components, not 1 to 16", i,
+                             attribute.component_count);
         }
         if (!(attribute.tolerance >= 0.0f) || !std::isfinite(attribute.tolerance)) {
-            return {ErrorCode::invalidOption, name + " has a tolerance that is negative or not finite", i};
+            return makeError(ErrorCode::invalidOption, i,
+                             "attribute %zu has a tolerance that is negative or not finite", i);
         }
+        char name[32];
+        std::snprintf(name, sizeof name, "attribute %zu", i);
         Error e = checkSpan(attribute.data, corner_count, attribute.stride_bytes,
-                            attribute.component_count * sizeof(float), kNoElement, name.c_str());
+                            attribute.component_count * sizeof(float), kNoElement, name);
         if (e.code != ErrorCode::ok) return e;
     }
     return {ErrorCode::ok, {}};
@@ -246,14 +249,12 @@ Error check(const IndexView& indices, std::size_t vertex_count, std::size_t corn
     }
     if (Error e = checkIndices(indices, vertex_count); e.code != ErrorCode::ok) return e;
     if (indices.type == IndexType::none && corner_count > vertex_count) {
-        return {ErrorCode::indexOutOfRange,
-                "corner " + std::to_string(vertex_count) + " has no vertex: there are " + std::to_string(vertex_count) +
-                    " vertices and no indices",
-                vertex_count};
+        return makeError(ErrorCode::indexOutOfRange, vertex_count,
+                         "corner %zu has no vertex: there are %zu vertices and no indices", vertex_count, vertex_count);
     }
     if (indices.type != IndexType::none && corner_count != indices.count) {
-        return {ErrorCode::countMismatch,
-                std::to_string(corner_count) + " corners but " + std::to_string(indices.count) + " indices"};
+        return makeError(ErrorCode::countMismatch, kNoElement, "%zu corners but %zu indices", corner_count,
+                         indices.count);
     }
     return checkAttributes(attributes, corner_count);
 }

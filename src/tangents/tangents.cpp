@@ -3,7 +3,6 @@
 #include "tspace/tangents.h"
 
 #include <memory>
-#include <string>
 #include <utility>
 #include <variant>
 
@@ -44,7 +43,8 @@ bool isGrouped(Method method) {
 
 Error checkOptions(const TangentOptions& options) {
     if (options.method > Method::best) {
-        return {ErrorCode::invalidOption, "unknown method " + std::to_string(static_cast<unsigned>(options.method))};
+        return makeError(ErrorCode::invalidOption, kNoElement, "unknown method %u",
+                         static_cast<unsigned>(options.method));
     }
     if (options.pairing > Pairing::corrected) return {ErrorCode::invalidOption, "unknown pairing"};
     if (options.ngons > Ngons::skip) return {ErrorCode::invalidOption, "unknown treatment of n-gons"};
@@ -104,9 +104,9 @@ TangentReport generateFrames(const MeshView& mesh, const TangentOptions& options
 
 Error checkPose(const Pose& pose, std::size_t vertex_count) {
     if (pose.positions.count != vertex_count || pose.normals.count != vertex_count) {
-        return {ErrorCode::planMismatch, "the pose has " + std::to_string(pose.positions.count) + " positions and " +
-                                             std::to_string(pose.normals.count) + " normals, the plan needs " +
-                                             std::to_string(vertex_count)};
+        return makeError(ErrorCode::planMismatch, kNoElement,
+                         "the pose has %zu positions and %zu normals, the plan needs %zu", pose.positions.count,
+                         pose.normals.count, vertex_count);
     }
     if (Error e = checkSpan(pose.positions, vertex_count, "positions"); e.code != ErrorCode::ok) return e;
     return checkSpan(pose.normals, vertex_count, "normals");
