@@ -102,7 +102,7 @@ class TriangleSmoother {
           ranges_(mesh.indices, triangle_count_, mesh.vertexCount(), points_.data()) {}
 
     Result<NormalReport> run() {
-        const bool threads = parallel_.width() > 1;
+        const bool threads = parallel_.width() > 1 && triangle_count_ >= Parallel::kGrain;
         const std::size_t near = std::max(mesh_.vertexCount() / kNearPoints,
                                           threads ? kRangesPerThread * parallel_.width() : std::size_t{1});
         NormalReport report{triangle_count_, 0, 0};

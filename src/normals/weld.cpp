@@ -179,7 +179,7 @@ Buffer<std::uint32_t> weldPositions(const MeshView& mesh, const Allocator* alloc
     if (mesh.indices.type != IndexType::none && count >= kFew)
         candidates = findCandidates(positions, lowest.data(), count, allocator, parallel);
     if (!candidates.empty()) count = lookAgain(positions, candidates.data(), count, allocator, parallel);
-    const bool shared = parallel.width() > 1;
+    const bool shared = parallel.width() > 1 && count >= Parallel::kGrain;
     const unsigned part_bits = shared ? std::min(6u, static_cast<unsigned>(std::bit_width(parallel.width() - 1))) : 0;
     std::atomic<bool> crowded{false};
     {

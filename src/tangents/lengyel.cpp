@@ -235,7 +235,8 @@ void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOut
     Buffer<std::uint8_t> is_default(allocator, per_corner ? plan.vertex_count : 0, 0);
 
     FaceSums faces(plan, pose.positions, kernel, sums, visits.data());
-    if (parallel.width() > 1) faces.cutIntoRanges(parallel.width(), allocator, parallel);
+    if (parallel.width() > 1 && plan.triangleCount() >= Parallel::kGrain)
+        faces.cutIntoRanges(parallel.width(), allocator, parallel);
     const VertexFrames frames(kernel, sums, visits.data(), pose.normals, plan.sign_factor,
                               per_corner ? extras.output() : out, is_default.data());
     const unsigned range_count = faces.ranges().count();
