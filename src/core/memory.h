@@ -45,7 +45,8 @@ inline void askForPages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 #endif
 }
 
-inline void* allocateBytes(const Allocator* allocator, std::size_t bytes) {
+/// Never inlined, as releaseBytes: each use would take some hundred bytes of a program.
+[[gnu::noinline]] inline void* allocateBytes(const Allocator* allocator, std::size_t bytes) {
     if (bytes == 0) return nullptr;
     if (allocator != nullptr) {
         void* memory = allocator->allocate(allocator->user, bytes, kMemoryAlignment);
@@ -58,7 +59,7 @@ inline void* allocateBytes(const Allocator* allocator, std::size_t bytes) {
     return memory;
 }
 
-inline void releaseBytes(const Allocator* allocator, void* memory, std::size_t bytes) noexcept {
+[[gnu::noinline]] inline void releaseBytes(const Allocator* allocator, void* memory, std::size_t bytes) noexcept {
     if (memory == nullptr) return;
     if (allocator != nullptr) {
         allocator->release(allocator->user, memory, bytes, kMemoryAlignment);

@@ -98,22 +98,20 @@ inline Bits markWeight(Bits marks, Floats weight) {
     return orWhere(marks, weight > broadcast(kHeavyWeight), kHeavy);
 }
 
-/// The weight of a corner, or for the two kinds that are angles, its cosine.
-template <Weighting kWeighting>
-inline Floats weightOrCosine(const Vectors& normal, const Vectors& previous, const Vectors& next) {
-    if constexpr (kWeighting == Weighting::projected_angle) {
-        return dot(flatten(normal, previous), flatten(normal, next));
-    } else if constexpr (kWeighting == Weighting::angle) {
-        return dot(unit(previous), unit(next));
-    } else if constexpr (kWeighting == Weighting::area) {
-        const Vectors c = cross(next, previous);
-        return broadcast(0.5f) * squareRoot(dot(c, c));
-    } else {
-        return broadcast(1.0f);
-    }
+/// Weightings that have code of their own: the others share what is left but for the weight itself.
+enum class Kind { projected_angle, other, none };
+
+/// The weight of a corner, or for the two weightings that are angles, its cosine.
+template <Kind kKind>
+inline Floats weightOrCosine(Weighting weighting, const Vectors& normal, const Vectors& previous, const Vectors& next) {
+    if constexpr (kKind == Kind::projected_angle) return dot(flatten(normal, previous), flatten(normal, next));
+    if (weighting == Weighting::angle) return dot(unit(previous), unit(next));
+    if (weighting == Weighting::one) return broadcast(1.0f);
+    const Vectors c = cross(next, previous);
+    return broadcast(0.5f) * squareRoot(dot(c, c));
 }
 
-template <Weighting kWeighting, bool kTangentsOnly>
+template <Kind kKind, bool kTangentsOnly>
 inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t first, unsigned valid,
                        bool exact, CornerTerms& terms) {
     Group group;
@@ -129,7 +127,7 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
     const Mask usable = shape.finite & !shape.no_area;
     const Bits flags =
         orWhere(orWhere(broadcastBits(kFanKnown), shape.no_area, kNoUvArea), degenerate, kDegenerateMark);
-    if constexpr (kWeighting == Weighting::none) {
+    if constexpr (kKind == Kind::none) {
         const Bits all_marks = (facing & orWhere(broadcastBits(0), usable, kAllMarks)) | flags;
         for (std::size_t k = 0; k < 3; ++k) store(terms.marks[k] + first, all_marks);
         return;
@@ -148,19 +146,18 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
         s[k] = unit(flat_s, square);
         if constexpr (!kTangentsOnly) t[k] = flatten(normal, shape.t);
         const Vectors here = group.position[k];
-        weights[k] =
-            weightOrCosine<kWeighting>(normal, group.position[(k + 2) % 3] - here, group.position[(k + 1) % 3] - here);
+        weights[k] = weightOrCosine<kKind>(source.weighting, normal, group.position[(k + 2) % 3] - here,
+                                           group.position[(k + 1) % 3] - here);
         marks[k] = facing;
-        if constexpr (kWeighting == Weighting::projected_angle)
-            marks[k] = markTurn(facing, normal, s[k], square, shape.t);
+        if constexpr (kKind == Kind::projected_angle) marks[k] = markTurn(facing, normal, s[k], square, shape.t);
     }
-    if constexpr (kWeighting == Weighting::projected_angle || kWeighting == Weighting::angle) {
+    if (kKind == Kind::projected_angle || source.weighting == Weighting::angle) {
         const Floats cosines[3] = {weights[0], weights[1], weights[2]};
         arcCosines(cosines, weights);
     }
     for (std::size_t k = 0; k < 3; ++k) {
         const Floats weight = weights[k];
-        if constexpr (kWeighting == Weighting::projected_angle) marks[k] = markWeight(marks[k], weight);
+        if constexpr (kKind == Kind::projected_angle) marks[k] = markWeight(marks[k], weight);
         const Bits kept = orWhere(broadcastBits(0), usable & (weight == weight), kAllMarks);
         store(terms.marks[k] + first, (marks[k] & kept) | flags);
         const std::size_t row = 3 * first + k;
@@ -172,29 +169,13 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
     }
 }
 
-template <Weighting kWeighting, bool kTangentsOnly>
+template <Kind kKind, bool kTangentsOnly>
 void blockTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t count, CornerTerms& terms) {
     for (std::size_t t = 0; t < count; t += kWidth) {
         const std::size_t left = count - t;
         const unsigned valid = left >= kWidth ? (1u << kWidth) - 1 : (1u << left) - 1;
-        groupTerms<kWeighting, kTangentsOnly>(source, vertices + 3 * t, t, valid,
-                                              namesLast(vertices + 3 * t, source.last_vertex), terms);
-    }
-}
-
-template <bool kTangentsOnly>
-void termsBy(const CornerSource& source, const std::uint32_t* vertices, std::size_t count, CornerTerms& terms) {
-    switch (source.weighting) {
-        case Weighting::projected_angle:
-            return blockTerms<Weighting::projected_angle, kTangentsOnly>(source, vertices, count, terms);
-        case Weighting::one:
-            return blockTerms<Weighting::one, kTangentsOnly>(source, vertices, count, terms);
-        case Weighting::angle:
-            return blockTerms<Weighting::angle, kTangentsOnly>(source, vertices, count, terms);
-        case Weighting::area:
-            return blockTerms<Weighting::area, kTangentsOnly>(source, vertices, count, terms);
-        case Weighting::none:
-            return blockTerms<Weighting::none, true>(source, vertices, count, terms);
+        groupTerms<kKind, kTangentsOnly>(source, vertices + 3 * t, t, valid,
+                                         namesLast(vertices + 3 * t, source.last_vertex), terms);
     }
 }
 
@@ -202,11 +183,13 @@ void termsBy(const CornerSource& source, const std::uint32_t* vertices, std::siz
 
 void cornerTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t count, CornerTerms& terms) {
     terms.degenerate_count = terms.no_uv_area_count = terms.mirrored_count = 0;
-    if (source.tangents_only) {
-        termsBy<true>(source, vertices, count, terms);
-    } else {
-        termsBy<false>(source, vertices, count, terms);
-    }
+    const bool is_mikktspace = source.weighting == Weighting::projected_angle;
+    const auto compute = source.weighting == Weighting::none ? blockTerms<Kind::none, true>
+                         : !is_mikktspace
+                             ? source.tangents_only ? blockTerms<Kind::other, true> : blockTerms<Kind::other, false>
+                         : source.tangents_only ? blockTerms<Kind::projected_angle, true>
+                                                : blockTerms<Kind::projected_angle, false>;
+    compute(source, vertices, count, terms);
 }
 
 }  // namespace tspace::mikk::TSPACE_LANES
