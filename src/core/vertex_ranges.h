@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Sums at vertices in parallel, with the same bits for any number of tasks: each task has a range of vertices
-// of its own, walks all triangles in order, and adds to its own vertices only. Here is what lets it skip most
-// triangles: a mark for each block of triangles says which ranges its vertices are in.
+// Sums at vertices, or at points where several vertices are one, range by range: the same bits for any number of ranges,
+// since each adds the triangles in their order to its own vertices only. A range's sums stay in the cache, and each task
+// has ranges of its own. Here is which triangles these are: blocks, by a few ranges; core/range_lists.h lists those of
+// many.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 
-#include "core/early_lines.h"
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "tspace/mesh.h"
@@ -42,68 +42,68 @@ inline const std::uint32_t* blockVertices(const IndexView& vertices, std::size_t
 
 class VertexRanges {
   public:
-    static constexpr std::size_t kBlock = 64;    ///< triangles
-    static constexpr unsigned kMostRanges = 64;  ///< bits of a mark
+    static constexpr std::size_t kBlock = 64;  ///< triangles
+    static constexpr unsigned kMost = 63;      ///< ranges; a bit each, and one for what hasRepeated says
 
-    /// One range, all vertices. At least one.
-    explicit VertexRanges(std::size_t vertex_count) : vertex_count_(vertex_count) {}
+    /// One range, all points, of which there is at least one. `points`: the point of each vertex, null when each is its
+    /// own.
+    VertexRanges(const IndexView& vertices, std::size_t triangle_count, std::size_t point_count,
+                 const std::uint32_t* points = nullptr);
 
-    /// Cuts into about `wanted` ranges. vertices(first_triangle, count, buffer) gives the vertices of a
-    /// block: 3 * count numbers, in `buffer` or anywhere else.
-    template <class Vertices>
-    void cut(unsigned wanted, std::size_t triangle_count, const Vertices& vertices, const Allocator* allocator,
-             Parallel& parallel) {
-        const std::size_t most = std::clamp(wanted, 1u, kMostRanges);
-        shift_ = 0;
-        while (((vertex_count_ - 1) >> shift_) >= most) ++shift_;
-        count_ = static_cast<unsigned>((vertex_count_ - 1) >> shift_) + 1;
-        const std::size_t block_count = (triangle_count + kBlock - 1) / kBlock;
-        marks_ = Buffer<std::uint64_t>(allocator, block_count);
-        constexpr std::size_t kGrain = 256;
-        parallel.forRanges(block_count, kGrain, [&](std::size_t begin, std::size_t end) {
-            std::uint32_t buffer[3 * kBlock];
-            for (std::size_t block = begin; block < end; ++block) {
-                const std::size_t size = std::min(kBlock, triangle_count - block * kBlock);
-                const std::uint32_t* const v = vertices(block * kBlock, size, buffer);
-                askForLines(v, 3 * kBlock * sizeof *v);
-                marks_[block] = markOf(v, 3 * size);
-            }
-        });
-    }
+    /// Whether blocks of triangles mostly name points of one range only, if points are cut into about `wanted`
+    /// ranges. Looks at some blocks. Here and in cut() vertices need not have been checked.
+    [[nodiscard]] bool wouldBeCompact(std::size_t wanted) const;
+
+    /// Cuts into about `wanted` ranges, at least one. Takes 12 bytes per block, or 4 more for each further
+    /// range of a block. False when there is no such vertex as a corner names. Throws OutOfMemory.
+    [[nodiscard]] bool cut(std::size_t wanted, const Allocator* allocator, Parallel& parallel);
 
     [[nodiscard]] unsigned count() const { return count_; }
     [[nodiscard]] VertexRange range(unsigned index) const {
         const auto edge = [&](std::uint64_t i) {
-            return static_cast<std::uint32_t>(std::min<std::uint64_t>(i << shift_, vertex_count_));
+            return static_cast<std::uint32_t>(i << shift_ < point_count_ ? i << shift_ : point_count_);
         };
         return {edge(index), edge(index + 1)};
     }
 
-    /// Whether a block names vertices of a range, and whether only those.
-    [[nodiscard]] bool names(std::size_t block, unsigned range) const {
-        return marks_.empty() || (marks_[block] >> range & 1) != 0;
+    /// body(block) for the blocks that name a point of the range, ascending.
+    template <class Body>
+    void forBlocks(unsigned range, const Body& body) const {
+        if (marks_.empty()) {
+            for (std::size_t block = 0; block < block_count_; ++block) body(block);
+        } else {
+            for (std::size_t i = begins_[range]; i < begins_[range + 1]; ++i) body(std::size_t{blocks_[i]});
+        }
     }
-    [[nodiscard]] bool namesOnly(std::size_t block, unsigned range) const {
-        return marks_.empty() || marks_[block] == std::uint64_t{1} << range;
+    /// Whether a block that names points of a range names no others.
+    [[nodiscard]] bool isWithinOne(std::size_t block) const {
+        return marks_.empty() || (marks_[block] & (marks_[block] - 1) & ~kRepeated) == 0;
+    }
+    /// Whether the point of any of a block's vertices is another vertex.
+    [[nodiscard]] bool hasRepeated(std::size_t block) const {
+        return points_ != nullptr && (marks_.empty() || (marks_[block] & kRepeated) != 0);
     }
 
   private:
-    [[nodiscard]] std::uint64_t markOf(const std::uint32_t* v, std::size_t count) const {
-        std::uint32_t any = v[0], all = v[0];
-        for (std::size_t i = 0; i < count; ++i) {
-            any |= v[i];
-            all &= v[i];
-        }
-        std::uint64_t mark = std::uint64_t{1} << (v[0] >> shift_);
-        if ((any ^ all) >> shift_ == 0) return mark;  // mostly so, and found without a loop over bits
-        for (std::size_t i = 1; i < count; ++i) mark |= std::uint64_t{1} << (v[i] >> shift_);
-        return mark;
-    }
+    static constexpr std::uint64_t kRepeated = std::uint64_t{1} << kMost;
 
-    std::size_t vertex_count_;
-    unsigned count_ = 1;
-    unsigned shift_ = 32;          ///< a vertex v is in range v >> shift_
-    Buffer<std::uint64_t> marks_;  ///< empty for one range
+    [[nodiscard]] std::size_t blockSize(std::size_t block) const {
+        const std::size_t left = triangle_count_ - block * kBlock;
+        return left < kBlock ? left : kBlock;
+    }
+    [[nodiscard]] unsigned shiftFor(std::size_t wanted) const;
+    /// 0 when a vertex does not exist.
+    [[nodiscard]] std::uint64_t markOf(std::size_t block, unsigned shift) const;
+    void list(const Allocator* allocator);
+
+    IndexView vertices_;
+    std::size_t triangle_count_, block_count_, point_count_;
+    std::uint32_t limit_;
+    const std::uint32_t* points_;
+    unsigned count_ = 1, shift_ = 32;  ///< a point p is in range p >> shift_
+    Buffer<std::uint64_t> marks_;      ///< per block a bit for each of its ranges, and kRepeated; empty for one range
+    Buffer<std::uint32_t> blocks_;     ///< range after range
+    std::size_t begins_[kMost + 1] = {};
 };
 
 }  // namespace tspace

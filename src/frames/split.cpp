@@ -136,7 +136,7 @@ class Splitter {
     }
 
     template <class VertexOf, class Attributes>
-    void splitAll(VertexOf vertexOf, const Attributes& attributes) {
+    [[gnu::noinline]] void splitAll(VertexOf vertexOf, const Attributes& attributes) {
         if (parallel_.width() == 1 || pending_.size() < kTasksForThreads) {
             // One after the other, while corners are in the cache; the first corner of a vertex is found on
             // the way.

@@ -18,9 +18,9 @@
 #include "core/float4.h"
 #include "core/sum_ranges.h"
 #include "core/vec_math.h"
+#include "core/vertex_ranges.h"
 #include "normals/best_triangles.h"
 #include "normals/face_terms.h"
-#include "normals/point_ranges.h"
 #include "normals/weld.h"
 
 namespace tspace {
@@ -29,7 +29,7 @@ namespace {
 
 using smooth::FaceTerms, smooth::FaceSource, smooth::kTermGroup, smooth::kDoubtful, smooth::kVanished;
 
-constexpr std::size_t kBlock = PointRanges::kBlock;
+constexpr std::size_t kBlock = VertexRanges::kBlock;
 static_assert(kBlock == smooth::kTermTriangles && kBlock % kTermGroup == 0);
 constexpr std::size_t kNearPoints = 16384;   ///< and up to twice as many: their sums fit into a second cache
 constexpr std::size_t kRangesPerThread = 4;  ///< at least
@@ -129,7 +129,7 @@ class TriangleSmoother {
         const std::size_t tasks = parallel_.width() == 1 ? 1 : std::min(ranges, kRangesPerThread * parallel_.width());
         Buffer<PointSum> sums(allocator_, tasks * size);
         Buffer<std::uint64_t> doubtful(allocator_, tasks * wordsFor(size));
-        std::array<NormalReport, kRangesPerThread * PointRanges::kMost> reports{};
+        std::array<NormalReport, kRangesPerThread * VertexRanges::kMost> reports{};
         parallel_.forTasks(tasks, [&](std::size_t task) {
             for (std::size_t r = ranges * task / tasks; r < ranges * (task + 1) / tasks; ++r) {
                 const auto index = static_cast<unsigned>(r);
@@ -149,7 +149,7 @@ class TriangleSmoother {
     void sumFar(NormalReport& report) {
         sums_ = Buffer<PointSum>(allocator_, mesh_.vertexCount());
         Buffer<std::uint64_t> doubtful(allocator_, wordsFor(mesh_.vertexCount()) + ranges_.count());
-        std::array<std::uint64_t, PointRanges::kMost> degenerate{};
+        std::array<std::uint64_t, VertexRanges::kMost> degenerate{};
         parallel_.forTasks(ranges_.count(), [&](std::size_t task) {
             const auto index = static_cast<unsigned>(task);
             const VertexRange range = ranges_.range(index);
@@ -408,7 +408,7 @@ class TriangleSmoother {
     Parallel& parallel_;
     std::size_t triangle_count_;
     Buffer<std::uint32_t> points_;  ///< the point of each vertex; empty when each is its own
-    PointRanges ranges_;
+    VertexRanges ranges_;
     Buffer<PointSum> sums_;  ///< of all points; empty where these are done range by range
 };
 

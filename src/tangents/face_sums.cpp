@@ -47,13 +47,15 @@ TriangleCounts& TriangleCounts::operator+=(const TriangleCounts& other) {
 
 FaceSums::FaceSums(const IndexedPlan& plan, StridedSpan<const Vec3> positions,
                    const derivatives::DerivativeKernel& kernel, VertexSums sums, float* visits)
-    : plan_(plan), positions_(positions), kernel_(kernel), sums_(sums), visits_(visits), ranges_(plan.vertex_count) {}
+    : plan_(plan),
+      positions_(positions),
+      kernel_(kernel),
+      sums_(sums),
+      visits_(visits),
+      ranges_(plan.triangle_vertices, plan.triangleCount(), plan.vertex_count) {}
 
 void FaceSums::cutIntoRanges(unsigned wanted, const Allocator* allocator, Parallel& parallel) {
-    const auto vertices = [&](std::size_t first, std::size_t count, std::uint32_t* buffer) {
-        return blockVertices(plan_.triangle_vertices, first, count, buffer);
-    };
-    ranges_.cut(wanted, plan_.triangleCount(), vertices, allocator, parallel);
+    static_cast<void>(ranges_.cut(wanted, allocator, parallel));  // vertices have been checked
 }
 
 TriangleCounts FaceSums::sum(unsigned index) const {
@@ -66,18 +68,17 @@ TriangleCounts FaceSums::sum(unsigned index) const {
         positions_.stride_bytes, plan_.uvs.stride_bytes, static_cast<std::uint32_t>(positions_.count - 1)};
     TriangleCounts counts;
     Block block;
-    const std::size_t triangle_count = plan_.triangleCount();
-    for (std::size_t first = 0, b = 0; first < triangle_count; first += Block::kMost, ++b) {
-        if (!ranges_.names(b, index)) continue;
-        block.count = std::min(Block::kMost, triangle_count - first);
+    ranges_.forBlocks(index, [&](std::size_t b) {
+        const std::size_t first = b * Block::kMost;
+        block.count = std::min(Block::kMost, plan_.triangleCount() - first);
         block.vertices = blockVertices(plan_.triangle_vertices, first, block.count, block.buffer);
         askForLines(block.vertices, 3 * Block::kMost * sizeof(std::uint32_t));
-        const bool is_whole = ranges_.namesOnly(b, index);
+        const bool is_whole = ranges_.isWithinOne(b);
         if (!is_whole) block.select(range);
         block.vertices = fillGroup(block.vertices, block.count, derivatives::kTermGroup, block.buffer);
         kernel_.compute(source, block.vertices, block.count, block.terms);
         addBlock(block, range, is_whole, counts);
-    }
+    });
     return counts;
 }
 

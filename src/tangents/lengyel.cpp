@@ -240,8 +240,8 @@ void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOut
     const VertexFrames frames(kernel, sums, visits.data(), pose.normals, plan.sign_factor,
                               per_corner ? extras.output() : out, is_default.data());
     const unsigned range_count = faces.ranges().count();
-    std::array<TriangleCounts, VertexRanges::kMostRanges> triangle_counts;
-    std::array<VertexCounts, VertexRanges::kMostRanges> vertex_counts;
+    std::array<TriangleCounts, VertexRanges::kMost> triangle_counts;
+    std::array<VertexCounts, VertexRanges::kMost> vertex_counts;
     parallel.forTasks(range_count, [&](std::size_t task) {
         const auto range = static_cast<unsigned>(task);
         triangle_counts[task] = faces.sum(range);

@@ -19,7 +19,7 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kGroupGrain = 8192, kCornerGrain = 16384;
+constexpr std::size_t kGroupGrain = 8192, kWriteGrain = 16384;
 
 /// A plan's triangles, as estimators read them. Groups with kMark, to which a triangle adds nothing, are no groups
 /// there.
@@ -159,7 +159,7 @@ class Evaluation {
     void writeCorners() {
         const bool tangents_only = wantsTangentsOnly(out_);
         const float signs[2] = {sink_.sign(false), sink_.sign(true)};
-        parallel_.forRanges(3 * plan_.triangle_count, kCornerGrain, [&](std::size_t begin, std::size_t end) {
+        parallel_.forRanges(3 * plan_.triangle_count, kWriteGrain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t h = begin; h < end; ++h) {
                 const std::uint32_t g = plan_.groups[h] & kValue, c = plan_.slotOf(h);
                 if (g >= plan_.group_count || (c & kMark) != 0) continue;
@@ -222,7 +222,7 @@ class Evaluation {
 
     [[nodiscard]] std::uint64_t countNotFinite() {
         std::atomic<std::uint64_t> total{0};
-        parallel_.forRanges(plan_.corner_count, kCornerGrain, [&](std::size_t begin, std::size_t end) {
+        parallel_.forRanges(plan_.corner_count, kWriteGrain, [&](std::size_t begin, std::size_t end) {
             std::uint64_t count = 0;
             for (std::size_t c = begin; c < end; ++c) count += !sink_.isFinite(c);
             total += count;

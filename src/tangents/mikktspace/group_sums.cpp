@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::size_t kGroupsPerTask = 4096;  // at least: below, another thread costs more than it saves
 
-class Summer {
+class GroupSummer {
   public:
-    Summer(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction terms, GroupSums& sums,
-           std::size_t first_group, std::size_t end_group)
+    GroupSummer(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction terms, GroupSums& sums,
+                std::size_t first_group, std::size_t end_group)
         : plan_(plan),
           source_(source),
           terms_of_(terms),
@@ -97,7 +97,7 @@ GroupSums sumGroups(const EvaluationPlan& plan, const CornerSource& source, Corn
     const std::size_t tasks =
         std::clamp<std::size_t>(groups / kGroupsPerTask, 1, std::max<std::size_t>(1, parallel.width()));
     parallel.forTasks(tasks, [&](std::size_t task) {
-        Summer(plan, source, terms, sums, groups * task / tasks, groups * (task + 1) / tasks).run();
+        GroupSummer(plan, source, terms, sums, groups * task / tasks, groups * (task + 1) / tasks).run();
     });
     return sums;
 }

@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::size_t kCells = kWeldCells;
 constexpr std::size_t kFewVertices = 512;          // so few are looked at without NearCells
-constexpr std::size_t kFewEntries = 4096;          // of the corner list: one node of theirs is found without lists
+constexpr std::size_t kFewCorners = 4096;          // of the corner list: one node of theirs is found without lists
 constexpr std::size_t kElementsForThreads = 4096;  // of cells: fewer are done sooner than threads are started
 // A cell is long from so many corners on, if it also has one in kLongPart of all: each costs a pass over the mesh.
 constexpr std::size_t kLongCell = 16384, kLongPart = 16;
@@ -211,7 +211,7 @@ Buffer<std::uint8_t> WeldOrder::verticesInCells(const CellNumbers& numbers, cons
 void WeldOrder::findSome(std::span<const std::uint32_t> vertices, std::uint32_t* representatives,
                          Growing<std::uint32_t>* shared) const {
     if (triangles_.count == 0) return;
-    if (vertices.size() == 1 && shared == nullptr && 3 * triangles_.count <= kFewEntries) {
+    if (vertices.size() == 1 && shared == nullptr && 3 * triangles_.count <= kFewCorners) {
         findOne(vertices[0], representatives);
         return;
     }

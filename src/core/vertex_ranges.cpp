@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "normals/point_ranges.h"
+#include "core/vertex_ranges.h"
 
 #include <algorithm>
 #include <bit>
 #include <utility>
+
+#include "core/early_lines.h"
 
 namespace tspace {
 
@@ -37,8 +39,8 @@ bool areTheirOwn(const std::uint32_t* points, const std::uint32_t* vertices, std
 
 }  // namespace
 
-PointRanges::PointRanges(const IndexView& vertices, std::size_t triangle_count, std::size_t point_count,
-                         const std::uint32_t* points)
+VertexRanges::VertexRanges(const IndexView& vertices, std::size_t triangle_count, std::size_t point_count,
+                           const std::uint32_t* points)
     : vertices_(vertices),
       triangle_count_(triangle_count),
       block_count_((triangle_count + kBlock - 1) / kBlock),
@@ -46,14 +48,14 @@ PointRanges::PointRanges(const IndexView& vertices, std::size_t triangle_count, 
       limit_(static_cast<std::uint32_t>(point_count)),
       points_(points) {}
 
-unsigned PointRanges::shiftFor(std::size_t wanted) const {
+unsigned VertexRanges::shiftFor(std::size_t wanted) const {
     const std::size_t most = std::clamp<std::size_t>(wanted, 1, kMost);
     unsigned shift = 0;
     while (((point_count_ - 1) >> shift) >= most) ++shift;
     return shift;
 }
 
-bool PointRanges::wouldBeCompact(std::size_t wanted) const {
+bool VertexRanges::wouldBeCompact(std::size_t wanted) const {
     constexpr std::size_t kSamples = 64;
     const unsigned shift = shiftFor(wanted);
     const std::size_t samples = std::min(block_count_, kSamples);
@@ -65,7 +67,7 @@ bool PointRanges::wouldBeCompact(std::size_t wanted) const {
     return 2 * named <= 3 * samples;
 }
 
-bool PointRanges::cut(std::size_t wanted, const Allocator* allocator, Parallel& parallel) {
+bool VertexRanges::cut(std::size_t wanted, const Allocator* allocator, Parallel& parallel) {
     shift_ = shiftFor(wanted);
     count_ = static_cast<unsigned>((point_count_ - 1) >> shift_) + 1;
     marks_ = Buffer<std::uint64_t>(allocator, block_count_);
@@ -78,11 +80,12 @@ bool PointRanges::cut(std::size_t wanted, const Allocator* allocator, Parallel& 
     return true;
 }
 
-std::uint64_t PointRanges::markOf(std::size_t block, unsigned shift) const {
+std::uint64_t VertexRanges::markOf(std::size_t block, unsigned shift) const {
     std::uint32_t buffer[3 * kBlock];
     const std::size_t count = 3 * blockSize(block);
     if (count == 0) return 0;
     const std::uint32_t* v = blockVertices(vertices_, block * kBlock, count / 3, buffer);
+    askForLines(v, 3 * kBlock * sizeof *v);
     Bits bits = bitsOf(v, count, limit_);
     if (!bits.are_below) return 0;
     std::uint64_t mark = 0;
@@ -98,7 +101,7 @@ std::uint64_t PointRanges::markOf(std::size_t block, unsigned shift) const {
     return mark;
 }
 
-void PointRanges::list(const Allocator* allocator) {
+void VertexRanges::list(const Allocator* allocator) {
     const auto forEach = [&](const auto& body) {
         for (std::size_t block = 0; block < block_count_; ++block) {
             for (std::uint64_t rest = marks_[block] & ~kRepeated; rest != 0; rest &= rest - 1)
