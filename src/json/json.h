@@ -53,7 +53,7 @@ inline constexpr std::size_t kMaxJsonDepth = 256;
 /// A value. Not safe to change while another thread reads it. Look-up of a member is linear, as objects are small.
 class Json {
   public:
-    template <class Value>
+    template <class Child>
     class Members;
     /// A container or a C array, but neither text nor a path.
     template <class T>
@@ -231,16 +231,16 @@ class Json {
 };
 
 /// Members of an object: `key` and `value` of each, in order.
-template <class Value>
+template <class Child>
 class Json::Members {
   public:
     struct Member {
         const std::string& key;
-        Value& value;
+        Child& value;
     };
     class Iterator {
       public:
-        Iterator(const std::string* key, Value* value) : key_(key), value_(value) {}
+        Iterator(const std::string* key, Child* value) : key_(key), value_(value) {}
         Member operator*() const { return {*key_, *value_}; }
         Iterator& operator++() {
             ++key_;
@@ -251,16 +251,16 @@ class Json::Members {
 
       private:
         const std::string* key_;
-        Value* value_;
+        Child* value_;
     };
 
-    Members(const std::string* keys, Value* values, std::size_t count) : keys_(keys), values_(values), count_(count) {}
+    Members(const std::string* keys, Child* values, std::size_t count) : keys_(keys), values_(values), count_(count) {}
     [[nodiscard]] Iterator begin() const { return {keys_, values_}; }
     [[nodiscard]] Iterator end() const { return {keys_ + count_, values_ + count_}; }
 
   private:
     const std::string* keys_;
-    Value* values_;
+    Child* values_;
     std::size_t count_;
 };
 
