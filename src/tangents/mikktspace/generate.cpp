@@ -17,10 +17,10 @@ namespace tspace::mikk {
 
 namespace {
 
-/// For meshes of fewer corners the many small allocations would take a fifth of the time. A corner needs
-/// about so many bytes, of which no more than a fixed number are asked for: the system takes pages of large
-/// blocks back each time.
-constexpr std::size_t kSmallMesh = 4096, kBytesPerCorner = 128, kLeastBlock = 8192, kLargestBlock = 98304;
+/// For meshes of fewer corners the many small allocations would take a fifth of the time. A corner mostly needs so many
+/// bytes, of which no more than a fixed number are asked for: the system takes pages of large blocks back each time. The
+/// vertex path may ask for more.
+constexpr std::size_t kSmallMesh = 4096, kBytesPerCorner = 32, kLeastBlock = 4096, kLargestBlock = 98304;
 
 /// Tangents are written last, so until then their memory can serve.
 std::span<std::byte> unwritten(const TangentOutput& out) {
