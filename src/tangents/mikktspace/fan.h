@@ -2,7 +2,7 @@
 // Whether the triangles around a node form one connected fan, found while they come by in ascending order,
 // without a list of them.
 //
-// The rule of pairing.h links a triangle's leaving half-edge (to the next node) with the oldest waiting
+// The rule of corner_links.h links a triangle's leaving half-edge (to the next node) with the oldest waiting
 // arriving one from that node, and the other way round. As long as no two half-edges of one direction wait
 // for the same neighbour, there is nothing to choose, and the links make paths, each of which is known by its
 // two waiting ends. A fan has room for two paths, which is enough for triangles in mesh order. Where triangles

@@ -98,7 +98,7 @@ inline FanLinks linksOf(const FanList& list) {
 }
 
 /// Whether the `count` corners of a list are one fan: each half-edge is there once, and the links of
-/// pairing.h, between which there is then nothing to choose, make one path or one ring of all of them. Not for
+/// corner_links.h, between which there is then nothing to choose, make one path or one ring of all of them. Not for
 /// an empty list.
 inline bool isOneFan(const FanList& list, std::uint32_t count) {
     constexpr std::uint64_t kOnes = 0x0101010101010101u, kPlaces = 0x38 * kOnes;
