@@ -458,4 +458,16 @@ void cutPolygon(const Vec3* positions, const Vec2* uvs, std::uint32_t count, std
     Cutter(positions, uvs, count, scratch).cut(count <= std::min(few, kMostSearched), triangles);
 }
 
+void FaceCutter::cut(std::size_t first, std::uint32_t size, std::uint32_t* corners) {
+    positions_.clear();
+    uvs_.clear();
+    for (std::size_t c = first; size > 3 && c < first + size; ++c) {
+        const std::uint32_t vertex = mesh_.indices[c];
+        positions_.push_back(mesh_.positions[vertex]);
+        if (!mesh_.uvs.empty()) uvs_.push_back(mesh_.uvs[vertex]);
+    }
+    cutPolygon(positions_.data(), uvs_.empty() ? nullptr : uvs_.data(), size, corners, scratch_);
+    for (std::size_t i = 0; i < 3 * (std::size_t{size} - 2); ++i) corners[i] += static_cast<std::uint32_t>(first);
+}
+
 }  // namespace tspace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/vec_math.h"
+#include "tspace/mesh.h"
 
 namespace tspace {
 
@@ -52,5 +53,19 @@ inline constexpr std::uint32_t kFewPolygonCorners = 48;
 /// (0,1,3),(1,2,3). The triangles do not depend on `few`, which only tests give.
 void cutPolygon(const Vec3* positions, const Vec2* uvs, std::uint32_t count, std::uint32_t* triangles,
                 PolygonScratch& scratch, std::uint32_t few = kFewPolygonCorners);
+
+/// Cuts the faces of a mesh, one after the other, with the same memory.
+class FaceCutter {
+  public:
+    explicit FaceCutter(const MeshView& mesh) : mesh_(mesh) {}
+    /// The face of `size` >= 3 corners from `first` on: writes 3 * (size - 2) corners of the mesh.
+    void cut(std::size_t first, std::uint32_t size, std::uint32_t* corners);
+
+  private:
+    const MeshView& mesh_;
+    std::vector<Vec3> positions_;
+    std::vector<Vec2> uvs_;
+    PolygonScratch scratch_;
+};
 
 }  // namespace tspace

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
-#include <vector>
 
 #include "core/face_walk.h"
 #include "core/polygon.h"
@@ -21,37 +20,6 @@ namespace {
 bool isUsed(std::uint32_t face_size, Ngons ngons) {
     return face_size >= 3 && (face_size <= 4 || ngons == Ngons::triangulate);
 }
-
-/// Cuts one face after another, reusing its memory.
-class FaceCutter {
-  public:
-    explicit FaceCutter(const MeshView& mesh) : mesh_(mesh) {}
-
-    /// Writes 3 * (size - 2) vertices and returns the end of what it wrote.
-    std::uint32_t* cut(std::size_t first_corner, std::uint32_t size, std::uint32_t* triangles) {
-        std::uint32_t* const end = triangles + 3 * (std::size_t{size} - 2);
-        if (size == 3) {
-            for (std::uint32_t i = 0; i < 3; ++i) triangles[i] = mesh_.indices[first_corner + i];
-            return end;
-        }
-        positions_.resize(size);
-        uvs_.resize(mesh_.uvs.empty() ? 0 : size);
-        for (std::uint32_t i = 0; i < size; ++i) {
-            const std::uint32_t vertex = mesh_.indices[first_corner + i];
-            positions_[i] = mesh_.positions[vertex];
-            if (!uvs_.empty()) uvs_[i] = mesh_.uvs[vertex];
-        }
-        cutPolygon(positions_.data(), uvs_.empty() ? nullptr : uvs_.data(), size, triangles, scratch_);
-        for (std::uint32_t* t = triangles; t != end; ++t) *t = mesh_.indices[first_corner + *t];
-        return end;
-    }
-
-  private:
-    const MeshView& mesh_;
-    std::vector<Vec3> positions_;
-    std::vector<Vec2> uvs_;
-    PolygonScratch scratch_;
-};
 
 bool hasOnlyTriangles(const MeshView& mesh) {
     if (mesh.face_sizes.empty()) return mesh.face_size == 3;
@@ -77,7 +45,8 @@ void cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator, Ind
         plan.face_begins[face] = static_cast<std::uint32_t>(first_corner);
         if (!isUsed(size, ngons)) return;
         if (!plan.corner_used.empty()) std::fill_n(plan.corner_used.data() + first_corner, size, std::uint8_t{1});
-        end = cutter.cut(first_corner, size, end);
+        cutter.cut(first_corner, size, end);
+        for (std::size_t i = 0; i < 3 * (std::size_t{size} - 2); ++i, ++end) *end = mesh.indices[*end];
     });
     plan.face_begins[mesh.faceCount()] = static_cast<std::uint32_t>(corner_count);
     plan.triangle_vertices = {plan.cut_triangles.data(), plan.cut_triangles.size(), IndexType::u32};

@@ -163,8 +163,8 @@ TEST(Simd, WritesIntoInterleavedVerticesWithoutTouchingTheirNeighbours) {
     }
 }
 
-/// `best` fits in single precision on the one way, and in double on the other. Edges that lean by 1e-5 from one
-/// direction are one direction to the former: then it takes the mean by `max`.
+/// `best` adds the corners of triangles on the one way, and the corners of points on the other. Edges that lean by 1e-5 from
+/// one direction are nearly one direction in single precision: then it takes the mean by `max`.
 float allowedOfBest(const SimpleMesh& mesh) {
     float reach = 0;
     for (const Vec3& p : mesh.positions)
