@@ -254,4 +254,39 @@ struct Outputs {
     [[nodiscard]] TangentOutput view() { return {tangents, bitangents, magnitudes_s, magnitudes_t}; }
 };
 
+/// A torus of `columns` times `rows` cells; its positions come without the C library, so that they are the same
+/// everywhere. With seams of the UV map, or closed.
+inline Shape torus(std::uint32_t columns, std::uint32_t rows, bool closed) {
+    const auto circle = [](std::uint32_t i, std::uint32_t count, float& x, float& y) {
+        // Four quarters, each by t -> ((1 - t t), 2 t) / (1 + t t).
+        const std::uint32_t step = 4 * (i % count), quarter = step / count;
+        const float t = static_cast<float>(step % count) / static_cast<float>(count), n = 1 / (1 + t * t);
+        const float a = (1 - t * t) * n, b = 2 * t * n;
+        x = quarter == 0 ? a : quarter == 1 ? -b : quarter == 2 ? -a : b;
+        y = quarter == 0 ? b : quarter == 1 ? a : quarter == 2 ? -b : -a;
+    };
+    Shape shape;
+    const std::uint32_t more = closed ? 0 : 1;
+    for (std::uint32_t i = 0; i < columns + more; ++i) {
+        for (std::uint32_t j = 0; j < rows + more; ++j) {
+            float x = 0, y = 0, reach = 0, height = 0;
+            circle(i, columns, x, y);
+            circle(j, rows, reach, height);
+            const float ripple = static_cast<float>((7 * i + 3 * j) % 11) / 64;
+            const float u = static_cast<float>(i) + ripple, v = static_cast<float>(j) - ripple;
+            shape.vertex({(2 + 0.75f * reach) * x, (2 + 0.75f * reach) * y, 0.75f * height + ripple},
+                         {reach * x, reach * y, height}, {closed ? u * u : u, v});
+        }
+    }
+    for (std::uint32_t i = 0; i < columns; ++i) {
+        for (std::uint32_t j = 0; j < rows; ++j) {
+            const std::uint32_t row = rows + more, i2 = (i + 1) % (columns + more), j2 = (j + 1) % (rows + more);
+            const std::uint32_t a = i * row + j, b = i2 * row + j, c = i2 * row + j2, d = i * row + j2;
+            shape.triangle(a, b, c);
+            shape.triangle(a, c, d);
+        }
+    }
+    return shape;
+}
+
 }  // namespace tspace::test

@@ -81,13 +81,6 @@ Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList&
                                        const std::uint32_t* node_of, MarkedBlocks blocks, const Allocator* allocator,
                                        Parallel& parallel);
 
-/// By marked vertices.
-inline Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles, const Nodes&,
-                                              const Marks& marks, MarkedBlocks blocks, const Allocator* allocator,
-                                              Parallel& parallel) {
-    return collectTriangles(mesh, triangles, marks, nullptr, blocks, allocator, parallel);
-}
-
 /// By marked nodes.
 inline Buffer<std::uint32_t> collectAround(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
                                            const Marks& marks, MarkedBlocks blocks, const Allocator* allocator,

@@ -8,8 +8,8 @@
 #include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/evaluation_plan.h"
 #include "tangents/mikktspace/faces.h"
+#include "tangents/mikktspace/last_bucket.h"
 #include "tangents/mikktspace/one_pass.h"
-#include "tangents/mikktspace/tail_check.h"
 #include "tangents/mikktspace/vertex_path.h"
 #include "tangents/mikktspace/weld.h"
 
@@ -28,14 +28,11 @@ std::span<std::byte> unwritten(const TangentOutput& out) {
     return {reinterpret_cast<std::byte*>(out.tangents.data), out.tangents.count * sizeof(Vec4)};
 }
 
-/// The pairs of the reference's last bucket, where they are asked for and can make a difference. What is not finite has
-/// no order there.
-TailPairs pairsOf(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles, Nodes& nodes,
-                  const Allocator* allocator, Parallel& parallel) {
-    const bool matters = options.method == Method::mikktspace && options.pairing == Pairing::reference &&
-                         nodes.all_finite && tailMayMatter(mesh, triangles, nodes, allocator, parallel);
-    listVertices(nodes, options.execution.allocator, parallel);
-    return matters ? findTailPairs(mesh, triangles, nodes, options.execution.allocator, parallel) : TailPairs{};
+/// Where it is asked for. What is not finite has no order there.
+LastBucket lastBucketOf(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
+                        const Nodes& nodes, const Allocator* transient, Parallel& parallel) {
+    if (options.method != Method::mikktspace || options.pairing != Pairing::reference || !nodes.all_finite) return {};
+    return findLastBucket(mesh, triangles, nodes, transient, options.execution.allocator, parallel);
 }
 
 TangentReport generateWith(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
@@ -44,8 +41,9 @@ TangentReport generateWith(const MeshView& mesh, const TangentOptions& options, 
     const TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
     ScratchBlock brief(allocator, unwritten(out));
     Nodes nodes = weld(mesh, triangles, allocator, parallel, brief.allocator());
-    const TailPairs tail = pairsOf(mesh, options, triangles, nodes, brief.allocator(), parallel);
-    return evaluateInOnePass({mesh, options, triangles, nodes, out}, tail, brief, parallel);
+    const LastBucket bucket = lastBucketOf(mesh, options, triangles, nodes, brief.allocator(), parallel);
+    listVertices(nodes, allocator, parallel);
+    return evaluateInOnePass({mesh, options, triangles, nodes, out}, bucket, brief, parallel);
 }
 
 }  // namespace
@@ -64,14 +62,15 @@ EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, 
     const Allocator* allocator = options.execution.allocator;
     TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
     Nodes nodes = weld(mesh, triangles, allocator, parallel);
-    const TailPairs tail = pairsOf(mesh, options, triangles, nodes, allocator, parallel);
+    const LastBucket bucket = lastBucketOf(mesh, options, triangles, nodes, allocator, parallel);
+    listVertices(nodes, allocator, parallel);
     const Buffer<std::uint32_t> all = numbersBelow(nodes.count, allocator);
     const NodeSetting setting{mesh, options, triangles, nodes, {}};
-    EvaluationPlan plan = planAllNodes({setting, tail, {all.data(), all.size()}, nullptr, {}, parallel});
+    EvaluationPlan plan = planAllNodes({setting, bucket, {all.data(), all.size()}, nullptr, {}, parallel});
     plan.skipped_corners = std::move(triangles.skipped_corners);
     plan.report.triangle_count = triangles.count;
     plan.report.skipped_face_count = triangles.skipped_face_count;
-    plan.report.reference_order_abandoned |= tail.abandoned;
+    plan.report.reference_order_abandoned |= bucket.abandoned;
     return plan;
 }
 

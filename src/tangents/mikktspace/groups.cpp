@@ -45,9 +45,9 @@ GroupRoom::GroupRoom(const Allocator* allocator, std::uint32_t most) {
     table_ = LinkTable(allocator, most);
 }
 
-Grouping::Grouping(VertexCorners& corners, std::span<const std::uint32_t> chosen, const TailPairs& tail,
+Grouping::Grouping(VertexCorners& corners, std::span<const std::uint32_t> chosen, const LastBucket& bucket,
                    const Allocator* allocator)
-    : corners_(corners), chosen_(chosen), tail_(tail), contested_(allocator) {
+    : corners_(corners), chosen_(chosen), bucket_(bucket), contested_(allocator) {
     for (std::size_t place = 0; place < chosen.size(); ++place)
         largest_ = std::max(largest_, static_cast<std::uint32_t>(corners.around(place).size()));
     if (corners.no_uv_area_count == 0) return;
@@ -65,7 +65,7 @@ NodeGroups Grouping::groupsOf(std::size_t place, GroupRoom& room) const {
     const std::uint8_t facing = corners_.facing[place];
     if (facing != (kFacesUp | kFacesDown)) {
         if (facing == 0) return {around, nullptr, 0};
-        if (!tail_.concerns(chosen_[place]) && areOneFan(around)) return {around, nullptr, 1};
+        if (!bucket_.concerns(chosen_[place]) && areOneFan(around)) return {around, nullptr, 1};
     }
     const auto count = static_cast<std::uint32_t>(around.size());
     std::uint32_t* const group = count <= kSmallNode ? room.small_ : room.large_.data();
@@ -85,11 +85,11 @@ NodeGroups Grouping::groupsOf(std::size_t place, GroupRoom& room) const {
 void Grouping::link(std::size_t place, const CornerLinks& links, LinkTable& table) const {
     const std::span<const NodeCorner> around = corners_.around(place);
     around.size() <= kSmallNode ? linkSmall(around, links) : table.link(around, links);
-    if (tail_.concerns(chosen_[place])) applyTail(around, links);
+    if (bucket_.concerns(chosen_[place])) applyBucket(around, links);
 }
 
 /// Replaces links by those of the reference's last bucket.
-void Grouping::applyTail(std::span<const NodeCorner> around, const CornerLinks& links) const {
+void Grouping::applyBucket(std::span<const NodeCorner> around, const CornerLinks& links) const {
     const auto halfEdgeOf = [&](const NodeCorner& corner) {
         const std::uint32_t own = corners_.halfEdgeOf(corner);
         return 3 * corners_.triangleOf(own / 3) + own % 3;
@@ -105,9 +105,9 @@ void Grouping::applyTail(std::span<const NodeCorner> around, const CornerLinks& 
     for (std::size_t i = 0; i < around.size(); ++i) {
         const std::uint32_t h = halfEdgeOf(around[i]);
         // A partner runs the opposite way: across the leaving edge it arrives here, across the arriving edge it leaves.
-        if (const std::uint32_t* partner = tail_.partnerOf(h))
+        if (const std::uint32_t* partner = bucket_.partnerOf(h))
             links.left[i] = *partner == kNone ? kNone : placeOf(turn(*partner, 1));
-        if (const std::uint32_t* partner = tail_.partnerOf(turn(h, 2)))
+        if (const std::uint32_t* partner = bucket_.partnerOf(turn(h, 2)))
             links.right[i] = *partner == kNone ? kNone : placeOf(*partner);
     }
 }

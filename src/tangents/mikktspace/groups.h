@@ -12,7 +12,7 @@
 #include <span>
 
 #include "tangents/mikktspace/corner_links.h"
-#include "tangents/mikktspace/tail_order.h"
+#include "tangents/mikktspace/last_bucket.h"
 #include "tangents/mikktspace/vertex_corners.h"
 
 namespace tspace::mikk {
@@ -42,7 +42,7 @@ class GroupRoom {
 class Grouping {
   public:
     /// Settles the contested triangles' orientation, in corners.flags. All must outlive this object.
-    Grouping(VertexCorners& corners, std::span<const std::uint32_t> chosen, const TailPairs& tail,
+    Grouping(VertexCorners& corners, std::span<const std::uint32_t> chosen, const LastBucket& bucket,
              const Allocator* allocator);
 
     /// `room` must be large enough, and holds the result.
@@ -60,11 +60,11 @@ class Grouping {
     void spreadContested(const Allocator* allocator);
     bool joinsContested(std::uint32_t triangle, std::uint32_t orientation);
     void link(std::size_t place, const CornerLinks& links, LinkTable& table) const;
-    void applyTail(std::span<const NodeCorner> around, const CornerLinks& links) const;
+    void applyBucket(std::span<const NodeCorner> around, const CornerLinks& links) const;
 
     VertexCorners& corners_;
     std::span<const std::uint32_t> chosen_;
-    const TailPairs& tail_;
+    const LastBucket& bucket_;
     std::uint32_t largest_ = kSmallNode;
     Buffer<std::uint32_t> contested_of_;  // one per chosen node, and one more: its number in contested_, or kNone;
                                           // empty when there are none

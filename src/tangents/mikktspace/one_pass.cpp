@@ -33,14 +33,14 @@ constexpr float kUnclearSign = 2.0f;
 
 class OnePass {
   public:
-    OnePass(const NodeSetting& setting, const TailPairs& tail, ScratchBlock& brief, Parallel& parallel,
+    OnePass(const NodeSetting& setting, const LastBucket& bucket, ScratchBlock& brief, Parallel& parallel,
             const PassOptions& pass)
         : setting_(setting),
           mesh_(setting.mesh),
           options_(setting.options),
           triangles_(setting.triangles),
           nodes_(setting.nodes),
-          tail_(tail),
+          bucket_(bucket),
           pass_(pass),
           out_(setting.out),
           brief_(brief),
@@ -56,7 +56,7 @@ class OnePass {
         TangentReport report = walks && !estimates_ ? writeAll() : passOverTriangles();
         report.triangle_count = triangles_.count;
         report.skipped_face_count = triangles_.skipped_face_count;
-        report.reference_order_abandoned |= tail_.abandoned;
+        report.reference_order_abandoned |= bucket_.abandoned;
         return report;
     }
 
@@ -65,7 +65,7 @@ class OnePass {
     TangentReport writeAll() {
         for (const std::uint32_t c : triangles_.skipped_corners) Sink(out_, options_.convention).clear(c);
         const Buffer<std::uint32_t> all = numbersBelow(nodes_.count, allocator_);
-        return writeNodes({setting_, tail_, {all.data(), all.size()}, nullptr, {}, parallel_}, nullptr);
+        return writeNodes({setting_, bucket_, {all.data(), all.size()}, nullptr, {}, parallel_}, nullptr);
     }
 
     TangentReport passOverTriangles() {
@@ -83,7 +83,7 @@ class OnePass {
         if (estimates_) estimateNodes();
         checkFaces();
         checkFlatTriangles();
-        for (const std::uint32_t node : tail_.nodes) {
+        for (const std::uint32_t node : bucket_.nodes) {
             if (!sums_.isEmpty(node)) leaveNode(node);
         }
         writeCorners();
@@ -253,7 +253,7 @@ class OnePass {
         std::size_t count = 0;
         forEachUnclear([&](std::uint32_t node) { chosen[count++] = node; });
         return writeNodes(
-            {setting_, tail_, {chosen.data(), count}, &sums_, {has_unclear_.data(), has_unclear_.size()}, parallel_},
+            {setting_, bucket_, {chosen.data(), count}, &sums_, {has_unclear_.data(), has_unclear_.size()}, parallel_},
             &scale_);
     }
 
@@ -365,7 +365,7 @@ class OnePass {
     const TangentOptions& options_;
     const TriangleList& triangles_;
     const Nodes& nodes_;
-    const TailPairs& tail_;
+    const LastBucket& bucket_;
     PassOptions pass_;
     TangentOutput out_;
     ScratchBlock& brief_;
@@ -385,9 +385,9 @@ class OnePass {
 
 }  // namespace
 
-TangentReport evaluateInOnePass(const NodeSetting& setting, const TailPairs& tail, ScratchBlock& brief,
+TangentReport evaluateInOnePass(const NodeSetting& setting, const LastBucket& bucket, ScratchBlock& brief,
                                 Parallel& parallel, const PassOptions& pass) {
-    return OnePass(setting, tail, brief, parallel, pass).run();
+    return OnePass(setting, bucket, brief, parallel, pass).run();
 }
 
 }  // namespace tspace::mikk

@@ -20,7 +20,7 @@ struct PassOptions {
 
 /// Writes tangents of the mesh's own pose. `brief`: for what is not needed any more when tangents are written: their own
 /// memory, unless somebody looks at it. Throws OutOfMemory.
-TangentReport evaluateInOnePass(const NodeSetting& setting, const TailPairs& tail, ScratchBlock& brief,
+TangentReport evaluateInOnePass(const NodeSetting& setting, const LastBucket& bucket, ScratchBlock& brief,
                                 Parallel& parallel, const PassOptions& pass = {});
 
 }  // namespace tspace::mikk

@@ -64,7 +64,7 @@ TangentReport writeNodes(const VertexPath& path, const InputScale* scale) {
     const bool estimates = estimators::isEstimated(setting.options.method);
     const float threshold_cosine = cosineOf(setting.options);
     VertexCorners corners = read(path, !estimates);
-    const Grouping grouping(corners, path.chosen, path.tail, allocator);
+    const Grouping grouping(corners, path.chosen, path.bucket, allocator);
     Marks is_default = cornerMarks(path, corners);
     const NodeResults results(setting, path.chosen, corners, threshold_cosine, is_default);
     Marks left(allocator, path.chosen.size());  // 1: needs a plan
@@ -103,7 +103,7 @@ EvaluationPlan planAllNodes(const VertexPath& path) {
     const NodeSetting& setting = path.setting;
     const Allocator* allocator = setting.options.execution.allocator;
     VertexCorners corners = read(path, false);
-    const Grouping grouping(corners, path.chosen, path.tail, allocator);
+    const Grouping grouping(corners, path.chosen, path.bucket, allocator);
     EvaluationPlan plan =
         planNodes({setting, path.chosen, corners, grouping, {}, cosineOf(setting.options), PlanUse::kept});
     Marks is_default = cornerMarks(path, corners);

@@ -15,7 +15,7 @@ namespace tspace::mikk {
 
 struct VertexPath {
     const NodeSetting& setting;
-    const TailPairs& tail;
+    const LastBucket& bucket;
     /// Ascending. They must have the nodes of triangles without UV area whose three nodes may have both orientations,
     /// unless no other triangle is there, and those of degenerate triangles and of faces whose triangles do not simply
     /// agree (node_sums.cpp).

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Welding. The reference sorts corners into cells and compares all of a small cell with each other;
 // here the vertices of the mesh are hashed. The classes are the same; their representative, where it matters,
-// comes from weld_order.cpp.
+// comes from grid_order.cpp.
 //
 // Most vertices of an indexed mesh are equal to no other. So each hash counts in a small table, by its upper
 // bits, up to two; only vertices whose place in it counts two can be equal to another, and only they are
@@ -18,8 +18,8 @@
 #include "core/hash.h"
 #include "core/repeated_hashes.h"
 #include "core/vec_math.h"
+#include "tangents/mikktspace/grid_order.h"
 #include "tangents/mikktspace/growing.h"
-#include "tangents/mikktspace/weld_order.h"
 #include "tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
@@ -400,8 +400,7 @@ void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& no
         if (!sameBits(mesh, v, first)) different.push(first);
     }
     Buffer<std::uint32_t> corners(allocator, nodes.count, kNone);
-    WeldOrder(mesh, triangles, nodes, allocator, parallel)
-        .findSome({different.begin(), different.end()}, corners.data());
+    GridOrder(mesh, triangles, nodes, allocator, parallel).find({different.begin(), different.end()}, corners.data());
     for (std::size_t node = 0; node < nodes.count; ++node) {
         if (corners[node] != kNone) nodes.vertices[node] = mesh.indices[corners[node]];
     }

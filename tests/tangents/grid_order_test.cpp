@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which corner of a node the reference keeps, against a plain replay of its search.
-#include "tangents/mikktspace/weld_order.h"
+#include "tangents/mikktspace/grid_order.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 #include <cmath>
 #include <random>
 
-#include "tangents/mikktspace/long_cell.h"
 #include "tangents/mikktspace/words.h"
 #include "tangents/shapes.h"
 
@@ -106,24 +105,24 @@ struct Found {
     std::vector<std::uint32_t> wanted, all, some;
 };
 
-/// By the replay, by findAll, and by findSome for the first `asked` nodes.
+/// By the replay, by findAll, and by find for the first `asked` nodes.
 Found representatives(const MeshView& mesh, std::size_t asked, unsigned threads) {
     Parallel parallel(Execution{.thread_count = threads});
     const TriangleList triangles = cutFaces(mesh, Ngons::skip, nullptr);
     const Nodes nodes = weld(mesh, triangles, nullptr, parallel);
     Found found;
     for (auto* list : {&found.wanted, &found.all, &found.some}) list->assign(nodes.count, kNone);
-    const std::vector<std::uint32_t> order = Replay(mesh).run();
-    for (std::size_t i = order.size(); i-- > 0;) found.wanted[nodes.of(mesh, order[i])] = order[i];
-    const WeldOrder weld_order(mesh, triangles, nodes, nullptr, parallel);
-    weld_order.findAll(found.all.data());
+    const std::vector<std::uint32_t> replayed = Replay(mesh).run();
+    for (std::size_t i = replayed.size(); i-- > 0;) found.wanted[nodes.of(mesh, replayed[i])] = replayed[i];
+    const GridOrder order(mesh, triangles, nodes, nullptr, parallel);
+    order.findAll(found.all.data());
     std::vector<std::uint32_t> vertices;
     for (std::uint32_t v = 0; v < asked; ++v) vertices.push_back(v);
-    weld_order.findSome(vertices, found.some.data());
+    order.find(vertices, found.some.data());
     return found;
 }
 
-TEST(WeldOrder, IsTheReferencesInCellsOfManyCorners) {
+TEST(GridOrder, IsTheReferencesInCellsOfManyCorners) {
     for (const float far : {64.0f, 100000.0f, 30000000.0f}) {  // from all cells to one
         for (const std::uint32_t seed : {1u, 2u, 3u}) {
             const Shape shape = soup(3000, far, seed);
@@ -134,13 +133,13 @@ TEST(WeldOrder, IsTheReferencesInCellsOfManyCorners) {
     }
 }
 
-TEST(WeldOrder, IsTheReferencesForNodesInManyCells) {
+TEST(GridOrder, IsTheReferencesForNodesInManyCells) {
     const Shape shape = soup(5000, 64.0f, 4);
     const Found found = representatives(shape.view(), 1000, 2);
     for (std::size_t n = 0; n < 1000; ++n) EXPECT_EQ(found.some[n], found.wanted[n]);
 }
 
-TEST(WeldOrder, IsTheReferencesForAFewNodesOfALongCell) {
+TEST(GridOrder, IsTheReferencesForAFewNodesOfALongCell) {
     for (const std::uint32_t seed : {6u, 7u, 8u}) {
         Shape shape = soup(10000, 30000000.0f, seed);   // 60,000 corners, nearly all in one cell
         shape.vertex({0, -500, 0}, {0, 0, 1}, {0, 0});  // no triangle's: not in any box
@@ -151,7 +150,7 @@ TEST(WeldOrder, IsTheReferencesForAFewNodesOfALongCell) {
     }
 }
 
-TEST(WeldOrder, IsTheReferencesWhereManyCutsTakeLittleOff) {
+TEST(GridOrder, IsTheReferencesWhereManyCutsTakeLittleOff) {
     std::mt19937 random(9);
     Shape shape;
     const auto power = [&] { return std::ldexp(1.0f, -static_cast<int>(random() % 120)); };
@@ -163,38 +162,7 @@ TEST(WeldOrder, IsTheReferencesWhereManyCutsTakeLittleOff) {
     for (std::size_t n = 0; n < 200; ++n) EXPECT_EQ(found.some[n], found.wanted[n]);
 }
 
-TEST(NumberedCorners, ArePartitionedAsByTheReferencesLoop) {
-    std::mt19937 random(10);
-    for (int round = 0; round < 400; ++round) {
-        const std::size_t count = 1 + random() % (round % 4 == 0 ? 1000 : 150);
-        const std::size_t begin = random() % count, end = begin + 1 + random() % (count - begin);
-        const auto first_right = static_cast<std::uint8_t>(1 + random() % 254);
-        const bool in_runs = random() % 2 == 0, keep_left = random() % 2 == 0, keep_right = random() % 2 == 0;
-        NumberedCorners corners(count, nullptr);
-        std::vector<std::pair<std::uint8_t, std::uint32_t>> wanted;
-        for (std::uint32_t n = 0; n < count; ++n) {
-            corners.parts[n] = in_runs && n % 20 != 0 ? corners.parts[n - 1] : static_cast<std::uint8_t>(random());
-            corners.entries[n] = n;
-            wanted.emplace_back(corners.parts[n], n);
-        }
-        std::size_t i = begin, j = end - 1;
-        const auto goesLeft = [&](std::size_t n) { return wanted[n].first < first_right; };
-        while (i < j) {
-            while (i < j && goesLeft(i)) ++i;
-            while (i < j && !goesLeft(j)) --j;
-            if (i < j) std::swap(wanted[i++], wanted[j--]);
-        }
-        const std::size_t cut = i == j && goesLeft(i) ? i + 1 : i;
-        ASSERT_EQ(corners.partition(begin, end, first_right, keep_left, keep_right), cut);
-        for (std::size_t n = 0; n < count; ++n) {
-            if (n >= begin && n < end && !(n < cut ? keep_left : keep_right)) continue;
-            ASSERT_EQ(corners.entries[n], wanted[n].second);
-            ASSERT_EQ(corners.parts[n], wanted[n].first);
-        }
-    }
-}
-
-TEST(WeldOrder, PassesOverVerticesThatNoTriangleUses) {
+TEST(GridOrder, PassesOverVerticesThatNoTriangleUses) {
     for (const bool along : {false, true}) {  // on the longest axis, or on another
         Shape shape = soup(3000, 1000.0f, 5);
         const auto nobodys = static_cast<std::uint32_t>(shape.positions.size());

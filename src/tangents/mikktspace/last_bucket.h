@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// The defect of the reference's edge list. Its edges are sorted by their lower end, then by the
+// higher end, then by triangle; but the loops that do the second and third sort never reach the last bucket:
+// the edges whose lower end is the largest of all. There equal edges may lie apart, and those pairs are not
+// found. Nearly always that changes nothing, which is known without any list of edges or of corners.
+#pragma once
+
+#include <algorithm>
+
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "tangents/mikktspace/faces.h"
+#include "tangents/mikktspace/weld.h"
+
+namespace tspace::mikk {
+
+/// The links of the last bucket's half-edges, where they differ from those that linking by nodes finds. Empty for most
+/// meshes.
+struct LastBucket {
+    Buffer<std::uint32_t> half_edges;  ///< 3 * triangle + k, of the triangle list; ascending
+    Buffer<std::uint32_t> partners;    ///< one per half-edge; kNone: no neighbour
+    Buffer<std::uint32_t> nodes;       ///< ends of these edges, ascending; some more than once
+    bool abandoned = false;  ///< the input drives the reference's sort into quadratic time; links are not known
+
+    [[nodiscard]] bool concerns(std::uint32_t node) const {
+        return !nodes.empty() && std::binary_search(nodes.begin(), nodes.end(), node);
+    }
+    /// Null when the half-edge keeps its usual link.
+    [[nodiscard]] const std::uint32_t* partnerOf(std::uint32_t half_edge) const {
+        const std::uint32_t* at = std::lower_bound(half_edges.begin(), half_edges.end(), half_edge);
+        return at == half_edges.end() || *at != half_edge ? nullptr : partners.data() + (at - half_edges.begin());
+    }
+};
+
+/// Nodes must be all finite. Takes about three bytes per vertex, thirteen per node, and what the corners of a few cells of
+/// the reference's grid need; mostly reads all indices once. Where the order of the bucket matters, up to 80 bytes per
+/// triangle. `transient`: for all but the result.
+LastBucket findLastBucket(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+                          const Allocator* transient, const Allocator* allocator, Parallel& parallel);
+
+}  // namespace tspace::mikk
