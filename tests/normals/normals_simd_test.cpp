@@ -120,6 +120,45 @@ TEST(Simd, EveryTargetGivesTheNormalsOfPlainCode) {
     }
 }
 
+/// As many edges hard as soft: the random mesh's angles are anything, the sheets' are small, the back sides' 180 degrees.
+TEST(HardEdges, GiveTheSameBitsForAnyTargetAndNumberOfThreads) {
+    for (const SimpleMesh& mesh : {randomMesh(), withBackSides(sheet(60)), withBrokenValues(sheet(100))}) {
+        for (const NormalWeighting weighting : {NormalWeighting::angle, NormalWeighting::max, NormalWeighting::best}) {
+            NormalOptions options{.weighting = weighting,
+                                  .crease_angle_deg = 40,
+                                  .execution = {.thread_count = 1, .simd = SimdTarget::scalar}};
+            const Outcome plain = compute(mesh.view(), options);
+            for (const SimdTarget target : kTargets) {
+                options.execution = {.thread_count = 3, .simd = target};
+                SCOPED_TRACE(static_cast<int>(target));
+                expectSameBits(plain, compute(mesh.view(), options));
+            }
+        }
+    }
+}
+
+/// Vertices without indices lie in other ranges of points than those of an indexed mesh.
+TEST(HardEdges, DoNotDependOnWhichVerticesArePoints) {
+    for (const SimpleMesh& mesh : {sheet(150), withBackSides(sheet(60)), randomMesh()}) {
+        SimpleMesh soup;
+        for (const std::uint32_t v : mesh.indices) soup.positions.push_back(mesh.positions[v]);
+        MeshView view = soup.view();
+        view.indices = {};
+        const NormalOptions options{.crease_angle_deg = 20};
+        expectSameBits(compute(mesh.view(), options), compute(view, options));
+    }
+}
+
+/// Where no edge is hard, and faces around a point are one fan, the way taken does not show.
+TEST(HardEdges, ThatAreNoneLeaveTheBitsOfSmoothNormals) {
+    for (const SimpleMesh& mesh : {sheet(40), sheet(200)}) {
+        NormalOptions options;
+        const Outcome smooth = compute(mesh.view(), options);
+        options.crease_angle_deg = 179;
+        expectSameBits(smooth, compute(mesh.view(), options));
+    }
+}
+
 TEST(Simd, AnyNumberOfTrianglesAndVerticesIsDone) {
     const SimpleMesh whole = randomMesh();
     for (std::size_t count = 1; count < 150; ++count) {
