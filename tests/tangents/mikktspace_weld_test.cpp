@@ -22,10 +22,10 @@ using test::Shape;
 
 constexpr std::size_t kMany = 100000;  // vertices: enough that all threads have work
 
-Nodes weldWith(const MeshView& mesh, unsigned threads, const Allocator* brief = nullptr) {
+Nodes weldWith(const MeshView& mesh, unsigned threads, const Allocator* transient = nullptr) {
     Parallel parallel(Execution{.thread_count = threads});
     const TriangleList triangles = cutFaces(mesh, Ngons::skip, nullptr);
-    return weld(mesh, triangles, nullptr, parallel, brief);
+    return weld(mesh, triangles, nullptr, parallel, transient);
 }
 
 /// Nodes as a search tree finds them: numbered by the first of equal vertices.
@@ -53,13 +53,13 @@ void expectWanted(const MeshView& mesh) {
     }
 }
 
-/// Nothing that remains may lie in the brief memory, whether all of what is brief fits or a part of it.
-void expectTheSameWithBriefMemory(const MeshView& mesh) {
+/// Nothing that remains may lie in the transient memory, whether all of what is transient fits or a part of it.
+void expectTheSameWithTransientMemory(const MeshView& mesh) {
     const Nodes want = weldWith(mesh, 2);
     for (const std::size_t bytes_per_vertex : {1u, 5u, 64u}) {
         std::vector<std::byte> memory(bytes_per_vertex * mesh.vertexCount() + 4096);
-        ScratchBlock brief(nullptr, std::span<std::byte>(memory));
-        const Nodes nodes = weldWith(mesh, 2, brief.allocator());
+        ScratchBlock transient(nullptr, std::span<std::byte>(memory));
+        const Nodes nodes = weldWith(mesh, 2, transient.allocator());
         std::fill(memory.begin(), memory.end(), std::byte{0xff});
         EXPECT_EQ(nodes.count, want.count);
         EXPECT_TRUE(std::ranges::equal(nodes.of_vertex, want.of_vertex)) << bytes_per_vertex;
@@ -101,24 +101,24 @@ TEST(Weld, FindsEqualVerticesWhereMostAreEqual) {
     expectWanted(unindexed);
 }
 
-TEST(Weld, PutsNothingThatRemainsIntoBriefMemory) {
+TEST(Weld, PutsNothingThatRemainsIntoTransientMemory) {
     const Shape few = randomVertices(kMany, 100);
-    expectTheSameWithBriefMemory(few.view());
+    expectTheSameWithTransientMemory(few.view());
     const Shape many = randomVertices(kMany - kMany % 3, 2);
     MeshView unindexed = many.view();
     unindexed.indices = {};
-    expectTheSameWithBriefMemory(unindexed);
+    expectTheSameWithTransientMemory(unindexed);
     Shape zeros = few;
     zeros.positions[1] = {0, 0, 0};
     zeros.positions[2] = {0, -0.0f, 0};
     zeros.normals[2] = zeros.normals[1];
     zeros.uvs[2] = zeros.uvs[1];
     ASSERT_TRUE(weldWith(zeros.view(), 1).mixed);
-    expectTheSameWithBriefMemory(zeros.view());
+    expectTheSameWithTransientMemory(zeros.view());
     Shape wild = few;
     wild.normals[5].x = std::numeric_limits<float>::quiet_NaN();
     ASSERT_FALSE(weldWith(wild.view(), 1).all_finite);
-    expectTheSameWithBriefMemory(wild.view());
+    expectTheSameWithTransientMemory(wild.view());
 }
 
 TEST(Weld, MakesOneNodeOfOneVertexRepeated) {

@@ -221,9 +221,9 @@ Outputs look(const Shape& shape, const TangentOptions& options, mikk::FirstLook 
     Outputs outputs(shape.cornerCount());
     TangentOutput to = outputs.view();
     if (tangents_only) to = {.tangents = to.tangents};
-    ScratchBlock brief(nullptr, std::as_writable_bytes(std::span(to.tangents.data, to.tangents.count)));
-    outputs.report =
-        mikk::evaluateInOnePass({mesh, options, triangles, nodes, to}, {}, brief, parallel, {first_look, range_shift});
+    ScratchBlock transient(nullptr, std::as_writable_bytes(std::span(to.tangents.data, to.tangents.count)));
+    outputs.report = mikk::evaluateInOnePass({mesh, options, triangles, nodes, to}, {}, transient, parallel,
+                                             {first_look, range_shift});
     return outputs;
 }
 

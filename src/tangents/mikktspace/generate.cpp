@@ -39,11 +39,11 @@ TangentReport generateWith(const MeshView& mesh, const TangentOptions& options, 
                            Parallel& parallel) {
     const Allocator* allocator = options.execution.allocator;
     const TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
-    ScratchBlock brief(allocator, unwritten(out));
-    Nodes nodes = weld(mesh, triangles, allocator, parallel, brief.allocator());
-    const LastBucket bucket = lastBucketOf(mesh, options, triangles, nodes, brief.allocator(), parallel);
+    ScratchBlock transient(allocator, unwritten(out));
+    Nodes nodes = weld(mesh, triangles, allocator, parallel, transient.allocator());
+    const LastBucket bucket = lastBucketOf(mesh, options, triangles, nodes, transient.allocator(), parallel);
     listVertices(nodes, allocator, parallel);
-    return evaluateInOnePass({mesh, options, triangles, nodes, out}, bucket, brief, parallel);
+    return evaluateInOnePass({mesh, options, triangles, nodes, out}, bucket, transient, parallel);
 }
 
 }  // namespace

@@ -209,8 +209,9 @@ class Summer {
     [[nodiscard]] std::uint8_t kindOf(std::size_t t) const {
         static_assert(kFacesUp == kUvFacesUp && kFacesDown == kUvFacesDown);
         const std::uint32_t m = terms_.marks[0][t];
-        if ((m & kDegenerateMark) != 0) return kCollapsed;
-        return static_cast<std::uint8_t>((m & kNoUvArea) != 0 ? std::uint32_t{kFlatUv} : m & (kFacesUp | kFacesDown));
+        if ((m & kDegenerateMark) != 0) return kDegenerateTriangle;
+        return static_cast<std::uint8_t>((m & kNoUvArea) != 0 ? std::uint32_t{kDegenerateUv}
+                                                              : m & (kFacesUp | kFacesDown));
     }
 
     /// Each triangle is counted by the task that owns its first node.
@@ -218,8 +219,8 @@ class Summer {
         for (std::size_t t = 0; t < block.count; ++t) {
             if (!owns(block.nodes[3 * t])) continue;
             const std::uint8_t kind = kindOf(t);
-            degenerate_count += kind == kCollapsed ? 1 : 0;
-            no_uv_area_count += kind == kFlatUv ? 1 : 0;
+            degenerate_count += kind == kDegenerateTriangle ? 1 : 0;
+            no_uv_area_count += kind == kDegenerateUv ? 1 : 0;
             mirrored_count += kind == kUvFacesDown ? 1 : 0;
         }
     }
@@ -271,7 +272,7 @@ class Summer {
                 link(n[k], n[(k + 1) % 3], n[(k + 2) % 3]);
             }
         }
-        if (!degenerate && owns(n[0])) sums_.kinds[block.triangles[t]] = kFlatUv;
+        if (!degenerate && owns(n[0])) sums_.kinds[block.triangles[t]] = kDegenerateUv;
     }
 
     template <Sums kSums, bool kLists>
@@ -410,7 +411,7 @@ void MeshTriangles::read(std::size_t first, std::size_t size, std::uint32_t* ver
         for (std::size_t i = 0; i < 3 * size; ++i) vertices[i] = nodes_.vertex(groups[i]);
     }
     for (std::size_t t = 0; kinds_ != nullptr && t < size; ++t) {
-        if ((kinds_[first + t] & kFlatUv) != 0) std::fill_n(groups + 3 * t, 3, kNone);
+        if ((kinds_[first + t] & kDegenerateUv) != 0) std::fill_n(groups + 3 * t, 3, kNone);
     }
 }
 
@@ -441,7 +442,7 @@ void finishInRanges(std::size_t count, const FinishNodes& finish, Parallel& para
 }
 
 void sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const CornerSource& source,
-              CornerTermsFunction terms, ScratchBlock& brief, const Allocator* allocator, Parallel& parallel,
+              CornerTermsFunction terms, ScratchBlock& transient, const Allocator* allocator, Parallel& parallel,
               NodeSums& sums, const FinishNodes& finish, unsigned range_shift) {
     sums.nodes = Buffer<NodeSum>(allocator, nodes.count);
     sums.marks = Buffer<std::uint16_t>(allocator, nodes.count);
@@ -449,7 +450,7 @@ void sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& 
         sums.rest = Buffer<NodeRest>(allocator, nodes.count);
         sums.lengths_t = Buffer<float>(allocator, nodes.count);
     }
-    sums.kinds = Buffer<std::uint8_t>(brief.allocator(), triangles.count, std::uint8_t{0});
+    sums.kinds = Buffer<std::uint8_t>(transient.allocator(), triangles.count, std::uint8_t{0});
     if (nodes.count == 0) return;
     Sweep sweep{mesh, triangles, nodes, source, terms, sums};
     sums.scattered = isScattered(sweep);
@@ -460,7 +461,7 @@ void sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& 
     std::optional<RangeLists> range_lists;
     if (ranges > 1) {
         range_lists.emplace(MeshTriangles(mesh, triangles, nodes, nullptr), kTermTriangles, nodes.count,
-                            std::size_t{1} << shift, brief.allocator(), parallel);
+                            std::size_t{1} << shift, transient.allocator(), parallel);
         sweep.lists = &*range_lists;
     }
     struct Counts {
@@ -469,7 +470,7 @@ void sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& 
     const std::size_t tasks = std::min<std::size_t>(ranges, parallel.width());
     Buffer<Counts> counts(allocator, tasks);
     const std::size_t fans_each = std::min(nodes.count, std::size_t{1} << shift) / kManyShare + 64;
-    Buffer<ManyPaths> many_paths(brief.allocator(), tasks * fans_each);
+    Buffer<ManyPaths> many_paths(transient.allocator(), tasks * fans_each);
     const std::size_t open_each = lists_fans ? std::min(nodes.count, std::size_t{1} << shift) : 0;
     Buffer<OpenNode> open(allocator, tasks * open_each);
     std::atomic<std::size_t> next{0};

@@ -31,9 +31,9 @@ struct alignas(16) NodeRest {
 enum TriangleKind : std::uint8_t {
     kUvFacesUp = 1,
     kUvFacesDown = 2,
-    kFlatUv = 4,     ///< no usable UV area: it adds nothing, and marks nothing, but links what lies on both sides
-    kCollapsed = 8,  ///< degenerate
-    kDoubtful = 16,  ///< nothing shows that the nodes of this one without UV area agree
+    kDegenerateUv = 4,  ///< no usable UV area: it adds nothing, and marks nothing, but links what lies on both sides
+    kDegenerateTriangle = 8,  ///< degenerate
+    kDoubtful = 16,           ///< nothing shows that the nodes of this one without UV area agree
 };
 
 struct NodeSums {
@@ -42,7 +42,7 @@ struct NodeSums {
                                   ///< aside, as all nodes of degenerate triangles are
     Buffer<NodeRest> rest;        ///< empty when tangents_only
     Buffer<float> lengths_t;      ///< sums of weighted |dP/dv|; empty when tangents_only
-    Buffer<std::uint8_t> kinds;   ///< one per triangle, brief; kFlatUv only, but for polygons' triangles
+    Buffer<std::uint8_t> kinds;   ///< one per triangle, transient; kDegenerateUv only, but for polygons' triangles
     bool scattered = false;       ///< consecutive triangles lie far apart in memory
     std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;
 
@@ -92,10 +92,10 @@ using FinishNodes = std::function<void(std::size_t, std::size_t)>;
 /// For all nodes.
 void finishInRanges(std::size_t count, const FinishNodes& finish, Parallel& parallel);
 
-/// Fills `sums`, and finishes all nodes, range by range. nodes.vertex() must be valid. `brief`: for what is not needed
+/// Fills `sums`, and finishes all nodes, range by range. nodes.vertex() must be valid. `transient`: for what is not needed
 /// any more when tangents are written. `range_shift`: log2 of the nodes of a range; 0: what suits the mesh.
 void sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const CornerSource& source,
-              CornerTermsFunction terms, ScratchBlock& brief, const Allocator* allocator, Parallel& parallel,
+              CornerTermsFunction terms, ScratchBlock& transient, const Allocator* allocator, Parallel& parallel,
               NodeSums& sums, const FinishNodes& finish, unsigned range_shift = 0);
 
 }  // namespace tspace::mikk

@@ -15,10 +15,10 @@
 #include "tangents/estimators/group_estimates.h"
 #include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/corner_source.h"
+#include "tangents/mikktspace/first_look.h"
 #include "tangents/mikktspace/node_sums.h"
 #include "tangents/mikktspace/results.h"
 #include "tangents/mikktspace/splits.h"
-#include "tangents/mikktspace/trouble.h"
 #include "tangents/mikktspace/vector_rules.h"
 #include "tangents/mikktspace/vertex_path.h"
 
@@ -29,11 +29,11 @@ namespace {
 constexpr std::size_t kCornerGrain = 16384, kTriangleGrain = 16384;
 constexpr std::uint32_t kBothFacings = kFacesUp | kFacesDown;
 /// In the place of the sign, with a bit that no sign has.
-constexpr float kUnclearSign = 2.0f;
+constexpr float kComplexSign = 2.0f;
 
 class OnePass {
   public:
-    OnePass(const NodeSetting& setting, const LastBucket& bucket, ScratchBlock& brief, Parallel& parallel,
+    OnePass(const NodeSetting& setting, const LastBucket& bucket, ScratchBlock& transient, Parallel& parallel,
             const PassOptions& pass)
         : setting_(setting),
           mesh_(setting.mesh),
@@ -43,7 +43,7 @@ class OnePass {
           bucket_(bucket),
           pass_(pass),
           out_(setting.out),
-          brief_(brief),
+          transient_(transient),
           parallel_(parallel),
           allocator_(options_.execution.allocator),
           estimates_(estimators::isEstimated(options_.method)),
@@ -52,7 +52,7 @@ class OnePass {
     TangentReport run() {
         const bool has_threshold = setting_.maySplit() && thresholdCosine(options_.angular_threshold_deg) != -1.0f;
         const bool walks = has_threshold || pass_.first_look == FirstLook::eachNode ||
-                           (pass_.first_look == FirstLook::asItSeems && mostNodesSeemUnclear(mesh_, triangles_));
+                           (pass_.first_look == FirstLook::asItSeems && mostNodesSeemComplex(mesh_, triangles_));
         TangentReport report = walks && !estimates_ ? writeAll() : passOverTriangles();
         report.triangle_count = triangles_.count;
         report.skipped_face_count = triangles_.skipped_face_count;
@@ -72,17 +72,17 @@ class OnePass {
         CornerSource source = cornerSource({mesh_.positions, mesh_.normals}, mesh_.uvs, options_.method,
                                            estimates_ || wantsTangentsOnly(out_));
         source.adding_only = true;
-        unclear_ = Buffer<std::uint64_t>(allocator_, nodes_.count / 64 + 1, std::uint64_t{0});
+        complex_ = Buffer<std::uint64_t>(allocator_, nodes_.count / 64 + 1, std::uint64_t{0});
         sumNodes(
-            mesh_, triangles_, nodes_, source, cornerTermsFor(options_.execution.simd), brief_, allocator_, parallel_,
-            sums_,
+            mesh_, triangles_, nodes_, source, cornerTermsFor(options_.execution.simd), transient_, allocator_,
+            parallel_, sums_,
             [&](std::size_t first, std::size_t end) {
                 if (!estimates_) finishNodes(first, end);
             },
             pass_.range_shift);
         if (estimates_) estimateNodes();
         checkFaces();
-        checkFlatTriangles();
+        checkDegenerateUvs();
         for (const std::uint32_t node : bucket_.nodes) {
             if (!sums_.isEmpty(node)) leaveNode(node);
         }
@@ -92,7 +92,7 @@ class OnePass {
         sums_.rest = {};
         sums_.lengths_t = {};
         TangentReport report;
-        if (unclear_count_ != 0) report = writeUnclear();
+        if (complex_count_ != 0) report = writeComplex();
         report.degenerate_triangle_count = sums_.degenerate_count;
         report.degenerate_uv_count = sums_.no_uv_area_count;
         report.mirrored_count = sums_.mirrored_count;
@@ -101,20 +101,20 @@ class OnePass {
         return report;
     }
 
-    /// Results of all nodes take the place of their sums. Those of unclear nodes mean nothing.
+    /// Results of all nodes take the place of their sums. Those of complex nodes mean nothing.
     void estimateNodes() {
         if (!wantsTangentsOnly(out_)) {
             sums_.rest = Buffer<NodeRest>(allocator_, nodes_.count);
             sums_.lengths_t = Buffer<float>(allocator_, nodes_.count);
         }
-        const bool has_flat = sums_.no_uv_area_count != 0;
-        const MeshTriangles triangles(mesh_, triangles_, nodes_, has_flat ? sums_.kinds.data() : nullptr);
+        const bool has_degenerate_uvs = sums_.no_uv_area_count != 0;
+        const MeshTriangles triangles(mesh_, triangles_, nodes_, has_degenerate_uvs ? sums_.kinds.data() : nullptr);
         scale_ = inputScale(triangles, mesh_.positions, mesh_.uvs);
         const estimators::GroupEstimates to{reinterpret_cast<std::byte*>(sums_.nodes.data()),     sizeof(NodeSum),
                                             reinterpret_cast<std::byte*>(sums_.rest.data()),      sizeof(NodeRest),
                                             reinterpret_cast<std::byte*>(sums_.lengths_t.data()), sizeof(float)};
         Execution execution = options_.execution;
-        execution.allocator = brief_.allocator();
+        execution.allocator = transient_.allocator();
         estimators::estimateGroups(options_.method, triangles, nodes_.count, {mesh_.positions, mesh_.normals},
                                    mesh_.uvs, scale_, to, execution, parallel_);
         finishInRanges(
@@ -125,7 +125,7 @@ class OnePass {
     /// nodes. Where all other triangles at its three nodes have one orientation, so will it, whoever is
     /// first; then it just links its neighbours in a fan. Nodes of others are left aside, but for those where
     /// no other triangle is: there is no group.
-    void checkFlatTriangles() {
+    void checkDegenerateUvs() {
         if (sums_.no_uv_area_count == 0) return;
         const bool has_polygons = !triangles_.faces.empty();
         Marks counted;  // several triangles of a polygon may have one corner of the mesh
@@ -135,7 +135,7 @@ class OnePass {
         const auto look = [&](std::size_t begin, std::size_t end) {
             std::uint64_t defaults_here = 0;
             bool doubtful = false;
-            forEachFlat(begin, end, [&](std::size_t triangle) {
+            forEachDegenerateUv(begin, end, [&](std::size_t triangle) {
                 std::uint32_t facing = 0;
                 for (std::size_t i = 3 * triangle; i < 3 * triangle + 3; ++i) {
                     const std::uint32_t here = sums_.marks[nodeAt(i)] & kBothFacings;
@@ -159,7 +159,7 @@ class OnePass {
     }
 
     void leaveDoubtful() {
-        forEachFlat(0, triangles_.count, [&](std::size_t triangle) {
+        forEachDegenerateUv(0, triangles_.count, [&](std::size_t triangle) {
             if ((sums_.kinds[triangle] & kDoubtful) == 0) return;
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t node = nodeAt(3 * triangle + k);
@@ -170,12 +170,12 @@ class OnePass {
 
     /// Takes back what was finished. (A node without groups was not counted.)
     void leaveNode(std::uint32_t node) {
-        std::uint64_t& word = unclear_[node / 64];
+        std::uint64_t& word = complex_[node / 64];
         const std::uint64_t bit = std::uint64_t{1} << (node % 64);
         if ((word & bit) != 0) return;
         word |= bit;
-        sums_.row(node)[3] = kUnclearSign;
-        ++unclear_count_;
+        sums_.row(node)[3] = kComplexSign;
+        ++complex_count_;
         if (!sums_.isEmpty(node)) --group_count_;
     }
 
@@ -185,15 +185,15 @@ class OnePass {
 
     /// body(triangle) for those of [begin, end) without UV area.
     template <class Body>
-    void forEachFlat(std::size_t begin, std::size_t end, const Body& body) const {
-        constexpr std::uint64_t kFlat = 0x0101010101010101u * kFlatUv;
+    void forEachDegenerateUv(std::size_t begin, std::size_t end, const Body& body) const {
+        constexpr std::uint64_t kFlat = 0x0101010101010101u * kDegenerateUv;
         const Buffer<std::uint8_t>& kinds = sums_.kinds;
         for (; begin < end; begin += sizeof(std::uint64_t)) {
             const std::size_t count = std::min(sizeof(std::uint64_t), end - begin);
             std::uint64_t any = 0;
             std::memcpy(&any, kinds.data() + begin, count);
             for (std::size_t t = begin; (any & kFlat) != 0 && t < begin + count; ++t) {
-                if ((kinds[t] & kFlatUv) != 0) body(t);
+                if ((kinds[t] & kDegenerateUv) != 0) body(t);
             }
         }
     }
@@ -209,8 +209,10 @@ class OnePass {
             if (end - first == 1) continue;
             const std::uint32_t facing = kinds & (kUvFacesUp | kUvFacesDown);
             // One without UV area takes the orientation of others, and gives its own only as the first one of a quad.
-            const bool flat_one_may_choose = end - first == 2 && (sums_.kinds[first] & kFlatUv) != 0 && facing != 0;
-            if (facing != (kUvFacesUp | kUvFacesDown) && (kinds & kCollapsed) == 0 && !flat_one_may_choose) continue;
+            const bool flat_one_may_choose =
+                end - first == 2 && (sums_.kinds[first] & kDegenerateUv) != 0 && facing != 0;
+            if (facing != (kUvFacesUp | kUvFacesDown) && (kinds & kDegenerateTriangle) == 0 && !flat_one_may_choose)
+                continue;
             for (std::size_t i = 3 * first; i < 3 * end; ++i) {
                 leaveNode(nodeAt(i));
                 sums_.marks[nodeAt(i)] = 0;
@@ -220,16 +222,16 @@ class OnePass {
 
     /// body(node), ascending.
     template <class Body>
-    void forEachUnclear(const Body& body) const {
-        for (std::size_t word = 0; word < unclear_.size(); ++word) {
-            for (std::uint64_t bits = unclear_[word]; bits != 0; bits &= bits - 1)
+    void forEachComplex(const Body& body) const {
+        for (std::size_t word = 0; word < complex_.size(); ++word) {
+            for (std::uint64_t bits = complex_[word]; bits != 0; bits &= bits - 1)
                 body(static_cast<std::uint32_t>(64 * word) + static_cast<std::uint32_t>(std::countr_zero(bits)));
         }
     }
 
     /// Turns the sums of clear nodes into results, in place. `first`: a multiple of 64.
     void finishNodes(std::size_t first, std::size_t end) {
-        std::uint64_t unclear_here = 0, groups_here = 0;
+        std::uint64_t complex_here = 0, groups_here = 0;
         for (; first < end; first += 64) {
             std::uint64_t bits = 0;
             const std::size_t last = std::min(first + 64, end);
@@ -237,23 +239,23 @@ class OnePass {
                 const bool clear = finishNode(n);
                 if (!clear) [[unlikely]] {
                     bits |= std::uint64_t{1} << (n - first);
-                    sums_.row(n)[3] = kUnclearSign;
+                    sums_.row(n)[3] = kComplexSign;
                 }
                 groups_here += clear && !sums_.isEmpty(n) ? 1 : 0;
             }
-            unclear_[first / 64] = bits;
-            unclear_here += static_cast<std::uint64_t>(std::popcount(bits));
+            complex_[first / 64] = bits;
+            complex_here += static_cast<std::uint64_t>(std::popcount(bits));
         }
-        unclear_count_ += unclear_here;
+        complex_count_ += complex_here;
         group_count_ += groups_here;
     }
 
-    TangentReport writeUnclear() {
-        Buffer<std::uint32_t> chosen(allocator_, unclear_count_);
+    TangentReport writeComplex() {
+        Buffer<std::uint32_t> chosen(allocator_, complex_count_);
         std::size_t count = 0;
-        forEachUnclear([&](std::uint32_t node) { chosen[count++] = node; });
+        forEachComplex([&](std::uint32_t node) { chosen[count++] = node; });
         return writeNodes(
-            {setting_, bucket_, {chosen.data(), count}, &sums_, {has_unclear_.data(), has_unclear_.size()}, parallel_},
+            {setting_, bucket_, {chosen.data(), count}, &sums_, {has_complex_.data(), has_complex_.size()}, parallel_},
             &scale_);
     }
 
@@ -292,7 +294,7 @@ class OnePass {
 
     void writeCorners() {
         const std::size_t blocks = (mesh_.cornerCount() + kBlockCorners - 1) / kBlockCorners;
-        has_unclear_ = Marks(allocator_, blocks);
+        has_complex_ = Marks(allocator_, blocks);
         parallel_.forRanges(blocks, kCornerGrain / kBlockCorners,
                             [&](std::size_t begin, std::size_t end) { writeBlocks(begin, end); });
         for (const std::uint32_t c : triangles_.skipped_corners) {
@@ -320,13 +322,13 @@ class OnePass {
             for (std::size_t i = 0; i < count; ++i) __builtin_prefetch(sums_.row(nodes[i]));
             return nodes;
         };
-        std::fill(has_unclear_.data() + first_block, has_unclear_.data() + end_block, std::uint8_t{0});
+        std::fill(has_complex_.data() + first_block, has_complex_.data() + end_block, std::uint8_t{0});
         std::size_t first = first_block * kBlockCorners, other = 1;
         const std::uint32_t* nodes = lookUp(first, rooms[0]);
         for (; first < end; first += kPart, other ^= 1) {
             const std::uint32_t* following = first + kPart < end ? lookUp(first + kPart, rooms[other]) : nullptr;
             const std::size_t count = std::min(kPart, end - first);
-            if (writeTangents(first, nodes, count, streamed)) has_unclear_[first / kBlockCorners] = 1;
+            if (writeTangents(first, nodes, count, streamed)) has_complex_[first / kBlockCorners] = 1;
             for (std::size_t i = 0; !sums_.rest.empty() && i < count; ++i)
                 writeRest(first + i, sums_.rest[nodes[i]], sums_.lengths_t[nodes[i]]);
             nodes = following;
@@ -334,7 +336,7 @@ class OnePass {
         if (streamed) endOfRows();
     }
 
-    /// Returns whether some node is unclear, whose corners get what nobody needs.
+    /// Returns whether some node is complex, whose corners get what nobody needs.
     bool writeTangents(std::size_t first, const std::uint32_t* nodes, std::size_t count, bool streamed) const {
         Float4 any = {};
         if (streamed) {
@@ -351,7 +353,7 @@ class OnePass {
                 out_.tangents[first + i] = {row[0], row[1], row[2], row[3]};
             }
         }
-        return (std::bit_cast<std::uint32_t>(any[3]) & std::bit_cast<std::uint32_t>(kUnclearSign)) != 0;
+        return (std::bit_cast<std::uint32_t>(any[3]) & std::bit_cast<std::uint32_t>(kComplexSign)) != 0;
     }
 
     void writeRest(std::size_t c, const NodeRest& rest, float length_t) const {
@@ -368,7 +370,7 @@ class OnePass {
     const LastBucket& bucket_;
     PassOptions pass_;
     TangentOutput out_;
-    ScratchBlock& brief_;
+    ScratchBlock& transient_;
     Parallel& parallel_;
     const Allocator* allocator_;
     bool estimates_;  // fast and best: the estimators sum, and this class only groups
@@ -376,18 +378,18 @@ class OnePass {
     float sign_factor_;  // what the sign of the UV determinant is multiplied with
 
     NodeSums sums_;
-    Buffer<std::uint64_t> unclear_;  // one bit per node
-    Marks has_unclear_;              // one per block of corners
-    std::atomic<std::size_t> unclear_count_{0};
+    Buffer<std::uint64_t> complex_;  // one bit per node
+    Marks has_complex_;              // one per block of corners
+    std::atomic<std::size_t> complex_count_{0};
     std::atomic<std::uint64_t> group_count_{0};
     std::uint64_t default_corner_count_ = 0;
 };
 
 }  // namespace
 
-TangentReport evaluateInOnePass(const NodeSetting& setting, const LastBucket& bucket, ScratchBlock& brief,
+TangentReport evaluateInOnePass(const NodeSetting& setting, const LastBucket& bucket, ScratchBlock& transient,
                                 Parallel& parallel, const PassOptions& pass) {
-    return OnePass(setting, bucket, brief, parallel, pass).run();
+    return OnePass(setting, bucket, transient, parallel, pass).run();
 }
 
 }  // namespace tspace::mikk

@@ -9,7 +9,7 @@
 
 namespace tspace::mikk {
 
-/// What to begin with: the pass, or, where it would leave most nodes unclear, a look at each node alone. Both give
+/// What to begin with: the pass, or, where it would leave most nodes complex, a look at each node alone. Both give
 /// the same bits, and tests ask for both.
 enum class FirstLook { asItSeems, onePass, eachNode };
 
@@ -18,9 +18,9 @@ struct PassOptions {
     unsigned range_shift = 0;  ///< log2 of the nodes of a range; 0: what suits the mesh
 };
 
-/// Writes tangents of the mesh's own pose. `brief`: for what is not needed any more when tangents are written: their own
+/// Writes tangents of the mesh's own pose. `transient`: for what is not needed any more when tangents are written: their own
 /// memory, unless somebody looks at it. Throws OutOfMemory.
-TangentReport evaluateInOnePass(const NodeSetting& setting, const LastBucket& bucket, ScratchBlock& brief,
+TangentReport evaluateInOnePass(const NodeSetting& setting, const LastBucket& bucket, ScratchBlock& transient,
                                 Parallel& parallel, const PassOptions& pass = {});
 
 }  // namespace tspace::mikk

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The vertex path: nodes whose corners are listed after all and grouped node by node. It takes those that one pass
-// leaves unclear: several groups, fans of too many parts, triangles without UV area that groups of both orientations
+// leaves complex: several groups, fans of too many parts, triangles without UV area that groups of both orientations
 // reach, sums that do not show that nothing splits, corners of degenerate triangles, the reference's last bucket. And
 // it takes all nodes, to make a plan.
 #pragma once

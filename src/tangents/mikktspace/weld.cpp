@@ -272,13 +272,13 @@ class Lookup {
 /// Equal vertices, without regard to triangles.
 class VertexWelder {
   public:
-    VertexWelder(const MeshView& mesh, const Allocator* allocator, const Allocator* brief, Parallel& parallel)
-        : mesh_(mesh), count_(mesh.vertexCount()), allocator_(allocator), brief_(brief), parallel_(parallel) {}
+    VertexWelder(const MeshView& mesh, const Allocator* allocator, const Allocator* transient, Parallel& parallel)
+        : mesh_(mesh), count_(mesh.vertexCount()), allocator_(allocator), transient_(transient), parallel_(parallel) {}
 
     /// Fills count, of_vertex and mixed. Returns whether all vertices are finite and not huge.
     bool run(Nodes& nodes) {
         nodes.count = count_;
-        hashes_ = Buffer<std::uint32_t>(brief_, count_);
+        hashes_ = Buffer<std::uint32_t>(transient_, count_);
         Buffer<std::uint32_t> candidates;
         std::size_t candidate_count = count_, distinct = count_;
         if (count_ < kFew || mesh_.indices.type == IndexType::none) {
@@ -286,11 +286,11 @@ class VertexWelder {
             if (count_ >= kFew) distinct = guessDistinct();
         } else {
             const std::size_t ranges = RepeatedHashes::rangesFor(count_, parallel_);
-            RepeatedHashes counting(kPlacesPerVertex, brief_, count_, ranges);
+            RepeatedHashes counting(kPlacesPerVertex, transient_, count_, ranges);
             hashAll(&counting, ranges);
             distinct = counting.sum(ranges, parallel_);
             if (distinct >= count_ - count_ / 4) {
-                candidates = Buffer<std::uint32_t>(brief_, count_);
+                candidates = Buffer<std::uint32_t>(transient_, count_);
                 candidate_count = counting.collect(hashes_.data(), count_, ranges, candidates.data(), parallel_);
             }
         }
@@ -298,13 +298,13 @@ class VertexWelder {
             candidates = {};
             Buffer<std::uint32_t> of_vertex(allocator_, count_);
             nodes.mixed = Lookup(mesh_, hashes_.data(), nullptr, count_, all_finite_, of_vertex.data())
-                              .run(distinct, brief_, parallel_);
+                              .run(distinct, transient_, parallel_);
             numberAll(nodes, of_vertex);
             if (nodes.count < count_) nodes.of_vertex = std::move(of_vertex);
         } else {
-            Buffer<std::uint32_t> roots(brief_, candidate_count);
+            Buffer<std::uint32_t> roots(transient_, candidate_count);
             nodes.mixed = Lookup(mesh_, hashes_.data(), candidates.data(), candidate_count, all_finite_, roots.data())
-                              .run(candidate_count, brief_, parallel_);
+                              .run(candidate_count, transient_, parallel_);
             hashes_ = {};
             numberFew(nodes, candidates, roots);
         }
@@ -333,7 +333,7 @@ class VertexWelder {
     /// at all.
     [[nodiscard]] std::size_t guessDistinct() {
         constexpr std::uint32_t kShare = 32;
-        RepeatedHashes counting(kPlacesPerVertex, brief_, count_ / kShare, 1);
+        RepeatedHashes counting(kPlacesPerVertex, transient_, count_ / kShare, 1);
         counting.clear(0);
         for (std::size_t v = 0; v < count_; ++v) {
             if (hashes_[v] % kShare == 0) counting.add(0, hashes_.data() + v, 1);
@@ -362,7 +362,7 @@ class VertexWelder {
         for (std::size_t i = 0; i < roots.size(); ++i) count += roots[i] != candidates[i] ? 1 : 0;
         if (count == 0) return;
         Buffer<std::uint32_t> of_vertex(allocator_, count_);
-        Buffer<Repeated> repeated(brief_, count);
+        Buffer<Repeated> repeated(transient_, count);
         count = 0;
         for (std::size_t i = 0; i < roots.size(); ++i) {
             if (roots[i] != candidates[i]) repeated[count++] = {candidates[i], roots[i]};
@@ -384,7 +384,7 @@ class VertexWelder {
 
     const MeshView& mesh_;
     std::size_t count_;
-    const Allocator *allocator_, *brief_;
+    const Allocator *allocator_, *transient_;
     Parallel& parallel_;
     Buffer<std::uint32_t> hashes_;
     bool all_finite_ = true;
@@ -416,10 +416,11 @@ bool usesFiniteVerticesOnly(const MeshView& mesh, const TriangleList& triangles)
 }  // namespace
 
 Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator, Parallel& parallel,
-           const Allocator* brief) {
+           const Allocator* transient) {
     Nodes nodes;
-    nodes.all_finite = VertexWelder(mesh, allocator, brief != nullptr ? brief : allocator, parallel).run(nodes) ||
-                       usesFiniteVerticesOnly(mesh, triangles);
+    nodes.all_finite =
+        VertexWelder(mesh, allocator, transient != nullptr ? transient : allocator, parallel).run(nodes) ||
+        usesFiniteVerticesOnly(mesh, triangles);
     if (nodes.mixed && nodes.all_finite) resolveMixed(mesh, triangles, nodes, allocator, parallel);
     return nodes;
 }

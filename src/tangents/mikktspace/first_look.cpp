@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tangents/mikktspace/trouble.h"
+#include "tangents/mikktspace/first_look.h"
 
 #include <algorithm>
 
@@ -23,10 +23,10 @@ class Sampler {
     bool run() const {
         const std::size_t count = triangles_.count;
         const std::size_t size = std::min(count, count < kSmall ? kSmallSample : kSample);
-        std::size_t troubled = 0;
+        std::size_t found = 0;
         const std::size_t enough = count < kTiny ? 1 : (size + kShare - 1) / kShare;
-        for (std::size_t i = 0; i < size && troubled < enough; ++i) troubled += isTroubled(count * i / size) ? 1 : 0;
-        return troubled == enough && size != 0;
+        for (std::size_t i = 0; i < size && found < enough; ++i) found += makesComplex(count * i / size) ? 1 : 0;
+        return found == enough && size != 0;
     }
 
   private:
@@ -44,8 +44,8 @@ class Sampler {
         return along * along > 0.5f * dot(s, s) * dot(t, t) ? Kind::sheared : Kind::plain;
     }
 
-    /// Triangles without UV area trouble nobody among themselves.
-    [[nodiscard]] bool isTroubled(std::size_t t) const {
+    /// Triangles without UV area make no node complex among themselves.
+    [[nodiscard]] bool makesComplex(std::size_t t) const {
         const Kind kind = kindOf(t);
         if (kind != Kind::flat) return kind == Kind::sheared;
         return (t > 0 && kindOf(t - 1) != Kind::flat) || (t + 1 < triangles_.count && kindOf(t + 1) != Kind::flat);
@@ -57,7 +57,7 @@ class Sampler {
 
 }  // namespace
 
-bool mostNodesSeemUnclear(const MeshView& mesh, const TriangleList& triangles) {
+bool mostNodesSeemComplex(const MeshView& mesh, const TriangleList& triangles) {
     return Sampler(mesh, triangles).run();
 }
 

@@ -6,8 +6,8 @@
 
 namespace tspace::mikk {
 
-/// Judges by a sample of triangles whether one pass would leave so many nodes unclear that it is faster to look at each
+/// Judges by a sample of triangles whether one pass would leave so many nodes complex that it is faster to look at each
 /// node alone at once. Both ways give the same bits.
-bool mostNodesSeemUnclear(const MeshView& mesh, const TriangleList& triangles);
+bool mostNodesSeemComplex(const MeshView& mesh, const TriangleList& triangles);
 
 }  // namespace tspace::mikk
