@@ -12,7 +12,7 @@ namespace tspace {
 
 class Parallel;
 
-/// An error with a message as printf makes it. In one place, because strings that are put together take 2 KB of code each.
+/// An error with a message as printf makes it. In one place: strings that are put together take 2 KB of code each.
 [[gnu::format(printf, 3, 4)]] Error makeError(ErrorCode code, std::uint64_t element, const char* format, ...);
 
 /// What the exception means that is being handled.

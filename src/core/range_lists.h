@@ -35,8 +35,8 @@ class RangeLists {
     static constexpr std::uint32_t kBlock = 0x80000000u;  ///< mark: a block of triangles, not a triangle
     static constexpr std::size_t kMostInBlock = 64;
 
-    /// Ranges of `range_size` groups, a power of two; blocks of `block_size` triangles. Takes 4 bytes per triangle at the border of two ranges,
-    /// or up to 12 where triangles are in no order. Linear. Throws OutOfMemory.
+    /// Ranges of `range_size` groups, a power of two; blocks of `block_size` triangles. Takes 4 bytes per triangle at
+    /// the border of two ranges, or up to 12 where triangles are in no order. Linear. Throws OutOfMemory.
     RangeLists(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count, std::size_t range_size,
                const Allocator* allocator, Parallel& parallel);
 

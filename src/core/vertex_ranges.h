@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Sums at vertices, or at points where several vertices are one, range by range: the same bits for any number of ranges,
-// since each adds the triangles in their order to its own vertices only. A range's sums stay in the cache, and each task
-// has ranges of its own. Here is which triangles these are: blocks, by a few ranges; core/range_lists.h lists those of
-// many.
+// Sums at vertices, or at points where several vertices are one, range by range: the same bits for any number of
+// ranges, since each adds the triangles in their order to its own vertices only. A range's sums stay in the cache, and
+// each task has ranges of its own. Here is which triangles these are: blocks, by a few ranges; core/range_lists.h lists
+// those of many.
 #pragma once
 
 #include <algorithm>

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The kernel behind best_sums.h: the normal of the quadratic surface through the edges around a point, unless these look
-// like noise or a bevel: then the mean by angle * area. In between a blend. From sums, in single precision, so that no
-// list of the corners around a point is needed.
+// The kernel behind best_sums.h: the normal of the quadratic surface through the edges around a point, unless these
+// look like noise or a bevel: then the mean by angle * area. In between a blend. From sums, in single precision, so
+// that no list of the corners around a point is needed.
 // Based on: Zhang & Naga, "A New Finite Element Gradient Recovery Method: Superconvergence Property", 2005 (a quadratic
 // fit around each point, here of the height above a plane; a ridge keeps it solvable); Max, "Weights for Computing
 // Vertex Normals from Facet Normals", 1999 (the plane).
 //
 // A fit follows noise, and across a bevel it bends what is flat. What tells these from a smooth surface is an edge e
-// between normals m and n: on a circle, and nearly on everything that is smooth at the mesh's scale, dot(e, m + n) is 0.
+// between normals m and n: on a circle, and nearly on everything that is smooth at the mesh's scale, dot(e, m + n) is
+// 0.
 //
 // Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its namespace. Each lane is one triangle, or one
 // point.

@@ -21,8 +21,8 @@ struct FaceSource {
 inline constexpr std::size_t kTermTriangles = 64;  ///< of one block; its arrays stay in the first cache
 inline constexpr std::size_t kTermGroup = 16;      ///< triangles; vertices are read by whole groups
 
-// Below the first fraction of the weights a sum is what rounding left of normals that cancel. Below the second it shows how
-// single-precision angles were rounded: it is then taken again, with angles in double.
+// Below the first fraction of the weights a sum is what rounding left of normals that cancel. Below the second it shows
+// how single-precision angles were rounded: it is then taken again, with angles in double.
 inline constexpr double kVanished = 1e-10, kDoubtful = 1e-2;
 
 struct FaceTerms {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// generateNormals: checks, and which way is taken. For another pose points and components are those of the mesh; faces and
-// weights are the pose's.
+// generateNormals: checks, and which way is taken. For another pose points and components are those of the mesh; faces
+// and weights are the pose's.
 #include "tspace/normals.h"
 
 #include "core/border.h"

@@ -2,8 +2,8 @@
 // Range by range of points: the corners at each point, with the normals of their faces and their weights, are put side
 // by side; then the components around each point are found, and each gets its mean. Normals and angles of triangles
 // come from the kernel.
-// Based on: Gouraud 1971 (uniform); Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998 (angle);
-// Max, "Weights for Computing Vertex Normals from Facet Normals", 1999 (max).
+// Based on: Gouraud 1971 (uniform); Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998
+// (angle); Max, "Weights for Computing Vertex Normals from Facet Normals", 1999 (max).
 #include "normals/smooth_faces.h"
 
 #include <algorithm>

@@ -60,8 +60,8 @@ inline bool isSmooth(const SmoothingRule& rule, const FaceRow& a, const FaceRow&
 
 using Four = std::int32_t __attribute__((vector_size(16)));
 
-/// The usual point: few corners, and edges that two faces share, so that its faces follow one another in one ring, or in
-/// one row between two edges that one face has.
+/// The usual point: few corners, and edges that two faces share, so that its faces follow one another in one ring, or
+/// in one row between two edges that one face has.
 class FewCorners {
   public:
     static constexpr std::uint32_t kMost = 16;

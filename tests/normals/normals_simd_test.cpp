@@ -120,7 +120,8 @@ TEST(Simd, EveryTargetGivesTheNormalsOfPlainCode) {
     }
 }
 
-/// As many edges hard as soft: the random mesh's angles are anything, the sheets' are small, the back sides' 180 degrees.
+/// As many edges hard as soft: the random mesh's angles are anything, the sheets' are small, the back sides' 180
+/// degrees.
 TEST(HardEdges, GiveTheSameBitsForAnyTargetAndNumberOfThreads) {
     for (const SimpleMesh& mesh : {randomMesh(), withBackSides(sheet(60)), withBrokenValues(sheet(100))}) {
         for (const NormalWeighting weighting : {NormalWeighting::angle, NormalWeighting::max, NormalWeighting::best}) {
@@ -202,8 +203,8 @@ TEST(Simd, WritesIntoInterleavedVerticesWithoutTouchingTheirNeighbours) {
     }
 }
 
-/// `best` adds the corners of triangles on the one way, and the corners of points on the other. Edges that lean by 1e-5 from
-/// one direction are nearly one direction in single precision: then it takes the mean by `max`.
+/// `best` adds the corners of triangles on the one way, and the corners of points on the other. Edges that lean by 1e-5
+/// from one direction are nearly one direction in single precision: then it takes the mean by `max`.
 float allowedOfBest(const SimpleMesh& mesh) {
     float reach = 0;
     for (const Vec3& p : mesh.positions)
