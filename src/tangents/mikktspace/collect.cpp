@@ -6,6 +6,7 @@ namespace tspace::mikk {
 Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles, const Marks& marks,
                                        const std::uint32_t* node_of, MarkedBlocks blocks, const Allocator* allocator,
                                        Parallel& parallel) {
+    const std::uint8_t* const mark = marks.data();
     const bool has_polygons = !triangles.corners.empty();
     const auto bitsOf = [&](std::size_t block) -> std::uint64_t {
         if (!has_polygons && !blocks.empty() && blocks[block] == 0) return 0;
@@ -16,15 +17,18 @@ Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList&
         if (any == 0) return 0;
         std::uint32_t buffer[kBlockCorners];
         const std::uint32_t* vertex = readTriangles(mesh, triangles, first, count, buffer);
-        unsigned marked[kBlockCorners];
+        std::uint32_t nodes[kBlockCorners];
         if (node_of != nullptr) {
-            for (std::size_t i = 0; i < 3 * count; ++i) marked[i] = marks[node_of[vertex[i]]];
-        } else {
-            for (std::size_t i = 0; i < 3 * count; ++i) marked[i] = marks[vertex[i]];
+            for (std::size_t i = 0; i < 3 * count; ++i) nodes[i] = node_of[vertex[i]];
+            vertex = nodes;
         }
+        any = 0;  // as in most blocks
+        for (std::size_t i = 0; i < 3 * count; ++i) any |= mark[vertex[i]];
         std::uint64_t bits = 0;
-        for (std::size_t t = 0; t < count; ++t)
-            bits |= std::uint64_t{(marked[3 * t] | marked[3 * t + 1] | marked[3 * t + 2]) != 0 ? 1u : 0u} << t;
+        for (std::size_t t = 0; any != 0 && t < count; ++t) {
+            const unsigned marked = mark[vertex[3 * t]] | mark[vertex[3 * t + 1]] | mark[vertex[3 * t + 2]];
+            bits |= std::uint64_t{marked != 0 ? 1u : 0u} << t;
+        }
         return bits;
     };
     return collectBits((triangles.count + kCollectBlock - 1) / kCollectBlock, bitsOf, allocator, parallel);
