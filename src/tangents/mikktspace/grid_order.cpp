@@ -20,7 +20,7 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kGrain = 16384;  // vertices
+constexpr std::size_t kVertexGrain = 16384;  // vertices
 
 float component(const Vec3& v, int axis) { return (&v.x)[axis]; }
 /// x, y, z and z again.
@@ -197,7 +197,7 @@ GridOrder::GridOrder(const MeshView& mesh, const TriangleList& triangles, const 
         return static_cast<std::uint16_t>(static_cast<std::int32_t>(inside < kLast ? inside : kLast));
     };
     cells_ = Buffer<std::uint16_t>(allocator, mesh.vertexCount());
-    parallel.forRanges(cells_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel.forRanges(cells_.size(), kVertexGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) cells_[v] = cellOf(component(mesh.positions[v], axis));
     });
 }
@@ -210,21 +210,25 @@ void GridOrder::follow(std::span<CellElement> elements, std::uint32_t* represent
     Cell(elements, found).run();
 }
 
-/// `entries`: all of the wanted cells, in the order of the corner list. Cells share nothing: a node lies in one of them.
-void GridOrder::followCells(const Growing<Entry>& entries, std::uint32_t* representatives) const {
+/// entryAt(i) for i < count: all of the wanted cells, in the order of the corner list. Cells share nothing: a node lies
+/// in one of them.
+template <class EntryAt>
+void GridOrder::followCells(std::size_t count, const EntryAt& entryAt, std::uint32_t* representatives) const {
     std::array<std::uint16_t, kCells> number_of = {};  // of cells that have entries, from 1
     std::array<std::uint32_t, kCells + 2> begin;       // first, one up, how many each has
     std::uint16_t cells = 0;
     begin[0] = begin[1] = 0;
-    for (const Entry& e : entries) {
-        std::uint16_t& number = number_of[cells_[e.vertex]];
+    for (std::size_t i = 0; i < count; ++i) {
+        std::uint16_t& number = number_of[cells_[entryAt(i).vertex]];
         if (number == 0) begin[(number = ++cells) + 1] = 0;
         ++begin[number + 1];
     }
     for (std::size_t number = 1; number <= cells; ++number) begin[number + 1] += begin[number];
-    Buffer<CellElement> elements(allocator_, entries.size());
-    for (const Entry& e : entries)
+    Buffer<CellElement> elements(allocator_, count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Entry e = entryAt(i);
         elements[begin[number_of[cells_[e.vertex]]]++] = {mesh_.positions[e.vertex], e.entry};
+    }
     constexpr std::size_t kElements = 4096;  // for a thread: fewer are done sooner than one is started
     const std::size_t grain = 1 + cells * kElements / (elements.size() + 1);
     parallel_.forRanges(cells, grain, [&](std::size_t first, std::size_t last) {
@@ -242,7 +246,7 @@ void GridOrder::find(std::span<const std::uint32_t> vertices, std::uint32_t* rep
         is_wanted[cells_[vertex]] = 1;
     }
     Marks marks(allocator_, mesh_.vertexCount());
-    parallel_.forRanges(marks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel_.forRanges(marks.size(), kVertexGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) marks[v] = is_wanted[cells_[v]];
     });
     Growing<Entry> entries(allocator_);
@@ -253,15 +257,15 @@ void GridOrder::find(std::span<const std::uint32_t> vertices, std::uint32_t* rep
                 entries.push({vertex, wanted[nodes_.ofVertex(vertex)] != 0 ? entry | kMark : entry});
         }
     }
-    followCells(entries, representatives);
+    followCells(
+        entries.size(), [&](std::size_t i) { return entries[i]; }, representatives);
 }
 
 void GridOrder::findAll(std::uint32_t* representatives) const {
-    Growing<Entry> entries(allocator_);
-    entries.reserve(3 * triangles_.count);
-    for (std::uint32_t i = 0; i < 3 * triangles_.count; ++i)
-        entries.push({mesh_.indices[triangles_.corner(i)], i | kMark});
-    followCells(entries, representatives);
+    const auto entryAt = [&](std::size_t i) {
+        return Entry{mesh_.indices[triangles_.corner(i)], static_cast<std::uint32_t>(i) | kMark};
+    };
+    followCells(3 * triangles_.count, entryAt, representatives);
 }
 
 }  // namespace tspace::mikk

@@ -43,7 +43,8 @@ class GridOrder {
     struct Entry {
         std::uint32_t vertex, entry;
     };
-    void followCells(const Growing<Entry>& entries, std::uint32_t* representatives) const;
+    template <class EntryAt>
+    void followCells(std::size_t count, const EntryAt& entryAt, std::uint32_t* representatives) const;
 
     const MeshView& mesh_;
     const TriangleList& triangles_;
