@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The drop-in gives the reference's words for every golden mesh. The layout of the files is in the README
+// The drop-in gives the reference's words for every golden mesh whose bits are promised. The layout of the files is in the README
 // beside them.
 #include <gtest/gtest.h>
 
@@ -84,9 +84,10 @@ TEST(CompatGolden, EveryWordIsTheReferences) {
     std::size_t mesh_count = 0, equal_count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(tspace::test::shared("golden/mikktspace"))) {
         if (entry.path().extension() != ".tsg") continue;
-        ++mesh_count;
         Golden golden(entry.path());
         ASSERT_FALSE(golden.face_sizes.empty()) << entry.path();
+        if (!golden.hasPromisedBits()) continue;
+        ++mesh_count;
         const SMikkTSpaceContext context = {&calls, &golden};
         const tbool returned = genTangSpace(&context, golden.angular_threshold_deg);
         EXPECT_EQ(golden.returned, static_cast<std::uint32_t>(returned)) << entry.path();
@@ -96,7 +97,7 @@ TEST(CompatGolden, EveryWordIsTheReferences) {
     }
     RecordProperty("meshes", static_cast<int>(mesh_count));
     EXPECT_EQ(equal_count, mesh_count);
-    EXPECT_GT(mesh_count, 0u);
+    EXPECT_GT(mesh_count, 300u);
 }
 
 }  // namespace
