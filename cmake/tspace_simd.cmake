@@ -22,13 +22,8 @@ else()
     set(tspace_simd_cpus)
 endif()
 
-# Gives each source whose name ends in a CPU's name the flags for that CPU, for targets of the current folder, or of
-# the folder of the target that is named after the sources.
+# Gives each source whose name ends in a CPU's name the flags for that CPU, for targets of the current folder.
 function(tspace_simd_flags sources)
-    set(scope)
-    if(ARGC GREATER 1)
-        set(scope TARGET_DIRECTORY ${ARGV1})
-    endif()
     set(options_avx2 -mavx2)
     set(options_avx512 -mavx512f -mavx512dq)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
@@ -36,21 +31,26 @@ function(tspace_simd_flags sources)
     endif()
     foreach(source ${sources})
         if(source MATCHES "_(scalar|sse2|avx2|avx512|neon)\\.cpp$")
-            set_source_files_properties("${source}" ${scope} PROPERTIES
+            set_source_files_properties("${source}" PROPERTIES
                 COMPILE_OPTIONS "${options_${CMAKE_MATCH_1}}" SKIP_UNITY_BUILD_INCLUSION ON)
         endif()
     endforeach()
 endfunction()
 
-# tspace_simd_sources(NAME): the kernel NAME_kernel.h of this folder, compiled for every CPU, from files that are made here:
-# they include the lanes of their CPU, then the kernel.
-function(tspace_simd_sources name)
+# tspace_simd_kernel(NAME): the kernel NAME_kernel.h of this folder will be compiled for every CPU.
+function(tspace_simd_kernel name)
     file(RELATIVE_PATH kernel "${PROJECT_SOURCE_DIR}/src" "${CMAKE_CURRENT_SOURCE_DIR}/${name}_kernel.h")
+    set_property(TARGET tspace APPEND_STRING PROPERTY TSPACE_KERNELS "#include \"${kernel}\"\n")
+endfunction()
+
+# Makes one source for each CPU, which includes the lanes of that CPU, then all kernels.
+function(tspace_simd_sources)
+    get_target_property(kernels tspace TSPACE_KERNELS)
     foreach(cpu scalar ${tspace_simd_cpus})
-        set(source "${CMAKE_CURRENT_BINARY_DIR}/${name}_${cpu}.cpp")
-        configure_file("${PROJECT_SOURCE_DIR}/cmake/kernel.cpp.in" "${source}" @ONLY)
+        set(source "${CMAKE_CURRENT_BINARY_DIR}/kernels_${cpu}.cpp")
+        configure_file("${PROJECT_SOURCE_DIR}/cmake/kernels.cpp.in" "${source}" @ONLY)
         list(APPEND sources "${source}")
     endforeach()
     target_sources(tspace PRIVATE ${sources})
-    tspace_simd_flags("${sources}" tspace)
+    tspace_simd_flags("${sources}")
 endfunction()

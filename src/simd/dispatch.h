@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which instructions this CPU has, and the functions that are compiled for them. A kernel is written once,
-// NAME_kernel.h; cmake/tspace_simd.cmake makes a file of it for each target.
+// NAME_kernel.h; cmake/tspace_simd.cmake makes a source of all of them for each target.
 #pragma once
 
 #include <cstddef>

@@ -25,16 +25,16 @@ inline Vectors select(Mask m, Vectors yes, Vectors no) {
 /// unit() of vector_rules.h, of a vector whose square is known. A squared length above zero shows that some
 /// component is above the smallest normal number (others have a square of zero), so the rule for small
 /// vectors is needed only where it is zero or NaN.
-inline Vectors unit(Vectors v, Floats square) {
+inline Vectors unitByRules(Vectors v, Floats square) {
     const Vectors scaled = (broadcast(1.0f) / squareRoot(square)) * v;
     if (all(square > broadcast(0.0f))) [[likely]]
         return scaled;
     return select(notZero(v.x) | notZero(v.y) | notZero(v.z), scaled, v);
 }
 
-inline Vectors unit(Vectors v) { return unit(v, dot(v, v)); }
+inline Vectors unitByRules(Vectors v) { return unitByRules(v, dot(v, v)); }
 inline Vectors alongPlane(Vectors n, Vectors v) { return v - dot(n, v) * n; }
-inline Vectors flatten(Vectors n, Vectors v) { return unit(alongPlane(n, v)); }
+inline Vectors flatten(Vectors n, Vectors v) { return unitByRules(alongPlane(n, v)); }
 
 /// One group of kWidth triangles.
 struct Group {
@@ -105,7 +105,7 @@ enum class Kind { projected_angle, other, none };
 template <Kind kKind>
 inline Floats weightOrCosine(Weighting weighting, const Vectors& normal, const Vectors& previous, const Vectors& next) {
     if constexpr (kKind == Kind::projected_angle) return dot(flatten(normal, previous), flatten(normal, next));
-    if (weighting == Weighting::angle) return dot(unit(previous), unit(next));
+    if (weighting == Weighting::angle) return dot(unitByRules(previous), unitByRules(next));
     if (weighting == Weighting::one) return broadcast(1.0f);
     const Vectors c = cross(next, previous);
     return broadcast(0.5f) * squareRoot(dot(c, c));
@@ -143,7 +143,7 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
         const Vectors normal = gatherVectors(source.normals, source.normal_stride, vertices + k, exact);
         const Vectors flat_s = alongPlane(normal, shape.s);
         const Floats square = dot(flat_s, flat_s);
-        s[k] = unit(flat_s, square);
+        s[k] = unitByRules(flat_s, square);
         if constexpr (!kTangentsOnly) t[k] = flatten(normal, shape.t);
         const Vectors here = group.position[k];
         weights[k] = weightOrCosine<kKind>(source.weighting, normal, group.position[(k + 2) % 3] - here,
