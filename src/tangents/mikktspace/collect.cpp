@@ -22,13 +22,14 @@ Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList&
             for (std::size_t i = 0; i < 3 * count; ++i) nodes[i] = node_of[vertex[i]];
             vertex = nodes;
         }
-        any = 0;  // as in most blocks
-        for (std::size_t i = 0; i < 3 * count; ++i) any |= mark[vertex[i]];
+        const auto marked = [&](std::size_t t) -> std::uint8_t {
+            const std::uint32_t* at = vertex + 3 * t;
+            return mark[at[0]] | mark[at[1]] | mark[at[2]];
+        };
+        std::uint8_t some = 0;  // as in most blocks
+        for (std::size_t t = 0; t < count; ++t) some |= marked(t);
         std::uint64_t bits = 0;
-        for (std::size_t t = 0; any != 0 && t < count; ++t) {
-            const unsigned marked = mark[vertex[3 * t]] | mark[vertex[3 * t + 1]] | mark[vertex[3 * t + 2]];
-            bits |= std::uint64_t{marked != 0 ? 1u : 0u} << t;
-        }
+        for (std::size_t t = 0; some != 0 && t < count; ++t) bits |= std::uint64_t{marked(t) != 0 ? 1u : 0u} << t;
         return bits;
     };
     return collectBits((triangles.count + kCollectBlock - 1) / kCollectBlock, bitsOf, allocator, parallel);
