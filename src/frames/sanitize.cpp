@@ -138,6 +138,12 @@ Cause causeOf(const Vec4& tangent, const DVec3& n) {
     return isSign(tangent.w) ? Cause::sound : Cause::badSign;
 }
 
+/// Whether a cause leaves a direction that isUsable: causeOf has looked.
+bool hasUsable(Cause cause) {
+    return cause == Cause::sound || cause == Cause::placeholder || cause == Cause::badSign ||
+           cause == Cause::mixedSign || cause == Cause::notOrthogonal;
+}
+
 /// The usable direction made unit and orthogonal to n. Orthogonalised twice: near n the first pass cancels
 /// digits.
 Vec3 orthonormal(const Vec3& direction, const DVec3& n) {
@@ -168,7 +174,7 @@ struct SurelySound {
         const Vec3 t = xyz(tangent);
         const float nn = dot(n, n), nt = dot(n, t);
         const bool is_unit = std::fabs(dot(t, t) - 1) <= kSquareTolerance, has_sign = std::fabs(tangent.w) == 1.0f;
-        const float most = (t.y == 0) & (t.z == 0) ? kSquareLean : kSquareCosine;
+        const float most = ((t.y == 0) & (t.z == 0)) ? kSquareLean : kSquareCosine;
         return is_unit & has_sign & (nn >= kLeast) & (nn <= kMost) & (nt * nt <= most * nn);
     }
     /// The same of four, with their signs apart.
@@ -374,11 +380,13 @@ class Sanitizer {
         const std::size_t sound = firstSound(first, size);
         for (std::size_t c = first; c < first + size; ++c) {
             if (causes_[c] == Cause::sound) continue;
-            const DVec3 n = normalAt(c);
-            const bool has_own = isUsable(xyz(tangents_[c]), n);
-            const bool has_neighbor = sound < first + size && isUsable(xyz(tangents_[sound]), n);
             const bool needs_sign = sound == first + size && !isSign(tangents_[c].w);
-            if ((has_own || has_neighbor) && !needs_sign) continue;
+            if (!needs_sign) {
+                if (hasUsable(causes_[c])) continue;
+                const DVec3 n = normalAt(c);
+                if (isUsable(xyz(tangents_[c]), n) || (sound < first + size && isUsable(xyz(tangents_[sound]), n)))
+                    continue;
+            }
             if (!equalsItself(positionAt(c))) continue;
             seeks_[c] = 1;
             ++counts.seekers;
@@ -455,15 +463,16 @@ class Sanitizer {
                 if (isOrthonormal(xyz(tangents_[c]), n)) continue;
                 cause = Cause::notOrthogonal;
             }
-            const auto [tangent, cure] = mended(c, n, neighbor, positions);
+            const auto [tangent, cure] = mended(c, cause, n, neighbor, positions);
             tangents_[c] = {tangent.x, tangent.y, tangent.z, sign};
             counts.count(cause, cure);
         }
     }
 
-    [[nodiscard]] std::pair<Vec3, Cure> mended(std::size_t corner, const DVec3& n, const Vec4& neighbor,
+    [[nodiscard]] std::pair<Vec3, Cure> mended(std::size_t corner, Cause cause, const DVec3& n, const Vec4& neighbor,
                                                const SoundPositions& positions) const {
-        if (isUsable(xyz(tangents_[corner]), n)) return {orthonormal(xyz(tangents_[corner]), n), Cure::own};
+        if (hasUsable(cause) || isUsable(xyz(tangents_[corner]), n))
+            return {orthonormal(xyz(tangents_[corner]), n), Cure::own};
         if (isUsable(xyz(neighbor), n)) return {orthonormal(xyz(neighbor), n), Cure::neighbor};
         const Vec4* sound = seeks_[corner] != 0 ? positions.find(positionAt(corner)) : nullptr;
         if (sound != nullptr && isUsable(xyz(*sound), n)) return {orthonormal(xyz(*sound), n), Cure::neighbor};

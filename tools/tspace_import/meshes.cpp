@@ -160,8 +160,6 @@ struct Joined {
 };
 
 Joined joinEqual(const std::vector<Attribute>& attributes, std::size_t count) {
-    std::size_t width = 0;
-    for (const Attribute& attribute : attributes) width += attribute.components;
     std::unordered_map<std::string, std::uint32_t> known;
     Joined joined;
     std::string bits;
