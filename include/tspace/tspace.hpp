@@ -8,6 +8,7 @@
 #include "tspace/frame.h"
 #include "tspace/mesh.h"
 #include "tspace/normals.h"
+#include "tspace/pack.h"
 #include "tspace/result.h"
 #include "tspace/sanitize.h"
 #include "tspace/span.h"

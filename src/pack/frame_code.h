@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// What all codes of this room read and give: a frame to encode, and one as decoded. A code is a function of the frame
+// alone, and decodes in single precision, as a shader does; the encoder measures by decoding.
+#pragma once
+
+#include "core/vec_math.h"
+
+namespace tspace::pack {
+
+/// A frame to encode: N and T unit and orthogonal within 5e-7.
+struct SoundFrame {
+    DVec3 normal, tangent;
+    bool mirrored = false;  ///< the sign is -1
+};
+
+struct DecodedFrame {
+    Vec3 normal, tangent;
+    bool mirrored = false;
+};
+
+inline double squaredDistance(const Vec3& decoded, const DVec3& wanted) {
+    const DVec3 d = toDouble(decoded) - wanted;
+    return dot(d, d);
+}
+
+/// v scaled to length 1; v must not be zero and its square must not overflow or vanish.
+inline Vec3 unit(const Vec3& v) { return (1 / length(v)) * v; }
+
+}  // namespace tspace::pack

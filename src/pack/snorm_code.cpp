@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "pack/snorm_code.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/basis.h"
+
+namespace tspace::pack {
+
+namespace {
+
+constexpr std::int32_t kMost16 = 32767;
+
+std::int32_t rounded(double x) { return static_cast<std::int32_t>(std::floor(x + 0.5)); }
+
+/// The quaternion x, y, z, w of the rotation with columns T, N x T, N; w >= 0. The largest component comes first, from
+/// the diagonal, and divides the others: no digits cancel.
+std::array<double, 4> quaternionOf(const SoundFrame& frame) {
+    const DVec3 &t = frame.tangent, &n = frame.normal, b = cross(n, t);
+    const double squares[4] = {1 + t.x - b.y - n.z, 1 - t.x + b.y - n.z, 1 - t.x - b.y + n.z, 1 + t.x + b.y + n.z};
+    const double sums[3][3] = {{0, t.y + b.x, n.x + t.z}, {t.y + b.x, 0, b.z + n.y}, {n.x + t.z, b.z + n.y, 0}};
+    const double differences[3] = {b.z - n.y, n.x - t.z, t.y - b.x};
+    const auto largest = static_cast<std::size_t>(std::max_element(squares, squares + 4) - squares);
+    std::array<double, 4> q;
+    for (std::size_t m = 0; m < 4; ++m) {
+        if (m == largest) {
+            q[m] = squares[m];
+        } else if (largest == 3) {
+            q[m] = differences[m];
+        } else {
+            q[m] = m == 3 ? differences[largest] : sums[largest][m];
+        }
+    }
+    const double scale = (q[3] < 0 ? -1 : 1) / std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    for (double& component : q) component *= scale;
+    return q;
+}
+
+double errorOf(const DecodedFrame& found, const SoundFrame& frame) {
+    return std::max(squaredDistance(found.normal, frame.normal), squaredDistance(found.tangent, frame.tangent));
+}
+
+}  // namespace
+
+std::array<std::int32_t, 4> encodeQuaternion(const SoundFrame& frame) {
+    const std::array<double, 4> q = quaternionOf(frame);
+    std::array<std::int32_t, 4> below;
+    for (std::size_t m = 0; m < 4; ++m) below[m] = static_cast<std::int32_t>(std::floor(q[m] * kMost16));
+    // Of the codes around it the one with the least error, not the one with the nearest components. Sixteen do; but w must
+    // not be 0, and where only 1 is left for it, further x, y and z make up for that: docs/pack.md has the bounds.
+    std::array<std::int32_t, 4> best{0, 0, 0, 1};
+    double least = std::numeric_limits<double>::infinity();
+    const bool is_half_turn = below[3] == 0;
+    for (std::uint32_t choice = 0; choice < (is_half_turn ? 64u : 16u); ++choice) {
+        std::array<std::int32_t, 4> code;
+        for (std::uint32_t m = 0; m < 4; ++m) {
+            const auto up = static_cast<std::int32_t>(is_half_turn ? choice >> 2 * m & 3 : choice >> m & 1);
+            code[m] = std::clamp(below[m] + up - (is_half_turn ? 1 : 0), -kMost16, kMost16);
+        }
+        if (is_half_turn) code[3] = 1;
+        const double error = errorOf(decodeQuaternion(code), frame);
+        if (error >= least) continue;
+        least = error;
+        best = code;
+    }
+    if (frame.mirrored) {
+        for (std::int32_t& component : best) component = -component;
+    }
+    return best;
+}
+
+DecodedFrame decodeQuaternion(const std::array<std::int32_t, 4>& code) {
+    std::array<float, 4> q;
+    for (std::size_t m = 0; m < 4; ++m) q[m] = static_cast<float>(std::max(code[m], -kMost16));
+    const auto [x, y, z, w] = q;
+    const float square = x * x + y * y + z * z + w * w;
+    if (square == 0) return {{0, 0, 1}, {1, 0, 0}, false};
+    const float k = 2 / square;
+    return {{k * (z * x + w * y), k * (y * z - w * x), 1 - k * (x * x + y * y)},
+            {1 - k * (y * y + z * z), k * (x * y + w * z), k * (z * x - w * y)},
+            code[3] < 0};
+}
+
+std::array<std::int32_t, 3> encodeVector(const DVec3& v, std::int32_t most) {
+    // v is unit but for its last bits, so nothing exceeds `most`.
+    return {rounded(v.x * most), rounded(v.y * most), rounded(v.z * most)};
+}
+
+DecodedFrame decodeVectors(const std::array<std::int32_t, 3>& normal, const std::array<std::int32_t, 3>& tangent) {
+    const auto read = [](const std::array<std::int32_t, 3>& v) {
+        return Vec3{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+    };
+    const bool has_normal = normal != std::array{0, 0, 0}, has_tangent = tangent != std::array{0, 0, 0};
+    const Vec3 n = has_normal ? unit(read(normal)) : Vec3{0, 0, 1};
+    return {n, has_tangent ? unit(read(tangent)) : toFloat(planeAxes(toDouble(n)).x)};
+}
+
+}  // namespace tspace::pack
