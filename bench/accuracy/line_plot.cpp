@@ -82,9 +82,10 @@ std::string drawn(const Axis& x_axis, const Axis& y_axis, const std::vector<Line
 
 std::string colourOf(const std::string& name) {
     static const std::map<std::string, std::string> colours = {
-        {"mikktspace", "#1565c0"}, {"lengyel", "#8d6e63"}, {"uniform", "#7b1fa2"},    {"angle", "#26a69a"},
-        {"area", "#ef6c00"},       {"flat", "#9e9e9e"},    {"fast", "#c0ca33"},       {"best", "#c62828"},
-        {"floor", "#212121"},      {"max", "#2e7d32"},     {"angle-area", "#1565c0"},
+        {"mikktspace", "#1565c0"},    {"lengyel", "#8d6e63"}, {"uniform", "#7b1fa2"},    {"angle", "#26a69a"},
+        {"area", "#ef6c00"},          {"flat", "#9e9e9e"},    {"fast", "#c0ca33"},       {"best", "#c62828"},
+        {"floor", "#212121"},         {"max", "#2e7d32"},     {"angle-area", "#1565c0"}, {"best, 0 steps", "#ef9a9a"},
+        {"best, 2 steps", "#6d1b1b"},
     };
     const auto found = colours.find(name);
     return found == colours.end() ? "#000" : found->second;

@@ -53,15 +53,18 @@ Frames exactFrames(const TestMesh& mesh) {
 
 std::vector<NamedWeighting> weightings() {
     return {
-        {"uniform", NormalWeighting::uniform},      {"area", NormalWeighting::area}, {"angle", NormalWeighting::angle},
-        {"angle-area", NormalWeighting::angleArea}, {"max", NormalWeighting::max},   {"best", NormalWeighting::best},
+        {"uniform", NormalWeighting::uniform}, {"area", NormalWeighting::area},
+        {"angle", NormalWeighting::angle},     {"angle-area", NormalWeighting::angleArea},
+        {"max", NormalWeighting::max},         {"best, 0 steps", NormalWeighting::best, 0},
+        {"best", NormalWeighting::best},       {"best, 2 steps", NormalWeighting::best, 2},
     };
 }
 
-std::vector<Vec3> normalsBy(NormalWeighting weighting, const TestMesh& mesh) {
+std::vector<Vec3> normalsBy(NormalWeighting weighting, const TestMesh& mesh, std::uint32_t refine) {
     std::vector<Vec3> normals(mesh.indices.size());
     NormalOptions options;
     options.weighting = weighting;
+    options.refine = refine;
     options.execution.thread_count = 1;
     stopOnError(generateNormals(mesh.view(), options, normals));
     return normals;

@@ -33,10 +33,11 @@ Frames exactFrames(const TestMesh& mesh);
 struct NamedWeighting {
     std::string name;
     NormalWeighting weighting;
+    std::uint32_t refine = 1;
 };
 
 std::vector<NamedWeighting> weightings();
 /// Normals per corner. Vertices on a fold are one point.
-std::vector<Vec3> normalsBy(NormalWeighting weighting, const TestMesh& mesh);
+std::vector<Vec3> normalsBy(NormalWeighting weighting, const TestMesh& mesh, std::uint32_t refine = 1);
 
 }  // namespace tspace::accuracy

@@ -122,7 +122,7 @@ class Runner {
 
     void measureNormals(const TestMesh& mesh, const Record& of) {
         for (const NamedWeighting& weighting : weightings()) {
-            const std::vector<Vec3> normals = normalsBy(weighting.weighting, mesh);
+            const std::vector<Vec3> normals = normalsBy(weighting.weighting, mesh, weighting.refine);
             NormalRecord record{of.surface,  of.tessellation, of.damage, weighting.name,
                                 of.held_out, of.cells,        of.share};
             const bool is_bevel = mesh.surface == nullptr;

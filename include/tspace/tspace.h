@@ -249,6 +249,16 @@ enum {
     TSPACE_NORMAL_WEIGHTING_BEST = 7        /* quadratic fit; angle * area on noise and bevels */
 };
 
+/* How many steps `best` takes after its fit, for normals and tangents: each makes what is interpolated along edges fit
+ * the edges. Other weightings and methods take none. */
+typedef uint32_t tspace_Refine;
+enum {
+    TSPACE_REFINE_DEFAULT = 0, /* one step */
+    TSPACE_REFINE_ONE = 1,
+    TSPACE_REFINE_TWO = 2,
+    TSPACE_REFINE_NONE = 3 /* the fit alone */
+};
+
 typedef struct tspace_NormalOptions {
     uint32_t struct_size;
     tspace_NormalWeighting weighting;
@@ -265,6 +275,7 @@ typedef struct tspace_NormalOptions {
     uint32_t keep_positions_apart;
     tspace_Convention convention; /* handedness and winding say which side is out */
     tspace_Execution execution;
+    tspace_Refine refine; /* steps of TSPACE_NORMAL_WEIGHTING_BEST */
 } tspace_NormalOptions;
 
 /* What was met. Broken input is counted and never makes a call fail. */

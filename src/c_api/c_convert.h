@@ -70,6 +70,11 @@ StridedSpan<T> toSpan(const tspace_Span& span) {
     return {reinterpret_cast<T*>(span.data), span.count, span.stride_bytes == 0 ? sizeof(T) : span.stride_bytes};
 }
 
+/// The number of steps that the C constant means.
+constexpr std::uint32_t toRefine(tspace_Refine refine) {
+    return refine == TSPACE_REFINE_NONE ? 0 : refine == TSPACE_REFINE_DEFAULT ? 1 : refine;
+}
+
 IndexView toIndices(const tspace_Indices& indices);
 
 /// The mesh without checks; only its struct size must be right.

@@ -26,6 +26,7 @@ Error checkOptions(const tspace_NormalOptions* given) {
                       [&] { return checkChoice(options.weighting, TSPACE_NORMAL_WEIGHTING_BEST, "weighting"); },
                       [&] { return checkChoice(options.smoothing_groups_are_masks, 1, "smoothing_groups_are_masks"); },
                       [&] { return checkChoice(options.keep_positions_apart, 1, "keep_positions_apart"); },
+                      [&] { return checkChoice(options.refine, TSPACE_REFINE_NONE, "refine"); },
                       [&] { return checkConvention(options.convention); },
                       [&] { return checkExecution(options.execution); },
                       [&]() -> Error {
@@ -48,6 +49,7 @@ NormalOptions toOptions(const tspace_NormalOptions& options) {
     result.smoothing_groups_are_masks = options.smoothing_groups_are_masks != 0;
     result.weld_positions = options.keep_positions_apart == 0;
     result.convention = toConvention(options.convention);
+    result.refine = toRefine(options.refine);
     return result;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // NormalWeighting::best from sums: what each corner of a triangle adds to its point, and what a point makes of it. Two
-// rounds, since the second one needs the `max` normals of the first at both ends of an edge. Written once
-// (best_sums_kernel.h), compiled for several CPUs, same bits from all of them.
+// rounds, since the second one needs the `max` normals of the first at both ends of an edge, and one for each step of
+// NormalOptions::refine. Written once (best_sums_kernel.h), compiled for several CPUs, same bits from all of them.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,8 @@ struct BestSource {
     std::uint32_t last_vertex = 0;  ///< right after its position nothing may be read
     float scale = 1;                ///< of positions: a power of four that brings them near 1
     float factor = 1;               ///< normalFactor(convention)
-    /// Means by angle * area, and by `max`: three floats and four bytes that are read too.
+    /// Means by angle * area, and by `max`: three floats and four bytes that are read too. A step reads the normals of
+    /// the round before as `robust`; those that are zero stay so, and edges to them do not count.
     const std::byte *robust = nullptr, *sharp = nullptr;
     std::size_t robust_stride = 32, sharp_stride = 16;
 };
@@ -26,6 +27,7 @@ struct BestSource {
 inline constexpr std::size_t kBestTriangles = 32;  ///< of one block
 inline constexpr std::size_t kBestGroup = 16;      ///< lanes; vertices and points are read by whole groups
 inline constexpr std::size_t kFitRows = 7;         ///< of four floats; the last one has maxima in the place of sums
+inline constexpr std::size_t kStepRows = 2;        ///< of four floats
 
 /// The functions for one CPU. `vertices` and `points`: three per triangle, and valid ones up to the end of the last
 /// group. Corner k of triangle t writes to rows + 4 * (rows per corner) * (3 * t + k). Triangles without area, or with
@@ -41,6 +43,12 @@ struct BestKernel {
     /// Makes the first row of each point its unit normal. robust, sharp: four floats per point. A multiple of
     /// kBestGroup.
     void (*finish_fit)(float* sums, const float* robust, const float* sharp, std::size_t count);
+    /// kStepRows per corner.
+    void (*add_step)(const BestSource& source, const std::uint32_t* vertices, const std::uint32_t* points,
+                     std::size_t count, float* rows);
+    /// Makes the first row of each point its unit normal, or zero. normals: four floats per point, of the round before.
+    /// A multiple of kBestGroup.
+    void (*finish_step)(float* sums, const float* normals, std::size_t count);
 };
 
 TSPACE_DECLARE_KERNEL(BestKernel bestKernel())

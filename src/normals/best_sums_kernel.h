@@ -40,6 +40,12 @@ constexpr double kNoTrust = 1e12;  // so large that a blend has the bits of one 
 
 constexpr std::size_t kFitStep = 12 * kFitRows;  // floats from triangle to triangle
 
+// Where the trust in a step is half, found in the same way.
+constexpr double kStepLeft = 0.5;          // of what the step explains, what it does not
+constexpr double kStepNoise = 1.0 / 30.0;  // of the turn over the edges, what the step does not explain
+
+constexpr std::size_t kStepStride = 12 * kStepRows;  // floats from triangle to triangle
+
 /// Edge k goes from corner k to corner k + 1. Of a triangle that does not count all is zero.
 struct Edges {
     Vectors edge[3];
@@ -215,13 +221,14 @@ struct Slopes {
     Mask spanned;  ///< whether edges point in more than one direction
     Floats xx, xy, yy;
 
-    explicit Slopes(const PointSums& s) {
-        const Floats determinant = s.xx * s.yy - s.xy * s.xy, all = s.xx + s.yy;
+    /// Of the sums of squares and products of the edges' two coordinates.
+    Slopes(Floats sum_xx, Floats sum_xy, Floats sum_yy) {
+        const Floats determinant = sum_xx * sum_yy - sum_xy * sum_xy, all = sum_xx + sum_yy;
         spanned = determinant > broadcast(1e-6f) * (all * all);
         const Floats inverse = keep(spanned, broadcast(1.0f) / determinant);
-        xx = s.yy * inverse;
-        xy = minus(s.xy * inverse);
-        yy = s.xx * inverse;
+        xx = sum_yy * inverse;
+        xy = minus(sum_xy * inverse);
+        yy = sum_xx * inverse;
     }
     [[nodiscard]] Flat solve(Floats x, Floats y) const { return {xx * x + xy * y, xy * x + yy * y}; }
 };
@@ -298,7 +305,7 @@ void finishFit(float* sums, const float* robust_rows, const float* sharp_rows, s
         loadRows<4>(robust_rows + 4 * g, robust.x, robust.y, robust.z, unused);
         loadRows<4>(sharp_rows + 4 * g, sharp.x, sharp.y, sharp.z, unused);
         const PointSums s(sums + kStep * g);
-        const Slopes slopes(s);
+        const Slopes slopes(s.xx, s.xy, s.yy);
         const Vectors fit = fittedNormal(Plane(sharp), s, slopes);
         const Floats share = one / (one + doubtIn(s, slopes, robust, sharp, fit));
         // The two lean to the same side, so the sum does not vanish.
@@ -309,8 +316,76 @@ void finishFit(float* sums, const float* robust_rows, const float* sharp_rows, s
     }
 }
 
+// -- a step: the normal, interpolated along an edge, is across it. On any circle dot(e, m + n) is 0. --
+
+/// An edge as its beginning sees it: along the plane across the normal there, by its length.
+struct Pull {
+    Floats x, y, misfit, turn;
+
+    Pull(const Plane& plane, Vectors e, Floats inverse, Vectors here, Vectors there) {
+        const Mask counts = (dot(here, here) > zero()) & (dot(there, there) > zero());
+        const Floats scale = keep(counts, inverse);
+        x = scale * dot(plane.x, e);
+        y = scale * dot(plane.y, e);
+        misfit = scale * dot(e, here + there);
+        turn = scale * dot(e, there - here);
+    }
+};
+
+void addStep(const BestSource& source, const std::uint32_t* vertices, const std::uint32_t* points, std::size_t count,
+             float* rows) {
+    for (std::size_t g = 0; g < count; g += kWidth) {
+        const Edges t(source, vertices + 3 * g);
+        const Floats weight = squareRoot(squareRoot(dot(t.turn, t.turn))), one = broadcast(1.0f);
+        Vectors normal[3];
+        Floats inverse[3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            normal[k] = gatherVectors(source.robust, source.robust_stride, points + 3 * g + k, false);
+            inverse[k] = quotient(one, squareRoot(t.square[k]));
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t next = (k + 1) % 3, previous = (k + 2) % 3;
+            const Plane plane(normal[k]);
+            const Pull a(plane, t.edge[k], inverse[k], normal[k], normal[next]);
+            const Pull b(plane, t.edge[previous], minus(inverse[previous]), normal[k], normal[previous]);
+            float* const at = rows + kStepStride * g + 4 * kStepRows * k;
+            storeRows<kStepStride>(at, weight * (a.x * a.x + b.x * b.x), weight * (a.x * a.y + b.x * b.y),
+                                   weight * (a.y * a.y + b.y * b.y), weight * (a.x * a.misfit + b.x * b.misfit));
+            storeRows<kStepStride>(at + 4, weight * (a.y * a.misfit + b.y * b.misfit),
+                                   weight * (a.misfit * a.misfit + b.misfit * b.misfit),
+                                   weight * (a.turn * a.turn + b.turn * b.turn), zero());
+        }
+    }
+}
+
+/// The normal turns by 14 degrees at most, however little the edges span: the tangent of that is x / (1 + x^2) / 2.
+void finishStep(float* sums, const float* normals, std::size_t count) {
+    constexpr std::size_t kStep = 4 * kStepRows;
+    const Floats one = broadcast(1.0f), half = broadcast(0.5f);
+    const auto trust = [&](double limit, Floats doubt) {
+        return one + squared(broadcast(static_cast<float>(1 / limit)) * doubt);
+    };
+    for (std::size_t g = 0; g < count; g += kWidth) {
+        Vectors n;
+        Floats xx, xy, yy, xm, ym, mm, turn, unused;
+        loadRows<4>(normals + 4 * g, n.x, n.y, n.z, unused);
+        loadRows<kStep>(sums + kStep * g, xx, xy, yy, xm);
+        loadRows<kStep>(sums + kStep * g + 4, ym, mm, turn, unused);
+        const Slopes slopes(xx, xy, yy);
+        const Flat lean = minus(one) * slopes.solve(xm, ym);
+        const Floats explained = minus(lean.x * xm + lean.y * ym), left = larger(mm - explained, zero());
+        // Not a number where there is nothing to explain.
+        const Floats share =
+            half / (trust(kStepLeft, left / explained) * trust(kStepNoise, left / turn) * (one + dot(lean, lean)));
+        const Plane plane(n);
+        const Vectors moved = unit(plane.n + keep(slopes.spanned & (share > zero()), share) * plane.raise(lean));
+        const Vectors result = keep(dot(n, n) > zero(), moved);
+        storeRows<kStep>(sums + kStep * g, result.x, result.y, result.z, zero());
+    }
+}
+
 }  // namespace
 
-BestKernel bestKernel() { return {addSharp, finishSharp, addFit, finishFit}; }
+BestKernel bestKernel() { return {addSharp, finishSharp, addFit, finishFit, addStep, finishStep}; }
 
 }  // namespace tspace::smooth::TSPACE_LANES

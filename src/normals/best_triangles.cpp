@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Two rounds over the triangles, each range by range of points: zero the sums, add the triangles that are listed,
-// finish.
+// Rounds over the triangles, each range by range of points: zero the sums, add the triangles that are listed, finish.
 #include "normals/best_triangles.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "core/input_scale.h"
 #include "core/range_lists.h"
@@ -46,11 +46,11 @@ struct Setting {
     BestSource source;
     const float* normals;
     float* sharp;    ///< four floats per point, as is
-    float* results;  ///< the normals of `best`
+    float* results;  ///< the normals of `best`, or of the step before
     std::size_t point_count;
 };
 
-/// One range of points in one round. kRows is 1 for the `max` normals, else kFitRows.
+/// One range of points in one round. kRows is 1 for the `max` normals, kFitRows, or kStepRows: from `results` to `sharp`.
 template <std::size_t kRows>
 class RangeWork {
   public:
@@ -89,18 +89,15 @@ class RangeWork {
         if (pending_ == 0) return;
         if constexpr (kRows == 1) {
             setting_.kernel.add_sharp(setting_.source, vertices_, pending_, rows_);
-        } else {
+        } else if constexpr (kRows == kFitRows) {
             setting_.kernel.add_fit(setting_.source, vertices_, points_, pending_, rows_);
+        } else {
+            setting_.kernel.add_step(setting_.source, vertices_, points_, pending_, rows_);
         }
         for (std::size_t i = 0; i < 3 * pending_; ++i) {
             const std::uint32_t place = points_[i] - first_;
             if (place >= count_) continue;
-            float* const sums = sums_ + 4 * kRows * place;
-            const float* const rows = rows_ + 4 * kRows * i;
-            if constexpr (kRows == 1)
-                addRow(sums, rows);
-            else
-                addFitRows(sums, rows);
+            addRows<kRows>(sums_ + 4 * kRows * place, rows_ + 4 * kRows * i);
         }
         pending_ = 0;
     }
@@ -110,6 +107,17 @@ class RangeWork {
         if constexpr (kRows == 1) {
             setting_.kernel.finish_sharp(sums_, whole);
             std::copy_n(sums_, 4 * count_, setting_.sharp + std::size_t{4} * first_);
+        } else if constexpr (kRows == kStepRows) {
+            alignas(64) float normals[4 * kBestGroup];
+            for (std::size_t group = 0; group < whole; group += kBestGroup) {
+                const std::size_t size = std::min(kBestGroup, count_ - group), first = first_ + group;
+                std::fill_n(normals, 4 * kBestGroup, 0.0f);
+                std::copy_n(setting_.results + 4 * first, 4 * size, normals);
+                float* const sums = sums_ + 4 * kRows * group;
+                setting_.kernel.finish_step(sums, normals, kBestGroup);
+                for (std::size_t i = 0; i < size; ++i)
+                    std::copy_n(sums + 4 * kRows * i, 4, setting_.sharp + 4 * (first + i));
+            }
         } else {
             alignas(64) float robust[4 * kBestGroup], sharp[4 * kBestGroup];
             for (std::size_t group = 0; group < whole; group += kBestGroup) {
@@ -172,14 +180,31 @@ void refineTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positi
     BestSource source = bestSource(triangles, positions, normalFactor(options.convention));
     source.robust = reinterpret_cast<const std::byte*>(normals);
     source.sharp = reinterpret_cast<const std::byte*>(sharp.data());
-    const Setting setting{
-        triangles, bestKernelFor(options.execution.simd), source, normals, sharp.data(), results.data(), count};
+    Setting setting{triangles, bestKernelFor(options.execution.simd), source, normals, sharp.data(), results.data(),
+                    count};
     runRound<1>(setting, lists, sums, tasks, parallel);
     runRound<kFitRows>(setting, lists, sums, tasks, parallel);
     parallel.forRanges(count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p) {
             float* const normal = normals + kNormalFloats * p;
-            if (!std::signbit(normal[3])) std::copy_n(results.data() + 4 * p, 3, normal);
+            const float* const s = sharp.data() + 4 * p;
+            const bool has_mean = !std::signbit(normal[3]);
+            if (has_mean) std::copy_n(results.data() + 4 * p, 3, normal);
+            const bool takes_part = has_mean && (s[0] != 0 || s[1] != 0 || s[2] != 0);
+            if (!takes_part) std::fill_n(results.data() + 4 * p, 4, 0.0f);
+        }
+    });
+    for (unsigned step = 0; step < options.refine; ++step) {
+        setting.source.robust = reinterpret_cast<const std::byte*>(setting.results);
+        setting.source.robust_stride = 4 * sizeof(float);
+        runRound<kStepRows>(setting, lists, sums, tasks, parallel);
+        std::swap(setting.results, setting.sharp);
+    }
+    if (options.refine == 0) return;
+    parallel.forRanges(count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p) {
+            const float* const result = setting.results + 4 * p;
+            if (result[0] != 0 || result[1] != 0 || result[2] != 0) std::copy_n(result, 3, normals + kNormalFloats * p);
         }
     });
 }

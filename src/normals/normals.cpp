@@ -20,6 +20,7 @@ Error checkOptions(const MeshView& mesh, const NormalOptions& options, const Str
     if (!(options.crease_angle_deg >= 0 && options.crease_angle_deg <= 180)) {
         return {ErrorCode::invalidOption, "crease_angle_deg is not between 0 and 180"};
     }
+    if (options.refine > 2) return {ErrorCode::invalidOption, "refine is not 0, 1 or 2"};
     if (!options.smoothing_groups.empty()) {
         const StridedSpan<const std::uint32_t> groups = options.smoothing_groups;
         if (Error e = checkSpan(groups, mesh.faceCount(), "smoothing_groups"); e.code != ErrorCode::ok) return e;

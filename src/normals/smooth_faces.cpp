@@ -73,6 +73,7 @@ class PointItems final : public TriangleGroups {
 
 /// A sum of normals times weights.
 struct Sum {
+    static constexpr double kLeastExact = 1e-140;  ///< of lengths: the square of a shorter one is rounded coarsely
     using Pair = double __attribute__((vector_size(16)));
     Pair xy = {}, z_weights = {};
 
@@ -80,12 +81,16 @@ struct Sum {
         xy += weight * Pair{row.x, row.y};
         z_weights += weight * Pair{row.z, row.size};
     }
-    /// Writes the unit mean, unless it is not above `least` of the weights. Sums of products of floats neither overflow
-    /// nor vanish when squared.
+    /// Writes the unit mean, unless it is not above `least` of the weights.
     [[nodiscard]] bool write(double least, Vec3& out) const {
-        const DVec3 sum{xy[0], xy[1], z_weights[0]};
-        const double l = length(sum);
-        if (!(l > least * z_weights[1])) return false;
+        DVec3 sum{xy[0], xy[1], z_weights[0]};
+        double l = length(sum), weights = z_weights[1];
+        if (l < kLeastExact) {  // weights of `max` may be so small that their squares vanish; no sum overflows
+            sum = (1 / kLeastExact) * sum;
+            weights *= 1 / kLeastExact;
+            l = length(sum);
+        }
+        if (!(l > least * weights)) return false;
         out = toFloat((1 / l) * sum);
         return true;
     }
@@ -208,12 +213,26 @@ class RangeWork {
             const std::uint32_t any = at.corner(links[0].slot);
             if (setting_.sharp[any] == Vec3{}) return;
             alignas(64) float sums[4 * smooth::kFitRows * smooth::kBestGroup] = {};
-            for (std::uint32_t i = 0; i < count; i += smooth::kBestTriangles)
-                addFits(source, at, links + i, std::min<std::size_t>(count - i, smooth::kBestTriangles), sums);
+            addAround<smooth::kFitRows>(source, at, links, count, setting_.best_kernel.add_fit, sums);
             alignas(64) float robust[4 * smooth::kBestGroup] = {}, sharp[4 * smooth::kBestGroup] = {};
             std::memcpy(robust, setting_.robust + any, sizeof(Vec3));
             std::memcpy(sharp, setting_.sharp + any, sizeof(Vec3));
             setting_.best_kernel.finish_fit(sums, robust, sharp, smooth::kBestGroup);
+            for (std::uint32_t i = 0; i < count; ++i)
+                setting_.out[at.corner(links[i].slot)] = {sums[0], sums[1], sums[2]};
+        });
+    }
+
+    /// One step from the normals that are `robust` in the source. Those that are zero there stay as they are.
+    void step(const smooth::BestSource& source) {
+        forComponents([&](const PointCorners& at, const Link* links, std::uint32_t count) {
+            const Vec3& normal = setting_.robust[at.corner(links[0].slot)];
+            if (normal == Vec3{}) return;
+            alignas(64) float sums[4 * smooth::kStepRows * smooth::kBestGroup] = {};
+            addAround<smooth::kStepRows>(source, at, links, count, setting_.best_kernel.add_step, sums);
+            alignas(64) float normals[4 * smooth::kBestGroup] = {};
+            std::memcpy(normals, &normal, sizeof(Vec3));
+            setting_.best_kernel.finish_step(sums, normals, smooth::kBestGroup);
             for (std::uint32_t i = 0; i < count; ++i)
                 setting_.out[at.corner(links[i].slot)] = {sums[0], sums[1], sums[2]};
         });
@@ -271,9 +290,18 @@ class RangeWork {
         }
     }
 
+    /// What a round's `add` writes for the corners of a component, kRows each.
+    template <std::size_t kRows, class Add>
+    void addAround(const smooth::BestSource& source, const PointCorners& at, const Link* links, std::uint32_t count,
+                   Add add, float* sums) const {
+        for (std::uint32_t i = 0; i < count; i += smooth::kBestTriangles)
+            addBlock<kRows>(source, at, links + i, std::min<std::size_t>(count - i, smooth::kBestTriangles), add, sums);
+    }
+
     /// Each corner with its neighbours is a triangle, of which that corner counts.
-    void addFits(const smooth::BestSource& source, const PointCorners& at, const Link* links, std::size_t count,
-                 float* sums) const {
+    template <std::size_t kRows, class Add>
+    void addBlock(const smooth::BestSource& source, const PointCorners& at, const Link* links, std::size_t count,
+                  Add add, float* sums) const {
         std::uint32_t vertices[3 * smooth::kBestTriangles], corners[3 * smooth::kBestTriangles];
         std::size_t used = 0;
         for (std::size_t i = 0; i < count; ++i) {
@@ -288,10 +316,9 @@ class RangeWork {
         }
         if (used == 0) return;
         fillGroup(corners, used, smooth::kBestGroup, corners);
-        alignas(64) float rows[3 * smooth::kBestTriangles * 4 * smooth::kFitRows];
-        setting_.best_kernel.add_fit(source, fillGroup(vertices, used, smooth::kBestGroup, vertices), corners, used,
-                                     rows);
-        for (std::size_t t = 0; t < used; ++t) smooth::addFitRows(sums, rows + std::size_t{12} * smooth::kFitRows * t);
+        alignas(64) float rows[3 * smooth::kBestTriangles * 4 * kRows];
+        add(source, fillGroup(vertices, used, smooth::kBestGroup, vertices), corners, used, rows);
+        for (std::size_t t = 0; t < used; ++t) smooth::addRows<kRows>(sums, rows + 12 * kRows * t);
     }
 
     [[nodiscard]] FaceSource sourceOf(const StridedSpan<const Vec3>& positions, bool by_angle, bool by_area) const {
@@ -524,6 +551,12 @@ NormalReport smoothFaces(const MeshView& mesh, const MeshView& posed, const Norm
     source.sharp = reinterpret_cast<const std::byte*>(sharp.data());
     source.robust_stride = source.sharp_stride = sizeof(Vec3);
     forRanges([&](RangeWork& work, std::uint64_t) { work.refine(source); });
+    for (unsigned step = 0; step < options.refine; ++step) {
+        parallel.forRanges(corner_count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t c = begin; c < end; ++c) robust[c] = sharp[c] == Vec3{} ? Vec3{} : out[c];
+        });
+        forRanges([&](RangeWork& work, std::uint64_t) { work.step(source); });
+    }
     return report;
 }
 

@@ -2,6 +2,7 @@
 // How close frames come to exact ones, on few and small meshes. scripts/accuracy measures the same at length.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -32,8 +33,9 @@ double meanOver(int cells, const std::function<double(const TestMesh&)>& errorOf
 double vertexError(Method method, const TestMesh& mesh) {
     return tangentErrors(mesh, framesBy(method, mesh), Corners::inside).mean;
 }
-double normalError(NormalWeighting weighting, const TestMesh& mesh, Corners corners = Corners::all) {
-    return normalErrors(mesh, normalsBy(weighting, mesh), corners).mean;
+double normalError(NormalWeighting weighting, const TestMesh& mesh, Corners corners = Corners::all,
+                   std::uint32_t refine = 1) {
+    return normalErrors(mesh, normalsBy(weighting, mesh, refine), corners).mean;
 }
 
 TEST(Surfaces, HaveTheDerivativesThatDifferencesShow) {
@@ -188,6 +190,41 @@ TEST(BestNormals, AreSeveralTimesCloserThanAnyMeanOnSmoothSurfaces) {
     EXPECT_LT(1.3 * best, errorOf(NormalWeighting::max));
 }
 
+/// Of `best` normals with 0, 1 and 2 steps: geometric means over all surfaces that are not flat.
+std::array<double, 3> errorsBySteps(Tessellation tessellation, int cells, double noise) {
+    std::array<double, 3> means{};
+    for (std::uint32_t refine = 0; refine < 3; ++refine) {
+        std::vector<double> errors;
+        for (const Surface* surface : allSurfaces()) {
+            if (surface->is_flat) continue;
+            TestMesh mesh = tessellate(*surface, tessellation, cells, Random{8});
+            if (noise > 0) damage(mesh, Damage::position_noise, noise, Random{10});
+            errors.push_back(normalError(NormalWeighting::best, mesh, Corners::all, refine));
+        }
+        means[refine] = geometricMean(errors);
+    }
+    return means;
+}
+
+TEST(BestNormals, GainAThirdByTheFirstStepAndMoreByTheSecond) {
+    for (const Tessellation tessellation : {Tessellation::irregular, Tessellation::loops}) {
+        const auto [fit, one, two] = errorsBySteps(tessellation, 32, 0);
+        EXPECT_LT(one, 0.67 * fit);
+        EXPECT_LT(two, 0.95 * one);
+    }
+    const auto [fit, one, two] = errorsBySteps(Tessellation::irregular, 8, 0);
+    EXPECT_LT(one, 0.8 * fit);
+    EXPECT_LT(two, one);
+}
+
+TEST(BestNormals, LoseNextToNothingToNoiseByTheSteps) {
+    for (const double noise : {0.02, 0.1, 0.2}) {
+        const auto [fit, one, two] = errorsBySteps(Tessellation::irregular, 32, noise);
+        EXPECT_LT(one, 1.01 * fit) << noise;
+        EXPECT_LT(two, 1.02 * fit) << noise;
+    }
+}
+
 TEST(BestNormals, AreNoWorseThanAngleTimesAreaUnderNoise) {
     for (const double share : {0.02, 0.05, 0.1, 0.2}) {
         std::vector<double> best, angle_area;
@@ -202,14 +239,16 @@ TEST(BestNormals, AreNoWorseThanAngleTimesAreaUnderNoise) {
 }
 
 TEST(BestNormals, AreNoWorseThanAngleTimesAreaOnBevels) {
-    double best = 0, angle_area = 0, max = 0;
+    double best = 0, fit = 0, angle_area = 0, max = 0;
     for (const Bevel& bevel : bevels()) {
         const TestMesh mesh = bevelMesh(bevel, Random{11});
         best += normalError(NormalWeighting::best, mesh, Corners::measured);
+        fit += normalError(NormalWeighting::best, mesh, Corners::measured, 0);
         angle_area += normalError(NormalWeighting::angleArea, mesh, Corners::measured);
         max += normalError(NormalWeighting::max, mesh, Corners::measured);
     }
     EXPECT_LT(best, 1.03 * angle_area);
+    EXPECT_LT(best, 1.01 * fit);
     EXPECT_GT(max, 10 * angle_area);  // so that there was something to resist
 }
 

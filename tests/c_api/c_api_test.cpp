@@ -169,6 +169,28 @@ TEST(CApi, GivesTheNormalsOfTheCppApi) {
     }
 }
 
+TEST(CApi, RefinesNormalsAsTheCppApi) {
+    const RandomMesh mesh(3, 60);
+    const auto normalsWith = [&](tspace_Refine refine) {
+        std::vector<Vec3> out(mesh.cornerCount());
+        tspace_NormalOptions options;
+        TSPACE_INIT(options);
+        options.weighting = TSPACE_NORMAL_WEIGHTING_BEST;
+        options.refine = refine;
+        const tspace_Mesh c_mesh = mesh.c();
+        EXPECT_EQ(TSPACE_OK, tspace_generateNormals(&c_mesh, &options, {&out[0].x, out.size(), 0}, nullptr, nullptr));
+        return out;
+    };
+    constexpr std::pair<tspace_Refine, std::uint32_t> kSame[] = {
+        {TSPACE_REFINE_DEFAULT, 1}, {TSPACE_REFINE_ONE, 1}, {TSPACE_REFINE_TWO, 2}, {TSPACE_REFINE_NONE, 0}};
+    for (const auto& [in_c, in_cpp] : kSame) {
+        std::vector<Vec3> cpp(mesh.cornerCount());
+        ASSERT_TRUE(generateNormals(mesh.view(), {.weighting = NormalWeighting::best, .refine = in_cpp}, cpp));
+        EXPECT_TRUE(sameBits(cpp, normalsWith(in_c))) << in_c;
+    }
+    EXPECT_FALSE(sameBits(normalsWith(TSPACE_REFINE_NONE), normalsWith(TSPACE_REFINE_ONE)));
+}
+
 TEST(CApi, MendsAsTheCppApi) {
     const RandomMesh mesh(4, 60);
     for (const std::uint32_t all : {0u, 1u}) {

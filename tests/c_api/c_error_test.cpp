@@ -187,6 +187,10 @@ TEST_F(CErrors, RefuseChoicesThatDoNotExist) {
     options.weighting = TSPACE_NORMAL_WEIGHTING_BEST + 1;
     EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_generateNormals(&c_mesh, &options, span(3), nullptr, &error));
     EXPECT_NE(nullptr, std::strstr(error.message, "weighting")) << error.message;
+    options.weighting = TSPACE_NORMAL_WEIGHTING_BEST;
+    options.refine = TSPACE_REFINE_NONE + 1;
+    EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_generateNormals(&c_mesh, &options, span(3), nullptr, &error));
+    EXPECT_NE(nullptr, std::strstr(error.message, "refine")) << error.message;
 }
 
 TEST_F(CErrors, RefuseHooksWithoutFunctions) {

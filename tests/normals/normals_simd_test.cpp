@@ -18,8 +18,12 @@ using test::SimpleMesh;
 
 constexpr SimdTarget kTargets[] = {SimdTarget::sse2, SimdTarget::avx2, SimdTarget::avx512, SimdTarget::neon,
                                    SimdTarget::best};
-constexpr NormalWeighting kWeightings[] = {NormalWeighting::angle, NormalWeighting::area, NormalWeighting::angleArea,
-                                           NormalWeighting::uniform, NormalWeighting::best};
+const NormalOptions kKinds[] = {{.weighting = NormalWeighting::angle},
+                                {.weighting = NormalWeighting::area},
+                                {.weighting = NormalWeighting::angleArea},
+                                {.weighting = NormalWeighting::uniform},
+                                {.weighting = NormalWeighting::best, .refine = 1},
+                                {.weighting = NormalWeighting::best, .refine = 2}};
 
 struct Outcome {
     std::vector<Vec3> normals;
@@ -106,8 +110,8 @@ std::vector<SimpleMesh> meshes() {
 
 TEST(Simd, EveryTargetGivesTheNormalsOfPlainCode) {
     for (const SimpleMesh& mesh : meshes()) {
-        for (const NormalWeighting weighting : kWeightings) {
-            NormalOptions options{.weighting = weighting, .execution = {.simd = SimdTarget::scalar}};
+        for (NormalOptions options : kKinds) {
+            options.execution = {.simd = SimdTarget::scalar};
             const Outcome plain = compute(mesh.view(), options);
             for (const SimdTarget target : kTargets) {
                 for (const unsigned threads : {1u, 3u}) {
@@ -124,10 +128,11 @@ TEST(Simd, EveryTargetGivesTheNormalsOfPlainCode) {
 /// degrees.
 TEST(HardEdges, GiveTheSameBitsForAnyTargetAndNumberOfThreads) {
     for (const SimpleMesh& mesh : {randomMesh(), withBackSides(sheet(60)), withBrokenValues(sheet(100))}) {
-        for (const NormalWeighting weighting : {NormalWeighting::angle, NormalWeighting::max, NormalWeighting::best}) {
-            NormalOptions options{.weighting = weighting,
-                                  .crease_angle_deg = 40,
-                                  .execution = {.thread_count = 1, .simd = SimdTarget::scalar}};
+        std::vector<NormalOptions> kinds(std::begin(kKinds), std::end(kKinds));
+        kinds.push_back({.weighting = NormalWeighting::max});
+        for (NormalOptions options : kinds) {
+            options.crease_angle_deg = 40;
+            options.execution = {.thread_count = 1, .simd = SimdTarget::scalar};
             const Outcome plain = compute(mesh.view(), options);
             for (const SimdTarget target : kTargets) {
                 options.execution = {.thread_count = 3, .simd = target};
@@ -216,8 +221,8 @@ float allowedOfBest(const SimpleMesh& mesh) {
 TEST(ShortWay, GivesTheNormalsOfTheGeneralOneAlsoForTinyHugeAndThinTriangles) {
     for (const SimpleMesh& mesh : soundMeshes()) {
         const std::vector<std::uint32_t> one_group(mesh.indices.size() / 3, 1);
-        for (const NormalWeighting weighting : kWeightings) {
-            NormalOptions options{.weighting = weighting};
+        for (NormalOptions options : kKinds) {
+            const NormalWeighting weighting = options.weighting;
             const Outcome got = compute(mesh.view(), options);
             options.smoothing_groups = one_group;
             const Outcome want = compute(mesh.view(), options);

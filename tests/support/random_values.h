@@ -30,7 +30,7 @@ inline Vec3 randomVec3(float low = -1, float high = 1) {
 }
 
 inline double dot(const Vec3& a, const Vec3& b) { return double{a.x} * b.x + double{a.y} * b.y + double{a.z} * b.z; }
-inline double norm(const Vec3& v) { return std::sqrt(dot(v, v)); }
+inline double norm(const Vec3& v) { return std::sqrt(test::dot(v, v)); }
 
 inline Vec3 randomUnit() {
     const Vec3 v = randomVec3();

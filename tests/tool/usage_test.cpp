@@ -28,6 +28,7 @@ TEST(Usage, WrongCommandLinesExitWithTwoAndOneLine) {
         "generate a.obj -o out.glb --convention maya",
         "generate a.obj -o out.glb --crease 181",
         "generate a.obj -o out.glb --crease nan",
+        "generate a.obj -o out.glb --refine 3",
         "generate a.obj -o out.glb --threshold -1",
         "generate a.obj -o out.glb --threshold 10x",
         "generate a.obj -o out.glb --threads -1",

@@ -163,6 +163,10 @@ void addOtherOptions(Command& command, GenerateOptions& options) {
                 degrees("--crease", options.normals.crease_angle_deg, 180,
                         "For missing normals: edges sharper than this stay hard. In degrees, 0 to 180; 180 makes none "
                         "hard. Given without --normals it takes the weights of angle."));
+    command.add("Normals",
+                number("--refine", options.normals.refine, 2,
+                       "For --normals best: steps after its fit, each of which makes the normals, interpolated along "
+                       "edges, fit the edges better: 0, 1 or 2."));
     command.add("Repair",
                 setting("--no-sanitize", options.sanitize, false,
                         "Write what the method gives, even where it is not finite, zero, not unit, parallel to the "
