@@ -550,5 +550,6 @@ void tspace_destroyTriangulation(tspace_Triangulation* result) TSPACE_NOEXCEPT;
 #endif
 
 #include "tspace/tspace_frame.h"
+#include "tspace/tspace_pack.h"
 
 #endif

@@ -6,6 +6,7 @@
 #include "c_check.h"
 
 void checkFrameFunctions(void);
+void checkPackFunctions(void);
 
 /* Two quads side by side, the second with mirrored u; interleaved position, normal, uv. */
 static const float vertices[6][8] = {
@@ -149,6 +150,7 @@ int main(void) {
     checkSplit(tangents);
     checkTriangulate();
     checkFrameFunctions();
+    checkPackFunctions();
     CHECK(strcmp(tspace_errorName(TSPACE_ERROR_INDEX_OUT_OF_RANGE), "indexOutOfRange") == 0);
     CHECK(strcmp(tspace_errorName(12345), "unknown") == 0);
     return 0;
