@@ -40,16 +40,20 @@ endfunction()
 # tspace_simd_kernel(NAME): the kernel NAME_kernel.h of this folder will be compiled for every CPU.
 function(tspace_simd_kernel name)
     file(RELATIVE_PATH kernel "${PROJECT_SOURCE_DIR}/src" "${CMAKE_CURRENT_SOURCE_DIR}/${name}_kernel.h")
-    set_property(TARGET tspace APPEND_STRING PROPERTY TSPACE_KERNELS "#include \"${kernel}\"\n")
+    string(REGEX REPLACE "/.*" "" room "${kernel}")
+    set_property(TARGET tspace APPEND_STRING PROPERTY TSPACE_KERNELS_${room} "#include \"${kernel}\"\n")
 endfunction()
 
-# Makes one source for each CPU, which includes the lanes of that CPU, then all kernels.
+# tspace_simd_sources(ROOM...): makes one source for each CPU, which includes the lanes of that CPU, then all kernels of the
+# room. Not one for all rooms: a program that makes tangents would have the kernels of normals in it.
 function(tspace_simd_sources)
-    get_target_property(kernels tspace TSPACE_KERNELS)
-    foreach(cpu scalar ${tspace_simd_cpus})
-        set(source "${CMAKE_CURRENT_BINARY_DIR}/kernels_${cpu}.cpp")
-        configure_file("${PROJECT_SOURCE_DIR}/cmake/kernels.cpp.in" "${source}" @ONLY)
-        list(APPEND sources "${source}")
+    foreach(room ${ARGN})
+        get_target_property(kernels tspace TSPACE_KERNELS_${room})
+        foreach(cpu scalar ${tspace_simd_cpus})
+            set(source "${CMAKE_CURRENT_BINARY_DIR}/kernels_${room}_${cpu}.cpp")
+            configure_file("${PROJECT_SOURCE_DIR}/cmake/kernels.cpp.in" "${source}" @ONLY)
+            list(APPEND sources "${source}")
+        endforeach()
     endforeach()
     target_sources(tspace PRIVATE ${sources})
     tspace_simd_flags("${sources}")

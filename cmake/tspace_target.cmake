@@ -18,14 +18,29 @@ function(tspace_configure_target target)
     endif()
 endfunction()
 
-# Compiles a dozen files as one, where TSPACE_BATCHES asks for it.
+# Compiles twenty files as one, where TSPACE_BATCHES asks for it.
 function(tspace_batch_sources target)
     if(TSPACE_BATCHES)
-        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 20)
         # Those are of names that only meet because their files are one here; the last is a guess, and wrong under sanitizers.
         target_compile_options(${target} PRIVATE -Wno-shadow
                                $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage;-Wno-maybe-uninitialized>)
     endif()
+endfunction()
+
+# The same for the core, folder by folder: a program has all of a batch in it or nothing, and one that makes tangents needs no
+# normals. Those of src/frames stay apart, since few programs need more than one. Call it where the target has its sources.
+function(tspace_batch_folders target)
+    tspace_batch_sources(${target})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+    get_target_property(sources ${target} SOURCES)
+    foreach(source ${sources})
+        get_filename_component(folder "${source}" DIRECTORY)
+        get_filename_component(folder "${folder}" NAME)
+        if(NOT folder STREQUAL "frames")
+            set_property(SOURCE "${source}" PROPERTY UNITY_GROUP ${folder})
+        endif()
+    endforeach()
 endfunction()
 
 # The core promises the same bits everywhere: no relaxed arithmetic either. errno of sqrt is never read.
