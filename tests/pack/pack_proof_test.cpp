@@ -134,8 +134,9 @@ bool isChartCovered(const Box& box, bool is_upper_face, double reach, long& part
 }
 
 TEST(Frame32, CoversAllRotationsWithinItsBound) {
-    // All charts are alike, and in one a turn of two signs of (u, v, w) changes nothing. Less what floats round.
-    const double reach = (frameErrorBound(FrameFormat::frame32).normal_deg - 0.00005) / kDegree;
+    // All charts are alike, and in one a turn of two signs of (u, v, w) changes nothing. Less what floats round, and 2 in
+    // 1000 by which the encoder may take a code for the best that is not.
+    const double reach = (0.998 * frameErrorBound(FrameFormat::frame32).normal_deg - 0.00005) / kDegree;
     long parts = 0;
     EXPECT_TRUE(isChartCovered({{{-1, 1}, {0, 1}, {0, 1}}}, false, reach, parts));
     EXPECT_TRUE(isChartCovered({{{-1, 1}, {0.99, 1}, {0, 1}}}, true, reach, parts));
