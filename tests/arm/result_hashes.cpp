@@ -168,6 +168,20 @@ void addNormals(const Mesh& mesh, NormalWeighting weighting, const Execution& ex
     results.hashes["normals " + std::to_string(static_cast<unsigned>(weighting))].add(normals);
 }
 
+/// Frames as rough as the mesh: most are mended first.
+void addPacked(const Mesh& mesh, FrameFormat format, Results& results) {
+    const std::size_t count = mesh.normals.size();
+    std::vector<Vec4> tangents;
+    for (const Vec3& p : mesh.positions) tangents.push_back({p.y, p.z, p.x, p.x < p.y ? -1.0f : 1.0f});
+    std::vector<std::byte> bytes(count * frameBytes(format));
+    results.all_worked &= packFrames(format, mesh.normals, tangents, bytes).ok();
+    std::vector<Vec3> normals(count);
+    results.all_worked &= unpackFrames(format, bytes, normals, tangents).ok();
+    Hash& hash = results.hashes["packed " + std::to_string(static_cast<unsigned>(format))];
+    for (const std::byte byte : bytes) hash.add(std::to_integer<std::uint32_t>(byte));
+    hash.add(normals), hash.add(tangents);
+}
+
 bool print(SimdTarget target) {
     Results results;
     Execution execution;
@@ -180,6 +194,9 @@ bool print(SimdTarget target) {
         for (auto w = static_cast<std::uint32_t>(NormalWeighting::flat);
              w <= static_cast<std::uint32_t>(NormalWeighting::best); ++w)
             addNormals(mesh, NormalWeighting{w}, execution, results);
+        for (auto f = static_cast<std::uint32_t>(FrameFormat::frame32);
+             f <= static_cast<std::uint32_t>(FrameFormat::gltf_snorm16); ++f)
+            addPacked(mesh, FrameFormat{f}, results);
     }
     for (const auto& [name, hash] : results.hashes)
         std::printf("%-22s %016llx\n", name.c_str(), static_cast<unsigned long long>(hash.value()));
