@@ -111,8 +111,7 @@ struct Best {
 
 /// Tries the codes around p in chart g: of the four columns around it the rows below and above.
 /// Between p and a code's p' lies the rotation with the Rodrigues vector (p' - p - p x p') / (1 + p.p'), in the axes of
-/// the frame: its x and y turn N, y and z turn T. What divides differs by less than 2 in 1000 between these codes, and
-/// is left out.
+/// the frame. What divides differs by less than 2 in 1000 between these codes, and is left out.
 void searchAround(const DVec3& p, std::uint32_t g, const SoundFrame& frame, Best& best) {
     const std::int32_t x0 = codeBelow(unwarped(p.x) * kSide + kSide, kColumns - 1);
     const std::int32_t z0 = codeBelow(unwarped(p.z) * kSide + kSide, kColumns - 1);
@@ -132,8 +131,7 @@ void searchAround(const DVec3& p, std::uint32_t g, const SoundFrame& frame, Best
         const Cell column{x0 + static_cast<std::int32_t>(right), 0, z0 + static_cast<std::int32_t>(back)};
         const std::size_t odd = isShifted(column.x, column.z) ? 1 : 0;
         const DVec3 d{dx[right], dy[odd][up], dz[back]};
-        const DVec3 turn = d - cross(p, d);
-        double error = turn.y * turn.y + std::max(turn.x * turn.x, turn.z * turn.z);
+        double error = squaredReach(d - cross(p, d));
         if (error >= best.error && error >= kTwinError) continue;
         const Cell cell{column.x, y0[odd] + static_cast<std::int32_t>(up), column.z};
         if (error < kTwinError) error = squaredDistance(decode(g, cell), frame);

@@ -38,8 +38,11 @@ std::array<double, 4> quaternionOf(const SoundFrame& frame) {
     return q;
 }
 
-double errorOf(const DecodedFrame& found, const SoundFrame& frame) {
-    return std::max(squaredDistance(found.normal, frame.normal), squaredDistance(found.tangent, frame.tangent));
+/// How far N or T is from that of the rotation q, whichever is farther: the turn between them, in the frame's axes, is
+/// about the vector of conj(q) * code. In no unit, but for all codes in the same.
+double errorOf(const std::array<std::int32_t, 4>& code, const std::array<double, 4>& q) {
+    const DVec3 v{q[0], q[1], q[2]}, c{double(code[0]), double(code[1]), double(code[2])};
+    return squaredReach(q[3] * c - code[3] * v - cross(v, c));
 }
 
 }  // namespace
@@ -60,7 +63,7 @@ std::array<std::int32_t, 4> encodeQuaternion(const SoundFrame& frame) {
             code[m] = std::clamp(below[m] + up - (is_half_turn ? 1 : 0), -kMost16, kMost16);
         }
         if (is_half_turn) code[3] = 1;
-        const double error = errorOf(decodeQuaternion(code), frame);
+        const double error = errorOf(code, q);
         if (error >= least) continue;
         least = error;
         best = code;
