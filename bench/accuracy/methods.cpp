@@ -21,17 +21,20 @@ std::vector<NamedMethod> methods() {
     std::vector<NamedMethod> all;
     for (const Method method : {Method::mikktspace, Method::lengyel, Method::uniform, Method::angle, Method::area,
                                 Method::flat, Method::fast, Method::best}) {
+        if (method == Method::best) all.push_back({kFitAlone, method, 0});
         all.push_back({methodName(method), method});
     }
+    all.push_back({kTwoSteps, Method::best, 2});
     return all;
 }
 
-Frames framesBy(Method method, const TestMesh& mesh) {
+Frames framesBy(Method method, const TestMesh& mesh, std::uint32_t refine) {
     Frames frames;
     frames.tangents.resize(mesh.indices.size());
     frames.bitangents.resize(mesh.indices.size());
     TangentOptions options;
     options.method = method;
+    options.refine = refine;
     options.execution.thread_count = 1;
     TangentOutput out;
     out.tangents = frames.tangents;
@@ -55,8 +58,8 @@ std::vector<NamedWeighting> weightings() {
     return {
         {"uniform", NormalWeighting::uniform}, {"area", NormalWeighting::area},
         {"angle", NormalWeighting::angle},     {"angle-area", NormalWeighting::angleArea},
-        {"max", NormalWeighting::max},         {"best, 0 steps", NormalWeighting::best, 0},
-        {"best", NormalWeighting::best},       {"best, 2 steps", NormalWeighting::best, 2},
+        {"max", NormalWeighting::max},         {kFitAlone, NormalWeighting::best, 0},
+        {"best", NormalWeighting::best},       {kTwoSteps, NormalWeighting::best, 2},
     };
 }
 

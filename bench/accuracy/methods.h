@@ -19,15 +19,18 @@ struct Frames {
 
 /// The name of the exact frames at vertices: interpolation alone is what they err by.
 inline constexpr const char* kFloor = "floor";
+/// `best` without and with two steps.
+inline constexpr const char *kFitAlone = "best, 0 steps", *kTwoSteps = "best, 2 steps";
 
 struct NamedMethod {
     std::string name;
     Method method;
+    std::uint32_t refine = 1;
 };
 
 /// Every method that uses UVs.
 std::vector<NamedMethod> methods();
-Frames framesBy(Method method, const TestMesh& mesh);
+Frames framesBy(Method method, const TestMesh& mesh, std::uint32_t refine = 1);
 Frames exactFrames(const TestMesh& mesh);
 
 struct NamedWeighting {

@@ -114,7 +114,7 @@ class Runner {
             }
             study_.records.push_back(record);
         };
-        for (const NamedMethod& method : methods()) add(method.name, framesBy(method.method, mesh));
+        for (const NamedMethod& method : methods()) add(method.name, framesBy(method.method, mesh, method.refine));
         add(kFloor, exactFrames(mesh));
         const bool is_flat = mesh.surface != nullptr && mesh.surface->is_flat;
         if (!is_flat) measureNormals(mesh, record);  // all of them would be exact

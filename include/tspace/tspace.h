@@ -356,6 +356,7 @@ typedef struct tspace_TangentOptions {
     tspace_Convention convention; /* decides the stored sign */
     tspace_Execution execution;
     tspace_FrameShape frame;
+    tspace_Refine refine; /* steps of TSPACE_METHOD_BEST */
 } tspace_TangentOptions;
 
 /* What was met. Broken input is counted and never makes a call fail. */

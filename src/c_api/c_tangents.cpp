@@ -45,6 +45,7 @@ Error checkOptions(const tspace_TangentOptions* given) {
                       [&] { return checkChoice(options.ngons, TSPACE_NGONS_SKIP, "ngons"); },
                       [&] { return checkChoice(options.domain, TSPACE_DOMAIN_VERTEX, "domain"); },
                       [&] { return checkChoice(options.frame, TSPACE_FRAME_SYMMETRIC, "frame"); },
+                      [&] { return checkChoice(options.refine, TSPACE_REFINE_NONE, "refine"); },
                       [&] { return checkConvention(options.convention); },
                       [&] { return checkExecution(options.execution); });
 }
@@ -59,6 +60,7 @@ TangentOptions toOptions(const tspace_TangentOptions& options, const Hooks& hook
     result.convention = toConvention(options.convention);
     result.execution = hooks.execution();
     result.frame = static_cast<FrameShape>(options.frame);
+    result.refine = toRefine(options.refine);
     return result;
 }
 

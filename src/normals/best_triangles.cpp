@@ -50,7 +50,8 @@ struct Setting {
     std::size_t point_count;
 };
 
-/// One range of points in one round. kRows is 1 for the `max` normals, kFitRows, or kStepRows: from `results` to `sharp`.
+/// One range of points in one round. kRows is 1 for the `max` normals, kFitRows, or kStepRows: from `results` to
+/// `sharp`.
 template <std::size_t kRows>
 class RangeWork {
   public:

@@ -49,6 +49,7 @@ Error checkOptions(const TangentOptions& options) {
     if (options.pairing > Pairing::corrected) return {ErrorCode::invalidOption, "unknown pairing"};
     if (options.ngons > Ngons::skip) return {ErrorCode::invalidOption, "unknown treatment of n-gons"};
     if (options.domain > OutputDomain::vertex) return {ErrorCode::invalidOption, "unknown output domain"};
+    if (options.refine > 2) return {ErrorCode::invalidOption, "refine is not 0, 1 or 2"};
     if (options.frame > FrameShape::symmetric) return {ErrorCode::invalidOption, "unknown shape of the frame"};
     if (options.frame == FrameShape::symmetric &&
         (options.method == Method::mikktspace || options.method == Method::basis)) {

@@ -190,6 +190,31 @@ TEST(BestNormals, AreSeveralTimesCloserThanAnyMeanOnSmoothSurfaces) {
     EXPECT_LT(1.3 * best, errorOf(NormalWeighting::max));
 }
 
+TEST(BestTangents, ShadeAFifthCloserByTheFirstStepAndMoreByTheSecond) {
+    for (const int cells : {8, 32}) {
+        double errors[3];
+        for (std::uint32_t refine = 0; refine < 3; ++refine) {
+            errors[refine] = meanOver(cells, [&](const TestMesh& mesh) {
+                return Shading(mesh, 2000, Random{3}).meanError(framesBy(Method::best, mesh, refine));
+            });
+        }
+        EXPECT_LT(errors[1], (cells == 8 ? 0.92 : 0.85) * errors[0]);
+        EXPECT_LT(errors[2], errors[1]);
+    }
+}
+
+TEST(BestTangents, LoseNextToNothingToNoiseByTheSteps) {
+    for (const Damage kind : {Damage::position_noise, Damage::uv_noise}) {
+        const auto errorBy = [&](std::uint32_t refine) {
+            return meanOver(32, [&](TestMesh mesh) {
+                damage(mesh, kind, 0.1, Random{10});
+                return tangentErrors(mesh, framesBy(Method::best, mesh, refine), Corners::inside).mean;
+            });
+        };
+        EXPECT_LT(errorBy(1), 1.02 * errorBy(0));
+    }
+}
+
 /// Of `best` normals with 0, 1 and 2 steps: geometric means over all surfaces that are not flat.
 std::array<double, 3> errorsBySteps(Tessellation tessellation, int cells, double noise) {
     std::array<double, 3> means{};

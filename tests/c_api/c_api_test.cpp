@@ -169,6 +169,24 @@ TEST(CApi, GivesTheNormalsOfTheCppApi) {
     }
 }
 
+TEST(CApi, RefinesTangentsAsTheCppApi) {
+    const RandomMesh mesh(5, 60);
+    constexpr std::pair<tspace_Refine, std::uint32_t> kSame[] = {
+        {TSPACE_REFINE_DEFAULT, 1}, {TSPACE_REFINE_ONE, 1}, {TSPACE_REFINE_TWO, 2}, {TSPACE_REFINE_NONE, 0}};
+    for (const auto& [in_c, in_cpp] : kSame) {
+        Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
+        ASSERT_TRUE(generateTangents(mesh.view(), {.method = Method::best, .refine = in_cpp}, cpp.view()));
+        tspace_TangentOptions options;
+        TSPACE_INIT(options);
+        options.method = TSPACE_METHOD_BEST;
+        options.refine = in_c;
+        const tspace_Mesh c_mesh = mesh.c();
+        const tspace_TangentOutput out = c.c();
+        ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr));
+        expectSame(cpp, c);
+    }
+}
+
 TEST(CApi, RefinesNormalsAsTheCppApi) {
     const RandomMesh mesh(3, 60);
     const auto normalsWith = [&](tspace_Refine refine) {

@@ -45,6 +45,7 @@ TangentOptions randomOptions() {
                                        Method::area, Method::fast, Method::best);
     options.angular_threshold_deg = *rc::gen::element(180.0f, 180.0f, 60.0f, 20.0f, 0.0f, 300.0f);
     options.pairing = *rc::gen::element(Pairing::reference, Pairing::corrected);
+    options.refine = *rc::gen::element(0u, 1u, 2u);
     options.execution.thread_count = 1;
     return options;
 }
@@ -173,8 +174,11 @@ TEST(GroupedThreads, GiveTheSameBits) {
     shuffleTriangles(shapes.back(), 7);
     shapes.push_back(gridOf(40000));
     for (std::size_t v = 0; v < shapes.back().normals.size(); v += 3) shapes.back().normals[v].x = -0.0f;
-    const TangentOptions ways[] = {
-        {}, {.angular_threshold_deg = 10.0f}, {.method = Method::fast}, {.method = Method::best}};
+    const TangentOptions ways[] = {{},
+                                   {.angular_threshold_deg = 10.0f},
+                                   {.method = Method::fast},
+                                   {.method = Method::best},
+                                   {.method = Method::best, .refine = 2}};
     for (const Shape& shape : shapes) {
         for (TangentOptions options : ways) {
             options.execution = {.thread_count = 1};

@@ -124,6 +124,7 @@ TEST(Simd, EveryTargetGivesTheBitsOfPlainCode) {
         for (const Method method : kMethods) {
             TangentOptions options;
             options.method = method;
+            options.refine = 2;
             options.execution.simd = SimdTarget::scalar;
             const Outputs want = generate(shape, options);
             for (const SimdTarget target : kTargets) {

@@ -125,6 +125,9 @@ void addTangentOptions(Command& command, GenerateOptions& options) {
                               "What the tangent is where UVs are sheared. gram-schmidt: the direction of dP/du; "
                               "symmetric: half of the way to the direction perpendicular to dP/dv. Not for mikktspace "
                               "and basis."));
+    command.add(group, number("--refine", tangents.refine, 2,
+                              "For --method best and --normals best: steps after the fit, each of which makes what is "
+                              "interpolated along edges fit the edges better: 0, 1 or 2."));
     command.add(group, flag("--bitangents", options.bitangents,
                             "Also write the direction of dP/dv, which is not cross(N, T) where UVs are sheared, as the "
                             "attribute _BITANGENT: for shaders that read it. Only where tangents are computed; morph "
@@ -163,10 +166,6 @@ void addOtherOptions(Command& command, GenerateOptions& options) {
                 degrees("--crease", options.normals.crease_angle_deg, 180,
                         "For missing normals: edges sharper than this stay hard. In degrees, 0 to 180; 180 makes none "
                         "hard. Given without --normals it takes the weights of angle."));
-    command.add("Normals",
-                number("--refine", options.normals.refine, 2,
-                       "For --normals best: steps after its fit, each of which makes the normals, interpolated along "
-                       "edges, fit the edges better: 0, 1 or 2."));
     command.add("Repair",
                 setting("--no-sanitize", options.sanitize, false,
                         "Write what the method gives, even where it is not finite, zero, not unit, parallel to the "
@@ -196,6 +195,7 @@ std::string finish(const Given& given, GenerateArguments& arguments) {
         options.normals.weighting = NormalWeighting::angle;
     }
     options.dry_run = arguments.dry_run;
+    options.normals.refine = options.tangents.refine;
     options.normals.execution = options.tangents.execution;
     options.sanitize_options.execution = options.tangents.execution;
     arguments.option_text = resultOptions(given);

@@ -25,6 +25,9 @@ struct VertexSource : VertexArrays {
 inline constexpr std::size_t kBlockTriangles = 32;  ///< its rows stay in the first cache
 inline constexpr std::size_t kLaneGroup = 16;       ///< kernels work on whole groups of so many lanes
 inline constexpr std::size_t kMostRows = 7;         ///< of four floats each, per group
+inline constexpr std::size_t kStepRows = 2;         ///< the same, of a step
+/// What a step reads of a group: dP/du and the robust mean's share, dP/dv and 0. Zeros: the group takes no part.
+inline constexpr std::size_t kStepFloats = 8;
 
 /// One method on one CPU.
 struct Estimator {
@@ -35,10 +38,17 @@ struct Estimator {
     void (*add)(const VertexSource& source, const std::uint32_t* vertices, std::size_t count, float* rows) = nullptr;
     /// Turns the sums of `count` groups, up to the end of the last lane group, into results in place.
     /// normals: four floats per group. The first row becomes the unit tangent, the second the unit bitangent,
-    /// and the last two numbers of these rows the lengths of dP/du and dP/dv: {T.x, T.y, T.z, |dP/du|}, {B.x,
+    /// and the last two numbers of these rows the lengths of dP/du and dP/dv, in scaled positions and UVs: {T.x, T.y,
+    /// T.z, |dP/du|}, {B.x,
     /// B.y, B.z, |dP/dv|}. A direction that no triangle gives is zero, and never is anything not finite. With
     /// two rows, there are tangents only.
-    void (*finish)(float* sums, const float* normals, std::size_t count, float length_factor) = nullptr;
+    void (*finish)(float* sums, const float* normals, std::size_t count) = nullptr;
+    /// The same for a step, null where a method has none. groups: three per triangle; `from` has kStepFloats for each
+    /// group that is named.
+    void (*add_step)(const VertexSource& source, const std::uint32_t* vertices, const std::uint32_t* groups,
+                     const float* from, std::size_t count, float* rows) = nullptr;
+    /// from: kStepFloats per group. Where the first row becomes zero, the group stays as it is.
+    void (*finish_step)(float* sums, const float* normals, const float* from, std::size_t count) = nullptr;
 };
 
 /// `tangents_only`: the second row of results is not needed.

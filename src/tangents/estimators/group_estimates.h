@@ -24,10 +24,12 @@ struct GroupEstimates {
 };
 
 /// Positions, normals and UVs have one entry per vertex, of which there is at least one. All corners of a
-/// group have one normal. Sums are made in the order of triangles. Scratch memory: up to 1 MB per task, and
-/// range_lists.h. Linear. Throws OutOfMemory.
-void estimateGroups(Method method, const TriangleGroups& triangles, std::size_t group_count, const Pose& pose,
-                    const StridedSpan<const Vec2>& uvs, const InputScale& scale, const GroupEstimates& to,
-                    const Execution& execution, Parallel& parallel);
+/// group have one normal. `refine` steps follow the fit of `best`. Sums are made in the order of triangles. Scratch
+/// memory: up to 1 MB per task, and
+/// range_lists.h;
+/// with steps 32 bytes per group, or 64. Linear. Throws OutOfMemory.
+void estimateGroups(Method method, unsigned refine, const TriangleGroups& triangles, std::size_t group_count,
+                    const Pose& pose, const StridedSpan<const Vec2>& uvs, const InputScale& scale,
+                    const GroupEstimates& to, const Execution& execution, Parallel& parallel);
 
 }  // namespace tspace::estimators

@@ -27,10 +27,11 @@
 // neighbours. The ridge, the two tests and the mixing are tspace's own; docs/methods/best.md has the
 // measurements.
 //
-// Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its namespace.
+// Then the steps of edge_step_kernel.h. Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its
+// namespace.
 #pragma once
 
-#include "tangents/estimators/estimator_lanes.h"
+#include "tangents/estimators/edge_step_kernel.h"
 
 namespace tspace::estimators::TSPACE_LANES {
 
@@ -44,13 +45,11 @@ constexpr float kMostRidge = 1e6f;
 // Sums are rounded to about 1e-7. Where the edges leave the quadratic part open (few triangles), that alone
 // is explained by one of 1e-7^2 / k0, or 3e-11 of the energy. A surface of 512 squared cells has 1e-7.
 constexpr float kRoundingShare = 1e-9f;
-constexpr float kLongestArc = 2.0f;  // an edge that climbs more than 60 degrees from the tangent plane is no arc in it
 // The ridge weighs the second derivatives as their Frobenius norm does: uu, uv, vv as 1, 2, 1. This is the share of
 // trace(Q) that Q's entries for uu and vv have where edges point everywhere. Q's own diagonal will not do: where four
 // edges make a cross, which leaves the part uv open, it hardly holds that part, and u^2 v^2 then explains what
 // it must not.
 constexpr float kRidgeShare = 0.3f;
-constexpr float kSmallestDeterminant = 1e-6f;
 
 constexpr std::size_t kFitRows = 7;
 
@@ -87,17 +86,6 @@ struct EdgeMoments {
         q4 = c3 * half_v;
     }
 };
-
-/// Edge `e`, seen from the end with this plane, as an arc in the plane. Turning the edge over turns the
-/// result over.
-inline Flat arcOf(const Plane& here, Vectors other_normal, Vectors e, Floats square) {
-    const Flat p = here.flatten(e);
-    const Floats flat = dot(p, p);
-    const Floats stretch = smaller(squareRoot(square / flat), broadcast(kLongestArc));
-    const Floats turn = dot(other_normal, e) - dot(here.n, e);
-    const Floats factor = stretch * (broadcast(1.0f) + quotient(turn * turn, square) * broadcast(1.0f / 24));
-    return keep(isFinite(factor), factor) * p;
-}
 
 inline void storeCorner(float* at, const EdgeMoments& leaving, const EdgeMoments& arriving, Flat out, Flat in,
                         Flat robust_u, Flat robust_v, Floats robust_weight) {
@@ -287,12 +275,7 @@ inline Vectors directionOf(const Plane& plane, Flat fitted, Flat robust, Floats 
     return unit(plane.raise(unit((one - m) * a + m * b)));
 }
 
-inline Floats lengthOf(Flat v, Floats factor) {
-    const Floats length = squareRoot(dot(v, v)) * factor;
-    return keep(isFinite(length), length);
-}
-
-void finishRecovery(float* sums, const float* normals, std::size_t count, float length_factor) {
+void finishRecovery(float* sums, const float* normals, std::size_t count) {
     constexpr std::size_t kStep = 4 * kFitRows;
     for (std::size_t g = 0; g < count; g += kWidth) {
         float* const at = sums + kStep * g;
@@ -307,14 +290,14 @@ void finishRecovery(float* sums, const float* normals, std::size_t count, float 
         const Floats share = doubt.shape / (doubt.shape + broadcast(kMixAt));
         const Vectors s = directionOf(plane, best.j[0], fit.robust_u, share);
         const Vectors t = directionOf(plane, best.j[1], fit.robust_v, share);
-        const Floats factor = broadcast(length_factor);
-        storeRows<kStep>(at, s.x, s.y, s.z, lengthOf(best.j[0], fit.scale_u) * factor);
-        storeRows<kStep>(at + 4, t.x, t.y, t.z, lengthOf(best.j[1], fit.scale_v) * factor);
+        storeRows<kStep>(at, s.x, s.y, s.z, lengthOf(best.j[0], fit.scale_u));
+        storeRows<kStep>(at + 4, t.x, t.y, t.z, lengthOf(best.j[1], fit.scale_v));
+        storeRows<kStep>(at + 8, share, zero(), zero(), zero());  // for the steps
     }
 }
 
 }  // namespace
 
-Estimator quadraticRecovery() { return {kFitRows, addRecovery, finishRecovery}; }
+Estimator quadraticRecovery() { return {kFitRows, addRecovery, finishRecovery, addEdgeStep, finishEdgeStep}; }
 
 }  // namespace tspace::estimators::TSPACE_LANES

@@ -74,7 +74,7 @@ inline Vectors mixed(Vectors n, Vectors accurate, Vectors robust) {
 }
 
 template <bool kTangentsOnly>
-void finishTwoWeights(float* sums, const float* normals, std::size_t count, float length_factor) {
+void finishTwoWeights(float* sums, const float* normals, std::size_t count) {
     constexpr std::size_t kRows = kTangentsOnly ? 2 : 4, kStep = 4 * kRows;
     for (std::size_t g = 0; g < count; g += kWidth) {
         float* const at = sums + kStep * g;
@@ -92,9 +92,8 @@ void finishTwoWeights(float* sums, const float* normals, std::size_t count, floa
             loadRows<kStep>(at + 8, a.x, a.y, a.z, mean_u);
             loadRows<kStep>(at + 12, b.x, b.y, b.z, mean_v);
             const Vectors t = mixed(n, a, b);
-            const Floats factor = broadcast(length_factor);
-            storeRows<kStep>(at, s.x, s.y, s.z, factor * quotient(mean_u, weight));
-            storeRows<kStep>(at + 4, t.x, t.y, t.z, factor * quotient(mean_v, weight));
+            storeRows<kStep>(at, s.x, s.y, s.z, quotient(mean_u, weight));
+            storeRows<kStep>(at + 4, t.x, t.y, t.z, quotient(mean_v, weight));
         }
     }
 }

@@ -87,8 +87,8 @@ class Evaluation {
             sizeof(GroupRest),
             sums_.rest.empty() ? nullptr : reinterpret_cast<std::byte*>(&sums_.rest[0].length_t),
             sizeof(GroupRest)};
-        estimators::estimateGroups(plan_.method, triangles, plan_.group_count, pose_, uvs_, scale, to, execution_,
-                                   parallel_);
+        estimators::estimateGroups(plan_.method, plan_.refine, triangles, plan_.group_count, pose_, uvs_, scale, to,
+                                   execution_, parallel_);
     }
 
     /// Turns sums into results, in place.

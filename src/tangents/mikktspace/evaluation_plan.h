@@ -25,6 +25,7 @@ struct Conflict {
 
 struct EvaluationPlan {
     Method method = Method::mikktspace;
+    std::uint32_t refine = 0;  ///< of `best`: steps
     Convention convention;
     std::size_t vertex_count = 0;
     std::size_t corner_count = 0;

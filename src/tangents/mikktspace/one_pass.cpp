@@ -86,6 +86,9 @@ class OnePass {
         for (const std::uint32_t node : bucket_.nodes) {
             if (!sums_.isEmpty(node)) leaveNode(node);
         }
+        // A step reads the results of all groups around, and a complex node has several: all nodes take the vertex
+        // path.
+        if (options_.method == Method::best && options_.refine != 0 && complex_count_ != 0) return writeAll();
         writeCorners();
         // Only the nodes' own places are read from here on.
         sums_.marks = {};
@@ -115,8 +118,8 @@ class OnePass {
                                             reinterpret_cast<std::byte*>(sums_.lengths_t.data()), sizeof(float)};
         Execution execution = options_.execution;
         execution.allocator = transient_.allocator();
-        estimators::estimateGroups(options_.method, triangles, nodes_.count, {mesh_.positions, mesh_.normals},
-                                   mesh_.uvs, scale_, to, execution, parallel_);
+        estimators::estimateGroups(options_.method, options_.refine, triangles, nodes_.count,
+                                   {mesh_.positions, mesh_.normals}, mesh_.uvs, scale_, to, execution, parallel_);
         finishInRanges(
             nodes_.count, [&](std::size_t first, std::size_t end) { finishNodes(first, end); }, parallel_);
     }

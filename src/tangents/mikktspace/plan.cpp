@@ -43,6 +43,7 @@ class Planner {
 
     EvaluationPlan run() {
         to_.method = from_.setting.options.method;
+        to_.refine = from_.setting.options.refine;
         to_.convention = from_.setting.options.convention;
         to_.vertex_count = mesh_.vertexCount();
         to_.corner_count = mesh_.cornerCount();
