@@ -9,6 +9,7 @@
 
 #include <cfloat>
 #include <cmath>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -57,6 +58,8 @@ Vec4 carried(const Vec4& tangent, const Vec3& from, const Vec3& to) {
     const Vec3 t = orthonormalize({.tangent = xyz(tangent), .bitangent = {}, .normal = to}).tangent;
     return {t.x, t.y, t.z, tangent.w};
 }
+
+unsigned stepsOf(const TangentOptions& options) { return options.method == Method::best ? options.refine : 0; }
 
 /// values + offsets, vertex by vertex; a vertex with the offset zero keeps its bits. Returns whether one has another.
 template <class Add>
@@ -109,10 +112,8 @@ Result<Done> MorphTangents::add(LocalMesh&& mesh, PrimitiveReport& report) {
     const Result<TangentReport> made =
         evaluateTangents(*plan, {view.positions, view.normals}, {.tangents = tangents_}, options_.tangents.execution);
     if (!made) return made.error();
-    std::vector<bool> has_direction(tangents_.size());
-    for (std::size_t c = 0; c < tangents_.size(); ++c) has_direction[c] = hasDirection(tangents_[c]);
     WeldClasses classes(mesh);
-    pieces_.push_back({std::move(mesh), *std::move(plan), std::move(classes), std::move(has_direction), &report});
+    pieces_.push_back({std::move(mesh), *std::move(plan), std::move(classes), tangents_, &report});
     return Done{};
 }
 
@@ -163,14 +164,21 @@ Result<Done> MorphTangents::evaluate(const Piece& piece, std::span<const Vec4> b
                                                         {.tangents = tangents_}, options_.tangents.execution);
     if (!made) return made.error();
     if (piece.classes.findApart(piece.mesh.indices, pose_.positions(), pose_.normals(), apart_)) {
+        // A step reads the results of neighbours.
+        piece.classes.spread(piece.mesh, stepsOf(options_.tangents), apart_);
         if (Result<Done> done = regroup(piece, posed); !done) return done;
     }
+    stays_.assign(base.size(), false);
     if (options_.sanitize) {
+        // Mending looks around, and what moves elsewhere must not reach those that stay.
+        for (std::size_t c = 0; c < base.size(); ++c) stays_[c] = staysAt(piece, c);
         carryOver(piece, base);
         const Result<SanitizeReport> mended = sanitizeTangents(posed, tangents_, options_.sanitize_options);
         if (!mended) return mended.error();
     }
     for (std::size_t c = 0; c < base.size(); ++c) {
+        offsets[c] = Vec3{};
+        if (stays_[c]) continue;
         offsets[c] = offsetBetween(xyz(base[c]), xyz(tangents_[c]));
         if (base[c].w != tangents_[c].w) ++piece.report->morph_sign_flip_count;
     }
@@ -196,13 +204,20 @@ Result<Done> MorphTangents::regroup(const Piece& piece, const MeshView& posed) {
     return Done{};
 }
 
+/// Whether the corner has the bits of the base, before anything was mended.
+bool MorphTangents::staysAt(const Piece& piece, std::size_t corner) const {
+    const std::uint32_t v = piece.mesh.indices[corner];
+    return std::memcmp(&tangents_[corner], &piece.unmended[corner], sizeof(Vec4)) == 0 &&
+           piece.mesh.normals[v] == pose_.normals()[v];
+}
+
 /// Where faces collapsed, or their tangents cancel out.
 void MorphTangents::carryOver(const Piece& piece, std::span<const Vec4> base) {
     for (std::size_t c = 0; c < base.size(); ++c) {
         const std::uint32_t v = piece.mesh.indices[c];
         const Vec3 &from = piece.mesh.normals[v], &to = pose_.normals()[v];
         const bool is_lost = !hasDirection(tangents_[c]) || (leansOut(tangents_[c], to) && liesAcross(base[c], from));
-        if (piece.has_direction[c] && is_lost) tangents_[c] = carried(base[c], from, to);
+        if (hasDirection(piece.unmended[c]) && is_lost) tangents_[c] = carried(base[c], from, to);
     }
 }
 

@@ -56,12 +56,13 @@ class MorphTangents {
         LocalMesh mesh;
         TangentPlan plan;
         WeldClasses classes;
-        std::vector<bool> has_direction;  ///< per corner: the base has a tangent there that needs no substitute
+        std::vector<Vec4> unmended;  ///< of the base, one per corner
         PrimitiveReport* report = nullptr;
     };
     Result<Done> evaluateFaces(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets);
     Result<Done> evaluate(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets);
     Result<Done> regroup(const Piece& piece, const MeshView& posed);
+    [[nodiscard]] bool staysAt(const Piece& piece, std::size_t corner) const;
     void carryOver(const Piece& piece, std::span<const Vec4> base);
 
     const PoolView& pool_;
@@ -69,7 +70,7 @@ class MorphTangents {
     std::vector<Piece> pieces_ = {};
     MorphPose pose_ = {};
     std::vector<Vec4> tangents_ = {}, regrouped_ = {};
-    std::vector<bool> apart_ = {};
+    std::vector<bool> apart_ = {}, stays_ = {};
 };
 
 /// Corners whose tangent differs from that of their vertex by sign, or in direction by more than 5 degrees. `computed`

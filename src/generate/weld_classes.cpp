@@ -30,4 +30,17 @@ bool WeldClasses::findApart(std::span<const std::uint32_t> corners, std::span<co
     return any;
 }
 
+void WeldClasses::spread(const LocalMesh& mesh, unsigned rounds, std::vector<bool>& apart) const {
+    const auto classAt = [&](std::size_t c) {
+        return of(mesh.indices[mesh.face_corners.empty() ? c : mesh.face_corners[c]]);
+    };
+    for (; rounds != 0; --rounds) {
+        const std::vector<bool> before = apart;
+        for (std::size_t c = 0; c < mesh.triangleCornerCount(); c += 3) {
+            const std::uint32_t a = classAt(c), b = classAt(c + 1), d = classAt(c + 2);
+            if (before[a] || before[b] || before[d]) apart[a] = apart[b] = apart[d] = true;
+        }
+    }
+}
+
 }  // namespace tspace

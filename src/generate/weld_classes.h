@@ -23,6 +23,9 @@ class WeldClasses {
     bool findApart(std::span<const std::uint32_t> corners, std::span<const Vec3> positions,
                    std::span<const Vec3> normals, std::vector<bool>& apart) const;
 
+    /// Marks all classes of a triangle that has a marked one, `rounds` times. Linear in each.
+    void spread(const LocalMesh& mesh, unsigned rounds, std::vector<bool>& apart) const;
+
   private:
     EqualVertices classes_;
 };

@@ -93,8 +93,10 @@ bool isOne(float a, float b) { return a == b || (std::isnan(a) && std::isnan(b))
 bool isOne(const Vec3& a, const Vec3& b) { return isOne(a.x, b.x) && isOne(a.y, b.y) && isOne(a.z, b.z); }
 bool isOne(const Vec2& a, const Vec2& b) { return isOne(a.x, b.x) && isOne(a.y, b.y); }
 
-/// Corners at a vertex that is equal, on the base, to that of another corner, but not in the moved shape.
-std::vector<bool> takenApart(const VertexPool& base, const VertexPool& moved, const Indices& corners) {
+/// Corners at a vertex that is equal, on the base, to that of another corner, but not in the moved shape, and, for each
+/// step of `best`, the other corners of their triangles.
+std::vector<bool> takenApart(const VertexPool& base, const VertexPool& moved, const Indices& corners,
+                             const TangentOptions& options) {
     const auto areTwins = [&](std::uint32_t a, std::uint32_t b) {
         return isOne(base.positions[a], base.positions[b]) && isOne(base.normals[a], base.normals[b]) &&
                isOne(base.uvs[a], base.uvs[b]);
@@ -107,6 +109,25 @@ std::vector<bool> takenApart(const VertexPool& base, const VertexPool& moved, co
                                                       isOne(moved.normals[other], moved.normals[third]));
                    });
         }));
+    }
+    const std::uint32_t steps = options.method == Method::best ? options.refine : 0;
+    for (std::uint32_t step = 0; step < steps; ++step) {
+        const std::vector<bool> before = result;
+        const auto hasApart = [&](std::size_t first) {
+            return std::any_of(corners.begin() + first, corners.begin() + first + 3, [&](std::uint32_t v) {
+                for (std::size_t c = 0; c < corners.size(); ++c) {
+                    if (before[c] && areTwins(v, corners[c])) return true;
+                }
+                return false;
+            });
+        };
+        std::vector<std::uint32_t> reached;
+        for (std::size_t first = 0; first < corners.size(); first += 3) {
+            if (hasApart(first)) reached.insert(reached.end(), &corners[first], &corners[first] + 3);
+        }
+        for (std::size_t c = 0; c < corners.size(); ++c) {
+            result[c] = std::any_of(reached.begin(), reached.end(), [&](auto v) { return areTwins(v, corners[c]); });
+        }
     }
     return result;
 }
@@ -144,7 +165,7 @@ std::vector<Vec4> evaluated(VertexPool pool, const PrimitiveGeometry& primitive,
     }
     RC_ASSERT(evaluateTangents(*plan, {mesh.positions, mesh.normals}, {.tangents = tangents}).ok());
     const auto hasDirection = [](const Vec4& t) { return lengthOf(xyz(t)) > 1e-30; };  // false for NaN as well
-    const std::vector<bool> apart = takenApart(at_rest, pool, primitive.indices);
+    const std::vector<bool> apart = takenApart(at_rest, pool, primitive.indices, options.tangents);
     std::vector<Vec4> regrouped(tangents.size());
     RC_ASSERT(generateTangents(mesh, options.tangents, {.tangents = regrouped}).ok());
     const auto carried = [&](const Vec4& tangent, std::uint32_t v) {
@@ -164,6 +185,12 @@ std::vector<Vec4> evaluated(VertexPool pool, const PrimitiveGeometry& primitive,
         }
     }
     if (!options.sanitize) return tangents;
+    std::vector<std::size_t> unmoved;
+    for (std::size_t c = 0; c < tangents.size(); ++c) {
+        const std::uint32_t v = primitive.indices[c];
+        const bool same = std::memcmp(&tangents[c], &rest[c], sizeof(Vec4)) == 0;
+        if (same && at_rest.normals[v] == pool.normals[v]) unmoved.push_back(c);
+    }
     std::vector<std::size_t> collapsed;
     const auto isLost = [&](std::size_t c) {
         const std::uint32_t v = primitive.indices[c];
@@ -179,14 +206,17 @@ std::vector<Vec4> evaluated(VertexPool pool, const PrimitiveGeometry& primitive,
         tangents[c] = carried(base[primitive.indices[c]], primitive.indices[c]);
     }
     RC_ASSERT(sanitizeTangents(mesh, tangents).ok());
+    for (const std::size_t c : unmoved) tangents[c] = base[primitive.indices[c]];
     for (const std::size_t c : collapsed) tangents[c] = {kAnyDirection, 0, 0, 1};
     return tangents;
 }
 
 RC_GTEST_PROP(MorphFrames, AreThoseOfTheMovedShapeWithTheGroupsOfTheBase, ()) {
     VertexPool pool = anyPoolWithTwins();
-    const std::vector<PrimitiveGeometry> primitives = anyFaces(pool);
+    RC_PRE(isOrdinary(pool));  // 1e20 beside 1 leaves rounding to decide about directions
     const GenerateOptions options = anyOptions();
+    // A broken corner may take the tangent of any other of its face, and the file has triangles only.
+    const std::vector<PrimitiveGeometry> primitives = options.sanitize ? anyTriangles(pool) : anyFaces(pool);
     const Targets targets = anyTargets(pool);
     pool.targets = reading(targets);
     const Outcome result = compute(pool, primitives, options);
@@ -214,6 +244,7 @@ RC_GTEST_PROP(MorphFrames, AreThoseOfTheMovedShapeWithTheGroupsOfTheBase, ()) {
 
 RC_GTEST_PROP(MorphFrames, ReproduceThemselvesOnTheirOwnOutput, ()) {
     VertexPool pool = anyPoolWithTwins();
+    RC_PRE(isOrdinary(pool));  // what is not equals nothing, itself neither, so its copies join no neighbours
     const std::vector<PrimitiveGeometry> primitives = anyFaces(pool);
     const GenerateOptions options = anyOptions();
     const Targets targets = anyTargets(pool);
@@ -378,7 +409,7 @@ TEST(MorphFrames, LieInTheirFacesWhereATargetBendsAFlatShadedPlane) {
             const Vec3 n = sum(frames.normals[v], normals[v]), t = sum(xyz(frames.tangents[v]), tangents[v]);
             EXPECT_NEAR(n.x * t.x + n.y * t.y + n.z * t.z, 0, 1e-6) << "vertex " << v;
         }
-        EXPECT_EQ(tangents[0], Vec3{}) << "the first face does not move";
+        EXPECT_LT(lengthOf(tangents[0]), 1e-7) << "the first face does not move";
     }
 }
 

@@ -87,6 +87,15 @@ inline VertexPool anyPool() {
     return pool;
 }
 
+/// Neither NaN nor huge.
+inline bool isOrdinary(const VertexPool& pool) {
+    const auto are = [](const auto&... values) { return ((std::fabs(values) < 1e6f) && ...); };
+    const auto are3 = [&](const Vec3& v) { return are(v.x, v.y, v.z); };
+    return std::all_of(pool.positions.begin(), pool.positions.end(), are3) &&
+           std::all_of(pool.normals.begin(), pool.normals.end(), are3) &&
+           std::all_of(pool.uvs.begin(), pool.uvs.end(), [&](const Vec2& v) { return are(v.x, v.y); });
+}
+
 inline std::vector<PrimitiveGeometry> anyTriangles(const VertexPool& pool) {
     std::vector<PrimitiveGeometry> primitives(*rc::gen::inRange<std::size_t>(1, 4));
     const auto vertices = static_cast<std::uint32_t>(pool.positions.size());
