@@ -7,69 +7,16 @@
 #include <cmath>
 #include <limits>
 
+#include "simd/lanes_scalar.h"
+#define TSPACE_LANES scalar
+#include "pack/angle_lanes.h"
+#undef TSPACE_LANES
+
 namespace tspace::pack {
 
 namespace {
 
-// Barycentric coordinates b on a face of the octahedron are spread as b (2.5 - b), which makes its cells more equal: at
-// the same grid the worst N falls from 0.159 to 0.134 degrees. x (2.75 - x) does so for the angle along the side of a
-// diamond, whose speed then varies by less than 1 %.
-constexpr double kFaceWarp = 2.5, kAngleWarp = 2.75;
-
-struct Basis {
-    Vec3 p, q;
-};
-
-/// N of a grid point, and the sign of its z as the integers have it.
-struct GridNormal {
-    Vec3 normal;
-    float z_sign;
-};
-
-GridNormal gridNormal(std::int32_t half, std::int32_t i, std::int32_t j) {
-    std::int32_t a = std::abs(i - half), b = std::abs(j - half), c = half - a - b;
-    float z_sign = 1;
-    if (c < 0) {  // the lower half is folded over the edges of the diamond
-        a += c;
-        b += c;
-        c = -c;
-        z_sign = -1;
-    }
-    const float whole = static_cast<float>(kFaceWarp) * static_cast<float>(half);
-    const auto spread = [whole](std::int32_t steps) {
-        return static_cast<float>(steps) * (whole - static_cast<float>(steps));
-    };
-    const Vec3 v{i < half ? -spread(a) : spread(a), j < half ? -spread(b) : spread(b), z_sign * spread(c)};
-    return {unit(v), z_sign};
-}
-
-Basis basisOf(const GridNormal& g) {
-    const Vec3& n = g.normal;
-    const float h = -1 / (g.z_sign + n.z);
-    const float d = n.x * n.y * h;
-    return {{1 + g.z_sign * n.x * n.x * h, g.z_sign * d, -g.z_sign * n.x}, {d, g.z_sign + n.y * n.y * h, -n.y}};
-}
-
-/// T at step k of 4 * quarter.
-Vec3 tangentAt(const Basis& basis, std::int32_t quarter, std::int32_t k) {
-    const std::int32_t x = k & (quarter - 1), y = quarter - x;
-    const float whole = static_cast<float>(kAngleWarp) * static_cast<float>(quarter);
-    const float run = static_cast<float>(y) * (whole - static_cast<float>(y));
-    const float rise = static_cast<float>(x) * (whole - static_cast<float>(x));
-    const float scale = 1 / std::sqrt(run * run + rise * rise);
-    float cosine = run * scale, sine = rise * scale;
-    const std::int32_t turns = k / quarter;
-    if ((turns & 1) != 0) {
-        const float c = cosine;
-        cosine = -sine;
-        sine = c;
-    }
-    if ((turns & 2) != 0) {
-        cosine = -cosine;
-        sine = -sine;
-    }
-    return cosine * basis.p + sine * basis.q;
-}
+Vec3 vectorOf(const simd::scalar::Vectors& v) { return {v.x.v, v.y.v, v.z.v}; }
 
 struct Point {
     double x = 0, y = 0;
@@ -128,31 +75,31 @@ AngleCode encodeAngle(const AngleGrid& grid, const SoundFrame& frame) {
     };
     const std::int32_t i0 = cornerOf(point.x), j0 = cornerOf(point.y);
     AngleCode best;
-    GridNormal normal{};
+    scalar::GridNormals normal{};
     double least = std::numeric_limits<double>::infinity();
     for (const std::int32_t i : {i0, i0 + 1}) {
         for (const std::int32_t j : {j0, j0 + 1}) {
-            const GridNormal found = gridNormal(grid.half, i, j);
-            const double error = squaredDistance(found.normal, frame.normal);
+            const scalar::GridNormals found =
+                scalar::gridNormals(grid, {static_cast<float>(i)}, {static_cast<float>(j)});
+            const double error = squaredDistance(vectorOf(found.normal), frame.normal);
             if (error >= least) continue;
             least = error;
             normal = found;
             best = {i, j, 0};
         }
     }
-    const Basis basis = basisOf(normal);
-    const double c = dot(frame.tangent, toDouble(basis.p)), s = dot(frame.tangent, toDouble(basis.q));
+    const scalar::Bases basis = scalar::basesOf(normal);
+    const double c = dot(frame.tangent, toDouble(vectorOf(basis.p)));
+    const double s = dot(frame.tangent, toDouble(vectorOf(basis.q)));
     const std::int32_t k0 = stepBefore(c, s, grid.quarter) & (4 * grid.quarter - 1);
     const std::int32_t k1 = (k0 + 1) & (4 * grid.quarter - 1);
-    const bool is_first = squaredDistance(tangentAt(basis, grid.quarter, k0), frame.tangent) <=
-                          squaredDistance(tangentAt(basis, grid.quarter, k1), frame.tangent);
-    best.k = is_first ? k0 : k1;
+    const auto errorAt = [&](std::int32_t k) {
+        const auto quarters = static_cast<std::uint32_t>(k / grid.quarter);
+        const auto step = static_cast<float>(k % grid.quarter);
+        return squaredDistance(vectorOf(scalar::tangentsAt(grid, basis, {quarters}, {step})), frame.tangent);
+    };
+    best.k = errorAt(k0) <= errorAt(k1) ? k0 : k1;
     return best;
-}
-
-DecodedFrame decodeAngle(const AngleGrid& grid, const AngleCode& code) {
-    const GridNormal normal = gridNormal(grid.half, code.i, code.j);
-    return {normal.normal, tangentAt(basisOf(normal), grid.quarter, code.k)};
 }
 
 }  // namespace tspace::pack

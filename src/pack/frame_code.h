@@ -15,11 +15,6 @@ struct SoundFrame {
     bool mirrored = false;  ///< the sign is -1
 };
 
-struct DecodedFrame {
-    Vec3 normal, tangent;
-    bool mirrored = false;
-};
-
 inline double squaredDistance(const Vec3& decoded, const DVec3& wanted) {
     const DVec3 d = toDouble(decoded) - wanted;
     return dot(d, d);
@@ -28,8 +23,5 @@ inline double squaredDistance(const Vec3& decoded, const DVec3& wanted) {
 /// What a small turn in the frame's own axes moves N or T by, squared, whichever moves farther: x and y turn N, y and z
 /// turn T.
 inline double squaredReach(const DVec3& turn) { return turn.y * turn.y + std::max(turn.x * turn.x, turn.z * turn.z); }
-
-/// v scaled to length 1; v must not be zero and its square must not overflow or vanish.
-inline Vec3 unit(const Vec3& v) { return (1 / length(v)) * v; }
 
 }  // namespace tspace::pack

@@ -10,6 +10,7 @@
 #include "core/border.h"
 #include "core/unit.h"
 #include "pack/angle_code.h"
+#include "pack/formats.h"
 #include "pack/rotation_code.h"
 #include "pack/snorm_code.h"
 
@@ -85,16 +86,9 @@ Mended mended(const Vec3& normal, const Vec4& tangent) {
 // ---- words
 
 using Bytes = std::byte*;
-using ConstBytes = const std::byte*;
 
 void writeWord(std::uint64_t word, std::size_t bytes, Bytes out) {
     for (std::size_t i = 0; i < bytes; ++i) out[i] = static_cast<std::byte>(word >> (8 * i) & 0xff);
-}
-
-std::uint64_t readWord(ConstBytes in, std::size_t bytes) {
-    std::uint64_t word = 0;
-    for (std::size_t i = 0; i < bytes; ++i) word |= std::to_integer<std::uint64_t>(in[i]) << (8 * i);
-    return word;
 }
 
 /// A signed number of 1 or 2 bytes.
@@ -102,65 +96,38 @@ void writeNumber(std::int32_t number, std::size_t bytes, Bytes out) {
     writeWord(static_cast<std::uint32_t>(number), bytes, out);
 }
 
-std::int32_t readNumber(ConstBytes in, std::size_t bytes) {
-    const auto word = static_cast<std::uint32_t>(readWord(in, bytes));
-    return bytes == 1 ? static_cast<std::int8_t>(word) : static_cast<std::int16_t>(word);
-}
-
-// ---- one struct per family of formats: bytes of a frame, write, read
+// ---- one struct per family of formats: bytes of a frame, write
 
 struct Frame32 {
     static constexpr std::size_t kBytes = 4;
     static void write(const SoundFrame& frame, Bytes out) { writeWord(encodeRotation(frame), kBytes, out); }
-    static DecodedFrame read(ConstBytes in) { return decodeRotation(static_cast<std::uint32_t>(readWord(in, kBytes))); }
 };
 
 /// i, j and k in bit fields, and the sign in the lowest bit.
-template <std::size_t byte_count, std::int32_t half, std::int32_t quarter, unsigned i_bits, unsigned k_bits>
+template <std::size_t byte_count, const AngleGrid& kGrid, unsigned i_bits, unsigned k_bits>
 struct AngleFields {
     static constexpr std::size_t kBytes = byte_count;
-    static constexpr AngleGrid kGrid{half, quarter};
-    static_assert(2 * half < 1 << i_bits && 4 * quarter == 1 << k_bits && 2 * i_bits + k_bits + 1 == 8 * byte_count);
+    static_assert(2 * kGrid.half < 1 << i_bits && 4 * kGrid.quarter == 1 << k_bits &&
+                  2 * i_bits + k_bits + 1 == 8 * byte_count);
 
     static void write(const SoundFrame& frame, Bytes out) {
         const AngleCode code = encodeAngle(kGrid, frame);
         const std::uint64_t ij = static_cast<std::uint64_t>(code.i) << i_bits | static_cast<std::uint64_t>(code.j);
         writeWord((ij << k_bits | static_cast<std::uint64_t>(code.k)) << 1 | (frame.mirrored ? 1u : 0u), kBytes, out);
     }
-    static DecodedFrame read(ConstBytes in) {
-        const std::uint64_t word = readWord(in, kBytes);
-        const auto field = [&](unsigned shift, unsigned bits) {
-            return static_cast<std::int32_t>(word >> shift & ((std::uint64_t{1} << bits) - 1));
-        };
-        // The one value of i and j that the grid does not have reads as its neighbour.
-        DecodedFrame frame = decodeAngle(kGrid, {std::min(field(1 + k_bits + i_bits, i_bits), 2 * half),
-                                                 std::min(field(1 + k_bits, i_bits), 2 * half), field(1, k_bits)});
-        frame.mirrored = (word & 1) != 0;
-        return frame;
-    }
 };
-using Oct32 = AngleFields<4, 511, 512, 10, 11>;
-using Frame64 = AngleFields<8, 1048575, 524288, 21, 21>;
+using Oct32 = AngleFields<4, kOct32Grid, 10, 11>;
+using Frame64 = AngleFields<8, kFrame64Grid, 21, 21>;
 
 /// 46339^2 grid points fill 31 bits but for some words, which read as points of the last row.
 struct Frame48 {
     static constexpr std::size_t kBytes = 6;
     static constexpr std::uint32_t kWidth = 46339;
-    static constexpr AngleGrid kGrid{(kWidth - 1) / 2, 16384};
 
     static void write(const SoundFrame& frame, Bytes out) {
-        const AngleCode code = encodeAngle(kGrid, frame);
+        const AngleCode code = encodeAngle(kFrame48Grid, frame);
         const std::uint64_t ij = static_cast<std::uint64_t>(code.i) * kWidth + static_cast<std::uint64_t>(code.j);
         writeWord(ij << 17 | static_cast<std::uint64_t>(code.k) << 1 | (frame.mirrored ? 1u : 0u), kBytes, out);
-    }
-    static DecodedFrame read(ConstBytes in) {
-        const std::uint64_t word = readWord(in, kBytes);
-        const auto ij = std::min(static_cast<std::uint32_t>(word >> 17), kWidth * kWidth - 1);
-        DecodedFrame frame =
-            decodeAngle(kGrid, {static_cast<std::int32_t>(ij / kWidth), static_cast<std::int32_t>(ij % kWidth),
-                                static_cast<std::int32_t>(word >> 1 & 0xffff)});
-        frame.mirrored = (word & 1) != 0;
-        return frame;
     }
 };
 
@@ -169,11 +136,6 @@ struct Qtangent64 {
     static void write(const SoundFrame& frame, Bytes out) {
         const std::array<std::int32_t, 4> code = encodeQuaternion(frame);
         for (std::size_t m = 0; m < 4; ++m) writeNumber(code[m], 2, out + 2 * m);
-    }
-    static DecodedFrame read(ConstBytes in) {
-        std::array<std::int32_t, 4> code;
-        for (std::size_t m = 0; m < 4; ++m) code[m] = readNumber(in + 2 * m, 2);
-        return decodeQuaternion(code);
     }
 };
 
@@ -192,15 +154,6 @@ struct Vectors {
         std::copy(n.begin(), n.end(), numbers.begin() + normal_at);
         if (frame.mirrored) numbers[sign_at] = -kMost;
         for (std::size_t m = 0; m < count; ++m) writeNumber(numbers[m], number_bytes, out + number_bytes * m);
-    }
-    static DecodedFrame read(ConstBytes in) {
-        const auto number = [&](std::size_t m) {
-            return std::max(readNumber(in + number_bytes * m, number_bytes), -kMost);
-        };
-        DecodedFrame frame = decodeVectors({number(normal_at), number(normal_at + 1), number(normal_at + 2)},
-                                           {number(0), number(1), number(2)});
-        frame.mirrored = number(sign_at) < 0;
-        return frame;
     }
 };
 using Snorm8Pair = Vectors<1, 8, 4, 7>;
@@ -250,32 +203,33 @@ Error check(FrameFormat format, const StridedSpan<N>& normals, const StridedSpan
 
 }  // namespace
 
+void unpack(const Format& format, SimdTarget wish, const std::byte* bytes, const StridedSpan<Vec3>& normals,
+            const StridedSpan<Vec4>& tangents) {
+    const FrameKernel kernel = format.kernel(wish);
+    WordBlock words{};
+    FrameRows rows;
+    for (std::size_t begin = 0; begin < normals.count; begin += kBlockFrames) {
+        const std::size_t count = std::min(normals.count - begin, kBlockFrames);
+        format.read(bytes + begin * format.bytes, count, words);
+        kernel.decode(words, count, rows);
+        for (std::size_t i = 0; i < count; ++i) {
+            const float *n = rows.normal[i], *t = rows.tangent[i];
+            normals[begin + i] = {n[0], n[1], n[2]};
+            tangents[begin + i] = {t[0], t[1], t[2], t[3]};
+        }
+    }
+}
+
 }  // namespace pack
 
 std::size_t frameBytes(FrameFormat format) {
-    return pack::visitFormat(format, std::size_t{0}, [](auto code) { return decltype(code)::kBytes; });
+    const pack::Format* known = pack::formatOf(format);
+    return known != nullptr ? known->bytes : 0;
 }
 
 FrameErrorBound frameErrorBound(FrameFormat format) {
-    switch (format) {
-        case FrameFormat::frame32:
-            return {0.135, 0.135};
-        case FrameFormat::frame48:
-            return {0.0037, 0.0042};
-        case FrameFormat::frame64:
-            return {0.0001, 0.00015};
-        case FrameFormat::oct32:
-            return {0.15, 0.165};
-        case FrameFormat::qtangent64:
-            return {0.004, 0.004};
-        case FrameFormat::snorm8_pair:
-        case FrameFormat::gltf_snorm8:
-            return {0.391, 0.391};
-        case FrameFormat::snorm16_pair:
-        case FrameFormat::gltf_snorm16:
-            return {0.00152, 0.00152};
-    }
-    return {};
+    const pack::Format* known = pack::formatOf(format);
+    return known != nullptr ? known->bound : FrameErrorBound{};
 }
 
 Result<PackReport> packFrames(FrameFormat format, StridedSpan<const Vec3> normals, StridedSpan<const Vec4> tangents,
@@ -300,14 +254,8 @@ Result<Done> unpackFrames(FrameFormat format, std::span<const std::byte> bytes, 
         if (Error e = pack::check(format, normals, tangents, bytes.data(), bytes.size()); e.code != ErrorCode::ok) {
             return e;
         }
-        return pack::visitFormat(format, Done{}, [&](auto code) {
-            for (std::size_t i = 0; i < normals.count; ++i) {
-                const pack::DecodedFrame frame = code.read(bytes.data() + i * code.kBytes);
-                normals[i] = frame.normal;
-                tangents[i] = {frame.tangent.x, frame.tangent.y, frame.tangent.z, frame.mirrored ? -1.0f : 1.0f};
-            }
-            return Done{};
-        });
+        pack::unpack(*pack::formatOf(format), SimdTarget::best, bytes.data(), normals, tangents);
+        return Done{};
     });
 }
 

@@ -1,29 +1,19 @@
 // SPDX-License-Identifier: MIT
-// A rotation is one of the 24 that turn axes into axes, after a small one. The small one is given by its Rodrigues
-// vector p (axis times the tangent of half the angle), which lies in the cube |p_i| <= tan(22.5 degrees) for at least
-// one of the 24. Each p_i is a warped lattice coordinate.
+// The encoder of frame32.
 #include "pack/rotation_code.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "simd/lanes_scalar.h"
+#define TSPACE_LANES scalar
+#include "pack/rotation_lanes.h"
+#undef TSPACE_LANES
+
 namespace tspace::pack {
 
 namespace {
-
-// Steps along x and z (turns about T and N) run from -kSide to kSide; kRows along y (turns about B, which move N and T
-// both, so that these steps are the finer ones). Columns whose x + z is odd are shifted by half a step. 24 charts of
-// kColumns * kRows * kColumns codes: all but 176,672 of 2^31.
-constexpr std::int32_t kSide = 226, kColumns = 2 * kSide + 1, kRows = 436, kCharts = 24;
-constexpr std::uint32_t kCodes = static_cast<std::uint32_t>(kCharts) * kColumns * kRows * kColumns;
-static_assert(kCodes < 0x80000000u);
-
-// p = u (kLinear + kCubic u^2): at the faces of the cube tan(22.5 degrees), and there 1.13 as steep as a straight line,
-// in the middle 0.935, since rotations lie closer together far from the middle of a chart.
-constexpr double kHalfEdge = 0.41421356237309503;
-constexpr double kWarp = 0.065;
-constexpr double kLinear = kHalfEdge * (1 - kWarp), kCubic = kHalfEdge * kWarp;
 
 // Row m of a chart's rotation is kRowOf[g >> 2][m] of the small one, times a sign: three turns of x, y, z, then the
 // three swaps.
@@ -45,37 +35,9 @@ struct Cell {
 
 bool isShifted(std::int32_t x, std::int32_t z) { return ((x + z) & 1) != 0; }
 
-float warped(float u) { return u * (static_cast<float>(kLinear) + static_cast<float>(kCubic) * (u * u)); }
-
-/// N and T of the small rotation: the columns z and x of its matrix.
-DecodedFrame smallRotation(const Cell& cell) {
-    const std::int32_t row = 2 * cell.y + (isShifted(cell.x, cell.z) ? 1 : 0) - kRows;
-    const float px = warped(static_cast<float>(cell.x - kSide) * (1.0f / kSide));
-    const float py = warped(static_cast<float>(row) * (1.0f / (kRows - 1)));
-    const float pz = warped(static_cast<float>(cell.z - kSide) * (1.0f / kSide));
-    const float k = 2 / (1 + (px * px + py * py + pz * pz));
-    const float xy = px * py, yz = py * pz, zx = pz * px;
-    return {{k * (zx + py), k * (yz - px), 1 - k * (px * px + py * py)},
-            {1 - k * (py * py + pz * pz), k * (xy + pz), k * (zx - py)}};
-}
-
-Vec3 rows(const Vec3& v, std::uint32_t g) {
-    const float from[3] = {v.x, v.y, v.z};
-    const int* row_of = kRowOf[g >> 2];
-    const Signs signs = signsOf(g);
-    float to[3];
-    for (int m = 0; m < 3; ++m) to[m] = signs.minus[m] ? -from[row_of[m]] : from[row_of[m]];
-    return {to[0], to[1], to[2]};
-}
-
 std::uint32_t codeOf(std::uint32_t g, const Cell& cell) {
     const auto x = static_cast<std::uint32_t>(cell.x), y = static_cast<std::uint32_t>(cell.y);
     return ((g * kColumns + x) * kRows + y) * kColumns + static_cast<std::uint32_t>(cell.z);
-}
-
-DecodedFrame decode(std::uint32_t g, const Cell& cell) {
-    const DecodedFrame small = smallRotation(cell);
-    return {rows(small.normal, g), rows(small.tangent, g)};
 }
 
 double warped(double u) { return u * (kLinear + kCubic * u * u); }
@@ -98,9 +60,13 @@ std::int32_t codeBelow(double x, std::int32_t last) {
 constexpr double kTwinError = 1e-11;
 
 /// Of N and T, whichever is farther off.
-double squaredDistance(const DecodedFrame& found, const SoundFrame& frame) {
-    return std::max(pack::squaredDistance(found.normal, frame.normal),
-                    pack::squaredDistance(found.tangent, frame.tangent));
+double squaredDistance(std::uint32_t g, const Cell& cell, const SoundFrame& frame) {
+    const auto twice_y = static_cast<float>(2 * cell.y + (isShifted(cell.x, cell.z) ? 1 : 0));
+    const scalar::Frames found = scalar::rotationFrames(scalar::Charts({g}), {static_cast<float>(cell.x)}, {twice_y},
+                                                        {static_cast<float>(cell.z)});
+    const auto vector = [](const scalar::Vectors& v) { return Vec3{v.x.v, v.y.v, v.z.v}; };
+    return std::max(pack::squaredDistance(vector(found.normal), frame.normal),
+                    pack::squaredDistance(vector(found.tangent), frame.tangent));
 }
 
 /// The best code found so far.
@@ -134,7 +100,7 @@ void searchAround(const DVec3& p, std::uint32_t g, const SoundFrame& frame, Best
         double error = squaredReach(d - cross(p, d));
         if (error >= best.error && error >= kTwinError) continue;
         const Cell cell{column.x, y0[odd] + static_cast<std::int32_t>(up), column.z};
-        if (error < kTwinError) error = squaredDistance(decode(g, cell), frame);
+        if (error < kTwinError) error = squaredDistance(g, cell, frame);
         if (error >= best.error) continue;
         best.error = error;
         best.code = codeOf(g, cell);
@@ -182,16 +148,6 @@ std::uint32_t encodeRotation(const SoundFrame& frame) {
         if (std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) <= kReach) searchAround(p, g, frame, best);
     }
     return best.code << 1 | (frame.mirrored ? 1u : 0u);
-}
-
-DecodedFrame decodeRotation(std::uint32_t word) {
-    const std::uint32_t code = std::min(word >> 1, kCodes - 1);
-    const std::uint32_t columns = code / kColumns, rest = columns / kRows, g = rest / kColumns;
-    DecodedFrame frame =
-        decode(g, {static_cast<std::int32_t>(rest % kColumns), static_cast<std::int32_t>(columns % kRows),
-                   static_cast<std::int32_t>(code % kColumns)});
-    frame.mirrored = (word & 1) != 0;
-    return frame;
 }
 
 }  // namespace tspace::pack

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/basis.h"
-
 namespace tspace::pack {
 
 namespace {
@@ -74,30 +72,9 @@ std::array<std::int32_t, 4> encodeQuaternion(const SoundFrame& frame) {
     return best;
 }
 
-DecodedFrame decodeQuaternion(const std::array<std::int32_t, 4>& code) {
-    std::array<float, 4> q;
-    for (std::size_t m = 0; m < 4; ++m) q[m] = static_cast<float>(std::max(code[m], -kMost16));
-    const auto [x, y, z, w] = q;
-    const float square = x * x + y * y + z * z + w * w;
-    if (square == 0) return {{0, 0, 1}, {1, 0, 0}, false};
-    const float k = 2 / square;
-    return {{k * (z * x + w * y), k * (y * z - w * x), 1 - k * (x * x + y * y)},
-            {1 - k * (y * y + z * z), k * (x * y + w * z), k * (z * x - w * y)},
-            code[3] < 0};
-}
-
 std::array<std::int32_t, 3> encodeVector(const DVec3& v, std::int32_t most) {
     // v is unit but for its last bits, so nothing exceeds `most`.
     return {rounded(v.x * most), rounded(v.y * most), rounded(v.z * most)};
-}
-
-DecodedFrame decodeVectors(const std::array<std::int32_t, 3>& normal, const std::array<std::int32_t, 3>& tangent) {
-    const auto read = [](const std::array<std::int32_t, 3>& v) {
-        return Vec3{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-    };
-    const bool has_normal = normal != std::array{0, 0, 0}, has_tangent = tangent != std::array{0, 0, 0};
-    const Vec3 n = has_normal ? unit(read(normal)) : Vec3{0, 0, 1};
-    return {n, has_tangent ? unit(read(tangent)) : toFloat(planeAxes(toDouble(n)).x)};
 }
 
 }  // namespace tspace::pack

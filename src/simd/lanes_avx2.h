@@ -44,10 +44,35 @@ struct Bits {
 inline Bits broadcastBits(std::uint32_t x) { return {_mm256_castsi256_ps(_mm256_set1_epi32(static_cast<int>(x)))}; }
 inline Bits operator&(Bits a, Bits b) { return {_mm256_and_ps(a.v, b.v)}; }
 inline Bits operator|(Bits a, Bits b) { return {_mm256_or_ps(a.v, b.v)}; }
+inline Bits operator^(Bits a, Bits b) { return {_mm256_xor_ps(a.v, b.v)}; }
+inline __m256i toWhole(Bits a) { return _mm256_castps_si256(a.v); }
+inline Bits fromWhole(__m256i a) { return {_mm256_castsi256_ps(a)}; }
+inline Bits operator+(Bits a, Bits b) { return fromWhole(_mm256_add_epi32(toWhole(a), toWhole(b))); }
+inline Bits operator-(Bits a, Bits b) { return fromWhole(_mm256_sub_epi32(toWhole(a), toWhole(b))); }
+template <int kBy>
+inline Bits shiftLeft(Bits a) {
+    return fromWhole(_mm256_slli_epi32(toWhole(a), kBy));
+}
+template <int kBy>
+inline Bits shiftRight(Bits a) {
+    return fromWhole(_mm256_srli_epi32(toWhole(a), kBy));
+}
+inline Bits smaller(Bits a, Bits b) { return fromWhole(_mm256_min_epu32(toWhole(a), toWhole(b))); }
+inline Bits product(Bits a, std::uint32_t k) {
+    return fromWhole(_mm256_mullo_epi32(toWhole(a), _mm256_set1_epi32(static_cast<int>(k))));
+}
+inline Bits highProduct(Bits a, std::uint32_t k) {
+    const __m256i factor = _mm256_set1_epi32(static_cast<int>(k));
+    const __m256i even = _mm256_mul_epu32(toWhole(a), factor);
+    const __m256i odd = _mm256_mul_epu32(_mm256_srli_epi64(toWhole(a), 32), factor);
+    return fromWhole(_mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xaa));
+}
+inline Floats toFloats(Bits a) { return {_mm256_cvtepi32_ps(toWhole(a))}; }
 inline Bits orWhere(Bits a, Mask m, std::uint32_t bit) {
     return {_mm256_or_ps(a.v, _mm256_and_ps(m.v, broadcastBits(bit).v))};
 }
 inline Floats asFloats(Bits b) { return {b.v}; }
+inline Bits asBits(Floats f) { return {f.v}; }
 
 struct Doubles {
     __m256d v;
@@ -140,6 +165,7 @@ inline void gather2(const std::byte* base, std::size_t stride, const std::uint32
 inline void store(float* to, Floats a) { _mm256_store_ps(to, a.v); }
 inline Floats load(const float* p) { return {_mm256_load_ps(p)}; }
 inline void store(std::uint32_t* to, Bits b) { _mm256_store_ps(reinterpret_cast<float*>(to), b.v); }
+inline Bits load(const std::uint32_t* p) { return fromWhole(_mm256_load_si256(reinterpret_cast<const __m256i*>(p))); }
 template <std::size_t kStep = 12>
 inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     const __m256 xy_low = _mm256_unpacklo_ps(x.v, y.v), xy_high = _mm256_unpackhi_ps(x.v, y.v);

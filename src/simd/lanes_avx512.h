@@ -44,10 +44,30 @@ struct Bits {
 inline Bits broadcastBits(std::uint32_t x) { return {_mm512_set1_epi32(static_cast<int>(x))}; }
 inline Bits operator&(Bits a, Bits b) { return {_mm512_and_si512(a.v, b.v)}; }
 inline Bits operator|(Bits a, Bits b) { return {_mm512_or_si512(a.v, b.v)}; }
+inline Bits operator^(Bits a, Bits b) { return {_mm512_xor_si512(a.v, b.v)}; }
+inline Bits operator+(Bits a, Bits b) { return {_mm512_add_epi32(a.v, b.v)}; }
+inline Bits operator-(Bits a, Bits b) { return {_mm512_sub_epi32(a.v, b.v)}; }
+template <int kBy>
+inline Bits shiftLeft(Bits a) {
+    return {_mm512_slli_epi32(a.v, kBy)};
+}
+template <int kBy>
+inline Bits shiftRight(Bits a) {
+    return {_mm512_srli_epi32(a.v, kBy)};
+}
+inline Bits smaller(Bits a, Bits b) { return {_mm512_min_epu32(a.v, b.v)}; }
+inline Bits product(Bits a, std::uint32_t k) { return {_mm512_mullo_epi32(a.v, broadcastBits(k).v)}; }
+inline Bits highProduct(Bits a, std::uint32_t k) {
+    const __m512i factor = broadcastBits(k).v;
+    const __m512i even = _mm512_mul_epu32(a.v, factor), odd = _mm512_mul_epu32(_mm512_srli_epi64(a.v, 32), factor);
+    return {_mm512_mask_blend_epi32(0xaaaa, _mm512_srli_epi64(even, 32), odd)};
+}
+inline Floats toFloats(Bits a) { return {_mm512_cvtepi32_ps(a.v)}; }
 inline Bits orWhere(Bits a, Mask m, std::uint32_t bit) {
     return {_mm512_mask_or_epi32(a.v, m.v, a.v, broadcastBits(bit).v)};
 }
 inline Floats asFloats(Bits b) { return {_mm512_castsi512_ps(b.v)}; }
+inline Bits asBits(Floats f) { return {_mm512_castps_si512(f.v)}; }
 
 struct Doubles {
     __m512d v;
@@ -147,6 +167,7 @@ inline void gather2(const std::byte* base, std::size_t stride, const std::uint32
 inline void store(float* to, Floats a) { _mm512_store_ps(to, a.v); }
 inline Floats load(const float* p) { return {_mm512_load_ps(p)}; }
 inline void store(std::uint32_t* to, Bits b) { _mm512_store_si512(to, b.v); }
+inline Bits load(const std::uint32_t* p) { return {_mm512_load_si512(p)}; }
 template <std::size_t kStep = 12>
 inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     const __m512 xy_low = _mm512_unpacklo_ps(x.v, y.v), xy_high = _mm512_unpackhi_ps(x.v, y.v);

@@ -51,8 +51,27 @@ struct Bits {
 inline Bits broadcastBits(std::uint32_t x) { return {vdupq_n_u32(x)}; }
 inline Bits operator&(Bits a, Bits b) { return {vandq_u32(a.v, b.v)}; }
 inline Bits operator|(Bits a, Bits b) { return {vorrq_u32(a.v, b.v)}; }
+inline Bits operator^(Bits a, Bits b) { return {veorq_u32(a.v, b.v)}; }
+inline Bits operator+(Bits a, Bits b) { return {vaddq_u32(a.v, b.v)}; }
+inline Bits operator-(Bits a, Bits b) { return {vsubq_u32(a.v, b.v)}; }
+template <int kBy>
+inline Bits shiftLeft(Bits a) {
+    return {vshlq_n_u32(a.v, kBy)};
+}
+template <int kBy>
+inline Bits shiftRight(Bits a) {
+    return {vshrq_n_u32(a.v, kBy)};
+}
+inline Bits smaller(Bits a, Bits b) { return {vminq_u32(a.v, b.v)}; }
+inline Bits product(Bits a, std::uint32_t k) { return {vmulq_u32(a.v, vdupq_n_u32(k))}; }
+inline Bits highProduct(Bits a, std::uint32_t k) {
+    const uint64x2_t low = vmull_u32(vget_low_u32(a.v), vdup_n_u32(k)), high = vmull_high_u32(a.v, vdupq_n_u32(k));
+    return {vuzp2q_u32(vreinterpretq_u32_u64(low), vreinterpretq_u32_u64(high))};
+}
+inline Floats toFloats(Bits a) { return {vcvtq_f32_s32(vreinterpretq_s32_u32(a.v))}; }
 inline Bits orWhere(Bits a, Mask m, std::uint32_t bit) { return {vorrq_u32(a.v, vandq_u32(m.v, vdupq_n_u32(bit)))}; }
 inline Floats asFloats(Bits b) { return {vreinterpretq_f32_u32(b.v)}; }
+inline Bits asBits(Floats f) { return {vreinterpretq_u32_f32(f.v)}; }
 
 /// The instructions of vld1 and vst1, but at any address, and over numbers of other types.
 template <class Vector>
@@ -169,6 +188,7 @@ inline void gather2(const std::byte* base, std::size_t stride, const std::uint32
 inline void store(float* to, Floats a) { toMemory(to, a.v); }
 inline Floats load(const float* p) { return {fromMemory<float32x4_t>(p)}; }
 inline void store(std::uint32_t* to, Bits b) { toMemory(to, b.v); }
+inline Bits load(const std::uint32_t* p) { return {fromMemory<uint32x4_t>(p)}; }
 template <std::size_t kStep = 12>
 inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     float32x4_t r[4] = {x.v, y.v, z.v, w.v};

@@ -46,19 +46,42 @@ inline Mask operator<(Floats a, Floats b) { return {a.v < b.v}; }
 inline Mask operator==(Floats a, Floats b) { return {a.v == b.v}; }
 inline Floats select(Mask m, Floats yes, Floats no) { return m.v ? yes : no; }
 
-/// Whole numbers, for flags.
+/// Whole numbers, for flags and words.
 struct Bits {
     std::uint32_t v;
 };
 inline Bits broadcastBits(std::uint32_t x) { return {x}; }
 inline Bits operator&(Bits a, Bits b) { return {a.v & b.v}; }
 inline Bits operator|(Bits a, Bits b) { return {a.v | b.v}; }
+inline Bits operator^(Bits a, Bits b) { return {a.v ^ b.v}; }
+inline Bits operator+(Bits a, Bits b) { return {a.v + b.v}; }
+inline Bits operator-(Bits a, Bits b) { return {a.v - b.v}; }
+template <int kBy>
+inline Bits shiftLeft(Bits a) {
+    return {a.v << kBy};
+}
+template <int kBy>
+inline Bits shiftRight(Bits a) {
+    return {a.v >> kBy};
+}
+/// Of numbers below 2^31.
+inline Bits smaller(Bits a, Bits b) { return {a.v < b.v ? a.v : b.v}; }
+/// The lower and the upper half of the product.
+inline Bits product(Bits a, std::uint32_t k) { return {a.v * k}; }
+inline Bits highProduct(Bits a, std::uint32_t k) { return {static_cast<std::uint32_t>(std::uint64_t{a.v} * k >> 32)}; }
+/// Numbers below 2^31, rounded to the nearest float.
+inline Floats toFloats(Bits a) { return {static_cast<float>(static_cast<std::int32_t>(a.v))}; }
 /// a | bit where the mask is set, else a.
 inline Bits orWhere(Bits a, Mask m, std::uint32_t bit) { return {m.v ? a.v | bit : a.v}; }
 inline Floats asFloats(Bits b) {
     Floats f;
     std::memcpy(&f.v, &b.v, 4);
     return f;
+}
+inline Bits asBits(Floats f) {
+    Bits b;
+    std::memcpy(&b.v, &f.v, 4);
+    return b;
 }
 
 /// Half of the lanes as doubles.
@@ -137,6 +160,7 @@ inline void gather2(const std::byte* base, std::size_t stride, const std::uint32
 inline void store(float* to, Floats a) { *to = a.v; }
 inline Floats load(const float* p) { return {*p}; }
 inline void store(std::uint32_t* to, Bits b) { *to = b.v; }
+inline Bits load(const std::uint32_t* p) { return {*p}; }
 /// Writes lane i's four values to rows[kStep * i ...], by default row 3 * i of an array of rows of four floats. At any
 /// address that floats may have.
 template <std::size_t kStep = 12>

@@ -46,10 +46,38 @@ struct Bits {
 inline Bits broadcastBits(std::uint32_t x) { return {_mm_castsi128_ps(_mm_set1_epi32(static_cast<int>(x)))}; }
 inline Bits operator&(Bits a, Bits b) { return {_mm_and_ps(a.v, b.v)}; }
 inline Bits operator|(Bits a, Bits b) { return {_mm_or_ps(a.v, b.v)}; }
+inline Bits operator^(Bits a, Bits b) { return {_mm_xor_ps(a.v, b.v)}; }
+inline __m128i toWhole(Bits a) { return _mm_castps_si128(a.v); }
+inline Bits fromWhole(__m128i a) { return {_mm_castsi128_ps(a)}; }
+inline Bits operator+(Bits a, Bits b) { return fromWhole(_mm_add_epi32(toWhole(a), toWhole(b))); }
+inline Bits operator-(Bits a, Bits b) { return fromWhole(_mm_sub_epi32(toWhole(a), toWhole(b))); }
+template <int kBy>
+inline Bits shiftLeft(Bits a) {
+    return fromWhole(_mm_slli_epi32(toWhole(a), kBy));
+}
+template <int kBy>
+inline Bits shiftRight(Bits a) {
+    return fromWhole(_mm_srli_epi32(toWhole(a), kBy));
+}
+inline Bits smaller(Bits a, Bits b) {
+    const __m128 m = _mm_castsi128_ps(_mm_cmplt_epi32(toWhole(a), toWhole(b)));
+    return {_mm_or_ps(_mm_and_ps(m, a.v), _mm_andnot_ps(m, b.v))};
+}
+/// The halves of 64-bit products that `choice` names, of lanes 0 and 2, 1 and 3.
+template <int choice>
+inline Bits halfProduct(Bits a, std::uint32_t k) {
+    const __m128i factor = _mm_set1_epi32(static_cast<int>(k));
+    const __m128i even = _mm_mul_epu32(toWhole(a), factor), odd = _mm_mul_epu32(_mm_srli_epi64(toWhole(a), 32), factor);
+    return fromWhole(_mm_unpacklo_epi32(_mm_shuffle_epi32(even, choice), _mm_shuffle_epi32(odd, choice)));
+}
+inline Bits product(Bits a, std::uint32_t k) { return halfProduct<0x08>(a, k); }
+inline Bits highProduct(Bits a, std::uint32_t k) { return halfProduct<0x0d>(a, k); }
+inline Floats toFloats(Bits a) { return {_mm_cvtepi32_ps(toWhole(a))}; }
 inline Bits orWhere(Bits a, Mask m, std::uint32_t bit) {
     return {_mm_or_ps(a.v, _mm_and_ps(m.v, broadcastBits(bit).v))};
 }
 inline Floats asFloats(Bits b) { return {b.v}; }
+inline Bits asBits(Floats f) { return {f.v}; }
 
 struct Doubles {
     __m128d v;
@@ -128,6 +156,7 @@ inline void gather2(const std::byte* base, std::size_t stride, const std::uint32
 inline void store(float* to, Floats a) { _mm_store_ps(to, a.v); }
 inline Floats load(const float* p) { return {_mm_load_ps(p)}; }
 inline void store(std::uint32_t* to, Bits b) { _mm_store_ps(reinterpret_cast<float*>(to), b.v); }
+inline Bits load(const std::uint32_t* p) { return fromWhole(_mm_load_si128(reinterpret_cast<const __m128i*>(p))); }
 template <std::size_t kStep = 12>
 inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     const __m128 xy_low = _mm_unpacklo_ps(x.v, y.v), xy_high = _mm_unpackhi_ps(x.v, y.v);

@@ -6,8 +6,6 @@
 
 namespace tspace::simd::TSPACE_LANES {
 
-inline Floats zero() { return broadcast(0.0f); }
-inline Floats minus(Floats a) { return broadcast(-0.0f) - a; }
 inline Mask isFinite(Floats a) { return absolute(a) < broadcast(__builtin_huge_valf()); }
 inline Floats keep(Mask m, Floats a) { return select(m, a, zero()); }
 inline Vectors keep(Mask m, Vectors v) { return {keep(m, v.x), keep(m, v.y), keep(m, v.z)}; }

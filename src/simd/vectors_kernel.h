@@ -5,6 +5,9 @@
 
 namespace tspace::simd::TSPACE_LANES {
 
+inline Floats zero() { return broadcast(0.0f); }
+inline Floats minus(Floats a) { return broadcast(-0.0f) - a; }
+
 struct Vectors {
     Floats x, y, z;
 };
