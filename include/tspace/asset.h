@@ -6,11 +6,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "tspace/normals.h"
+#include "tspace/pack.h"
 #include "tspace/result.h"
 #include "tspace/sanitize.h"
 #include "tspace/tangents.h"
@@ -89,6 +91,16 @@ enum class VectorFormat : std::uint32_t {
     snorm8 = 2,   ///< a quarter; the same
 };
 
+/// "frame32": the name of the enumerator, as options and reports have it; "" when `format` is none of them.
+const char* frameFormatName(FrameFormat format);
+
+/// What of NORMAL and TANGENT goes where a primitive has its frames packed.
+enum class PackDrop : std::uint32_t {
+    nothing = 0,
+    tangents = 1,  ///< TANGENT
+    all = 2,       ///< TANGENT and NORMAL: only readers of the packed attribute light the primitive as before
+};
+
 /// Which normal maps get their green channel inverted.
 enum class FlipGreen : std::uint32_t {
     none = 0,
@@ -122,6 +134,12 @@ struct GenerateOptions {
     FlipGreen flip_green = FlipGreen::none;
     Compression compression = Compression::keep;
     VectorFormat format = VectorFormat::float32;
+    /// Also write the whole frame of each vertex in this format, as attributes of its own: _FRAME32 and others, of which
+    /// docs/pack.md has the accessors. Of every primitive that has NORMAL and TANGENT in the end, computed or not, as they
+    /// are stored. Morph targets get nothing: packed frames are those of the base.
+    std::optional<FrameFormat> pack = {};
+    /// Attributes that morph targets add to stay. Without `pack` it must be `nothing` (invalidOption).
+    PackDrop pack_drop = PackDrop::nothing;
     FileOptions file = {};
     /// Takes the output, a GLB, in place of a file, once everything is computed; the path of the output is only what it
     /// is called (NAME.glb). Files that the model names beside it are not written. Where it returns false: cannotWrite.
@@ -159,6 +177,9 @@ struct PrimitiveReport {
     std::int32_t uv_set = -1;             ///< n of TEXCOORD_n the tangents follow, or -1
     bool normals_generated = false;
     bool bitangents_generated = false;  ///< _BITANGENT was computed
+    bool frames_packed = false;         ///< the output has its frames packed (`pack`); if not, a note says why
+    bool normals_dropped = false;       ///< NORMAL was taken away (`pack_drop`)
+    bool tangents_dropped = false;      ///< TANGENT was
     std::uint64_t triangle_count = 0;
     std::uint64_t vertices_before = 0;
     std::uint64_t vertices_after = 0;
@@ -170,6 +191,7 @@ struct PrimitiveReport {
     NormalReport normals = {};
     TangentReport tangents = {};
     SanitizeReport sanitize = {};
+    PackReport packing = {};         ///< frames that were mended before they were packed
     Faces faces = Faces::triangles;  ///< what its tangents were computed on: triangles or quads
     std::uint64_t quad_count = 0;    ///< of those, the ones with four corners or more
 };

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/vec_math.h"
+
 namespace tspace {
 
 namespace {
@@ -95,6 +97,16 @@ void roundUnits(std::span<Vec3> vectors, VectorFormat format) {
     }
 }
 
+void roundUnits(std::span<Vec4> tangents, VectorFormat format) {
+    const std::int32_t steps = latticeSteps(format);
+    if (steps == 0) return;
+    for (Vec4& tangent : tangents) {
+        const LatticePoint point = nearestUnit(xyz(tangent), steps);
+        tangent = {valueOf(point.x, steps), valueOf(point.y, steps), valueOf(point.z, steps),
+                   tangent.w < 0 ? -1.0f : 1.0f};
+    }
+}
+
 std::vector<std::uint8_t> packUnits(std::span<const Vec3> normals, VectorFormat format) {
     const std::int32_t steps = latticeSteps(format);
     return pack(normals, format, [steps](const Vec3& normal, std::vector<std::int32_t>& numbers) {
@@ -106,7 +118,7 @@ std::vector<std::uint8_t> packUnits(std::span<const Vec3> normals, VectorFormat 
 std::vector<std::uint8_t> packUnits(std::span<const Vec4> tangents, VectorFormat format) {
     const std::int32_t steps = latticeSteps(format);
     return pack(tangents, format, [steps](const Vec4& tangent, std::vector<std::int32_t>& numbers) {
-        const LatticePoint point = nearestUnit({tangent.x, tangent.y, tangent.z}, steps);
+        const LatticePoint point = nearestUnit(xyz(tangent), steps);
         numbers.insert(numbers.end(), {point.x, point.y, point.z, tangent.w < 0 ? -steps : steps});
     });
 }

@@ -24,6 +24,7 @@ LatticePoint nearestUnit(const Vec3& vector, std::int32_t steps);
 
 /// Each vector becomes what a reader of this format gets. Rounding twice is rounding once.
 void roundUnits(std::span<Vec3> vectors, VectorFormat format);
+void roundUnits(std::span<Vec4> tangents, VectorFormat format);
 
 /// Bytes of normals (three components each) and tangents (four; the sign is exactly +1 or -1) in this format, tightly
 /// packed.

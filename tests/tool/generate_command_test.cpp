@@ -50,6 +50,34 @@ TEST(Generate, WritesBitangentsOfObjFilesToo) {
     EXPECT_EQ(runTool(folder, "inspect plain.glb").out.find("_BITANGENT"), std::string::npos);
 }
 
+TEST(Generate, PacksFramesOfObjFilesToo) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "folded.obj");
+    const ToolRun run = runTool(folder, "generate folded.obj -o out.glb --pack frame48 --format snorm8");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("packed    frames of 1 primitive\n"), std::string::npos) << run.out;
+    EXPECT_NE(runTool(folder, "inspect out.glb").out.find("_FRAME48 uint16x3"), std::string::npos);
+    ASSERT_EQ(runTool(folder, "generate out.glb -o again.glb --pack frame48").exit_code, 0);
+    EXPECT_EQ(folder.read("again.glb"), folder.read("out.glb")) << "the words are those that a glTF file gets";
+    ASSERT_EQ(runTool(folder, "generate folded.obj -o alone.glb --pack oct32 --pack-drop all").exit_code, 0);
+    const std::string alone = runTool(folder, "inspect alone.glb").out;
+    EXPECT_NE(alone.find("_OCT32 uint8x4"), std::string::npos) << alone;
+    EXPECT_EQ(alone.find("NORMAL"), std::string::npos) << alone;
+    EXPECT_EQ(alone.find("TANGENT"), std::string::npos) << alone;
+}
+
+TEST(Generate, PackDropNeedsPack) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    for (const char* arguments : {"generate a.obj -o a.glb --pack-drop all", "generate a.obj -o a.glb --pack frame33",
+                                  "generate a.obj -o a.glb --pack frame32 --pack-drop normals"}) {
+        const ToolRun run = runTool(folder, arguments);
+        EXPECT_EQ(run.exit_code, 2) << arguments;
+        EXPECT_EQ(run.errorLines(), 1) << run.err;
+    }
+    EXPECT_FALSE(folder.has("a.glb"));
+}
+
 TEST(Generate, HintsAtAllWhenNothingNeedsTangents) {
     const TempFolder folder;
     folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");

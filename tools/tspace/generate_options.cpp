@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The options of tspace generate: every one, its meaning, its unit and its default stand here and nowhere else.
+#include <optional>
+
 #include "common_options.h"
 #include "options.h"
 
@@ -39,6 +41,17 @@ constexpr Named<VectorFormat> kFormats[] = {
     {"float", VectorFormat::float32},
     {"snorm16", VectorFormat::snorm16},
     {"snorm8", VectorFormat::snorm8},
+};
+constexpr Named<std::optional<FrameFormat>> kPackFormats[] = {
+    {"frame32", FrameFormat::frame32},           {"frame48", FrameFormat::frame48},
+    {"frame64", FrameFormat::frame64},           {"oct32", FrameFormat::oct32},
+    {"qtangent64", FrameFormat::qtangent64},     {"snorm8_pair", FrameFormat::snorm8_pair},
+    {"snorm16_pair", FrameFormat::snorm16_pair}, {"gltf_snorm8", FrameFormat::gltf_snorm8},
+    {"gltf_snorm16", FrameFormat::gltf_snorm16},
+};
+constexpr Named<PackDrop> kPackDrops[] = {
+    {"tangents", PackDrop::tangents},
+    {"all", PackDrop::all},
 };
 constexpr Named<Container> kContainers[] = {
     {"glb", Container::glb},
@@ -142,6 +155,22 @@ void addTangentOptions(Command& command, GenerateOptions& options) {
                               "KHR_mesh_quantization."));
 }
 
+void addPackOptions(Command& command, GenerateOptions& options) {
+    const char* group = "Packed frames";
+    command.add(group,
+                choice("--pack", "FORMAT", kPackFormats, options.pack,
+                       "Also write the whole frame of each vertex, N, T and the sign, as an attribute of its own: "
+                       "_FRAME32 and so on, for engines that read it. Of every primitive that has normals and "
+                       "tangents in the end, old ones too. See docs/pack.md."));
+    command
+        .add(group,
+             choice("--pack-drop", "WHAT", kPackDrops, options.pack_drop,
+                    "What to take away where frames were packed. tangents: TANGENT; all: NORMAL too, for engines "
+                    "that read nothing but packed frames. What morph targets add to stays. Without this, both "
+                    "stay."))
+        .needs = "--pack";
+}
+
 void addMapOptions(Command& command, GenerateOptions& options) {
     const char* group = "Normal maps";
     command.add(group,
@@ -225,6 +254,7 @@ Command generateCommand(GenerateArguments& arguments) {
     addOutputOptions(command, arguments);
     addSelection(command, arguments.options);
     addTangentOptions(command, arguments.options);
+    addPackOptions(command, arguments.options);
     addMapOptions(command, arguments.options);
     addOtherOptions(command, arguments.options);
     addBatch(command, arguments.batch, true);

@@ -71,6 +71,8 @@ struct Totals {
     std::uint64_t normals_generated = 0;
     std::uint64_t on_quads = 0, quad_count = 0;  ///< primitives, and their quads
     std::uint64_t bitangents_generated = 0;
+    std::uint64_t frames_packed = 0, packed_mended = 0;  ///< primitives, and their frames
+    std::uint64_t tangents_dropped = 0, normals_dropped = 0;
     std::uint64_t morph_deltas_computed = 0;
     std::uint64_t morph_sign_flip_count = 0;
     std::uint64_t degenerate_uv_count = 0;
@@ -88,6 +90,10 @@ Totals totalsOf(const GenerateReport& report) {
         totals.on_quads += primitive.faces == Faces::quads ? 1 : 0;
         totals.quad_count += primitive.quad_count;
         totals.bitangents_generated += primitive.bitangents_generated;
+        totals.frames_packed += primitive.frames_packed;
+        totals.packed_mended += primitive.packing.mendedCount();
+        totals.tangents_dropped += primitive.tangents_dropped;
+        totals.normals_dropped += primitive.normals_dropped;
         totals.morph_deltas_computed += primitive.morph_deltas_computed;
         totals.morph_sign_flip_count += primitive.morph_sign_flip_count;
         if (!wasComputed(primitive.action)) continue;
@@ -161,6 +167,14 @@ std::string normalMapText(const NormalMapReport& map) {
     return fmt::format("{}: left as it is: {}", name, printable(map.reason));
 }
 
+std::string packedText(const Totals& totals) {
+    std::string text = "frames of " + counted(totals.frames_packed, "primitive");
+    if (totals.packed_mended != 0) text += fmt::format(", {} mended first", totals.packed_mended);
+    if (totals.tangents_dropped != 0) text += fmt::format("; TANGENT taken from {}", totals.tangents_dropped);
+    if (totals.normals_dropped != 0) text += fmt::format(", NORMAL from {}", totals.normals_dropped);
+    return text;
+}
+
 std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     const GenerateReport& report = *outcome.result;
     Table table;
@@ -187,6 +201,7 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     if (totals.bitangents_generated != 0) {
         table.addRow({"bitangents", "written for " + counted(totals.bitangents_generated, "primitive")});
     }
+    if (totals.frames_packed != 0) table.addRow({"packed", packedText(totals)});
     if (totals.morph_deltas_computed != 0) {
         table.addRow({"morph targets", "tangent deltas computed for " + std::to_string(totals.morph_deltas_computed)});
     }
@@ -280,6 +295,10 @@ Json primitiveJson(const PrimitiveReport& primitive) {
         {"mendedVertices", primitive.mended_vertex_count},
         {"normalsGenerated", primitive.normals_generated},
         {"bitangentsGenerated", primitive.bitangents_generated},
+        {"packed", primitive.frames_packed},
+        {"packedMended", primitive.packing.mendedCount()},
+        {"normalsDropped", primitive.normals_dropped},
+        {"tangentsDropped", primitive.tangents_dropped},
         {"morphTargets", primitive.morph_target_count},
         {"morphDeltas", primitive.morph_deltas_computed},
         {"morphSignFlips", primitive.morph_sign_flip_count},
@@ -312,6 +331,7 @@ Json totalsJson(const GenerateReport& report) {
     json["verticesAfter"] = totals.vertices_after;
     json["mended"] = totals.sanitize.mendedCount();
     json["morphDeltas"] = totals.morph_deltas_computed;
+    json["packed"] = totals.frames_packed;
     return json;
 }
 

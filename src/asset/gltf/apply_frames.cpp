@@ -4,16 +4,11 @@
 
 #include <utility>
 
-#include "asset/gltf/sparse_elements.h"
+#include "asset/gltf/set_attribute.h"
 
 namespace tspace::gltf {
 
 namespace {
-
-bool hasFormatOf(const Accessor& accessor, const ElementData& data) {
-    return accessor.component == data.component && accessor.type == data.type &&
-           accessor.normalized == data.normalized && accessor.count == data.count;
-}
 
 class Applier {
   public:
@@ -80,10 +75,6 @@ class Applier {
         }
     }
 
-    [[nodiscard]] const AttributeList& attributesOf(const Primitive& primitive, std::ptrdiff_t target) const {
-        return target == kBase ? primitive.attributes : primitive.targets[static_cast<std::size_t>(target)];
-    }
-
     /// Deltas of every target that moves the surface; where tangents are kept only those that are missing.
     bool setTargets() {
         const Primitive& first = primitives_[pool_.primitives[0]];
@@ -109,30 +100,13 @@ class Applier {
 
     /// For all primitives of the pool. Returns false when the file has these very bits already.
     bool setAttribute(std::ptrdiff_t target, const char* name, ElementData&& data) {
-        const auto old = findAttribute(attributesOf(primitives_[pool_.primitives[0]], target), name);
-        const bool alone = old && editor_.accessorUses(*old) == pool_.primitives.size();
-        std::optional<Accessor> current;
-        if (old && mayStay()) {
-            current = readAccessor(document_, *old);
-            if (!hasFormatOf(*current, data)) current.reset();
-        }
-        if (current) data.makeNow();
-        if (current && copyElements(document_, *current) == data.bytes) return false;
-        if (data.normalized) editor_.require("KHR_mesh_quantization");
-        if (target != kBase) makeSparseWhereSmaller(data);
-        // Of a target, as what moves its vertices: Draco holds no targets.
-        const Json& attributes = attributesOf(pool_.primitives[0], target);
-        data.like = (target == kBase ? attributes["POSITION"] : attributes.front()).get<std::size_t>();
-        if (current && alone && !data.places && editor_.canOverwrite(*current)) {
-            editor_.overwrite(*current, data.bytes);
-            return true;
-        }
-        const std::size_t stored = editor_.store(std::move(data), alone ? old : std::nullopt);
-        for (const std::size_t number : pool_.primitives) {
-            attributesOf(number, target)[name] = stored;
-            editor_.moveUse(findAttribute(attributesOf(primitives_[number], target), name), stored);
-        }
-        return true;
+        return gltf::setAttribute(editor_, document_,
+                                  {.primitives = primitives_,
+                                   .numbers = pool_.primitives,
+                                   .target = target,
+                                   .name = name,
+                                   .may_stay = mayStay()},
+                                  std::move(data));
     }
 
     /// Whether old accessors of frames may stay: not those of tangents without normals, nor what was split.

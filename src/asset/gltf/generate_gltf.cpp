@@ -13,6 +13,7 @@
 #include "asset/gltf/generate_plan.h"
 #include "asset/gltf/repair_plan.h"
 #include "asset/gltf/strip_tangents.h"
+#include "asset/gltf/write_packed.h"
 #include "core/parallel.h"
 
 namespace tspace::gltf {
@@ -77,7 +78,8 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     report.input_bytes = document.input_bytes;
     const bool converted = target.container != document.container || document.imported;
     const bool keeps_compression = options.compression == Compression::keep;
-    const bool will_edit = !plan.pools.empty() || !keeps_compression || !flips.images.empty();
+    const bool will_edit =
+        !plan.pools.empty() || !keeps_compression || !flips.images.empty() || options.pack.has_value();
     convertContainer(document, target, will_edit, report.warnings);
     const std::string new_file = freeFileName(document, target, ".tspace.bin");
     const bool repacked = recompress(document, options.compression, new_file);
@@ -105,6 +107,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     tell(options, "computing tangents", total, total);
     if (options.bitangents) noteMissingBitangents(primitives, plan.reports);
     stripTangents(editor, primitives, plan.reports);
+    if (options.pack) writePackedFrames(editor, document, options, plan.reports);
     report.normal_maps = std::move(flips.reports);
     if (!flips.images.empty()) applyFlips(document, editor, target, std::move(flips));
     editor.finish();

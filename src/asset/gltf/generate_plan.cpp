@@ -10,6 +10,7 @@
 
 #include "asset/gltf/material_needs.h"
 #include "asset/gltf/primitive_notes.h"
+#include "asset/gltf/read_packed.h"
 #include "asset/gltf/strip_tangents.h"
 
 namespace tspace::gltf {
@@ -56,14 +57,18 @@ constexpr const char* kKeptReason = "it has tangents, and overwriting was not as
 
 /// Fills action and reason. Returns true when tangents are to be computed; the action is then known only
 /// later, unless they are kept and only deltas of morph targets are computed.
-bool decide(PrimitiveReport& report, const Primitive& primitive, const std::vector<TangentUse>& uses,
-            const GenerateOptions& options) {
+bool decide(PrimitiveReport& report, const Document& document, const Primitive& primitive,
+            const std::vector<TangentUse>& uses, const GenerateOptions& options) {
     const auto leave = [&](PrimitiveAction action, std::string reason) {
         report.action = action;
         report.reason = std::move(reason);
         return false;
     };
     if (isLeftAlone(report, primitive, uses, options)) return false;
+    // What would be made in their place is less than what they were packed from.
+    const bool can_overwrite = primitive.find("NORMAL") && options.existing == ExistingTangents::replace;
+    if (const std::string packed = can_overwrite ? "" : packedAlone(document, primitive); !packed.empty())
+        return leave(PrimitiveAction::kept, "its frames are packed in " + packed);
     const bool keeps = hasUsableTangents(primitive) && options.existing == ExistingTangents::keep;
     if (keeps && !lacksDeltas(primitive)) return leave(PrimitiveAction::kept, kKeptReason);
     const auto cannot = [&](const std::string& reason) {
@@ -137,7 +142,7 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
         report.morph_target_count = static_cast<std::uint32_t>(primitive.targets.size());
         report.vertices_before = report.vertices_after = primitive.vertex_count;
         const std::vector<TangentUse> uses = tangentUses(document, primitive);
-        const bool computes = decide(report, primitive, uses, options);
+        const bool computes = decide(report, document, primitive, uses, options);
         if (hasTriangles(primitive.mode))
             report.notes = notesOf(uses, animated, options.texture_transform, computes && report.uv_set >= 0);
         if (!computes) continue;

@@ -12,23 +12,6 @@ bool names(const AttributeList& list, const char* attribute) {
     return std::any_of(list.begin(), list.end(), [&](const auto& entry) { return entry.first == attribute; });
 }
 
-/// Removes TANGENT from `object`, whose attributes are `list`.
-void strip(Editor& editor, const AttributeList& list, Json& object) {
-    for (const auto& [name, accessor] : list) {
-        if (name != "TANGENT") continue;
-        object.erase("TANGENT");
-        editor.release(accessor);
-    }
-}
-
-/// Whoever decodes the primitive must not look for an attribute that it no longer has.
-void stripDraco(Json& object) {
-    if (findExtension(object, "KHR_draco_mesh_compression") == nullptr) return;
-    Json& draco = object["extensions"]["KHR_draco_mesh_compression"];
-    if (findMember(draco, "attributes") != nullptr && draco["attributes"].is_object())
-        draco["attributes"].erase("TANGENT");
-}
-
 }  // namespace
 
 bool canStripTangents(const Primitive& primitive) {
@@ -41,15 +24,29 @@ bool canStripTangents(const Primitive& primitive) {
     return has;
 }
 
+/// Whoever decodes the primitive must not look for an attribute that it no longer has.
+void eraseAttribute(Editor& editor, const Primitive& primitive, const char* name) {
+    Json& object = editor.primitive(primitive.mesh, primitive.index);
+    object["attributes"].erase(name);
+    if (findExtension(object, "KHR_draco_mesh_compression") == nullptr) return;
+    Json& draco = object["extensions"]["KHR_draco_mesh_compression"];
+    if (findMember(draco, "attributes") != nullptr && draco["attributes"].is_object()) draco["attributes"].erase(name);
+}
+
 void stripTangents(Editor& editor, std::span<const Primitive> primitives, std::span<const PrimitiveReport> reports) {
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (reports[i].action != PrimitiveAction::removed) continue;
         const Primitive& primitive = primitives[i];
-        Json& object = editor.primitive(primitive.mesh, primitive.index);
-        strip(editor, primitive.attributes, object["attributes"]);
-        for (std::size_t t = 0; t < primitive.targets.size(); ++t)
-            strip(editor, primitive.targets[t], object["targets"][t]);
-        stripDraco(object);
+        if (const auto tangents = primitive.find("TANGENT")) {
+            eraseAttribute(editor, primitive, "TANGENT");
+            editor.release(*tangents);
+        }
+        for (std::size_t t = 0; t < primitive.targets.size(); ++t) {
+            if (const auto deltas = findAttribute(primitive.targets[t], "TANGENT")) {
+                editor.primitive(primitive.mesh, primitive.index)["targets"][t].erase("TANGENT");
+                editor.release(*deltas);
+            }
+        }
     }
 }
 

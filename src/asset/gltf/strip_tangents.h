@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Taking away tangents that nobody needs.
+// Taking away attributes: tangents that nobody needs.
 #pragma once
 
 #include <span>
@@ -16,5 +16,9 @@ bool canStripTangents(const Primitive& primitive);
 /// Takes TANGENT out of the primitives whose report says `removed`, and of their morph targets. Data that nothing else
 /// uses go too.
 void stripTangents(Editor& editor, std::span<const Primitive> primitives, std::span<const PrimitiveReport> reports);
+
+/// Takes the name of an attribute out of a primitive, and of the list of what its Draco data hold. Its accessor still
+/// counts as used.
+void eraseAttribute(Editor& editor, const Primitive& primitive, const char* name);
 
 }  // namespace tspace::gltf

@@ -4,6 +4,7 @@
 
 #include "asset/atomic_output.h"
 #include "asset/file_error.h"
+#include "asset/gltf/packed_words.h"
 #include "asset/obj/obj.h"
 #include "asset/obj/obj_primitives.h"
 #include "asset/obj/obj_reader.h"
@@ -70,6 +71,27 @@ FinishedPrimitive finishWithoutFrames(ObjGeometry geometry, PrimitiveReport& rep
     return finished;
 }
 
+/// Packs the frames as they are written, and takes away what is to go.
+void packWritten(const GenerateOptions& options, FinishedPrimitive& finished, PrimitiveReport& report) {
+    if (finished.tangents.empty()) {
+        const bool can_have = report.action == PrimitiveAction::notNeeded;
+        report.notes.emplace_back(std::string("its frames are not packed: it has no TANGENT") +
+                                  (can_have ? " (--all makes what is missing)" : ""));
+        return;
+    }
+    roundUnits(std::span(finished.tangents), finished.tangent_format);
+    const gltf::PackedLayout& layout = gltf::packedLayout(*options.pack);
+    const Bytes words =
+        gltf::packWords(layout.format, finished.normals, finished.tangents, options.tangents.execution, report.packing);
+    for (const gltf::PackedPart& part : layout.parts)
+        finished.packed.push_back({part, takePart(words, layout.format, part)});
+    report.frames_packed = true;
+    report.tangents_dropped = options.pack_drop != PackDrop::nothing;
+    report.normals_dropped = options.pack_drop == PackDrop::all;
+    if (report.tangents_dropped) finished.tangents.clear();
+    if (report.normals_dropped) finished.normals.clear();
+}
+
 FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, const GenerateOptions& options,
                          PrimitiveReport& report) {
     const Material& material = model.materials[primitive.material];
@@ -85,6 +107,7 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, cons
     report.normals_generated = primitive.normals_generated;
     if (primitive.normals_generated) finished.normal_format = options.format;
     finished.tangent_format = options.format;
+    if (options.pack) packWritten(options, finished, report);
     finished.shape = primitive.shape;
     finished.material = primitive.material;
     return finished;

@@ -44,20 +44,17 @@ class BufferBuilder {
     std::size_t addUnits(const std::vector<T>& values, const char* type, VectorFormat format) {
         if (format == VectorFormat::float32) return addVertices(values, type);
         const std::vector<std::uint8_t> packed = packUnits(std::span<const T>(values), format);
-        const std::size_t element = packed.size() / values.size(), stride = (element + 3) / 4 * 4;
-        Bytes rows(values.size() * stride, 0);
-        for (std::size_t i = 0; i < values.size(); ++i)
-            std::copy_n(packed.begin() + static_cast<std::ptrdiff_t>(i * element), element,
-                        rows.begin() + static_cast<std::ptrdiff_t>(i * stride));
-        const std::size_t view = addView(rows.data(), rows.size(), kArrayBuffer);
-        if (stride != element) views_[view]["byteStride"] = stride;
-        accessors_.push_back({{"bufferView", view},
-                              {"componentType", format == VectorFormat::snorm8 ? kByte : kShort},
-                              {"normalized", true},
-                              {"count", values.size()},
-                              {"type", type}});
         has_integers_ = true;
-        return accessors_.size() - 1;
+        return addRows(
+            packed, values.size(),
+            {{"componentType", format == VectorFormat::snorm8 ? kByte : kShort}, {"normalized", true}, {"type", type}});
+    }
+
+    std::size_t addPacked(const PackedAttribute& attribute) {
+        Json accessor = {{"componentType", static_cast<std::uint32_t>(attribute.part.component)},
+                         {"type", attribute.part.type}};
+        if (attribute.part.normalized) accessor["normalized"] = true;
+        return addRows(attribute.elements, attribute.elements.size() / attribute.part.byte_count, std::move(accessor));
     }
 
     std::size_t addPositions(const std::vector<Vec3>& positions) {
@@ -108,6 +105,22 @@ class BufferBuilder {
     [[nodiscard]] const Json& accessors() const { return accessors_; }
 
   private:
+    /// `count` elements of a few bytes each, which start at multiples of 4 bytes.
+    template <class ElementBytes>
+    std::size_t addRows(const ElementBytes& elements, std::size_t count, Json accessor) {
+        const std::size_t element = elements.size() / count, stride = (element + 3) / 4 * 4;
+        Bytes rows(count * stride, 0);
+        for (std::size_t i = 0; i < count; ++i)
+            std::copy_n(elements.begin() + static_cast<std::ptrdiff_t>(i * element), element,
+                        rows.begin() + static_cast<std::ptrdiff_t>(i * stride));
+        const std::size_t view = addView(rows.data(), rows.size(), kArrayBuffer);
+        if (stride != element) views_[view]["byteStride"] = stride;
+        accessor["bufferView"] = view;
+        accessor["count"] = count;
+        accessors_.push_back(std::move(accessor));
+        return accessors_.size() - 1;
+    }
+
     Bytes bytes_ = {};
     Json views_ = Json::array();
     Json accessors_ = Json::array();
@@ -227,12 +240,14 @@ std::vector<int> addMaterials(const Model& model, ImageBuilder& images, Json& ma
 }
 
 Json primitiveJson(const FinishedPrimitive& primitive, int material, BufferBuilder& buffer) {
-    Json attributes = {{"POSITION", buffer.addPositions(primitive.positions)},
-                       {"NORMAL", buffer.addUnits(primitive.normals, "VEC3", primitive.normal_format)}};
+    Json attributes = {{"POSITION", buffer.addPositions(primitive.positions)}};
+    if (!primitive.normals.empty())
+        attributes["NORMAL"] = buffer.addUnits(primitive.normals, "VEC3", primitive.normal_format);
     if (!primitive.tangents.empty())
         attributes["TANGENT"] = buffer.addUnits(primitive.tangents, "VEC4", primitive.tangent_format);
     if (!primitive.bitangents.empty())
         attributes["_BITANGENT"] = buffer.addUnits(primitive.bitangents, "VEC3", primitive.tangent_format);
+    for (const PackedAttribute& packed : primitive.packed) attributes[packed.part.attribute] = buffer.addPacked(packed);
     if (!primitive.uvs.empty()) attributes["TEXCOORD_0"] = buffer.addVertices(primitive.uvs, "VEC2");
     Json json = {{"attributes", std::move(attributes)},
                  {"indices", buffer.addIndices(primitive.indices, primitive.positions.size())}};

@@ -7,20 +7,28 @@
 
 #include "asset/atomic_output.h"
 #include "asset/gltf/document.h"
+#include "asset/gltf/packed_layout.h"
 #include "asset/obj/obj_model.h"
 #include "asset/path.h"
 
 namespace tspace::obj {
+
+/// An attribute that holds packed frames, and its elements, tightly packed.
+struct PackedAttribute {
+    gltf::PackedPart part;
+    Bytes elements = {};
+};
 
 /// One primitive, ready to be written: triangles over its own vertices.
 struct FinishedPrimitive {
     std::uint32_t shape = 0;
     std::uint32_t material = 0;
     std::vector<Vec3> positions = {};
-    std::vector<Vec3> normals = {};
+    std::vector<Vec3> normals = {};     ///< empty: none
     std::vector<Vec2> uvs = {};         ///< empty: none
     std::vector<Vec4> tangents = {};    ///< empty: none
     std::vector<Vec3> bitangents = {};  ///< empty: none
+    std::vector<PackedAttribute> packed = {};
     std::vector<std::uint32_t> indices = {};
     VectorFormat normal_format = VectorFormat::float32, tangent_format = VectorFormat::float32;
 };

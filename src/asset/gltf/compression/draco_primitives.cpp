@@ -10,6 +10,7 @@
 
 #include "asset/file_error.h"
 #include "asset/gltf/accessor.h"
+#include "asset/gltf/packed_layout.h"
 #include "asset/gltf/references.h"
 
 namespace tspace::gltf {
@@ -332,7 +333,7 @@ class Encoder {
     /// Attributes without a view exist in the Draco data only; with one, those that were there, and frames.
     [[nodiscard]] bool belongs(const Packed& packed, const std::string& name, std::size_t accessor) const {
         return document_.elements.count(accessor) != 0 || name == "TANGENT" || name == "NORMAL" ||
-               name == "_BITANGENT" || oldId(packed, name);
+               name == "_BITANGENT" || isPackedAttribute(name) || oldId(packed, name);
     }
 
     static std::optional<std::uint32_t> oldId(const Packed& packed, const std::string& name) {

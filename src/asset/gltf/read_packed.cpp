@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "asset/gltf/read_packed.h"
+
+#include <algorithm>
+
+namespace tspace::gltf {
+
+namespace {
+
+/// What the accessor of a part must be, as formatName would say it.
+std::string wantedFormat(const PackedPart& part) {
+    Accessor wanted;
+    wanted.component = part.component;
+    wanted.normalized = part.normalized;
+    wanted.component_count = part.byte_count / bytesOf(part.component);
+    return formatName(wanted);
+}
+
+std::string faultOf(const Document& document, const Accessor& accessor, const PackedPart& part) {
+    const bool fits =
+        accessor.component == part.component && accessor.type == part.type && accessor.normalized == part.normalized;
+    if (!fits) return "is " + formatName(accessor) + ", and must be " + wantedFormat(part);
+    return hasData(document, accessor) ? "" : "has no data that can be read here";
+}
+
+}  // namespace
+
+std::vector<StoredPacking> findPacked(const Document& document, const Primitive& primitive) {
+    std::vector<StoredPacking> found;
+    for (const PackedLayout& layout : packedLayouts()) {
+        StoredPacking packing{.layout = &layout};
+        std::string missing;
+        for (const PackedPart& part : layout.parts) {
+            const auto index = primitive.find(part.attribute);
+            if (!index) {
+                missing = part.attribute;
+                continue;
+            }
+            const std::string fault = faultOf(document, readAccessor(document, *index), part);
+            if (packing.attribute.empty() || (packing.fault.empty() && !fault.empty())) {
+                packing.attribute = part.attribute;
+                packing.fault = fault;
+            }
+        }
+        if (packing.attribute.empty()) continue;
+        if (!missing.empty() && packing.fault.empty()) packing.fault = "has no " + missing + " beside it";
+        found.push_back(std::move(packing));
+    }
+    return found;
+}
+
+std::string packedAlone(const Document& document, const Primitive& primitive) {
+    if (primitive.find("NORMAL") && primitive.find("TANGENT")) return {};
+    for (const StoredPacking& packing : findPacked(document, primitive)) {
+        if (packing.fault.empty()) return packing.attribute;
+    }
+    return {};
+}
+
+Bytes readPackedWords(const Document& document, const Primitive& primitive, const PackedLayout& layout) {
+    Bytes words(primitive.vertex_count * frameBytes(layout.format));
+    for (const PackedPart& part : layout.parts) {
+        const Accessor accessor = readAccessor(document, *primitive.find(part.attribute));
+        putPart(copyElements(document, accessor), layout.format, part, words);
+    }
+    return words;
+}
+
+}  // namespace tspace::gltf
