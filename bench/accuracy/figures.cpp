@@ -130,6 +130,20 @@ Figure bevelFigure(const char* key, const char* title, double Record::*value) {
             }};
 }
 
+/// Over the surfaces that have a fold.
+Figure foldFigure() {
+    return {"fold_gap_scattered_32", "both sides of a fold, 32x32 scattered",
+            [](const Study& study, const std::string& method, bool held_out) {
+                return meanOf<Record>(
+                    study.records,
+                    [&](const Record& r) {
+                        return r.method == method && r.held_out == held_out && r.damage == "none" && r.cells == 32 &&
+                               r.isIrregular() && r.fold_gap > 0;
+                    },
+                    [](const Record& r) { return r.fold_gap; });
+            }};
+}
+
 std::vector<Figure> makeTangentFigures() {
     std::vector<Figure> all = {
         shadingFigure(kScattered, 8),
@@ -143,7 +157,9 @@ std::vector<Figure> makeTangentFigures() {
         vertexFigure(kScattered, 32),
         spreadFigure("vertex_p95_scattered_32", "95 of 100 below", &Spread::p95),
         spreadFigure("vertex_max_scattered_32", "worst", &Spread::max),
+        bitangentFigure("vertex_border_scattered_32", "vertex 32x32 scattered, border", &Record::border),
         vertexFigure("loops", 32),
+        foldFigure(),
         orderFigure(8, 32),
         orderFigure(32, 128),
         bevelFigure("bevel_shading", "bevel, flat part", &Record::shading),
@@ -178,11 +194,20 @@ Figure normalDamageFigure(const std::string& key, const std::string& title, cons
             }};
 }
 
+Figure normalShadingFigure(const char* key, const char* title, double NormalRecord::*value) {
+    return {key, title, [=](const Study& study, const std::string& weighting, bool held_out) {
+                return cleanMean<NormalRecord>(study.normals, weighting, kScattered, 32, held_out,
+                                               [=](const NormalRecord& r) { return r.*value; });
+            }};
+}
+
 std::vector<Figure> makeNormalFigures() {
     std::vector<Figure> all;
     for (const char* tessellation : {"regular", kScattered, "loops"}) {
         for (const int cells : {8, 32, 128}) all.push_back(normalFigure(tessellation, cells));
     }
+    all.push_back(normalShadingFigure("normal_flat_32", "flat map, 32x32 scattered", &NormalRecord::flat_shading));
+    all.push_back(normalShadingFigure("normal_bent_32", "bent map, tangents by `best`", &NormalRecord::bent_shading));
     all.push_back({"normal_bevel", "bevel, flat part", [](const Study& study, const std::string& weighting, bool) {
                        return arithmeticMean(bevelValues<NormalRecord>(
                            study.normals, weighting, [](const NormalRecord& r) { return r.all.mean; }));

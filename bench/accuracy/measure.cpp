@@ -2,7 +2,9 @@
 #include "measure.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <utility>
 
 namespace tspace::accuracy {
 
@@ -22,7 +24,8 @@ void forCorners(const TestMesh& mesh, Corners corners, Visit visit) {
         return;
     }
     for (std::size_t c = 0; c < mesh.indices.size(); ++c) {
-        if (corners == Corners::all || mesh.is_inside[mesh.indices[c]] != 0) visit(c);
+        const bool is_inside = mesh.is_inside[mesh.indices[c]] != 0;
+        if (corners == Corners::all || is_inside == (corners == Corners::inside)) visit(c);
     }
 }
 
@@ -79,6 +82,26 @@ Spread crossErrors(const TestMesh& mesh, const Frames& frames, Corners corners) 
     });
 }
 
+double foldGap(const TestMesh& mesh, const Frames& frames) {
+    std::map<std::pair<double, double>, std::size_t> other_side;
+    for (std::size_t c = 0; c < mesh.indices.size(); ++c) {
+        const std::uint32_t v = mesh.indices[c];
+        if (mesh.surface != nullptr && mesh.sides[v] < 0) other_side[{mesh.s[v], mesh.t[v]}] = c;
+    }
+    double sum = 0;
+    std::size_t count = 0;
+    std::vector<std::uint8_t> done(mesh.positions.size());
+    for (std::size_t c = 0; c < mesh.indices.size(); ++c) {
+        const std::uint32_t v = mesh.indices[c];
+        if (mesh.surface == nullptr || mesh.sides[v] < 0 || std::exchange(done[v], std::uint8_t{1}) != 0) continue;
+        const auto other = other_side.find({mesh.s[v], mesh.t[v]});
+        if (other == other_side.end()) continue;
+        sum += angleDeg(tangentOf(frames, c), -1.0 * tangentOf(frames, other->second));
+        ++count;
+    }
+    return count == 0 ? 0 : sum / static_cast<double>(count);
+}
+
 Spread normalErrors(const TestMesh& mesh, const std::vector<Vec3>& normals, Corners corners) {
     return spreadOver(mesh, corners, [&](std::size_t c, std::uint32_t v) {
         return angleDeg(toDouble(normals[c]), mesh.frames[v].normal);
@@ -102,7 +125,7 @@ Shading::Shading(const TestMesh& mesh, int count, Random random) : mesh_(mesh) {
 }
 
 void Shading::addSample(std::uint32_t triangle, Random& random) {
-    Sample sample{triangle, {}, {}, {}};
+    Sample sample{triangle, {}, {}, {}, {}};
     const double root = std::sqrt(random.unit()), along = random.unit();
     sample.weights[0] = 1 - root;
     sample.weights[1] = root * (1 - along);
@@ -127,28 +150,40 @@ void Shading::addSample(std::uint32_t triangle, Random& random) {
     const DVec3 tangent = frame.tangentAcross(frame.normal);
     sample.exact = sample.texel.x * tangent + (sample.texel.y * frame.sign) * cross(frame.normal, tangent) +
                    sample.texel.z * frame.normal;
+    sample.normal = frame.normal;
     samples_.push_back(sample);
 }
 
-DVec3 Shading::shade(const Sample& sample, const Frames& frames) const {
+DVec3 Shading::normalAt(const Sample& sample, const std::vector<Vec3>& normals) const {
+    const std::uint32_t* v = mesh_.indices.data() + 3 * std::size_t{sample.triangle};
+    return mix(sample.weights, toDouble(normals[v[0]]), toDouble(normals[v[1]]), toDouble(normals[v[2]]));
+}
+
+DVec3 Shading::shade(const Sample& sample, const Frames& frames, const std::vector<Vec3>& normals) const {
     const std::size_t c = 3 * std::size_t{sample.triangle};
-    const std::uint32_t* v = mesh_.indices.data() + c;
-    const DVec3 n = mix(sample.weights, toDouble(mesh_.normals[v[0]]), toDouble(mesh_.normals[v[1]]),
-                        toDouble(mesh_.normals[v[2]]));
+    const DVec3 n = normalAt(sample, normals);
     const DVec3 t = mix(sample.weights, tangentOf(frames, c), tangentOf(frames, c + 1), tangentOf(frames, c + 2));
     const double sign = frames.tangents[c].w;
     return sample.texel.x * t + (sample.texel.y * sign) * cross(n, t) + sample.texel.z * n;
 }
 
-double Shading::meanError(const Frames& frames) const {
+double Shading::meanError(const Frames& frames, const std::vector<Vec3>& normals) const {
     double sum = 0;
-    for (const Sample& sample : samples_) sum += angleDeg(shade(sample, frames), sample.exact);
+    for (const Sample& sample : samples_) sum += angleDeg(shade(sample, frames, normals), sample.exact);
+    return sum / static_cast<double>(samples_.size());
+}
+
+double Shading::meanNormalError(const std::vector<Vec3>& normals) const {
+    double sum = 0;
+    for (const Sample& sample : samples_) sum += angleDeg(normalAt(sample, normals), sample.normal);
     return sum / static_cast<double>(samples_.size());
 }
 
 double Shading::meanDifference(const Frames& frames, const Frames& baked) const {
     double sum = 0;
-    for (const Sample& sample : samples_) sum += angleDeg(shade(sample, frames), shade(sample, baked));
+    for (const Sample& sample : samples_) {
+        sum += angleDeg(shade(sample, frames, mesh_.normals), shade(sample, baked, mesh_.normals));
+    }
     return sum / static_cast<double>(samples_.size());
 }
 

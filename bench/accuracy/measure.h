@@ -13,7 +13,7 @@ struct Spread {
 Spread spreadOf(std::vector<double> values);
 
 /// Which corners count.
-enum class Corners { all, inside, measured };
+enum class Corners { all, inside, border, measured };
 
 /// Tangents against the exact dP/du made orthogonal to the normal that the mesh has.
 Spread tangentErrors(const TestMesh& mesh, const Frames& frames, Corners corners);
@@ -21,6 +21,8 @@ Spread tangentErrors(const TestMesh& mesh, const Frames& frames, Corners corners
 Spread bitangentErrors(const TestMesh& mesh, const Frames& frames, Corners corners);
 /// sign * cross(N, T) against dP/dv.
 Spread crossErrors(const TestMesh& mesh, const Frames& frames, Corners corners);
+/// Tangents on both sides of a fold of the chart, which should be each other's opposite. 0 where there is no fold.
+double foldGap(const TestMesh& mesh, const Frames& frames);
 Spread normalErrors(const TestMesh& mesh, const std::vector<Vec3>& normals, Corners corners);
 
 /// Points on the mesh, spread by area, with the directions that a normal map gives there.
@@ -29,7 +31,11 @@ class Shading {
     Shading(const TestMesh& mesh, int count, Random random);
     /// Mean angle between the exact directions and those of interpolated frames, as shaders make them: N and T not
     /// normalised, B = sign * cross(N, T), and only the result normalised.
-    [[nodiscard]] double meanError(const Frames& frames) const;
+    [[nodiscard]] double meanError(const Frames& frames) const { return meanError(frames, mesh_.normals); }
+    /// With other normals, one per vertex.
+    [[nodiscard]] double meanError(const Frames& frames, const std::vector<Vec3>& normals) const;
+    /// Of interpolated normals alone, as a flat map shows them.
+    [[nodiscard]] double meanNormalError(const std::vector<Vec3>& normals) const;
     /// The same between two kinds of frames: what is wrong when a map was baked with the one and is shaded with the
     /// other.
     [[nodiscard]] double meanDifference(const Frames& frames, const Frames& baked) const;
@@ -40,8 +46,10 @@ class Shading {
         double weights[3];
         DVec3 texel;  ///< in tangent space
         DVec3 exact;  ///< in space
+        DVec3 normal;
     };
-    [[nodiscard]] DVec3 shade(const Sample& sample, const Frames& frames) const;
+    [[nodiscard]] DVec3 normalAt(const Sample& sample, const std::vector<Vec3>& normals) const;
+    [[nodiscard]] DVec3 shade(const Sample& sample, const Frames& frames, const std::vector<Vec3>& normals) const;
     void addSample(std::uint32_t triangle, Random& random);
     const TestMesh& mesh_;
     std::vector<Sample> samples_;

@@ -106,6 +106,8 @@ class Runner {
             const bool is_bevel = mesh.surface == nullptr;
             record.inside = tangentErrors(mesh, frames, is_bevel ? Corners::measured : Corners::inside);
             record.all = tangentErrors(mesh, frames, is_bevel ? Corners::measured : Corners::all);
+            record.border = is_bevel ? 0 : tangentErrors(mesh, frames, Corners::border).mean;
+            record.fold_gap = foldGap(mesh, frames);
             record.bitangent = bitangentErrors(mesh, frames, Corners::inside).mean;
             record.cross = crossErrors(mesh, frames, Corners::inside).mean;
             if (shading) {
@@ -117,10 +119,11 @@ class Runner {
         for (const NamedMethod& method : methods()) add(method.name, framesBy(method.method, mesh, method.refine));
         add(kFloor, exactFrames(mesh));
         const bool is_flat = mesh.surface != nullptr && mesh.surface->is_flat;
-        if (!is_flat) measureNormals(mesh, record);  // all of them would be exact
+        if (!is_flat) measureNormals(mesh, record, shading ? &*shading : nullptr);  // all of them would be exact
     }
 
-    void measureNormals(const TestMesh& mesh, const Record& of) {
+    /// `shading`: null where it is not asked for.
+    void measureNormals(const TestMesh& mesh, const Record& of, const Shading* shading) {
         for (const NamedWeighting& weighting : weightings()) {
             const std::vector<Vec3> normals = normalsBy(weighting.weighting, mesh, weighting.refine);
             NormalRecord record{of.surface,  of.tessellation, of.damage, weighting.name,
@@ -128,6 +131,13 @@ class Runner {
             const bool is_bevel = mesh.surface == nullptr;
             record.inside = normalErrors(mesh, normals, is_bevel ? Corners::measured : Corners::inside);
             record.all = normalErrors(mesh, normals, is_bevel ? Corners::measured : Corners::all);
+            if (shading != nullptr && !is_bevel) {
+                TestMesh generated = mesh;
+                for (std::size_t c = 0; c < normals.size(); ++c) generated.normals[mesh.indices[c]] = normals[c];
+                record.flat_shading = shading->meanNormalError(generated.normals);
+                const Frames frames = framesBy(Method::best, generated, weighting.refine);
+                record.bent_shading = shading->meanError(frames, generated.normals);
+            }
             study_.normals.push_back(record);
         }
     }

@@ -18,6 +18,8 @@ struct Record {
     int cells = 0;
     double share = 0;              ///< of the damage
     Spread inside = {}, all = {};  ///< tangents
+    double border = 0;             ///< mean at the border of the chart
+    double fold_gap = 0;
     double shading = 0;
     double from_mikktspace = 0;       ///< shading against that of `mikktspace`
     double bitangent = 0, cross = 0;  ///< mean errors of both kinds of bitangent
@@ -32,6 +34,8 @@ struct NormalRecord {
     int cells = 0;
     double share = 0;
     Spread inside = {}, all = {};
+    double flat_shading = 0;  ///< of a flat map
+    double bent_shading = 0;  ///< of a bent one, with tangents by `best` from these normals
 
     [[nodiscard]] bool isIrregular() const { return tessellation == "irregular" || tessellation == "random"; }
 };

@@ -26,7 +26,7 @@ struct Setting {
     const TriangleGroups& triangles;
     StridedSpan<const Vec3> normals;
     float length_factor;
-    GroupEstimates to;
+    std::span<const GroupEstimates> to;
     std::uint32_t group_count;
     const float* from = nullptr;  ///< for a step: of all groups, and zeros for what is no group
     float* next = nullptr;        ///< the same for the step after this round; null: there is none
@@ -162,7 +162,9 @@ class RangeWork {
     }
 
     void write(std::size_t group, const float* result) const {
-        const GroupEstimates& to = setting_.to;
+        const GroupEstimates* next = setting_.to.data();
+        for (; group >= next->count; ++next) group -= next->count;
+        const GroupEstimates& to = *next;
         std::memcpy(to.tangents + group * to.tangent_stride, result, sizeof(float[3]));
         if (to.rest == nullptr) return;
         const float rest[4] = {result[4], result[5], result[6], result[3] * setting_.length_factor};
@@ -181,20 +183,24 @@ class RangeWork {
 };
 
 Setting settingOf(Method method, const TriangleGroups& triangles, std::size_t group_count, const Pose& pose,
-                  const StridedSpan<const Vec2>& uvs, const InputScale& scale, const GroupEstimates& to,
+                  const StridedSpan<const Vec2>& uvs, const InputScale& scale, std::span<const GroupEstimates> to,
                   SimdTarget simd) {
     const VertexSource source{vertexArrays(pose, uvs), scale.positions, scale.uvs};
+    const bool tangents_only =
+        std::all_of(to.begin(), to.end(), [](const GroupEstimates& groups) { return groups.rest == nullptr; });
     const Estimator estimator =
-        method == Method::fast ? twoWeightsFor(simd, to.rest == nullptr) : quadraticRecoveryFor(simd);
+        method == Method::fast ? twoWeightsFor(simd, tangents_only) : quadraticRecoveryFor(simd);
     return {
         estimator, source, triangles, pose.normals, scale.lengthFactor(), to, static_cast<std::uint32_t>(group_count)};
 }
 
 }  // namespace
 
-void estimateGroups(Method method, unsigned refine, const TriangleGroups& triangles, std::size_t group_count,
-                    const Pose& pose, const StridedSpan<const Vec2>& uvs, const InputScale& scale,
-                    const GroupEstimates& to, const Execution& execution, Parallel& parallel) {
+void estimateGroups(Method method, unsigned refine, const TriangleGroups& triangles, const Pose& pose,
+                    const StridedSpan<const Vec2>& uvs, const InputScale& scale, std::span<const GroupEstimates> to,
+                    const Execution& execution, Parallel& parallel) {
+    std::size_t group_count = 0;
+    for (const GroupEstimates& groups : to) group_count += groups.count;
     if (group_count == 0) return;
     Setting setting = settingOf(method, triangles, group_count, pose, uvs, scale, to, execution.simd);
     const std::size_t group_bytes = sizeof(float[4]) * setting.estimator.row_count;

@@ -2,6 +2,8 @@
 // The methods `fast` and `best` for all groups of a mesh in one pose.
 #pragma once
 
+#include <span>
+
 #include "core/input_scale.h"
 #include "core/parallel.h"
 #include "core/range_lists.h"
@@ -11,7 +13,7 @@ namespace tspace::estimators {
 
 inline bool isEstimated(Method method) { return method == Method::fast || method == Method::best; }
 
-/// Where results go: for group g three floats at tangents + g * tangent_stride; with `rest` the bitangent and the
+/// Where results of `count` groups go: for group g three floats at tangents + g * tangent_stride; with `rest` the bitangent and the
 /// length of dP/du at rest + g * rest_stride, and the length of dP/dv at lengths_t + g * length_stride. What no
 /// triangle gives is 0.
 struct GroupEstimates {
@@ -21,15 +23,15 @@ struct GroupEstimates {
     std::size_t rest_stride = 0;
     std::byte* lengths_t = nullptr;
     std::size_t length_stride = 0;
+    std::size_t count = 0;
 };
 
 /// Positions, normals and UVs have one entry per vertex, of which there is at least one. All corners of a
-/// group have one normal. `refine` steps follow the fit of `best`. Sums are made in the order of triangles. Scratch
-/// memory: up to 1 MB per task, and
-/// range_lists.h;
-/// with steps 32 bytes per group, or 64. Linear. Throws OutOfMemory.
-void estimateGroups(Method method, unsigned refine, const TriangleGroups& triangles, std::size_t group_count,
-                    const Pose& pose, const StridedSpan<const Vec2>& uvs, const InputScale& scale,
-                    const GroupEstimates& to, const Execution& execution, Parallel& parallel);
+/// group have one normal. `refine` steps follow the fit of `best`. Sums are made in the order of triangles. `to`: the
+/// first groups, the groups after them, and so on. Scratch memory: up to 1 MB per task, and range_lists.h; with steps 32
+/// bytes per group, or 64. Linear. Throws OutOfMemory.
+void estimateGroups(Method method, unsigned refine, const TriangleGroups& triangles, const Pose& pose,
+                    const StridedSpan<const Vec2>& uvs, const InputScale& scale, std::span<const GroupEstimates> to,
+                    const Execution& execution, Parallel& parallel);
 
 }  // namespace tspace::estimators

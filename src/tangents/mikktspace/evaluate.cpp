@@ -38,24 +38,25 @@ class PlanTriangles final : public TriangleGroups {
 class Evaluation {
   public:
     Evaluation(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,
-               const TangentOutput& out, const Execution& execution, Parallel& parallel, const InputScale* scale)
+               const TangentOutput& out, const Execution& execution, Parallel& parallel)
         : plan_(plan),
           pose_(pose),
           uvs_(uvs),
-          scale_(scale),
           execution_(execution),
           out_(out),
           sink_(out, plan.convention),
           terms_(cornerTermsFor(execution.simd)),
-          // Whether results for one corner are merged or kept depends on all their parts.
-          source_(cornerSource(pose, uvs, plan.method, wantsTangentsOnly(out) && !plan.has_repeats)),
+          source_(cornerSource(pose, uvs, plan.method, wantsOnlyTangents(plan, out))),
           allocator_(execution.allocator),
           parallel_(parallel) {}
 
-    TangentReport run() {
+    /// `estimates`: null, or what the estimators gave.
+    TangentReport run(GroupSums* estimates) {
         TangentReport report = plan_.report;
         if (plan_.vertex_count == 0) return report;
-        if (estimators::isEstimated(plan_.method)) {
+        if (estimates != nullptr) {
+            sums_ = std::move(*estimates);
+        } else if (estimators::isEstimated(plan_.method)) {
             estimate();
         } else {
             sums_ = sumGroups(plan_, source_, terms_, allocator_, parallel_);
@@ -77,18 +78,11 @@ class Evaluation {
   private:
     void estimate() {
         const PlanTriangles triangles(plan_);
-        const InputScale scale = scale_ != nullptr ? *scale_ : inputScale(triangles, pose_.positions, uvs_);
-        sums_.groups = Buffer<GroupSum>(allocator_, plan_.group_count);
-        if (!source_.tangents_only) sums_.rest = Buffer<GroupRest>(allocator_, plan_.group_count);
-        const estimators::GroupEstimates to{
-            reinterpret_cast<std::byte*>(sums_.groups.data()),
-            sizeof(GroupSum),
-            reinterpret_cast<std::byte*>(sums_.rest.data()),
-            sizeof(GroupRest),
-            sums_.rest.empty() ? nullptr : reinterpret_cast<std::byte*>(&sums_.rest[0].length_t),
-            sizeof(GroupRest)};
-        estimators::estimateGroups(plan_.method, plan_.refine, triangles, plan_.group_count, pose_, uvs_, scale, to,
-                                   execution_, parallel_);
+        const InputScale scale = inputScale(triangles, pose_.positions, uvs_);
+        sums_ = estimatedSums(plan_, source_.tangents_only, allocator_);
+        const estimators::GroupEstimates to = estimatesIn(sums_);
+        estimators::estimateGroups(plan_.method, plan_.refine, triangles, pose_, uvs_, scale, {&to, 1}, execution_,
+                                   parallel_);
     }
 
     /// Turns sums into results, in place.
@@ -233,7 +227,6 @@ class Evaluation {
     const EvaluationPlan& plan_;
     const Pose& pose_;
     const StridedSpan<const Vec2>& uvs_;
-    const InputScale* scale_;
     const Execution& execution_;
     TangentOutput out_;
     Sink sink_;
@@ -250,8 +243,8 @@ class Evaluation {
 
 TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,
                              const TangentOutput& out, const Execution& execution, Parallel& parallel,
-                             const InputScale* scale) {
-    return Evaluation(plan, pose, uvs, out, execution, parallel, scale).run();
+                             GroupSums* estimates) {
+    return Evaluation(plan, pose, uvs, out, execution, parallel).run(estimates);
 }
 
 }  // namespace tspace::mikk

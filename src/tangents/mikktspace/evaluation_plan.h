@@ -23,6 +23,8 @@ struct Conflict {
     std::uint32_t source = 0;  ///< a group, or kMark | a place in EvaluationPlan::members
 };
 
+struct GroupSums;
+
 struct EvaluationPlan {
     Method method = Method::mikktspace;
     std::uint32_t refine = 0;  ///< of `best`: steps
@@ -43,6 +45,7 @@ struct EvaluationPlan {
     /// One per half-edge: its corner of the mesh, with kMark where the group's result is not written there: another one
     /// writes it, or it is among the conflicts. Empty: half-edges are corners.
     Buffer<std::uint32_t> slots;
+    Buffer<std::uint32_t> triangles;      ///< of some nodes' plan: their numbers in the mesh, ascending
     Buffer<std::uint8_t> group_positive;  ///< one per group: its orientation
     Buffer<Vec2> uvs;                     ///< one per vertex; empty in a plan that is used once
 
@@ -68,10 +71,10 @@ struct EvaluationPlan {
 EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Parallel& parallel);
 
 /// Evaluates one pose into checked outputs and completes the plan's report. `uvs`: one per vertex. Scratch memory: 12
-/// bytes per group when only tangents are asked for, else 44. `scale`: for `fast` and `best`, where it is not to be found
-/// from the pose itself. Throws OutOfMemory.
+/// bytes per group when only tangents are asked for, else 44. `estimates`: null, or what estimators have given for the
+/// groups, in the room for it (group_sums.h). Throws OutOfMemory.
 TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,
                              const TangentOutput& out, const Execution& execution, Parallel& parallel,
-                             const InputScale* scale = nullptr);
+                             GroupSums* estimates = nullptr);
 
 }  // namespace tspace::mikk

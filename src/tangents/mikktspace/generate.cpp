@@ -66,7 +66,7 @@ EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, 
     listVertices(nodes, allocator, parallel);
     const Buffer<std::uint32_t> all = numbersBelow(nodes.count, allocator);
     const NodeSetting setting{mesh, options, triangles, nodes, {}};
-    EvaluationPlan plan = planAllNodes({setting, bucket, {all.data(), all.size()}, nullptr, {}, parallel});
+    EvaluationPlan plan = planChosen({setting, bucket, {all.data(), all.size()}, nullptr, {}, parallel}, PlanUse::kept);
     plan.skipped_corners = std::move(triangles.skipped_corners);
     plan.report.triangle_count = triangles.count;
     plan.report.skipped_face_count = triangles.skipped_face_count;

@@ -102,4 +102,21 @@ GroupSums sumGroups(const EvaluationPlan& plan, const CornerSource& source, Corn
     return sums;
 }
 
+GroupSums estimatedSums(const EvaluationPlan& plan, bool tangents_only, const Allocator* allocator) {
+    GroupSums sums;
+    sums.groups = Buffer<GroupSum>(allocator, plan.group_count);
+    if (!tangents_only) sums.rest = Buffer<GroupRest>(allocator, plan.group_count);
+    return sums;
+}
+
+estimators::GroupEstimates estimatesIn(GroupSums& sums) {
+    return {reinterpret_cast<std::byte*>(sums.groups.data()),
+            sizeof(GroupSum),
+            reinterpret_cast<std::byte*>(sums.rest.data()),
+            sizeof(GroupRest),
+            sums.rest.empty() ? nullptr : reinterpret_cast<std::byte*>(&sums.rest[0].length_t),
+            sizeof(GroupRest),
+            sums.groups.size()};
+}
+
 }  // namespace tspace::mikk

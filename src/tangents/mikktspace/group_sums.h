@@ -3,7 +3,8 @@
 #pragma once
 
 #include "core/parallel.h"
-#include "tangents/mikktspace/corner_terms.h"
+#include "tangents/estimators/group_estimates.h"
+#include "tangents/mikktspace/corner_source.h"
 #include "tangents/mikktspace/evaluation_plan.h"
 
 namespace tspace::mikk {
@@ -24,6 +25,15 @@ struct GroupSums {
     Buffer<GroupSum> groups;
     Buffer<GroupRest> rest;  ///< empty when tangents_only
 };
+
+/// Whether results for one corner are merged or kept depends on all their parts.
+inline bool wantsOnlyTangents(const EvaluationPlan& plan, const TangentOutput& out) {
+    return wantsTangentsOnly(out) && !plan.has_repeats;
+}
+
+/// Room for what the estimators give, and how they reach it.
+GroupSums estimatedSums(const EvaluationPlan& plan, bool tangents_only, const Allocator* allocator);
+estimators::GroupEstimates estimatesIn(GroupSums& sums);
 
 /// Adds up in the order of triangles. Throws OutOfMemory.
 GroupSums sumGroups(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction terms,

@@ -12,10 +12,11 @@
 #include "core/float4.h"
 #include "core/streamed_rows.h"
 #include "core/typed_indices.h"
-#include "tangents/estimators/group_estimates.h"
 #include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/corner_source.h"
 #include "tangents/mikktspace/first_look.h"
+#include "tangents/mikktspace/group_sums.h"
+#include "tangents/mikktspace/joined_triangles.h"
 #include "tangents/mikktspace/node_sums.h"
 #include "tangents/mikktspace/results.h"
 #include "tangents/mikktspace/splits.h"
@@ -30,6 +31,7 @@ constexpr std::size_t kCornerGrain = 16384, kTriangleGrain = 16384;
 constexpr std::uint32_t kBothFacings = kFacesUp | kFacesDown;
 /// In the place of the sign, with a bit that no sign has.
 constexpr float kComplexSign = 2.0f;
+constexpr std::uint16_t kReplaced = 0x8000;  ///< in NodeSums::marks: the node has a default in place of an estimate
 
 class OnePass {
   public:
@@ -65,7 +67,7 @@ class OnePass {
     TangentReport writeAll() {
         for (const std::uint32_t c : triangles_.skipped_corners) Sink(out_, options_.convention).clear(c);
         const Buffer<std::uint32_t> all = numbersBelow(nodes_.count, allocator_);
-        return writeNodes({setting_, bucket_, {all.data(), all.size()}, nullptr, {}, parallel_}, nullptr);
+        return writeNodes({setting_, bucket_, {all.data(), all.size()}, nullptr, {}, parallel_});
     }
 
     TangentReport passOverTriangles() {
@@ -80,22 +82,16 @@ class OnePass {
                 if (!estimates_) finishNodes(first, end);
             },
             pass_.range_shift);
-        if (estimates_) estimateNodes();
+        if (estimates_) {
+            finishInRanges(
+                nodes_.count, [&](std::size_t first, std::size_t end) { findComplex(first, end); }, parallel_);
+        }
         checkFaces();
         checkDegenerateUvs();
         for (const std::uint32_t node : bucket_.nodes) {
             if (!sums_.isEmpty(node)) leaveNode(node);
         }
-        // A step reads the results of all groups around, and a complex node has several: all nodes take the vertex
-        // path.
-        if (options_.method == Method::best && options_.refine != 0 && complex_count_ != 0) return writeAll();
-        writeCorners();
-        // Only the nodes' own places are read from here on.
-        sums_.marks = {};
-        sums_.rest = {};
-        sums_.lengths_t = {};
-        TangentReport report;
-        if (complex_count_ != 0) report = writeComplex();
+        TangentReport report = estimates_ ? writeEstimates() : writeSums();
         report.degenerate_triangle_count = sums_.degenerate_count;
         report.degenerate_uv_count = sums_.no_uv_area_count;
         report.mirrored_count = sums_.mirrored_count;
@@ -104,24 +100,62 @@ class OnePass {
         return report;
     }
 
-    /// Results of all nodes take the place of their sums. Those of complex nodes mean nothing.
-    void estimateNodes() {
+    TangentReport writeSums() {
+        writeCorners();
+        // Only the nodes' own places are read from here on.
+        sums_.marks = {};
+        sums_.rest = {};
+        sums_.lengths_t = {};
+        if (complex_count_ == 0) return {};
+        const Buffer<std::uint32_t> chosen = complexNodes();
+        return writeNodes({setting_,
+                           bucket_,
+                           {chosen.data(), chosen.size()},
+                           &sums_,
+                           {has_complex_.data(), has_complex_.size()},
+                           parallel_});
+    }
+
+    /// Complex nodes are planned first, since a step reads the results of all groups around.
+    TangentReport writeEstimates() {
+        EvaluationPlan plan;
+        if (complex_count_ != 0) {
+            const Buffer<std::uint32_t> chosen = complexNodes();
+            plan =
+                planChosen({setting_, bucket_, {chosen.data(), chosen.size()}, &sums_, {}, parallel_}, PlanUse::once);
+        }
+        GroupSums estimates = estimateGroupsWith(plan);
+        finishInRanges(
+            nodes_.count, [&](std::size_t first, std::size_t end) { finishEstimates(first, end); }, parallel_);
+        if (any_replaced_) countReplaced();
+        writeCorners();
+        if (complex_count_ == 0) return {};
+        return evaluateGroups(plan, {mesh_.positions, mesh_.normals}, mesh_.uvs, out_, options_.execution, parallel_,
+                              &estimates);
+    }
+
+    /// Results of all nodes take the place of their sums; those of the plan's groups are returned.
+    GroupSums estimateGroupsWith(const EvaluationPlan& plan) {
         if (!wantsTangentsOnly(out_)) {
             sums_.rest = Buffer<NodeRest>(allocator_, nodes_.count);
             sums_.lengths_t = Buffer<float>(allocator_, nodes_.count);
         }
+        GroupSums planned = estimatedSums(plan, wantsOnlyTangents(plan, out_), allocator_);
         const bool has_degenerate_uvs = sums_.no_uv_area_count != 0;
-        const MeshTriangles triangles(mesh_, triangles_, nodes_, has_degenerate_uvs ? sums_.kinds.data() : nullptr);
-        scale_ = inputScale(triangles, mesh_.positions, mesh_.uvs);
-        const estimators::GroupEstimates to{reinterpret_cast<std::byte*>(sums_.nodes.data()),     sizeof(NodeSum),
-                                            reinterpret_cast<std::byte*>(sums_.rest.data()),      sizeof(NodeRest),
-                                            reinterpret_cast<std::byte*>(sums_.lengths_t.data()), sizeof(float)};
+        const MeshTriangles by_node(mesh_, triangles_, nodes_, has_degenerate_uvs ? sums_.kinds.data() : nullptr);
+        const JoinedTriangles joined(by_node, nodes_.count, plan, {complex_.data(), complex_.size()});
+        const estimators::GroupEstimates to[2] = {
+            {reinterpret_cast<std::byte*>(sums_.nodes.data()), sizeof(NodeSum),
+             reinterpret_cast<std::byte*>(sums_.rest.data()), sizeof(NodeRest),
+             reinterpret_cast<std::byte*>(sums_.lengths_t.data()), sizeof(float), nodes_.count},
+            estimatesIn(planned)};
+        const TriangleGroups& triangles = complex_count_ == 0 ? static_cast<const TriangleGroups&>(by_node) : joined;
         Execution execution = options_.execution;
         execution.allocator = transient_.allocator();
-        estimators::estimateGroups(options_.method, options_.refine, triangles, nodes_.count,
-                                   {mesh_.positions, mesh_.normals}, mesh_.uvs, scale_, to, execution, parallel_);
-        finishInRanges(
-            nodes_.count, [&](std::size_t first, std::size_t end) { finishNodes(first, end); }, parallel_);
+        estimators::estimateGroups(options_.method, options_.refine, triangles, {mesh_.positions, mesh_.normals},
+                                   mesh_.uvs, inputScale(by_node, mesh_.positions, mesh_.uvs),
+                                   {to, complex_count_ == 0 ? std::size_t{1} : std::size_t{2}}, execution, parallel_);
+        return planned;
     }
 
     /// A triangle without UV area takes the orientation of the first group that reaches it, at any of its
@@ -253,41 +287,91 @@ class OnePass {
         group_count_ += groups_here;
     }
 
-    TangentReport writeComplex() {
+    /// Of methods that estimate. `first`: a multiple of 64.
+    void findComplex(std::size_t first, std::size_t end) {
+        std::uint64_t complex_here = 0, groups_here = 0;
+        for (; first < end; first += 64) {
+            std::uint64_t bits = 0;
+            const std::size_t last = std::min(first + 64, end);
+            for (std::size_t n = first; n < last; ++n) {
+                if (sums_.isEmpty(n)) continue;
+                const bool clear = sums_.isOneGroup(n, mesh_.normals[nodes_.vertex(n)], false);
+                bits |= std::uint64_t{!clear} << (n - first);
+                groups_here += clear ? 1 : 0;
+            }
+            complex_[first / 64] = bits;
+            complex_here += static_cast<std::uint64_t>(std::popcount(bits));
+        }
+        complex_count_ += complex_here;
+        group_count_ += groups_here;
+    }
+
+    [[nodiscard]] bool isComplex(std::size_t n) const { return (complex_[n / 64] >> (n % 64) & 1) != 0; }
+
+    void finishEstimates(std::size_t first, std::size_t end) {
+        bool any_replaced = false;
+        for (std::size_t n = first; n < end; ++n) {
+            if (isComplex(n)) continue;
+            const bool empty = sums_.isEmpty(n), is_default = empty || !notZero(tangentOf(n));
+            finishResult(n, is_default ? Vec3{1, 0, 0} : tangentOf(n), is_default);
+            if (empty || !is_default) continue;
+            sums_.marks[n] |= kReplaced;
+            any_replaced = true;
+        }
+        if (any_replaced) any_replaced_.store(true, std::memory_order_relaxed);
+    }
+
+    /// Corners of groups whose estimate vanishes.
+    void countReplaced() {
+        for (std::size_t i = 0; i < 3 * triangles_.count; ++i) {
+            const std::uint32_t node = nodeAt(i);
+            default_corner_count_ += (sums_.marks[node] & kReplaced) != 0 ? 1 : 0;
+        }
+    }
+
+    [[nodiscard]] Buffer<std::uint32_t> complexNodes() const {
         Buffer<std::uint32_t> chosen(allocator_, complex_count_);
         std::size_t count = 0;
         forEachComplex([&](std::uint32_t node) { chosen[count++] = node; });
-        return writeNodes(
-            {setting_, bucket_, {chosen.data(), count}, &sums_, {has_complex_.data(), has_complex_.size()}, parallel_},
-            &scale_);
+        return chosen;
     }
 
     bool finishNode(std::size_t n) {
         const bool empty = sums_.isEmpty(n), splits = options_.method == Method::mikktspace;
         if (!empty && !sums_.isOneGroup(n, mesh_.normals[nodes_.vertex(n)], splits)) return false;
-        float* sum = sums_.row(n);
-        const Vec3 sum_s{sum[0], sum[1], sum[2]};
-        const Vec3 s = empty ? Vec3{1, 0, 0} : estimates_ ? sum_s : unit(sum_s);
+        const Vec3 s = empty ? Vec3{1, 0, 0} : unit(tangentOf(n));
         // The other methods replace a sum that vanishes; the vertex path sees to that.
         if (!splits && !notZero(s)) return false;
-        if (!sums_.rest.empty()) finishRest(n, empty, sum[3]);
-        const bool positive = !empty && (sums_.marks[n] & kFacesUp) != 0;
+        finishResult(n, s, empty);
+        return true;
+    }
+
+    [[nodiscard]] Vec3 tangentOf(std::size_t n) const {
+        const float* row = sums_.row(n);
+        return {row[0], row[1], row[2]};
+    }
+
+    void finishResult(std::size_t n, const Vec3& s, bool is_default) {
+        float* sum = sums_.row(n);
+        if (!sums_.rest.empty()) finishRest(n, is_default, sum[3]);
+        const bool positive = !sums_.isEmpty(n) && (sums_.marks[n] & kFacesUp) != 0;
         sum[0] = s.x;
         sum[1] = s.y;
         sum[2] = s.z;
         sum[3] = positive ? sign_factor_ : -sign_factor_;  // from here on the sign
-        return true;
     }
 
-    void finishRest(std::size_t node, bool empty, float weight) {
+    void finishRest(std::size_t node, bool is_default, float weight) {
         NodeRest& rest = sums_.rest[node];
         float& length_t = sums_.lengths_t[node];
         const Vec3 sum_t{rest.t[0], rest.t[1], rest.t[2]};
-        const Vec3 t = signFactor(options_.convention) * (empty ? Vec3{0, 1, 0} : estimates_ ? sum_t : unit(sum_t));
+        const Vec3 t = signFactor(options_.convention) * (is_default   ? Vec3{0, 1, 0}
+                                                          : estimates_ ? sum_t
+                                                                       : unit(sum_t));
         rest.t[0] = t.x;
         rest.t[1] = t.y;
         rest.t[2] = t.z;
-        if (empty) {
+        if (is_default) {
             rest.t[3] = length_t = 1;
         } else if (weight > 0 && !estimates_) {
             rest.t[3] /= weight;
@@ -376,8 +460,7 @@ class OnePass {
     ScratchBlock& transient_;
     Parallel& parallel_;
     const Allocator* allocator_;
-    bool estimates_;  // fast and best: the estimators sum, and this class only groups
-    InputScale scale_;
+    bool estimates_;     // fast and best: the estimators sum, and this class only groups
     float sign_factor_;  // what the sign of the UV determinant is multiplied with
 
     NodeSums sums_;
@@ -385,6 +468,7 @@ class OnePass {
     Marks has_complex_;              // one per block of corners
     std::atomic<std::size_t> complex_count_{0};
     std::atomic<std::uint64_t> group_count_{0};
+    std::atomic<bool> any_replaced_{false};  // by defaults: estimates that vanish
     std::uint64_t default_corner_count_ = 0;
 };
 

@@ -255,7 +255,7 @@ std::size_t EvaluationPlan::memoryBytes() const {
     const auto bytes = [](const auto& buffer) { return buffer.size() * sizeof(*buffer.data()); };
     return sizeof(*this) + bytes(vertices) + bytes(groups) + bytes(slots) + bytes(group_positive) + bytes(uvs) +
            bytes(splits) + bytes(members) + bytes(split_rows) + bytes(split_leaders) + bytes(conflicts) +
-           bytes(default_corners) + bytes(skipped_corners) + bytes(copies);
+           bytes(default_corners) + bytes(skipped_corners) + bytes(copies) + bytes(triangles);
 }
 
 }  // namespace tspace::mikk

@@ -2,8 +2,8 @@
 #include "tangents/mikktspace/vertex_path.h"
 
 #include <atomic>
+#include <utility>
 
-#include "tangents/estimators/group_estimates.h"
 #include "tangents/mikktspace/corner_source.h"
 #include "tangents/mikktspace/plan.h"
 #include "tangents/mikktspace/splits.h"
@@ -58,12 +58,11 @@ Marks cornerMarks(const VertexPath& path, const VertexCorners& corners) {
 
 }  // namespace
 
-TangentReport writeNodes(const VertexPath& path, const InputScale* scale) {
+TangentReport writeNodes(const VertexPath& path) {
     const NodeSetting& setting = path.setting;
     const Allocator* allocator = setting.options.execution.allocator;
-    const bool estimates = estimators::isEstimated(setting.options.method);
     const float threshold_cosine = cosineOf(setting.options);
-    VertexCorners corners = read(path, !estimates);
+    VertexCorners corners = read(path, true);
     const Grouping grouping(corners, path.chosen, path.bucket, allocator);
     Marks is_default = cornerMarks(path, corners);
     const NodeResults results(setting, path.chosen, corners, threshold_cosine, is_default);
@@ -75,7 +74,7 @@ TangentReport writeNodes(const VertexPath& path, const InputScale* scale) {
         std::uint64_t left_here = 0;
         for (std::size_t place = begin; place < end; ++place) {
             const bool is_small = corners.around(place).size() <= kSmallNode;
-            const bool written = !estimates && is_small && results.write(place, grouping.groupsOf(place, room), counts);
+            const bool written = is_small && results.write(place, grouping.groupsOf(place, room), counts);
             left[place] = written ? 0 : 1;
             left_here += written ? 0 : 1;
         }
@@ -89,7 +88,7 @@ TangentReport writeNodes(const VertexPath& path, const InputScale* scale) {
             {setting, path.chosen, corners, grouping, {left.data(), left.size()}, threshold_cosine, PlanUse::once});
         planCopies(corners.copies, is_default, allocator, plan);
         report = evaluateGroups(plan, {setting.mesh.positions, setting.mesh.normals}, setting.mesh.uvs, setting.out,
-                                setting.options.execution, path.parallel, scale);
+                                setting.options.execution, path.parallel);
     }
     report.degenerate_triangle_count = corners.degenerate_count;
     report.degenerate_uv_count = corners.no_uv_area_count;
@@ -99,18 +98,18 @@ TangentReport writeNodes(const VertexPath& path, const InputScale* scale) {
     return report;
 }
 
-EvaluationPlan planAllNodes(const VertexPath& path) {
+EvaluationPlan planChosen(const VertexPath& path, PlanUse use) {
     const NodeSetting& setting = path.setting;
     const Allocator* allocator = setting.options.execution.allocator;
     VertexCorners corners = read(path, false);
     const Grouping grouping(corners, path.chosen, path.bucket, allocator);
-    EvaluationPlan plan =
-        planNodes({setting, path.chosen, corners, grouping, {}, cosineOf(setting.options), PlanUse::kept});
+    EvaluationPlan plan = planNodes({setting, path.chosen, corners, grouping, {}, cosineOf(setting.options), use});
     Marks is_default = cornerMarks(path, corners);
     planCopies(corners.copies, is_default, allocator, plan);
     plan.report.degenerate_triangle_count = corners.degenerate_count;
     plan.report.degenerate_uv_count = corners.no_uv_area_count;
     plan.report.mirrored_count = corners.mirrored_count;
+    plan.triangles = std::move(corners.found);
     return plan;
 }
 

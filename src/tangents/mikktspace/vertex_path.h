@@ -10,6 +10,7 @@
 #include "tangents/mikktspace/evaluation_plan.h"
 #include "tangents/mikktspace/node_results.h"
 #include "tangents/mikktspace/node_sums.h"
+#include "tangents/plan_use.h"
 
 namespace tspace::mikk {
 
@@ -25,12 +26,11 @@ struct VertexPath {
     Parallel& parallel;
 };
 
-/// Writes the results of all corners at chosen nodes. `scale`: for `fast` and `best`, that of the whole mesh. The report
-/// counts triangles around these nodes, and their groups and corners. Takes about 210 bytes per triangle around these
-/// nodes. Throws OutOfMemory.
-TangentReport writeNodes(const VertexPath& path, const InputScale* scale);
+/// Writes the results of all corners at chosen nodes, by methods that estimate nothing. The report counts triangles around
+/// these nodes, and their groups and corners. Takes about 210 bytes per triangle around these nodes. Throws OutOfMemory.
+TangentReport writeNodes(const VertexPath& path);
 
-/// A plan of all nodes, to be kept.
-EvaluationPlan planAllNodes(const VertexPath& path);
+/// A plan of the chosen nodes.
+EvaluationPlan planChosen(const VertexPath& path, PlanUse use);
 
 }  // namespace tspace::mikk
