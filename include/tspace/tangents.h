@@ -82,8 +82,7 @@ struct TangentOptions {
     /// `symmetric` is refused for `mikktspace`, whose results are the reference's, and for `basis`, which has no UVs.
     FrameShape frame = FrameShape::gramSchmidt;
     /// 0, 1 or 2 steps that `best` takes after its fit; other methods take none. A step changes each frame so that,
-    /// interpolated along the edges around it, it gives these edges, as far as they agree. 1: a fifth less error in
-    /// what
+    /// interpolated along the edges around it, it gives these edges, as far as they agree. 1: a fifth less error in what
     /// is shaded. 2: another twentieth less. 0: the fit alone.
     std::uint32_t refine = 1;
 };
@@ -164,10 +163,8 @@ class TangentPlan {
 /// bytes per triangle for meshes that need the long way (thresholds, values that are not finite), and about 150 beside
 /// the first for each triangle around a vertex that needs a second look (several groups, doubtful splits, degenerate
 /// triangles). `fast` and `best` take about as much, and up to 2 MB per thread; `best` 32 bytes per group more for each
-/// of
-/// its steps, and takes the long way for the whole mesh where any vertex has several groups. FrameShape::symmetric adds
-/// 12 bytes per output unless bitangents are asked for. Until the call returns, and when it fails, the outputs hold
-/// anything.
+/// of its steps. FrameShape::symmetric adds 12 bytes per output unless bitangents are asked for. Until the call returns,
+/// and when it fails, the outputs hold anything.
 Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out);
 
 /// Makes the plan: welds equal vertices (position, normal and UV all equal), finds neighbours, groups and splits.

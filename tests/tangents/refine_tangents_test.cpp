@@ -170,6 +170,35 @@ TEST(RefinedTangents, OfAPlanFollowThePose) {
     }
 }
 
+/// A closed tube whose UVs begin anew at one line: each side of that line has neighbours of its own only.
+TEST(RefinedTangents, OnBothSidesOfASeamAgreeTwiceAsWell) {
+    constexpr std::uint32_t kSide = 32;
+    const auto tube = [](double u, double v) {
+        const double a = 6.283185307179586 * u, r = 1 + 0.3 * std::sin(3 * v);
+        return test::PatchPoint{r * std::cos(a), r * std::sin(a), 5 * v};
+    };
+    const auto gapWith = [&](Method method, std::uint32_t refine) {
+        double sum = 0;
+        for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+            const SmoothPatch patch = test::smoothPatch(tube, kSide, seed);
+            const Outputs outputs = generate(patch.shape, refine, method);
+            std::vector<DVec3> tangents(patch.shape.positions.size());
+            for (std::size_t c = 0; c < outputs.tangents.size(); ++c) {
+                tangents[patch.shape.indices[c]] = toDouble(xyz(outputs.tangents[c]));
+            }
+            for (std::uint32_t y = 1; y < kSide; ++y) {
+                const std::size_t first = y * (kSide + 1);
+                sum += angleDeg(tangents[first], tangents[first + kSide]) / (4 * (kSide - 1));
+            }
+        }
+        return sum;
+    };
+    const double fit = gapWith(Method::best, 0), once = gapWith(Method::best, 1), twice = gapWith(Method::best, 2);
+    EXPECT_LT(fit, gapWith(Method::mikktspace, 0));
+    EXPECT_LT(once, 0.5 * fit);
+    EXPECT_LT(twice, 0.7 * once);
+}
+
 TEST(RefinedTangents, OfOtherMethodsAreTheirs) {
     const SmoothPatch patch = patchOf(7);
     for (const Method method : {Method::mikktspace, Method::lengyel, Method::uniform, Method::angle, Method::area,

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What the methods `fast` and `best` compute for a group. Both go once over the triangles, add some rows of
-// numbers to each group, and then turn a group's rows into its tangent:
+// What the methods `fast` and `best` compute for a group. Both go over the triangles, `best` once more for each step,
+// add some rows of numbers to each group, and then turn a group's rows into its tangent:
 //
 // fast   two_weights_kernel.h: two weighted means of the same vectors, mixed by the angle between them
-// best   quadratic_recovery_kernel.h: a quadratic map from UVs to the tangent plane, fitted to the edges
+// best   quadratic_recovery_kernel.h: a quadratic map from UVs to the tangent plane, fitted to the edges;
+//        edge_step_kernel.h: a step towards frames that give the edges when they are interpolated
 //
 // Each is written once, and compiled for several CPUs with the same bits from all.
 #pragma once
@@ -39,8 +40,7 @@ struct Estimator {
     /// Turns the sums of `count` groups, up to the end of the last lane group, into results in place.
     /// normals: four floats per group. The first row becomes the unit tangent, the second the unit bitangent,
     /// and the last two numbers of these rows the lengths of dP/du and dP/dv, in scaled positions and UVs: {T.x, T.y,
-    /// T.z, |dP/du|}, {B.x,
-    /// B.y, B.z, |dP/dv|}. A direction that no triangle gives is zero, and never is anything not finite. With
+    /// T.z, |dP/du|}, {B.x, B.y, B.z, |dP/dv|}. A direction that no triangle gives is zero, and never is anything not finite. With
     /// two rows, there are tangents only.
     void (*finish)(float* sums, const float* normals, std::size_t count) = nullptr;
     /// The same for a step, null where a method has none. groups: three per triangle; `from` has kStepFloats for each
