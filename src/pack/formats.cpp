@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "pack/formats.h"
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
+#include <iterator>
 
 namespace tspace::pack {
 
@@ -22,6 +22,15 @@ std::uint32_t readWord(const std::byte* in) {
 }
 
 template <std::size_t kBytes>
+void writeWord(std::uint32_t word, std::byte* out) {
+    if constexpr (std::endian::native == std::endian::little) {
+        std::memcpy(out, &word, kBytes);
+    } else {
+        for (std::size_t i = 0; i < kBytes; ++i) out[i] = static_cast<std::byte>(word >> (8 * i) & 0xff);
+    }
+}
+
+template <std::size_t kBytes>
 void readWords(const std::byte* in, std::size_t count, WordBlock& words) {
     // Words that lie as they are needed are copied many at a time: single ones would have to reach the cache before
     // vectors of them can be loaded.
@@ -36,26 +45,38 @@ void readWords(const std::byte* in, std::size_t count, WordBlock& words) {
     }
 }
 
-#define TSPACE_FRAME_FORMAT(bytes, bound_deg, kernel)                                                        \
-    {                                                                                                        \
-        bytes, bound_deg, [](SimdTarget wish) { return simd::choose(wish, TSPACE_KERNEL_TABLE(kernel))(); }, \
-            readWords<bytes>                                                                                 \
+template <std::size_t kBytes>
+void writeWords(const WordBlock& words, std::size_t count, std::byte* out) {
+    constexpr std::size_t kWhole = kBytes / 4, kRest = kBytes % 4;
+    for (std::size_t i = 0; i < count; ++i, out += kBytes) {
+        for (std::size_t w = 0; w < kWhole; ++w) writeWord<4>(words.word[w][i], out + 4 * w);
+        if constexpr (kRest != 0) writeWord<kRest>(words.word[kWhole][i], out + 4 * kWhole);
     }
+}
+
+template <std::size_t kBytes>
+constexpr Format formatWith(FrameErrorBound bound, FrameKernel (*kernel)(SimdTarget)) {
+    return {kBytes, bound, kernel, readWords<kBytes>, writeWords<kBytes>};
+}
+
+#define TSPACE_KERNEL_FOR(kernel) [](SimdTarget wish) { return simd::choose(wish, TSPACE_KERNEL_TABLE(kernel))(); }
+
+/// By the enumerators' values.
+constexpr Format kFormats[] = {
+    formatWith<4>({0.135, 0.135}, TSPACE_KERNEL_FOR(frame32Kernel)),
+    formatWith<6>({0.0037, 0.0042}, TSPACE_KERNEL_FOR(frame48Kernel)),
+    formatWith<8>({0.0001, 0.00015}, TSPACE_KERNEL_FOR(frame64Kernel)),
+    formatWith<4>({0.15, 0.165}, TSPACE_KERNEL_FOR(oct32Kernel)),
+    formatWith<8>({0.004, 0.004}, TSPACE_KERNEL_FOR(qtangent64Kernel)),
+    formatWith<8>({0.391, 0.391}, TSPACE_KERNEL_FOR(snorm8PairKernel)),
+    formatWith<16>({0.00152, 0.00152}, TSPACE_KERNEL_FOR(snorm16PairKernel)),
+    formatWith<7>({0.391, 0.391}, TSPACE_KERNEL_FOR(gltfSnorm8Kernel)),
+    formatWith<14>({0.00152, 0.00152}, TSPACE_KERNEL_FOR(gltfSnorm16Kernel)),
+};
 
 }  // namespace
 
 const Format* formatOf(FrameFormat format) {
-    constexpr FrameErrorBound kSnorm8{0.391, 0.391}, kSnorm16{0.00152, 0.00152};
-    constexpr FrameErrorBound kFrame32{0.135, 0.135}, kFrame48{0.0037, 0.0042}, kFrame64{0.0001, 0.00015};
-    constexpr FrameErrorBound kOct32{0.15, 0.165}, kQtangent64{0.004, 0.004};
-    static constexpr Format kFormats[] = {
-        // By the enumerators' values.
-        TSPACE_FRAME_FORMAT(4, kFrame32, frame32Kernel),       TSPACE_FRAME_FORMAT(6, kFrame48, frame48Kernel),
-        TSPACE_FRAME_FORMAT(8, kFrame64, frame64Kernel),       TSPACE_FRAME_FORMAT(4, kOct32, oct32Kernel),
-        TSPACE_FRAME_FORMAT(8, kQtangent64, qtangent64Kernel), TSPACE_FRAME_FORMAT(8, kSnorm8, snorm8PairKernel),
-        TSPACE_FRAME_FORMAT(16, kSnorm16, snorm16PairKernel),  TSPACE_FRAME_FORMAT(7, kSnorm8, gltfSnorm8Kernel),
-        TSPACE_FRAME_FORMAT(14, kSnorm16, gltfSnorm16Kernel),
-    };
     const auto index = static_cast<std::size_t>(format);
     return index < std::size(kFormats) ? &kFormats[index] : nullptr;
 }

@@ -13,14 +13,17 @@ struct Format {
     std::size_t bytes;  ///< of a frame
     FrameErrorBound bound;
     FrameKernel (*kernel)(SimdTarget wish);
-    /// Bytes of `count` frames to words; count <= kBlockFrames.
+    /// Bytes of `count` frames to words, and back; count <= kBlockFrames.
     void (*read)(const std::byte* bytes, std::size_t count, WordBlock& words);
+    void (*write)(const WordBlock& words, std::size_t count, std::byte* bytes);
 };
 
 /// Null for what is none of the enumerators.
 const Format* formatOf(FrameFormat format);
 
-/// unpackFrames without checks, with the instructions of this target.
+/// packFrames and unpackFrames without checks, with the instructions of this target.
+PackReport pack(const Format& format, SimdTarget wish, const StridedSpan<const Vec3>& normals,
+                const StridedSpan<const Vec4>& tangents, std::byte* bytes);
 void unpack(const Format& format, SimdTarget wish, const std::byte* bytes, const StridedSpan<Vec3>& normals,
             const StridedSpan<Vec4>& tangents);
 

@@ -17,16 +17,29 @@ struct WordBlock {
     alignas(64) std::uint32_t word[4][kBlockFrames];
 };
 
+/// Frames to encode, component by component: N and T unit and orthogonal within 5e-7, also beyond those that count;
+/// `mirrored` is 1 where the sign is -1, else 0.
+struct FrameBlock {
+    alignas(64) float normal[3][kBlockFrames], tangent[3][kBlockFrames];
+    alignas(64) std::uint32_t mirrored[kBlockFrames];
+};
+
 /// As decoded: x, y, z, and after the tangent the sign.
 struct FrameRows {
     alignas(64) float normal[kBlockFrames][4], tangent[kBlockFrames][4];
 };
 
-/// The functions of one format for one CPU.
+/// The functions of one format for one CPU. They read and write the first `count` frames, and may do so for all of the
+/// block.
 struct FrameKernel {
-    /// Reads and writes the first `count` frames, and may do so for all of the block.
+    void (*encode)(const FrameBlock& frames, std::size_t count, WordBlock& words) = nullptr;
     void (*decode)(const WordBlock& words, std::size_t count, FrameRows& rows) = nullptr;
 };
+
+/// Frames this close to unit (their squares to twice as much) and orthogonal are encoded as they are, so that unpacked
+/// frames are found again exactly.
+inline constexpr double kSoundTolerance = 5e-7;
+TSPACE_DECLARE_KERNEL(std::uint64_t soundFrames(const FrameBlock& frames, std::size_t count))
 
 TSPACE_DECLARE_KERNEL(FrameKernel frame32Kernel())
 TSPACE_DECLARE_KERNEL(FrameKernel frame48Kernel())

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The border of this room: checks, mending, and which code and which bytes each format has.
+// The border of this room: checks, mending, and frames block by block.
 #include "tspace/pack.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
 
 #include "core/basis.h"
 #include "core/border.h"
 #include "core/unit.h"
-#include "pack/angle_code.h"
 #include "pack/formats.h"
-#include "pack/rotation_code.h"
-#include "pack/snorm_code.h"
 
 namespace tspace {
 
@@ -22,15 +19,8 @@ namespace {
 
 /// As sanitize: the glTF validator's tolerance, and the sine within which T says nothing.
 constexpr double kCountedTolerance = 5e-4, kOneDegree = 0.017452406437283512;
-/// Frames this close to unit and orthogonal are encoded as they are, so that unpacked frames are found again exactly.
-constexpr double kSoundTolerance = 5e-7;
 
 // ---- frames on the way in
-
-struct Mended {
-    SoundFrame frame;
-    std::uint64_t PackReport::*cause = nullptr;  ///< null: nothing to count
-};
 
 /// Whether T can be used with this unit N; if not, why.
 std::uint64_t PackReport::*causeAgainst(const Vec3& tangent, const DVec3& n) {
@@ -40,7 +30,7 @@ std::uint64_t PackReport::*causeAgainst(const Vec3& tangent, const DVec3& n) {
     return length(cross(n, t)) < kOneDegree ? &PackReport::parallel_count : nullptr;
 }
 
-bool isUnitWithin(double size, double tolerance) { return std::fabs(size - 1) <= tolerance; }
+bool isCounted(double size) { return !(std::fabs(size - 1) <= kCountedTolerance); }
 
 /// T, which is not parallel to n, made unit and orthogonal to it; twice, since near n the first pass cancels digits.
 DVec3 orthogonalized(DVec3 t, const DVec3& n) {
@@ -52,140 +42,79 @@ DVec3 orthogonalized(DVec3 t, const DVec3& n) {
     return t;
 }
 
-Mended mended(const Vec3& normal, const Vec4& tangent) {
-    Mended result;
-    const auto because = [&](std::uint64_t PackReport::*cause) {
-        if (result.cause == nullptr) result.cause = cause;
+/// Makes N and T unit and orthogonal. Returns the count that this belongs to, null for none.
+std::uint64_t PackReport::*mend(Vec3& normal, Vec3& tangent) {
+    std::uint64_t PackReport::*cause = nullptr;
+    const auto because = [&](std::uint64_t PackReport::*next) {
+        if (cause == nullptr) cause = next;
     };
-    DVec3 n = toDouble(normal), t = toDouble(xyz(tangent));
+    DVec3 n = toDouble(normal), t = toDouble(tangent);
     const double n_size = length(n), t_size = length(t);
-    const bool is_sound = isUnitWithin(n_size, kSoundTolerance) && isUnitWithin(t_size, kSoundTolerance) &&
-                          std::fabs(dot(n, t)) <= kSoundTolerance;
-    if (!is_sound) {
-        if (!normalize(n)) {
-            n = {0, 0, 1};
-            because(&PackReport::bad_normal_count);
+    if (!normalize(n)) {
+        n = {0, 0, 1};
+        because(&PackReport::bad_normal_count);
+    }
+    if (std::uint64_t PackReport::*against = causeAgainst(tangent, n)) {
+        because(against);
+        t = planeAxes(n).x;
+    } else {
+        if (isCounted(n_size) || isCounted(t_size)) because(&PackReport::not_unit_count);
+        normalize(t);
+        if (std::fabs(dot(n, t)) > kCountedTolerance) because(&PackReport::not_orthogonal_count);
+        t = orthogonalized(t, n);
+    }
+    normal = toFloat(n);
+    tangent = toFloat(t);
+    return cause;
+}
+
+// ---- blocks
+
+void setVector(float (&to)[3][kBlockFrames], std::size_t i, const Vec3& v) {
+    to[0][i] = v.x;
+    to[1][i] = v.y;
+    to[2][i] = v.z;
+}
+Vec3 vectorAt(const float (&from)[3][kBlockFrames], std::size_t i) { return {from[0][i], from[1][i], from[2][i]}; }
+
+/// A block of frames along the axes: whatever is not set later is sound.
+FrameBlock soundBlock() {
+    FrameBlock frames{};
+    for (std::size_t i = 0; i < kBlockFrames; ++i) {
+        setVector(frames.normal, i, {0, 0, 1});
+        setVector(frames.tangent, i, {1, 0, 0});
+    }
+    return frames;
+}
+
+/// Reads frames from number `begin`, and mends them.
+void fill(FrameBlock& frames, const StridedSpan<const Vec3>& normals, const StridedSpan<const Vec4>& tangents,
+          std::size_t begin, std::size_t count, SimdTarget wish, PackReport& report) {
+    std::uint64_t odd_signs = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec4& t = tangents[begin + i];
+        setVector(frames.normal, i, normals[begin + i]);
+        setVector(frames.tangent, i, xyz(t));
+        frames.mirrored[i] = t.w < 0 ? 1 : 0;
+        odd_signs |= std::uint64_t{t.w != 1.0f && t.w != -1.0f} << i;
+    }
+    const std::uint64_t asked = ~std::uint64_t{0} >> (kBlockFrames - count);
+    const std::uint64_t sound = simd::choose(wish, TSPACE_KERNEL_TABLE(soundFrames))(frames, count);
+    for (std::uint64_t left = asked & (~sound | odd_signs); left != 0; left &= left - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(left));
+        std::uint64_t PackReport::*cause = nullptr;
+        if ((sound >> i & 1) == 0) {
+            Vec3 n = vectorAt(frames.normal, i), t = vectorAt(frames.tangent, i);
+            cause = mend(n, t);
+            setVector(frames.normal, i, n);
+            setVector(frames.tangent, i, t);
         }
-        if (std::uint64_t PackReport::*cause = causeAgainst(xyz(tangent), n)) {
-            because(cause);
-            t = planeAxes(n).x;
-        } else {
-            if (!isUnitWithin(n_size, kCountedTolerance) || !isUnitWithin(t_size, kCountedTolerance)) {
-                because(&PackReport::not_unit_count);
-            }
-            normalize(t);
-            if (std::fabs(dot(n, t)) > kCountedTolerance) because(&PackReport::not_orthogonal_count);
-            t = orthogonalized(t, n);
-        }
+        if (cause == nullptr && (odd_signs >> i & 1) != 0) cause = &PackReport::bad_sign_count;
+        if (cause != nullptr) ++(report.*cause);
     }
-    if (tangent.w != 1.0f && tangent.w != -1.0f) because(&PackReport::bad_sign_count);
-    result.frame = {n, t, tangent.w < 0};
-    return result;
 }
 
-// ---- words
-
-using Bytes = std::byte*;
-
-void writeWord(std::uint64_t word, std::size_t bytes, Bytes out) {
-    for (std::size_t i = 0; i < bytes; ++i) out[i] = static_cast<std::byte>(word >> (8 * i) & 0xff);
-}
-
-/// A signed number of 1 or 2 bytes.
-void writeNumber(std::int32_t number, std::size_t bytes, Bytes out) {
-    writeWord(static_cast<std::uint32_t>(number), bytes, out);
-}
-
-// ---- one struct per family of formats: bytes of a frame, write
-
-struct Frame32 {
-    static constexpr std::size_t kBytes = 4;
-    static void write(const SoundFrame& frame, Bytes out) { writeWord(encodeRotation(frame), kBytes, out); }
-};
-
-/// i, j and k in bit fields, and the sign in the lowest bit.
-template <std::size_t byte_count, const AngleGrid& kGrid, unsigned i_bits, unsigned k_bits>
-struct AngleFields {
-    static constexpr std::size_t kBytes = byte_count;
-    static_assert(2 * kGrid.half < 1 << i_bits && 4 * kGrid.quarter == 1 << k_bits &&
-                  2 * i_bits + k_bits + 1 == 8 * byte_count);
-
-    static void write(const SoundFrame& frame, Bytes out) {
-        const AngleCode code = encodeAngle(kGrid, frame);
-        const std::uint64_t ij = static_cast<std::uint64_t>(code.i) << i_bits | static_cast<std::uint64_t>(code.j);
-        writeWord((ij << k_bits | static_cast<std::uint64_t>(code.k)) << 1 | (frame.mirrored ? 1u : 0u), kBytes, out);
-    }
-};
-using Oct32 = AngleFields<4, kOct32Grid, 10, 11>;
-using Frame64 = AngleFields<8, kFrame64Grid, 21, 21>;
-
-/// 46339^2 grid points fill 31 bits but for some words, which read as points of the last row.
-struct Frame48 {
-    static constexpr std::size_t kBytes = 6;
-    static constexpr std::uint32_t kWidth = 46339;
-
-    static void write(const SoundFrame& frame, Bytes out) {
-        const AngleCode code = encodeAngle(kFrame48Grid, frame);
-        const std::uint64_t ij = static_cast<std::uint64_t>(code.i) * kWidth + static_cast<std::uint64_t>(code.j);
-        writeWord(ij << 17 | static_cast<std::uint64_t>(code.k) << 1 | (frame.mirrored ? 1u : 0u), kBytes, out);
-    }
-};
-
-struct Qtangent64 {
-    static constexpr std::size_t kBytes = 8;
-    static void write(const SoundFrame& frame, Bytes out) {
-        const std::array<std::int32_t, 4> code = encodeQuaternion(frame);
-        for (std::size_t m = 0; m < 4; ++m) writeNumber(code[m], 2, out + 2 * m);
-    }
-};
-
-/// N and T apart, in numbers of `number_bytes`; at which of them each begins, and which holds the sign. A number that
-/// is left is `most`.
-template <std::size_t number_bytes, std::size_t count, std::size_t normal_at, std::size_t sign_at>
-struct Vectors {
-    static constexpr std::size_t kBytes = number_bytes * count;
-    static constexpr std::int32_t kMost = number_bytes == 1 ? 127 : 32767;
-
-    static void write(const SoundFrame& frame, Bytes out) {
-        std::array<std::int32_t, count> numbers;
-        numbers.fill(kMost);
-        const auto t = encodeVector(frame.tangent, kMost), n = encodeVector(frame.normal, kMost);
-        std::copy(t.begin(), t.end(), numbers.begin());
-        std::copy(n.begin(), n.end(), numbers.begin() + normal_at);
-        if (frame.mirrored) numbers[sign_at] = -kMost;
-        for (std::size_t m = 0; m < count; ++m) writeNumber(numbers[m], number_bytes, out + number_bytes * m);
-    }
-};
-using Snorm8Pair = Vectors<1, 8, 4, 7>;
-using Snorm16Pair = Vectors<2, 8, 4, 7>;
-using GltfSnorm8 = Vectors<1, 7, 4, 3>;
-using GltfSnorm16 = Vectors<2, 7, 4, 3>;
-
-/// Calls visit(Code{}) with the struct of this format; `none` for what is no format.
-template <class Value, class Visit>
-Value visitFormat(FrameFormat format, Value none, const Visit& visit) {
-    switch (format) {
-        case FrameFormat::frame32:
-            return visit(Frame32{});
-        case FrameFormat::frame48:
-            return visit(Frame48{});
-        case FrameFormat::frame64:
-            return visit(Frame64{});
-        case FrameFormat::oct32:
-            return visit(Oct32{});
-        case FrameFormat::qtangent64:
-            return visit(Qtangent64{});
-        case FrameFormat::snorm8_pair:
-            return visit(Snorm8Pair{});
-        case FrameFormat::snorm16_pair:
-            return visit(Snorm16Pair{});
-        case FrameFormat::gltf_snorm8:
-            return visit(GltfSnorm8{});
-        case FrameFormat::gltf_snorm16:
-            return visit(GltfSnorm16{});
-    }
-    return none;
-}
+// ---- the border
 
 template <class N, class T>
 Error check(FrameFormat format, const StridedSpan<N>& normals, const StridedSpan<T>& tangents, const void* bytes,
@@ -202,6 +131,21 @@ Error check(FrameFormat format, const StridedSpan<N>& normals, const StridedSpan
 }
 
 }  // namespace
+
+PackReport pack(const Format& format, SimdTarget wish, const StridedSpan<const Vec3>& normals,
+                const StridedSpan<const Vec4>& tangents, std::byte* bytes) {
+    const FrameKernel kernel = format.kernel(wish);
+    FrameBlock frames = soundBlock();
+    WordBlock words{};
+    PackReport report;
+    for (std::size_t begin = 0; begin < normals.count; begin += kBlockFrames) {
+        const std::size_t count = std::min(normals.count - begin, kBlockFrames);
+        fill(frames, normals, tangents, begin, count, wish, report);
+        kernel.encode(frames, count, words);
+        format.write(words, count, bytes + begin * format.bytes);
+    }
+    return report;
+}
 
 void unpack(const Format& format, SimdTarget wish, const std::byte* bytes, const StridedSpan<Vec3>& normals,
             const StridedSpan<Vec4>& tangents) {
@@ -236,15 +180,7 @@ Result<PackReport> packFrames(FrameFormat format, StridedSpan<const Vec3> normal
                               std::span<std::byte> out) {
     return atBorder([&]() -> Result<PackReport> {
         if (Error e = pack::check(format, normals, tangents, out.data(), out.size()); e.code != ErrorCode::ok) return e;
-        return pack::visitFormat(format, PackReport{}, [&](auto code) {
-            PackReport report;
-            for (std::size_t i = 0; i < normals.count; ++i) {
-                const pack::Mended mended = pack::mended(normals[i], tangents[i]);
-                if (mended.cause != nullptr) ++(report.*mended.cause);
-                code.write(mended.frame, out.data() + i * code.kBytes);
-            }
-            return report;
-        });
+        return pack::pack(*pack::formatOf(format), SimdTarget::best, normals, tangents, out.data());
     });
 }
 

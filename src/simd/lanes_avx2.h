@@ -103,6 +103,7 @@ inline unsigned bitsOf(DoubleMask m) { return static_cast<unsigned>(_mm256_movem
 inline Doubles withSignOf(Doubles a, Doubles b) {
     return {_mm256_xor_pd(a.v, _mm256_and_pd(b.v, _mm256_set1_pd(-0.0)))};
 }
+inline Doubles select(DoubleMask m, Doubles yes, Doubles no) { return {_mm256_blendv_pd(no.v, yes.v, m.v)}; }
 inline Doubles keepWhere(DoubleMask m, Doubles a) { return {_mm256_and_pd(m.v, a.v)}; }
 inline Doubles negateUnless(DoubleMask m, Doubles a) {
     return {_mm256_xor_pd(a.v, _mm256_andnot_pd(m.v, _mm256_set1_pd(-0.0)))};

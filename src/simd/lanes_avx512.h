@@ -98,6 +98,7 @@ inline unsigned bitsOf(DoubleMask m) { return m.v; }
 inline Doubles withSignOf(Doubles a, Doubles b) {
     return {_mm512_xor_pd(a.v, _mm512_and_pd(b.v, _mm512_set1_pd(-0.0)))};
 }
+inline Doubles select(DoubleMask m, Doubles yes, Doubles no) { return {_mm512_mask_blend_pd(m.v, no.v, yes.v)}; }
 inline Doubles keepWhere(DoubleMask m, Doubles a) { return {_mm512_maskz_mov_pd(m.v, a.v)}; }
 inline Doubles negateUnless(DoubleMask m, Doubles a) {
     return {_mm512_mask_xor_pd(_mm512_xor_pd(a.v, _mm512_set1_pd(-0.0)), m.v, a.v, _mm512_setzero_pd())};

@@ -119,6 +119,7 @@ inline Doubles turnedOver(Doubles a, uint64x2_t signs) {
 inline Doubles withSignOf(Doubles a, Doubles b) {
     return turnedOver(a, vandq_u64(vreinterpretq_u64_f64(b.v), signBits()));
 }
+inline Doubles select(DoubleMask m, Doubles yes, Doubles no) { return {vbslq_f64(m.v, yes.v, no.v)}; }
 inline Doubles keepWhere(DoubleMask m, Doubles a) {
     return {vreinterpretq_f64_u64(vandq_u64(m.v, vreinterpretq_u64_f64(a.v)))};
 }

@@ -107,6 +107,7 @@ struct DoubleMask {
 };
 /// a with the sign of b turned over where b is negative (-0 counts), else a.
 inline Doubles withSignOf(Doubles a, Doubles b) { return {std::signbit(b.v) ? -a.v : a.v}; }
+inline Doubles select(DoubleMask m, Doubles yes, Doubles no) { return m.v ? yes : no; }
 /// a where the mask is set, else +0.
 inline Doubles keepWhere(DoubleMask m, Doubles a) { return {m.v ? a.v : 0.0}; }
 /// a where the mask is set, else -a.

@@ -106,6 +106,9 @@ inline DoubleMask operator>(Doubles a, Doubles b) { return {_mm_cmpgt_pd(a.v, b.
 inline DoubleMask operator&(DoubleMask a, DoubleMask b) { return {_mm_and_pd(a.v, b.v)}; }
 inline unsigned bitsOf(DoubleMask m) { return static_cast<unsigned>(_mm_movemask_pd(m.v)); }
 inline Doubles withSignOf(Doubles a, Doubles b) { return {_mm_xor_pd(a.v, _mm_and_pd(b.v, _mm_set1_pd(-0.0)))}; }
+inline Doubles select(DoubleMask m, Doubles yes, Doubles no) {
+    return {_mm_or_pd(_mm_and_pd(m.v, yes.v), _mm_andnot_pd(m.v, no.v))};
+}
 inline Doubles keepWhere(DoubleMask m, Doubles a) { return {_mm_and_pd(m.v, a.v)}; }
 inline Doubles negateUnless(DoubleMask m, Doubles a) {
     return {_mm_xor_pd(a.v, _mm_andnot_pd(m.v, _mm_set1_pd(-0.0)))};
