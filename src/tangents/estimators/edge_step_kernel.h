@@ -25,14 +25,18 @@ constexpr float kLongestArc = 2.0f;  // an edge that climbs more than 60 degrees
 constexpr float kSmallestDeterminant = 1e-6f;
 constexpr float kLeftWeight = 2.0f;  // the 2 before left: found by trying values (docs/accuracy.md)
 
+/// How much longer than the edge `e` the arc is between ends with these normals; the same from either end.
+inline Floats arcLengthOf(Vectors a, Vectors b, Vectors e, Floats square) {
+    const Floats turn = dot(b, e) - dot(a, e);
+    return broadcast(1.0f) + quotient(turn * turn, square) * broadcast(1.0f / 24);
+}
+
 /// Edge `e`, seen from the end with this plane, as an arc in the plane. Turning the edge over turns the
 /// result over.
-inline Flat arcOf(const Plane& here, Vectors other_normal, Vectors e, Floats square) {
+inline Flat arcOf(const Plane& here, Vectors e, Floats square, Floats arc_length) {
     const Flat p = here.flatten(e);
     const Floats flat = dot(p, p);
-    const Floats stretch = smaller(squareRoot(square / flat), broadcast(kLongestArc));
-    const Floats turn = dot(other_normal, e) - dot(here.n, e);
-    const Floats factor = stretch * (broadcast(1.0f) + quotient(turn * turn, square) * broadcast(1.0f / 24));
+    const Floats factor = smaller(squareRoot(square / flat), broadcast(kLongestArc)) * arc_length;
     return keep(isFinite(factor), factor) * p;
 }
 
@@ -48,21 +52,37 @@ inline Floats lengthOf(Flat v, Floats factor) {
     return keep(isFinite(length), length);
 }
 
-/// What an edge adds at one of its ends.
+/// An edge, and what J at both its ends gives for it.
+struct Edge {
+    Vectors e;
+    Floats square, arc_length, u, v, weight;
+    Vectors along[2];  ///< J d at its first and second end
+    Mask counts;
+
+    Edge(const Triangles& t, std::size_t k, const Plane& first, const Plane& second, const Vectors (&first_j)[2],
+         const Vectors (&second_j)[2], Floats size, Mask is_known)
+        : e(t.edge[k]),
+          square(t.square[k]),
+          arc_length(arcLengthOf(first.n, second.n, e, square)),
+          u(t.u[k]),
+          v(t.v[k]),
+          weight(quotient(size, square)),
+          along{u * first_j[0] + v * first_j[1], u * second_j[0] + v * second_j[1]},
+          counts(is_known) {}
+};
+
+/// What an edge adds at one of its ends: turning the edge over changes nothing.
 struct Residual {
-    Floats u, v, weight;
+    Floats weight;
     Flat r;
 
-    Residual(const Plane& here, Vectors other_normal, Vectors edge, Floats square, Floats du, Floats dv, Floats w,
-             const Vectors (&own)[2], const Vectors (&other)[2], Mask counts)
-        : u(du), v(dv) {
-        const Flat arc = arcOf(here, other_normal, edge, square);
-        const Flat there = laidInto(here, du * other[0] + dv * other[1]);
-        const Flat twice = arc + arc;
-        r = twice - there - here.flatten(du * own[0] + dv * own[1]);
-        const Mask sound = counts & isFinite(dot(r, r));
+    Residual(const Edge& edge, const Plane& here, std::size_t end) {
+        const Flat arc = arcOf(here, edge.e, edge.square, edge.arc_length);
+        const Flat there = laidInto(here, edge.along[1 - end]), twice = arc + arc;
+        r = twice - there - here.flatten(edge.along[end]);
+        const Mask sound = edge.counts & isFinite(dot(r, r));
         r = {keep(sound, r.x), keep(sound, r.y)};
-        weight = keep(sound, w);
+        weight = keep(sound, edge.weight);
     }
 };
 
@@ -84,18 +104,19 @@ void addEdgeStep(const VertexSource& source, const std::uint32_t* vertices, cons
         }
         const Plane planes[3] = {Plane(normal[0]), Plane(normal[1]), Plane(normal[2])};
         const Floats size = squareRoot(broadcast(0.5f) * t.double_area);
-        Floats weight[3];
-        for (std::size_t k = 0; k < 3; ++k) weight[k] = quotient(size, t.square[k]);
+        const auto edgeOf = [&](std::size_t k) {
+            const std::size_t next = (k + 1) % 3;
+            return Edge(t, k, planes[k], planes[next], j[k], j[next], size, has[k] & has[next]);
+        };
+        const Edge edges[3] = {edgeOf(0), edgeOf(1), edgeOf(2)};
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
-            const Residual a(planes[k], planes[next].n, t.edge[k], t.square[k], t.u[k], t.v[k], weight[k], j[k],
-                             j[next], has[k] & has[next]);
-            const Residual b(planes[k], planes[last].n, t.edge[last], t.square[last], t.u[last], t.v[last],
-                             weight[last], j[k], j[last], has[k] & has[last]);
-            const Floats au = a.weight * a.u, av = a.weight * a.v, bu = b.weight * b.u, bv = b.weight * b.v;
+            const Edge &from_here = edges[k], &to_here = edges[(k + 2) % 3];
+            const Residual a(from_here, planes[k], 0), b(to_here, planes[k], 1);
+            const Floats au = a.weight * from_here.u, av = a.weight * from_here.v;
+            const Floats bu = b.weight * to_here.u, bv = b.weight * to_here.v;
             float* const at = rows + kStep * g + 4 * kStepRows * k;
-            storeRows<kStep>(at, au * a.u + bu * b.u, au * a.v + bu * b.v, av * a.v + bv * b.v,
-                             a.weight * dot(a.r, a.r) + b.weight * dot(b.r, b.r));
+            storeRows<kStep>(at, au * from_here.u + bu * to_here.u, au * from_here.v + bu * to_here.v,
+                             av * from_here.v + bv * to_here.v, a.weight * dot(a.r, a.r) + b.weight * dot(b.r, b.r));
             const Flat r0 = au * a.r + bu * b.r, r1 = av * a.r + bv * b.r;
             storeRows<kStep>(at + 4, r0.x, r0.y, r1.x, r1.y);
         }

@@ -113,13 +113,16 @@ inline void addRecoveryOf(const VertexSource& source, const std::uint32_t* verti
     const EdgeMoments moments[3] = {{quotient(size, t.square[0]), t.u[0], t.v[0]},
                                     {quotient(size, t.square[1]), t.u[1], t.v[1]},
                                     {quotient(size, t.square[2]), t.u[2], t.v[2]}};
+    const Floats arc_lengths[3] = {arcLengthOf(planes[0].n, planes[1].n, t.edge[0], t.square[0]),
+                                   arcLengthOf(planes[1].n, planes[2].n, t.edge[1], t.square[1]),
+                                   arcLengthOf(planes[2].n, planes[0].n, t.edge[2], t.square[2])};
     const Vectors mean_u = quotient(robust, squareRoot(dot(t.along_u, t.along_u))) * t.along_u;
     const Vectors mean_v = quotient(robust, squareRoot(dot(t.along_v, t.along_v))) * t.along_v;
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t next = (k + 1) % 3, previous = (k + 2) % 3;
+        const std::size_t previous = (k + 2) % 3;
         const Plane& here = planes[k];
-        const Flat out = arcOf(here, planes[next].n, t.edge[k], t.square[k]);
-        const Flat in = arcOf(here, planes[previous].n, t.edge[previous], t.square[previous]);
+        const Flat out = arcOf(here, t.edge[k], t.square[k], arc_lengths[k]);
+        const Flat in = arcOf(here, t.edge[previous], t.square[previous], arc_lengths[previous]);
         storeCorner(rows + 4 * kFitRows * k, moments[k], moments[previous], out, in, here.flatten(mean_u),
                     here.flatten(mean_v), robust);
     }
