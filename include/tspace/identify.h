@@ -27,7 +27,7 @@ const char* signReadingName(SignReading reading);
 /// How well one method explains the tangents. Corners of triangles whose UVs say nothing (without area, or so little
 /// that rounding decides) vote in nothing: they are in no count but the last.
 struct Explanation {
-    Method method = Method::mikktspace;
+    Method method = Method::mikktspace;  ///< `best` with as many steps (TangentOptions::refine) as explain most
     /// quads: the method ran on quads that triangles were paired to (mikktspace only). There is such an entry only where
     /// it explains clearly more than the triangles do.
     Faces faces = Faces::triangles;

@@ -14,10 +14,9 @@ namespace {
 constexpr double kSettledDeg = 1;
 
 /// One per corner, mended as `generate` does.
-Result<std::vector<Vec4>> expectedTangents(const TangentView& mesh, Method method, const Convention& convention) {
+Result<std::vector<Vec4>> expectedTangents(const TangentView& mesh, TangentOptions options) {
     const MeshView view = mesh.triangles();
     std::vector<Vec4> tangents(mesh.corners.size());
-    TangentOptions options{.method = method, .convention = convention};
     options.execution.thread_count = 1;
     const Result<TangentReport> made = generateTangents(view, options, {.tangents = tangents});
     if (!made) return made.error();
@@ -34,9 +33,8 @@ bool isSame(const Vec4& stored, const Vec4& expected, float factor) {
 }
 
 /// Settles vertices at all of whose corners with UV area one method gives the stored tangents.
-Result<Done> settleBy(Method method, const TangentView& mesh, const Surface& surface, const CheckOptions& options,
-                      FrameHealth& health) {
-    const Result<std::vector<Vec4>> expected = expectedTangents(mesh, method, options.convention);
+Result<Done> settleBy(const TangentOptions& how, const TangentView& mesh, const Surface& surface, FrameHealth& health) {
+    const Result<std::vector<Vec4>> expected = expectedTangents(mesh, how);
     if (!expected) return expected.error();
     std::vector<bool> judged(mesh.positions.size(), false), differs(mesh.positions.size(), false);
     for (std::size_t c = 0; c < surface.faces.size() * 3; ++c) {
@@ -63,10 +61,12 @@ Result<bool> settleVertices(const TangentView& mesh, const Surface& surface, con
     // Where nearly all signs are inverted, that is said once; the others are compared with what it leaves.
     health.settled_sign = health.all_signs_wrong ? -1.0f : 1.0f;
     health.settled.assign(mesh.positions.size(), false);
-    if (Result<Done> done = settleBy(Method::mikktspace, mesh, surface, options, health); !done) return done.error();
+    TangentOptions how{.convention = options.convention};
+    if (Result<Done> done = settleBy(how, mesh, surface, health); !done) return done.error();
     // Fits can point a little beyond all triangles around.
-    if (health.directions_wrong.count != 0) {
-        if (Result<Done> done = settleBy(Method::best, mesh, surface, options, health); !done) return done.error();
+    how.method = Method::best;
+    for (how.refine = 0; how.refine <= 2 && health.directions_wrong.count != 0; ++how.refine) {
+        if (Result<Done> done = settleBy(how, mesh, surface, health); !done) return done.error();
     }
     for (std::size_t v = 0; v < health.faults.size(); ++v) {
         if (health.settled[v] && health.faults[v] != 0) return true;

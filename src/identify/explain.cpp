@@ -98,10 +98,7 @@ class Explainer {
     Result<Done> tryMethods(std::vector<Explanation>& explanations) const {
         std::vector<Vec4> computed(primitive_.corners.size());
         for (const Method method : knownMethods()) {
-            const TangentOptions how{.method = method, .execution = options_.execution};
-            const Result<TangentReport> done = generateTangents(mesh_, how, {.tangents = std::span(computed)});
-            if (!done) return done.error();
-            add(method, Faces::triangles, computed, explanations);
+            if (const Result<Done> tried = tryMethod(method, computed, explanations); !tried) return tried;
             if (method != Method::mikktspace) continue;
             if (const Result<Done> tried = tryQuads(computed, explanations); !tried) return tried;
         }
@@ -109,6 +106,21 @@ class Explainer {
     }
 
   private:
+    /// `best` with as many steps as explain most.
+    Result<Done> tryMethod(Method method, std::span<Vec4> computed, std::vector<Explanation>& explanations) const {
+        Explanation most;
+        for (const std::uint32_t refine : {1u, 0u, 2u}) {
+            const TangentOptions how{.method = method, .execution = options_.execution, .refine = refine};
+            const Result<TangentReport> done = generateTangents(mesh_, how, {.tangents = computed});
+            if (!done) return done.error();
+            const Explanation explanation = explainedBy(method, Faces::triangles, computed);
+            if (refine == 1 || explanation.near_count > most.near_count) most = explanation;
+            if (method != Method::best) break;
+        }
+        explanations.push_back(most);
+        return Done{};
+    }
+
     Result<Done> tryQuads(std::span<const Vec4> on_triangles, std::vector<Explanation>& explanations) const {
         const StoredTangents stored{.triangles = mesh_,
                                     .tangents = primitive_.tangents.span(),
@@ -116,18 +128,19 @@ class Explainer {
                                     .tolerance_deg = options_.tolerance_deg};
         const Result<QuadFit> fit = fitQuads(stored, on_triangles, options_.execution);
         if (!fit) return fit.error();
-        if (fit->wins()) add(Method::mikktspace, Faces::quads, fit->tangents, explanations);
+        if (fit->wins()) explanations.push_back(explainedBy(Method::mikktspace, Faces::quads, fit->tangents));
         return Done{};
     }
 
-    void add(Method method, Faces faces, std::span<const Vec4> computed, std::vector<Explanation>& explanations) const {
-        Explanation& explanation = explanations.emplace_back();
+    [[nodiscard]] Explanation explainedBy(Method method, Faces faces, std::span<const Vec4> computed) const {
+        Explanation explanation;
         explanation.method = method;
         explanation.faces = faces;
         explanation.uv_set = static_cast<std::int32_t>(reading_.uv_set);
         explanation.is_textures_set = reading_.uv_set == texturesSet(primitive_);
         explanation.is_transformed = reading_.transformed;
         compare(primitive_, votes_, computed, options_.tolerance_deg, explanation);
+        return explanation;
     }
 
     const ScenePrimitive& primitive_;

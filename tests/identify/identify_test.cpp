@@ -33,6 +33,17 @@ TEST(Identify, FindsTheMethodThatMadeTheTangents) {
     }
 }
 
+TEST(Identify, FindsBestWithAnyNumberOfSteps) {
+    ModelData data = trianglesOf(hills(10), kCuts[3]);
+    data.tangents = {};
+    for (const std::uint32_t refine : {0u, 1u, 2u}) {
+        const Identification result =
+            identityOf({withTangents(data, {.method = Method::best, .refine = refine})}, {.tolerance_deg = 0.01});
+        EXPECT_EQ(result.explanations[0].method, Method::best) << result.verdict;
+        EXPECT_EQ(result.explanations[0].near_count, result.explanations[0].corner_count) << refine;
+    }
+}
+
 TEST(Identify, TellsTheSignsOfGltfFromInvertedOnes) {
     const ModelData right = withTangents(bentSheet(4), Method::mikktspace, -1);
     const ModelData inverted = withTangents(bentSheet(4), Method::mikktspace, 1);

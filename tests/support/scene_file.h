@@ -66,25 +66,31 @@ inline ModelData unwelded(const ModelData& data) {
 }
 
 /// One tangent per corner. Throws where there are none, which no test expects.
-inline std::vector<Vec4> tangentsOf(const ModelData& data, Method method) {
+inline std::vector<Vec4> tangentsOf(const ModelData& data, const TangentOptions& options) {
     const MeshView mesh{.positions = std::span<const Vec3>(data.positions),
                         .normals = std::span<const Vec3>(data.normals),
                         .uvs = std::span<const Vec2>(data.uvs),
                         .indices = std::span<const std::uint32_t>(data.indices)};
     std::vector<Vec4> tangents(data.indices.size());
-    if (!generateTangents(mesh, {.method = method}, {.tangents = std::span(tangents)})) throw std::exception();
+    if (!generateTangents(mesh, options, {.tangents = std::span(tangents)})) throw std::exception();
     return tangents;
+}
+inline std::vector<Vec4> tangentsOf(const ModelData& data, Method method) {
+    return tangentsOf(data, TangentOptions{.method = method});
 }
 
 /// Unwelds (but for `lengyel`, which averages at vertex indices), and sets the tangents that a method gives;
 /// `sign_factor` -1 is glTF's.
-inline ModelData withTangents(const ModelData& data, Method method, float sign_factor = -1) {
-    ModelData result = method == Method::lengyel ? data : unwelded(data);
-    const std::vector<Vec4> corners = tangentsOf(result, method);
+inline ModelData withTangents(const ModelData& data, const TangentOptions& options, float sign_factor = -1) {
+    ModelData result = options.method == Method::lengyel ? data : unwelded(data);
+    const std::vector<Vec4> corners = tangentsOf(result, options);
     result.tangents.resize(result.positions.size());
     for (std::size_t c = 0; c < corners.size(); ++c) result.tangents[result.indices[c]] = corners[c];
     for (Vec4& tangent : result.tangents) tangent.w *= sign_factor;
     return result;
+}
+inline ModelData withTangents(const ModelData& data, Method method, float sign_factor = -1) {
+    return withTangents(data, TangentOptions{.method = method}, sign_factor);
 }
 
 template <class Vec>
