@@ -28,7 +28,7 @@ struct UnsetAllocator {
 
     T* allocate(std::size_t count) {
         const std::size_t bytes = count * sizeof(T);
-        if (bytes < kLargeBytes) return static_cast<T*>(allocateBytes(nullptr, bytes));
+        if (bytes < kLargeBytes) return static_cast<T*>(allocateArray(nullptr, bytes, 1));
         // Several threads may fill it, each with pages of its own.
         void* memory = ::operator new(bytes, std::align_val_t(defaultAlignment(bytes)), std::nothrow);
         if (memory == nullptr) throw OutOfMemory{};

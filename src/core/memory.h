@@ -46,7 +46,9 @@ inline void askForPages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 }
 
 /// Never inlined, as releaseBytes: each use would take some hundred bytes of a program.
-[[gnu::noinline]] inline void* allocateBytes(const Allocator* allocator, std::size_t bytes) {
+[[gnu::noinline]] inline void* allocateArray(const Allocator* allocator, std::size_t count, std::size_t element_bytes) {
+    if (count > std::numeric_limits<std::size_t>::max() / element_bytes) throw OutOfMemory{};
+    const std::size_t bytes = count * element_bytes;
     if (bytes == 0) return nullptr;
     if (allocator != nullptr) {
         void* memory = allocator->allocate(allocator->user, bytes, kMemoryAlignment);
@@ -76,11 +78,9 @@ class Buffer {
 
   public:
     Buffer() = default;
-    Buffer(const Allocator* allocator, std::size_t count) : allocator_(allocator), count_(count) {
-        if (count > std::numeric_limits<std::size_t>::max() / sizeof(T)) throw OutOfMemory{};
-        data_ = static_cast<T*>(allocateBytes(allocator, count * sizeof(T)));
-    }
-    Buffer(const Allocator* allocator, std::size_t count, T value) : Buffer(allocator, count) {
+    Buffer(const Allocator* allocator, std::size_t count)
+        : allocator_(allocator), data_(static_cast<T*>(allocateArray(allocator, count, sizeof(T)))), count_(count) {}
+    [[gnu::noinline]] Buffer(const Allocator* allocator, std::size_t count, T value) : Buffer(allocator, count) {
         for (std::size_t i = 0; i < count; ++i) data_[i] = value;
     }
     Buffer(Buffer&& other) noexcept

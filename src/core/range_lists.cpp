@@ -14,21 +14,22 @@ constexpr std::uint32_t kNoRange = 0xffffffffu, kSeveral = 0xfffffffeu;
 
 class Walk {
   public:
-    Walk(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count, int shift)
+    Walk(const TriangleGroups& triangles, std::size_t block_size, std::size_t range_count, int shift)
         : triangles_(triangles),
           block_size_(block_size),
-          group_count_(static_cast<std::uint32_t>(group_count)),
+          range_count_(static_cast<std::uint32_t>(range_count)),
           shift_(shift) {}
 
     /// The range of a block, or kNoRange, or kSeveral.
     std::uint32_t rangeOfBlock(std::size_t block) {
         const std::size_t size = 3 * read(block);
-        std::uint32_t least = groups_[0], most = groups_[0];
-        for (std::size_t i = 1; i < size; ++i) {
-            least = std::min(least, groups_[i]);
-            most = std::max(most, groups_[i]);
+        std::uint32_t any = 0, all = ~std::uint32_t{0};
+        for (std::size_t i = 0; i < size; ++i) {
+            any |= groups_[i];
+            all &= groups_[i];
         }
-        if (most < group_count_) return least >> shift_ == most >> shift_ ? least >> shift_ : kSeveral;
+        if ((any ^ all) >> shift_ == 0) return rangeOf(groups_[0]);
+        if (rangeOf(any) != kNoRange) return kSeveral;
         std::uint32_t only = kNoRange;
         for (std::size_t i = 0; i < size; ++i) {
             const std::uint32_t range = rangeOf(groups_[i]);
@@ -62,21 +63,22 @@ class Walk {
     }
 
     [[nodiscard]] std::uint32_t rangeOf(std::uint32_t group) const {
-        return group < group_count_ ? group >> shift_ : kNoRange;
+        return group >> shift_ < range_count_ ? group >> shift_ : kNoRange;
     }
 
     template <class Enter>
     void enterTriangle(std::uint32_t triangle, const std::uint32_t* groups, const Enter& enter) const {
-        const std::uint32_t a = rangeOf(groups[0]), b = rangeOf(groups[1]), c = rangeOf(groups[2]);
+        const std::uint32_t a = rangeOf(groups[0]);
         if (a != kNoRange) enter(a, triangle);
-        if (((a ^ b) | (a ^ c)) == 0) return;
+        if (((groups[0] ^ groups[1]) | (groups[0] ^ groups[2])) >> shift_ == 0) return;
+        const std::uint32_t b = rangeOf(groups[1]), c = rangeOf(groups[2]);
         if (b != kNoRange && b != a) enter(b, triangle);
         if (c != kNoRange && c != a && c != b) enter(c, triangle);
     }
 
     const TriangleGroups& triangles_;
     std::size_t block_size_;
-    std::uint32_t group_count_;
+    std::uint32_t range_count_;
     int shift_;
     std::size_t held_ = ~std::size_t{0};
     std::uint32_t groups_[3 * RangeLists::kMostInBlock] = {};
@@ -98,7 +100,7 @@ RangeLists::RangeLists(const TriangleGroups& triangles, std::size_t block_size, 
         for (std::size_t b = blocks * task / tasks; b < blocks * (task + 1) / tasks; ++b) body(b);
     };
     parallel.forTasks(tasks, [&](std::size_t task) {
-        Walk walk(triangles, block_size, group_count, shift);
+        Walk walk(triangles, block_size, ranges, shift);
         std::size_t* const mine = places.data() + task * ranges;
         forBlocks(task, [&](std::size_t block) {
             range_of[block] = walk.rangeOfBlock(block);
@@ -119,7 +121,7 @@ RangeLists::RangeLists(const TriangleGroups& triangles, std::size_t block_size, 
     begin_[ranges] = total;
     entries_ = Buffer<std::uint32_t>(allocator, total);
     parallel.forTasks(tasks, [&](std::size_t task) {
-        Walk walk(triangles, block_size, group_count, shift);
+        Walk walk(triangles, block_size, ranges, shift);
         std::size_t* const mine = places.data() + task * ranges;
         forBlocks(task, [&](std::size_t block) {
             walk.enterBlock(block, range_of[block],

@@ -19,8 +19,8 @@ class TriangleGroups {
     TriangleGroups(const TriangleGroups&) = delete;
     TriangleGroups& operator=(const TriangleGroups&) = delete;
 
-    /// Writes three numbers per triangle to both; `vertices` may be null. A number that is no group (too
-    /// large) means that nothing is added.
+    /// Writes three numbers per triangle to both; `vertices` may be null. A number that is no group (2^31 or
+    /// more, and above all groups) means that nothing is added.
     virtual void read(std::size_t first, std::size_t triangles, std::uint32_t* vertices,
                       std::uint32_t* groups) const = 0;
 

@@ -39,7 +39,7 @@ class ScratchBlock {
 
     static void* allocate(void* user, std::size_t bytes, std::size_t) {
         auto& self = *static_cast<ScratchBlock*>(user);
-        if (!self.has(bytes)) return allocateBytes(self.parent_, bytes);
+        if (!self.has(bytes)) return allocateArray(self.parent_, bytes, 1);
         void* memory = self.block_ + self.used_;
         self.used_ = std::min(self.used_ + rounded(bytes), self.size_);
         return memory;

@@ -15,7 +15,7 @@ class Growing {
     explicit Growing(const Allocator* allocator) : allocator_(allocator) {}
 
     /// `capacity` must not be below size().
-    void reserve(std::size_t capacity) {
+    [[gnu::noinline]] void reserve(std::size_t capacity) {
         Buffer<T> larger(allocator_, capacity);
         std::copy_n(buffer_.data(), count_, larger.data());
         buffer_ = std::move(larger);
@@ -43,7 +43,7 @@ class Growing {
     void drop(std::size_t count) { count_ -= count; }
 
     /// The elements in a Buffer of exactly their size.
-    [[nodiscard]] Buffer<T> exact() const {
+    [[nodiscard, gnu::noinline]] Buffer<T> exact() const {
         Buffer<T> result(allocator_, count_);
         std::copy_n(buffer_.data(), count_, result.data());
         return result;

@@ -401,11 +401,12 @@ unsigned rangeShift(const Sweep& sweep, unsigned width) {
 }  // namespace
 
 void MeshTriangles::read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const {
-    const std::uint32_t* found = readTriangles(mesh_, triangles_, first, size, groups);
-    if (found != groups) std::copy_n(found, 3 * size, groups);
-    if (vertices != nullptr) std::copy_n(groups, 3 * size, vertices);
+    const std::uint32_t* const found = readTriangles(mesh_, triangles_, first, size, groups);
+    if (vertices != nullptr) std::copy_n(found, 3 * size, vertices);
     if (!nodes_.of_vertex.empty()) {
-        for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = nodes_.of_vertex[groups[i]];
+        for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = nodes_.of_vertex[found[i]];
+    } else if (found != groups) {
+        std::copy_n(found, 3 * size, groups);
     }
     if (vertices != nullptr && nodes_.mixed) {
         for (std::size_t i = 0; i < 3 * size; ++i) vertices[i] = nodes_.vertex(groups[i]);
