@@ -11,7 +11,6 @@
 #include "tangents/estimators/group_estimates.h"
 #include "tangents/indexed_plan.h"
 #include "tangents/mikktspace/evaluation_plan.h"
-#include "tangents/mikktspace/generate.h"
 #include "tangents/symmetric_frame.h"
 
 namespace tspace {

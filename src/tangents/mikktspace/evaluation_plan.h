@@ -77,4 +77,9 @@ TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const
                              const TangentOutput& out, const Execution& execution, Parallel& parallel,
                              GroupSums* estimates = nullptr);
 
+/// The bits of planGrouped and evaluateGroups on the mesh's own pose, in one call, into checked outputs. Throws
+/// OutOfMemory.
+TangentReport generateGrouped(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
+                              Parallel& parallel);
+
 }  // namespace tspace::mikk

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "tangents/mikktspace/generate.h"
+// A mesh in its own pose in one call, and a plan for others.
+#include "tangents/mikktspace/evaluation_plan.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "core/scratch_block.h"
 #include "tangents/mikktspace/collect.h"
-#include "tangents/mikktspace/evaluation_plan.h"
 #include "tangents/mikktspace/faces.h"
 #include "tangents/mikktspace/last_bucket.h"
 #include "tangents/mikktspace/one_pass.h"
