@@ -147,8 +147,8 @@ inline __m512 combine(__m128 a, __m128 b, __m128 c, __m128 d) {
     return _mm512_insertf32x8(_mm512_castps256_ps512(ab), cd, 1);
 }
 
-inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact, Floats& x,
-                    Floats& y, Floats& z) {
+[[gnu::always_inline]] inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index,
+                                           bool exact, Floats& x, Floats& y, Floats& z) {
     const auto at = [&](std::size_t i) { return loadVector(base + stride * index[3 * i], exact); };
     __m512 r[4];
     for (std::size_t j = 0; j < 4; ++j) r[j] = combine(at(j), at(j + 4), at(j + 8), at(j + 12));
@@ -157,7 +157,8 @@ inline void gather3(const std::byte* base, std::size_t stride, const std::uint32
     y = {_mm512_shuffle_ps(ab, cd, 0xee)};
     z = {_mm512_shuffle_ps(_mm512_unpackhi_ps(r[0], r[1]), _mm512_unpackhi_ps(r[2], r[3]), 0x44)};
 }
-inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index, Floats& x, Floats& y) {
+[[gnu::always_inline]] inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index,
+                                           Floats& x, Floats& y) {
     const auto pair = [&](std::size_t i) {
         return loadPair(base + stride * index[3 * i], base + stride * index[3 * i + 3]);
     };

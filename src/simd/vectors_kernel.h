@@ -19,14 +19,20 @@ inline Vectors cross(Vectors a, Vectors b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// With strides that are known, addresses need no multiplication.
-inline Vectors gatherVectors(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact) {
+/// Rarely asked for, and long: so it is no part of the loops.
+[[gnu::noinline]] inline Vectors gatherExactly(const std::byte* base, std::size_t stride, const std::uint32_t* index) {
     Vectors v;
-    if (stride == 12 && !exact) {
-        gather3(base, 12, index, false, v.x, v.y, v.z);
-    } else {
-        gather3(base, stride, index, exact, v.x, v.y, v.z);
-    }
+    gather3(base, stride, index, true, v.x, v.y, v.z);
+    return v;
+}
+
+/// `exact`: no byte after a vector may be read.
+[[gnu::always_inline]] inline Vectors gatherVectors(const std::byte* base, std::size_t stride,
+                                                    const std::uint32_t* index, bool exact) {
+    if (exact) [[unlikely]]
+        return gatherExactly(base, stride, index);
+    Vectors v;
+    gather3(base, stride, index, false, v.x, v.y, v.z);
     return v;
 }
 

@@ -29,12 +29,12 @@ struct Group {
 };
 
 /// With strides that are known, addresses need no multiplication.
-template <bool kTight, bool kExact>
-inline Group load(const TriangleSource& source, const std::uint32_t* vertices) {
+template <bool kTight>
+inline Group load(const TriangleSource& source, const std::uint32_t* vertices, bool exact) {
     const std::size_t position_stride = kTight ? 12 : source.position_stride, uv_stride = kTight ? 8 : source.uv_stride;
     Group g;
     for (std::size_t k = 0; k < 3; ++k) {
-        gather3(source.positions, position_stride, vertices + k, kExact, g.p[k].x, g.p[k].y, g.p[k].z);
+        g.p[k] = gatherVectors(source.positions, position_stride, vertices + k, exact);
         gather2(source.uvs, uv_stride, vertices + k, g.u[k], g.v[k]);
     }
     return g;
@@ -45,7 +45,7 @@ struct GroupBits {
 };
 
 /// Of kWidth triangles.
-inline GroupBits writeRows(const Group& g, float* rows) {
+[[gnu::always_inline]] inline GroupBits writeRows(const Group& g, float* rows) {
     const Floats zero = broadcast(0.0f);
     const Floats s1 = g.u[1] - g.u[0], t1 = g.v[1] - g.v[0], s2 = g.u[2] - g.u[0], t2 = g.v[2] - g.v[0];
     const Floats plus = s1 * t2, minus = s2 * t1, determinant = plus - minus;
@@ -66,13 +66,19 @@ inline GroupBits writeRows(const Group& g, float* rows) {
     return {bitsOf(safe), bitsOf(safe & (determinant < zero))};
 }
 
-template <bool kTight, bool kExact>
-inline void computeBlock(const TriangleSource& source, const std::uint32_t* vertices, std::size_t count,
+/// Whether any vertex is the last one, which has nothing after it to be read along.
+inline bool namesLastVertex(const std::uint32_t* vertices, std::size_t count, std::uint32_t last) {
+    std::uint32_t others = ~std::uint32_t{0};  // turned into 0 by the last one
+    for (std::size_t i = 0; i < 3 * count; ++i) others &= vertices[i] == last ? 0 : ~std::uint32_t{0};
+    return others == 0;
+}
+
+template <bool kTight>
+inline void computeBlock(const TriangleSource& source, const std::uint32_t* vertices, std::size_t count, bool exact,
                          DerivativeTerms& terms) {
     std::uint64_t safe = 0, mirrored = 0;
     for (std::size_t i = 0; i < count; i += kWidth) {
-        const std::uint32_t* const v = vertices + 3 * i;
-        const GroupBits bits = writeRows(load<kTight, kExact>(source, v), terms.rows[i]);
+        const GroupBits bits = writeRows(load<kTight>(source, vertices + 3 * i, exact), terms.rows[i]);
         safe |= std::uint64_t{bits.safe} << i;
         mirrored |= std::uint64_t{bits.mirrored} << i;
     }
@@ -81,21 +87,12 @@ inline void computeBlock(const TriangleSource& source, const std::uint32_t* vert
     terms.mirrored = mirrored & known;
 }
 
-/// Whether any vertex is the last one, which has nothing after it to be read along.
-inline bool namesLastVertex(const std::uint32_t* vertices, std::size_t count, std::uint32_t last) {
-    std::uint32_t others = ~std::uint32_t{0};  // turned into 0 by the last one
-    for (std::size_t i = 0; i < 3 * count; ++i) others &= vertices[i] == last ? 0 : ~std::uint32_t{0};
-    return others == 0;
-}
-
 void compute(const TriangleSource& source, const std::uint32_t* vertices, std::size_t count, DerivativeTerms& terms) {
-    const bool tight = source.position_stride == 12 && source.uv_stride == 8;
-    if (namesLastVertex(vertices, (count + kWidth - 1) / kWidth * kWidth, source.last_vertex)) {
-        computeBlock<false, true>(source, vertices, count, terms);
-    } else if (tight) {
-        computeBlock<true, false>(source, vertices, count, terms);
+    const bool exact = namesLastVertex(vertices, (count + kWidth - 1) / kWidth * kWidth, source.last_vertex);
+    if (!exact && source.position_stride == 12 && source.uv_stride == 8) {
+        computeBlock<true>(source, vertices, count, false, terms);
     } else {
-        computeBlock<false, false>(source, vertices, count, terms);
+        computeBlock<false>(source, vertices, count, exact, terms);
     }
 }
 
@@ -167,7 +164,7 @@ struct Consecutive {
 
 /// What makeCornerFrame does, in single precision. Returns the bits of the vertices whose tangents are right;
 /// the heads of the others stay as they are.
-inline unsigned finishGroup(float* heads, const float* tails, Vectors n, float sign_factor) {
+[[gnu::always_inline]] inline unsigned finishGroup(float* heads, const float* tails, Vectors n, float sign_factor) {
     Vectors s, t;
     loadRows<4>(heads, s.x, s.y, s.z, t.x);
     loadPairs(tails, t.y, t.z);
@@ -194,24 +191,16 @@ inline unsigned finishGroup(float* heads, const float* tails, Vectors n, float s
     return bitsOf(safe);
 }
 
-template <bool kTight>
-inline std::uint64_t finishVertices(SumArrays sums, const std::byte* normals, std::size_t stride, float sign_factor,
-                                    std::size_t count) {
+std::uint64_t finish(SumArrays sums, const std::byte* normals, std::size_t stride, float sign_factor,
+                     std::size_t count) {
     constexpr Consecutive kNext;
     std::uint64_t safe = 0;
     for (std::size_t v = 0; v < count; v += kWidth) {
         Vectors n;
-        const std::size_t step = kTight ? 12 : stride;
-        gather3(normals + v * step, step, kNext.index, false, n.x, n.y, n.z);
+        gather3(normals + v * stride, stride, kNext.index, false, n.x, n.y, n.z);
         safe |= std::uint64_t{finishGroup(sums.heads + 4 * v, sums.tails + 2 * v, n, sign_factor)} << v;
     }
     return safe;
-}
-
-std::uint64_t finish(SumArrays sums, const std::byte* normals, std::size_t stride, float sign_factor,
-                     std::size_t count) {
-    return stride == 12 ? finishVertices<true>(sums, normals, stride, sign_factor, count)
-                        : finishVertices<false>(sums, normals, stride, sign_factor, count);
 }
 
 }  // namespace

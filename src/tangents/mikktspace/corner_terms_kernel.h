@@ -44,11 +44,7 @@ struct Group {
     void load(const CornerSource& source, const std::uint32_t* vertices, bool exact) {
         for (std::size_t k = 0; k < 3; ++k) {
             position[k] = gatherVectors(source.positions, source.position_stride, vertices + k, exact);
-            if (source.uv_stride == 8) {
-                gather2(source.uvs, 8, vertices + k, u[k], v[k]);
-            } else {
-                gather2(source.uvs, source.uv_stride, vertices + k, u[k], v[k]);
-            }
+            gather2(source.uvs, source.uv_stride, vertices + k, u[k], v[k]);
         }
     }
 
@@ -84,6 +80,13 @@ struct Shape {
     }
 };
 
+/// How many of kWidth bits are set. (The builtin is a call where the target is plain x86-64.)
+inline unsigned countBits(unsigned bits) {
+    if constexpr (kWidth > 4) return static_cast<unsigned>(__builtin_popcount(bits));
+    constexpr std::uint64_t kCounts = 0x4332322132212110u;
+    return static_cast<unsigned>(kCounts >> 4 * bits) & 7;
+}
+
 /// Marks of a corner about the way from its tangent to its bitangent (corner_terms.h).
 inline Bits markTurn(Bits marks, Vectors normal, Vectors s, Floats flattened_square, Vectors t) {
     const Floats along = absolute(dot(t, s)) + broadcast(kTurnMargin), across = dot(t, cross(normal, s));
@@ -98,20 +101,15 @@ inline Bits markWeight(Bits marks, Floats weight) {
     return orWhere(marks, weight > broadcast(kHeavyWeight), kHeavy);
 }
 
-/// Weightings that have code of their own: the others share what is left but for the weight itself.
-enum class Kind { projected_angle, other, none };
-
 /// The weight of a corner, or for the two weightings that are angles, its cosine.
-template <Kind kKind>
 inline Floats weightOrCosine(Weighting weighting, const Vectors& normal, const Vectors& previous, const Vectors& next) {
-    if constexpr (kKind == Kind::projected_angle) return dot(flatten(normal, previous), flatten(normal, next));
+    if (weighting == Weighting::projected_angle) return dot(flatten(normal, previous), flatten(normal, next));
     if (weighting == Weighting::angle) return dot(unitByRules(previous), unitByRules(next));
     if (weighting == Weighting::one) return broadcast(1.0f);
     const Vectors c = cross(next, previous);
     return broadcast(0.5f) * squareRoot(dot(c, c));
 }
 
-template <Kind kKind, bool kTangentsOnly>
 inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t first, unsigned valid,
                        bool exact, CornerTerms& terms) {
     Group group;
@@ -119,15 +117,15 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
     const Mask degenerate = group.isDegenerate();
     const Shape shape(group);
     const unsigned bad = bitsOf(degenerate), flat = bitsOf(shape.no_area) & ~bad & valid;
-    terms.degenerate_count += static_cast<unsigned>(__builtin_popcount(bad & valid));
-    terms.no_uv_area_count += static_cast<unsigned>(__builtin_popcount(flat));
-    terms.mirrored_count += static_cast<unsigned>(__builtin_popcount(~(bitsOf(shape.positive) | bad | flat) & valid));
+    terms.degenerate_count += countBits(bad & valid);
+    terms.no_uv_area_count += countBits(flat);
+    terms.mirrored_count += countBits(~(bitsOf(shape.positive) | bad | flat) & valid);
     Bits facing = orWhere(broadcastBits(0), shape.positive, kFacesUp);
     facing = orWhere(facing, !shape.positive, kFacesDown);
     const Mask usable = shape.finite & !shape.no_area;
     const Bits flags =
         orWhere(orWhere(broadcastBits(kFanKnown), shape.no_area, kNoUvArea), degenerate, kDegenerateMark);
-    if constexpr (kKind == Kind::none) {
+    if (source.weighting == Weighting::none) {
         const Bits all_marks = (facing & orWhere(broadcastBits(0), usable, kAllMarks)) | flags;
         for (std::size_t k = 0; k < 3; ++k) store(terms.marks[k] + first, all_marks);
         return;
@@ -136,6 +134,7 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
         for (std::size_t k = 0; k < 3; ++k) store(terms.marks[k] + first, flags);
         return;
     }
+    const bool is_mikktspace = source.weighting == Weighting::projected_angle;
     Vectors s[3], t[3];
     Floats weights[3];
     Bits marks[3];
@@ -144,38 +143,28 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
         const Vectors flat_s = alongPlane(normal, shape.s);
         const Floats square = dot(flat_s, flat_s);
         s[k] = unitByRules(flat_s, square);
-        if constexpr (!kTangentsOnly) t[k] = flatten(normal, shape.t);
+        if (!source.tangents_only) t[k] = flatten(normal, shape.t);
         const Vectors here = group.position[k];
-        weights[k] = weightOrCosine<kKind>(source.weighting, normal, group.position[(k + 2) % 3] - here,
-                                           group.position[(k + 1) % 3] - here);
+        weights[k] = weightOrCosine(source.weighting, normal, group.position[(k + 2) % 3] - here,
+                                    group.position[(k + 1) % 3] - here);
         marks[k] = facing;
-        if constexpr (kKind == Kind::projected_angle) marks[k] = markTurn(facing, normal, s[k], square, shape.t);
+        if (is_mikktspace) marks[k] = markTurn(facing, normal, s[k], square, shape.t);
     }
-    if (kKind == Kind::projected_angle || source.weighting == Weighting::angle) {
+    if (is_mikktspace || source.weighting == Weighting::angle) {
         const Floats cosines[3] = {weights[0], weights[1], weights[2]};
         arcCosines(cosines, weights);
     }
     for (std::size_t k = 0; k < 3; ++k) {
         const Floats weight = weights[k];
-        if constexpr (kKind == Kind::projected_angle) marks[k] = markWeight(marks[k], weight);
+        if (is_mikktspace) marks[k] = markWeight(marks[k], weight);
         const Bits kept = orWhere(broadcastBits(0), usable & (weight == weight), kAllMarks);
         store(terms.marks[k] + first, (marks[k] & kept) | flags);
         const std::size_t row = 3 * first + k;
         storeRows(terms.s[row], weight * s[k].x, weight * s[k].y, weight * s[k].z, weight);
-        if constexpr (!kTangentsOnly) {
+        if (!source.tangents_only) {
             storeRows(terms.t[row], weight * t[k].x, weight * t[k].y, weight * t[k].z, weight * shape.length_s);
             store(terms.lengths_t[k] + first, weight * shape.length_t);
         }
-    }
-}
-
-template <Kind kKind, bool kTangentsOnly>
-void blockTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t count, CornerTerms& terms) {
-    for (std::size_t t = 0; t < count; t += kWidth) {
-        const std::size_t left = count - t;
-        const unsigned valid = left >= kWidth ? (1u << kWidth) - 1 : (1u << left) - 1;
-        groupTerms<kKind, kTangentsOnly>(source, vertices + 3 * t, t, valid,
-                                         namesLast(vertices + 3 * t, source.last_vertex), terms);
     }
 }
 
@@ -183,13 +172,11 @@ void blockTerms(const CornerSource& source, const std::uint32_t* vertices, std::
 
 void cornerTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t count, CornerTerms& terms) {
     terms.degenerate_count = terms.no_uv_area_count = terms.mirrored_count = 0;
-    const bool is_mikktspace = source.weighting == Weighting::projected_angle;
-    const auto compute = source.weighting == Weighting::none ? blockTerms<Kind::none, true>
-                         : !is_mikktspace
-                             ? source.tangents_only ? blockTerms<Kind::other, true> : blockTerms<Kind::other, false>
-                         : source.tangents_only ? blockTerms<Kind::projected_angle, true>
-                                                : blockTerms<Kind::projected_angle, false>;
-    compute(source, vertices, count, terms);
+    for (std::size_t t = 0; t < count; t += kWidth) {
+        const std::size_t left = count - t;
+        const unsigned valid = left >= kWidth ? (1u << kWidth) - 1 : (1u << left) - 1;
+        groupTerms(source, vertices + 3 * t, t, valid, namesLast(vertices + 3 * t, source.last_vertex), terms);
+    }
 }
 
 }  // namespace tspace::mikk::TSPACE_LANES
