@@ -59,7 +59,7 @@ struct Edge {
     Vectors along[2];  ///< J d at its first and second end
     Mask counts;
 
-    Edge(const Triangles& t, std::size_t k, const Plane& first, const Plane& second, const Vectors (&first_j)[2],
+    Edge(const TriangleEdges& t, std::size_t k, const Plane& first, const Plane& second, const Vectors (&first_j)[2],
          const Vectors (&second_j)[2], Floats size, Mask is_known)
         : e(t.edge[k]),
           square(t.square[k]),
@@ -93,7 +93,7 @@ void addEdgeStep(const VertexSource& source, const std::uint32_t* vertices, cons
     for (std::size_t g = 0; g < count; g += kWidth) {
         const std::uint32_t* const v = vertices + 3 * g;
         const bool exact = namesLast(v, source.last_vertex);
-        const Triangles t(source, v, exact);
+        const TriangleEdges t(source, v, exact);
         Vectors normal[3], j[3][2];
         Mask has[3];
         for (std::size_t k = 0; k < 3; ++k) {

@@ -14,15 +14,13 @@ namespace {
 
 /// kWidth triangles. Edge k goes from corner k to corner k + 1. Where a value is not finite, all edges are
 /// zero.
-struct Triangles {
+struct TriangleEdges {
     Vectors edge[3];
-    Floats u[3], v[3];         ///< UV edges
-    Floats square[3];          ///< squared lengths of the edges
-    Floats double_area;        ///< in space
-    Floats determinant;        ///< twice the signed area in UVs
-    Vectors along_u, along_v;  ///< dP/du and dP/dv times |determinant|
+    Floats u[3], v[3];   ///< UV edges
+    Floats square[3];    ///< squared lengths of the edges
+    Floats double_area;  ///< in space
 
-    Triangles(const VertexSource& source, const std::uint32_t* vertices, bool exact) {
+    TriangleEdges(const VertexSource& source, const std::uint32_t* vertices, bool exact) {
         const Floats scale = broadcast(source.position_scale), uv_scale = broadcast(source.uv_scale);
         Vectors p[3];
         Floats s[3], t[3];
@@ -51,6 +49,15 @@ struct Triangles {
         }
         const Vectors c = cross(edge[0], edge[2]);
         double_area = squareRoot(dot(c, c));
+    }
+};
+
+struct Triangles : TriangleEdges {
+    Floats determinant;        ///< twice the signed area in UVs
+    Vectors along_u, along_v;  ///< dP/du and dP/dv times |determinant|
+
+    Triangles(const VertexSource& source, const std::uint32_t* vertices, bool exact)
+        : TriangleEdges(source, vertices, exact) {
         // From corner 0: edges 0 and -2.
         determinant = u[2] * v[0] - u[0] * v[2];
         const Floats facing = select(determinant < zero(), broadcast(-1.0f), broadcast(1.0f));
