@@ -26,6 +26,8 @@ struct Case {
 
 constexpr Case kCases[] = {
     {"mikktspace_natural_20k", "mikktspace", [] { return torusOf(20000); }},
+    {"mikktspace_box_12", "mikktspace", boxMesh},
+    {"mikktspace_natural_200", "mikktspace", [] { return torusOf(200); }},
     {"mikktspace_shuffled_20k", "mikktspace", [] { return shuffled(torusOf(20000)); }},
     {"mikktspace_unindexed_10k", "mikktspace", [] { return unindexed(torusOf(10000)); }},
     {"mikktspace_quads_all_10k", "mikktspace_all", [] { return quadsOf(10000); }},

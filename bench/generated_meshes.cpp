@@ -168,4 +168,23 @@ Mesh gridOf(std::size_t triangles) {
     return mesh;
 }
 
+Mesh boxMesh() {
+    Mesh mesh;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const float side : {-1.0f, 1.0f}) {
+            const auto at = [&](float u, float v) {
+                float position[3], normal[3] = {};
+                position[axis] = normal[axis] = side;
+                position[(axis + 1) % 3] = side * (2 * u - 1);
+                position[(axis + 2) % 3] = 2 * v - 1;
+                return mesh.vertex({position[0], position[1], position[2]}, {normal[0], normal[1], normal[2]}, {u, v});
+            };
+            const std::uint32_t a = at(0, 0), b = at(1, 0), c = at(1, 1), d = at(0, 1);
+            mesh.triangle(a, b, c);
+            mesh.triangle(a, c, d);
+        }
+    }
+    return mesh;
+}
+
 }  // namespace tspace::bench

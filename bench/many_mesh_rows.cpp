@@ -121,31 +121,11 @@ Row threads(const std::string& title, unsigned thread_count, std::vector<std::si
             }};
 }
 
-/// A box with a chart for each side: 24 vertices, 12 triangles.
-Mesh box() {
-    Mesh mesh;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (const float side : {-1.0f, 1.0f}) {
-            const auto at = [&](float u, float v) {
-                float position[3], normal[3] = {};
-                position[axis] = normal[axis] = side;
-                position[(axis + 1) % 3] = side * (2 * u - 1);
-                position[(axis + 2) % 3] = 2 * v - 1;
-                return mesh.vertex({position[0], position[1], position[2]}, {normal[0], normal[1], normal[2]}, {u, v});
-            };
-            const std::uint32_t a = at(0, 0), b = at(1, 0), c = at(1, 1), d = at(0, 1);
-            mesh.triangle(a, b, c);
-            mesh.triangle(a, c, d);
-        }
-    }
-    return mesh;
-}
-
 Row smallCall(const std::string& title) {
     return {title, [=](Lab& lab) {
                 constexpr int kCalls = 1000;  // one alone is below what clocks and caches blur
                 RowResult row{.title = title, .unit = " us"};
-                const Mesh mesh = box();
+                const Mesh mesh = boxMesh();
                 const Job job = makeJob("mikktspace", mesh);
                 Race race;
                 const std::size_t calls = race.add([&] {

@@ -35,6 +35,8 @@ struct Mesh {
 Mesh torus(std::uint32_t columns, std::uint32_t rows, std::uint32_t fold);
 /// About that many triangles, twice as many columns as rows, one half mirrored.
 Mesh torusOf(std::size_t triangles);
+/// A box with a chart for each side: 24 vertices, 12 triangles.
+Mesh boxMesh();
 /// A torus of about that many triangles that is mirrored every tenth column: 10 % of its vertices split.
 Mesh foldsOf(std::size_t triangles);
 /// A sphere in longitude and latitude, with one vertex for each column at the poles.
