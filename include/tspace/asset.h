@@ -253,6 +253,7 @@ struct PrimitiveInfo {
     bool skinned = false;
     bool has_normals = false;
     bool has_tangents = false;
+    std::vector<FrameFormat> packed_frames = {};  ///< formats of packed frames that it has and that can be read
     bool tangents_not_read = false;  ///< has_tangents is false, but the importer cannot tell that there are none
     bool needs_tangents = false;
     std::string needed_by = {};                     ///< "normalTexture", "anisotropy", ... or empty

@@ -51,13 +51,15 @@ enum class FindingCode : std::uint32_t {
     splitFramesDiffer = 23,        ///< vertices that are equal but for their tangents: a seam without a cause
     morphTangentsMissing = 24,
     morphTangentsWrong = 25,
-    texturesDisagree = 26,     ///< two textures of one primitive need different frames
-    greenFlipped = 27,         ///< a normal map whose green points down (DirectX)
-    normalMapUnreadable = 28,  ///< the image could not be looked at
-    fileRemark = 29,           ///< what reading the file had to say: parts that were left out, or taken to be absent
-    greenMixed = 30,           ///< a normal map whose green points down in one part and up in another
+    texturesDisagree = 26,        ///< two textures of one primitive need different frames
+    greenFlipped = 27,            ///< a normal map whose green points down (DirectX)
+    normalMapUnreadable = 28,     ///< the image could not be looked at
+    fileRemark = 29,              ///< what reading the file had to say: parts that were left out, or taken to be absent
+    greenMixed = 30,              ///< a normal map whose green points down in one part and up in another
+    packedFramesUnreadable = 31,  ///< an attribute of packed frames is not what its name promises (docs/pack.md)
+    packedFramesDiffer = 32,      ///< packed frames are not those of NORMAL and TANGENT
 };
-inline constexpr std::uint32_t kFindingCodeCount = 31;
+inline constexpr std::uint32_t kFindingCodeCount = 33;
 
 /// Stable lowerCamelCase name: the name of the enumerator.
 const char* findingName(FindingCode code);
@@ -115,6 +117,23 @@ struct CheckOptions {
     Faces faces = Faces::automatic;
 };
 
+/// An attribute of packed frames (GenerateOptions::pack), read back and compared with NORMAL and TANGENT beside it.
+struct PackedFramesInfo {
+    std::string place = {};      ///< JSON pointer of the attribute
+    std::string attribute = {};  ///< "_FRAME32"; of two that hold one frame the first
+    FrameFormat format = FrameFormat::frame32;
+    std::uint32_t mesh = 0;
+    std::uint32_t primitive = 0;  ///< in its mesh
+    std::uint64_t vertex_count = 0;
+    bool is_readable = false;  ///< if not, a finding says why
+    /// NORMAL and TANGENT are there, and what follows is about all vertices. They are taken as packing takes them: unit,
+    /// at right angles, and mended where they are broken.
+    bool is_compared = false;
+    double worst_normal_deg = 0;
+    double worst_tangent_deg = 0;
+    std::uint64_t differing_sign_count = 0;
+};
+
 struct CheckReport {
     std::string format = {};             ///< as Inspection::format
     std::string generator = {};          ///< the program that wrote the file; may be empty
@@ -122,9 +141,10 @@ struct CheckReport {
     std::uint64_t error_count = 0;
     std::uint64_t warning_count = 0;
     std::uint64_t note_count = 0;
-    std::uint64_t primitive_count = 0;  ///< in the file
-    std::uint64_t tangents_count = 0;   ///< primitives of those whose tangents were examined
-    std::uint64_t image_count = 0;      ///< normal maps that were looked at
+    std::uint64_t primitive_count = 0;                 ///< in the file
+    std::uint64_t tangents_count = 0;                  ///< primitives of those whose tangents were examined
+    std::uint64_t image_count = 0;                     ///< normal maps that were looked at
+    std::vector<PackedFramesInfo> packed_frames = {};  ///< in file order
 };
 
 /// Reads a model and says what is wrong with its frames. Near-linear in the size of the model. Memory: the model as

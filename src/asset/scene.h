@@ -43,6 +43,14 @@ struct SceneMorphTarget {
     SharedArray<Vec3> tangents = {};
 };
 
+/// Packed frames in one format.
+struct ScenePacked {
+    FrameFormat format = FrameFormat::frame32;
+    std::string attribute = {};  ///< the first that holds them, or the one that `fault` is about
+    std::string fault = {};      ///< why they cannot be read, half a sentence about `attribute`; empty: they can
+    SharedArray<std::uint8_t> words = {};  ///< without padding; empty where there is a fault
+};
+
 struct ScenePrimitive {
     std::string place = {};  ///< JSON pointer (glTF), or "usemtl NAME" (OBJ)
     std::uint32_t mesh = 0;
@@ -58,11 +66,21 @@ struct ScenePrimitive {
     bool tangents_not_read = false;               ///< they are empty, but the importer cannot tell that there are none
     std::vector<SharedArray<Vec2>> uv_sets = {};  ///< entry n: TEXCOORD_n, empty where absent; v runs down
     std::vector<SceneMorphTarget> morph_targets = {};
-    bool is_unlit = false;         ///< every material of it is unlit: normals are not looked at
-    bool is_double_sided = false;  ///< every material of it shows both sides
+    std::vector<ScenePacked> packed = {};  ///< in the order of FrameFormat
+    bool is_unlit = false;                 ///< every material of it is unlit: normals are not looked at
+    bool is_double_sided = false;          ///< every material of it shows both sides
     /// Everything in the primitive's materials (variants too) that needs tangents; the first decides which UV set the
     /// tangents follow.
     std::vector<TangentUse> uses = {};
+
+    /// The packed frames that are the only ones it has, or null: `generate` then leaves it as it is.
+    [[nodiscard]] const ScenePacked* packedAlone() const {
+        if (!normals.empty() && !tangents.empty()) return nullptr;
+        for (const ScenePacked& frames : packed) {
+            if (frames.fault.empty()) return &frames;
+        }
+        return nullptr;
+    }
 };
 
 /// What checking a primitive takes of memory for a while, about: most where tangents are computed to compare.

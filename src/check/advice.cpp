@@ -21,6 +21,15 @@ constexpr const char* kLookAtTheMap =
     "every "
     "w and invert the green channel, or leave both as they are.";
 
+constexpr const char* kOnlyForItsReaders =
+    "Nothing needs to be done for programs that read the packed frames. For others take the model that they were "
+    "packed "
+    "from.";
+constexpr const char* kAlsoForOthers =
+    "Nothing needs to be done for programs that read the packed frames. For others compute tangents too: tspace "
+    "generate "
+    "--overwrite.";
+
 constexpr std::string_view kRepairOption = "--repair", kOverwriteOption = "--overwrite";
 
 /// What is mended by computing tangents anew.
@@ -41,8 +50,11 @@ class Advice {
           convention_(signFactor(options.convention) == signFactor(conventions::gltf) ? "" : " --convention opengl") {}
 
     void give(const ScenePrimitive& primitive, const PrimitiveJudgement& judgement, Finding& finding) const {
-        const bool can_compute = !primitive.corners.empty() && !primitive.uses.empty() &&
-                                 !plainReading(primitive, primitive.uses.front().uv_set).uvs.empty();
+        const bool can_compute = canCompute(primitive);
+        if (finding.code == FindingCode::tangentsMissing && primitive.packedAlone() != nullptr) {
+            finding.remedy = primitive.normals.empty() || !can_compute ? kOnlyForItsReaders : kAlsoForOthers;
+            return addConvention(finding);
+        }
         if (finding.code == FindingCode::tangentsMissing || finding.code == FindingCode::tangentsIgnored) {
             if (!can_compute) finding.remedy = kUnwrapFirst;
             return addConvention(finding);
@@ -78,6 +90,11 @@ class Advice {
 };
 
 }  // namespace
+
+bool canCompute(const ScenePrimitive& primitive) {
+    return !primitive.corners.empty() && !primitive.uses.empty() &&
+           !plainReading(primitive, primitive.uses.front().uv_set).uvs.empty();
+}
 
 void adviseOn(const Scene& scene, const CheckOptions& options, std::span<PrimitiveJudgement> judgements) {
     const bool signs_stay_somewhere =

@@ -7,6 +7,7 @@
 #include "asset/file_error.h"
 #include "asset/scene.h"
 #include "check/check_images.h"
+#include "check/check_packed.h"
 #include "check/findings.h"
 #include "check/scene_verdict.h"
 #include "tspace/check.h"
@@ -81,6 +82,9 @@ CheckReport check(const std::string& input, const CheckOptions& options) {
         std::move(judgements[i].findings.begin(), judgements[i].findings.end(), std::back_inserter(report.findings));
     }
     std::move(unused.begin(), unused.end(), std::back_inserter(report.findings));
+    PackedFindings packed = checkPacked(scene, options);
+    report.packed_frames = std::move(packed.infos);
+    std::move(packed.findings.begin(), packed.findings.end(), std::back_inserter(report.findings));
     for (Finding& finding : images.findings) report.findings.push_back(std::move(finding));
     for (const std::string& warning : scene.warnings) report.findings.push_back(fileRemark(warning));
     std::stable_sort(report.findings.begin(), report.findings.end(),

@@ -37,6 +37,11 @@ void checkTangentsMissing(PrimitiveFacts& facts) {
     const char* state =
         facts.primitive.tangents_not_read ? "were not read (the importer cannot give them)" : "are missing";
     const std::string& user = facts.primitive.uses.front().needed_by;
+    if (const ScenePacked* packed = facts.primitive.packedAlone()) {
+        facts.add(FindingCode::tangentsMissing, Severity::note, all, "vertices",
+                  user + " needs tangents, and they are only in the packed frames of " + packed->attribute);
+        return;
+    }
     facts.add(FindingCode::tangentsMissing, facts.is_gltf ? Severity::warning : Severity::note, all, "vertices",
               facts.is_gltf
                   ? user + " needs tangents, and there are none"

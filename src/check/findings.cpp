@@ -68,6 +68,9 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "Bake the map anew, all of it one way; or invert green with an image editor where it points down, and nowhere "
      "else. "
      "To invert the whole map would spoil the other part."},
+    {"packedFramesUnreadable", "Pack them anew, in the format that the attribute names: tspace generate --pack."},
+    {"packedFramesDiffer",
+     "Pack them anew from NORMAL and TANGENT, in the format that the attribute names: tspace generate --pack."},
 }};
 
 }  // namespace
@@ -123,6 +126,8 @@ const char* findingSummary(FindingCode code) {
         "A normal map could not be looked at.",
         "Reading the file left something out.",
         "Green points down in one part of a normal map and up in another.",
+        "Packed frames cannot be read.",
+        "Packed frames are not those of the normals and tangents.",
     };
     static_assert(kSummaries.size() == kFindingCodeCount);
     const auto number = static_cast<std::size_t>(code);

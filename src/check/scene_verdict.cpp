@@ -30,6 +30,7 @@ std::string keyOf(const ScenePrimitive& primitive) {
     append(primitive.normals.data());
     append(primitive.tangents.data());
     for (const SharedArray<Vec2>& uvs : primitive.uv_sets) append(uvs.data());
+    append(primitive.packedAlone() != nullptr);
     append(primitive.morph_targets.size());
     for (const SceneMorphTarget& target : primitive.morph_targets) {
         append(target.positions.data());

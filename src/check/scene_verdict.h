@@ -53,6 +53,9 @@ bool waitForImages(std::span<const PrimitiveJudgement> judgements);
 void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings& images,
                  std::span<PrimitiveJudgement> judgements);
 
+/// Whether `generate` can compute tangents that a material of the primitive needs.
+bool canCompute(const ScenePrimitive& primitive);
+
 /// What to do about each finding, here: names a command only where that command mends it.
 void adviseOn(const Scene& scene, const CheckOptions& options, std::span<PrimitiveJudgement> judgements);
 

@@ -10,6 +10,7 @@
 #include "asset/gltf/material_needs.h"
 #include "asset/gltf/primitive_notes.h"
 #include "asset/gltf/primitive_reader.h"
+#include "asset/gltf/read_packed.h"
 #include "inspect/inspect.h"
 #include "inspect/uv_map.h"
 
@@ -51,6 +52,13 @@ const char* compressionName(const Document& document, const Primitive& primitive
 void describeAttributes(const Document& document, const Primitive& primitive, PrimitiveInfo& info) {
     for (const auto& [name, accessor] : primitive.attributes) {
         info.attributes.push_back(name + " " + formatName(readAccessor(document, accessor)));
+    }
+    for (const auto& [name, accessor] : primitive.miscounted) {
+        const Accessor found = readAccessor(document, accessor);
+        info.attributes.push_back(name + " " + formatName(found) + " of " + std::to_string(found.count) + " elements");
+    }
+    for (const StoredPacking& packing : findPacked(document, primitive)) {
+        if (packing.fault.empty()) info.packed_frames.push_back(packing.layout->format);
     }
     info.has_normals = primitive.find("NORMAL").has_value();
     info.has_tangents = primitive.find("TANGENT").has_value();

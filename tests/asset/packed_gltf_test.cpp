@@ -257,7 +257,10 @@ TEST(PackedGltf, FollowsTangentsThatAreReplacedOnlyWhenAskedFor) {
     GenerateOptions options;
     options.existing = ExistingTangents::replace;
     options.tangents.convention = conventions::opengl;
-    ASSERT_TRUE(generateFile(packed, turned, options));
+    const auto report = generateFile(packed, turned, options);
+    ASSERT_TRUE(report && report->primitives[0].notes.size() == 1);
+    EXPECT_EQ(report->primitives[0].notes[0],
+              "its packed frames in _FRAME32 are those of before (--pack frame32 renews them)");
     const auto words = [](const std::string& file) {
         const gltf::Document document = gltf::loadDocument(file, {});
         return readPackedWords(document, readPrimitives(document).at(0), gltf::packedLayout(FrameFormat::frame32));

@@ -116,7 +116,9 @@ void expectFolderDocumented(const std::string& command, const std::string& made,
 
 TEST(JsonOutput, OfIdentifyIsAsDocumented) { expectFolderDocumented("identify", "", "tspace.identify/1"); }
 
-TEST(JsonOutput, OfCheckIsAsDocumented) { expectFolderDocumented("check", "--convention opengl", "tspace.check/1"); }
+TEST(JsonOutput, OfCheckIsAsDocumented) {
+    expectFolderDocumented("check", "--convention opengl --pack frame32", "tspace.check/1");
+}
 
 TEST(JsonOutput, IsTheSameWithQuiet) {
     const TempFolder folder;

@@ -28,6 +28,38 @@ std::string summaryLine(const CheckOutcome& outcome) {
     return text + "\n";
 }
 
+/// What packed frames of one format are worth, over all primitives that could be compared.
+std::string packedText(std::span<const PackedFramesInfo> all, FrameFormat format) {
+    PackedFramesInfo worst;
+    std::uint64_t primitives = 0, compared = 0;
+    for (const PackedFramesInfo& info : all) {
+        if (info.format != format || !info.is_readable) continue;
+        worst.attribute = info.attribute;
+        ++primitives;
+        compared += info.is_compared;
+        worst.worst_normal_deg = std::max(worst.worst_normal_deg, info.worst_normal_deg);
+        worst.worst_tangent_deg = std::max(worst.worst_tangent_deg, info.worst_tangent_deg);
+        worst.differing_sign_count += info.differing_sign_count;
+    }
+    if (primitives == 0) return {};
+    std::string text = fmt::format("  packed frames of {} in {}: ", counted(primitives, "primitive"), worst.attribute);
+    if (compared == 0) return text + "no NORMAL and TANGENT to compare with\n";
+    const FrameErrorBound bound = frameErrorBound(format);
+    text += fmt::format(
+        "N within {:.2g} degrees, T within {:.2g} ({} and {} promised), {}", worst.worst_normal_deg,
+        worst.worst_tangent_deg, bound.normal_deg, bound.tangent_deg,
+        worst.differing_sign_count == 0 ? "all signs agree" : counted(worst.differing_sign_count, "sign") + " differ");
+    if (compared != primitives) text += fmt::format("; {} could not be compared", primitives - compared);
+    return text + "\n";
+}
+
+std::string packedLines(std::span<const PackedFramesInfo> all) {
+    std::string text;
+    for (std::uint32_t format = 0; frameBytes(static_cast<FrameFormat>(format)) != 0; ++format)
+        text += packedText(all, static_cast<FrameFormat>(format));
+    return text;
+}
+
 std::string severityText(Severity severity, bool in_color) {
     const std::string name = fmt::format("{:<7}", severityName(severity));
     if (!in_color) return name;
@@ -87,6 +119,25 @@ Json findingJson(const Finding& finding) {
     };
 }
 
+Json packedJson(const PackedFramesInfo& info) {
+    const FrameErrorBound bound = frameErrorBound(info.format);
+    return {
+        {"place", info.place},
+        {"attribute", info.attribute},
+        {"format", frameFormatName(info.format)},
+        {"mesh", info.mesh},
+        {"primitive", info.primitive},
+        {"vertices", info.vertex_count},
+        {"readable", info.is_readable},
+        {"compared", info.is_compared},
+        {"worstNormalDegrees", info.worst_normal_deg},
+        {"worstTangentDegrees", info.worst_tangent_deg},
+        {"promisedNormalDegrees", bound.normal_deg},
+        {"promisedTangentDegrees", bound.tangent_deg},
+        {"differingSigns", info.differing_sign_count},
+    };
+}
+
 Json outcomeJson(const CheckOutcome& outcome) {
     Json json = {
         {"input", outcome.job.input},
@@ -101,6 +152,8 @@ Json outcomeJson(const CheckOutcome& outcome) {
     json["primitivesWithTangents"] = report.tangents_count;
     json["normalMaps"] = report.image_count;
     json["counts"] = {{"error", report.error_count}, {"warning", report.warning_count}, {"note", report.note_count}};
+    json["packedFrames"] = Json::array();
+    for (const PackedFramesInfo& info : report.packed_frames) json["packedFrames"].push_back(packedJson(info));
     json["findings"] = Json::array();
     for (const Finding& finding : report.findings) json["findings"].push_back(findingJson(finding));
     return json;
@@ -109,7 +162,7 @@ Json outcomeJson(const CheckOutcome& outcome) {
 }  // namespace
 
 std::string checkText(const CheckOutcome& outcome, bool in_color) {
-    std::string text = summaryLine(outcome);
+    std::string text = summaryLine(outcome) + packedLines(outcome.result->packed_frames);
     // By severity, then code by code in the order in which they first occur.
     std::vector<std::vector<const Finding*>> groups;
     for (const Finding& finding : outcome.result->findings) {

@@ -12,6 +12,12 @@ constexpr double kPi = 3.14159265358979323846;
 
 std::string listed(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, ", ")); }
 
+std::vector<std::string> packedNames(const PrimitiveInfo& primitive) {
+    std::vector<std::string> names;
+    for (const FrameFormat format : primitive.packed_frames) names.emplace_back(frameFormatName(format));
+    return names;
+}
+
 std::string needText(const PrimitiveInfo& primitive) {
     if (!primitive.needs_tangents) {
         return primitive.has_tangents        ? "not needed, but there"
@@ -19,9 +25,10 @@ std::string needText(const PrimitiveInfo& primitive) {
                                              : "not needed";
     }
     return fmt::format("{} ({}{})",
-                       primitive.has_tangents        ? "needed and there"
-                       : primitive.tangents_not_read ? "needed, not read"
-                                                     : "needed, missing",
+                       primitive.has_tangents             ? "needed and there"
+                       : !primitive.packed_frames.empty() ? "needed, only packed"
+                       : primitive.tangents_not_read      ? "needed, not read"
+                                                          : "needed, missing",
                        primitive.needed_by, primitive.tangent_uses[0].only_in_variant ? " of a variant" : "");
 }
 
@@ -103,6 +110,7 @@ std::string primitiveRows(const PrimitiveInfo& primitive) {
     table.addRow({"geometry", geometry});
     table.addRow({"attributes", printable(listed(primitive.attributes))});
     table.addRow({"tangents", needText(primitive)});
+    if (!primitive.packed_frames.empty()) table.addRow({"packed", "frames as " + listed(packedNames(primitive))});
     addUseRows(primitive, table);
     if (primitive.variant_material_count != 0)
         table.addRow({"variants", counted(primitive.variant_material_count, "material")});
@@ -157,6 +165,7 @@ Json primitiveJson(const PrimitiveInfo& primitive) {
         {"hasNormals", primitive.has_normals},
         {"hasTangents", primitive.has_tangents},
         {"tangentsNotRead", primitive.tangents_not_read},
+        {"packedFrames", packedNames(primitive)},
         {"needsTangents", primitive.needs_tangents},
         {"neededBy", primitive.needed_by},
         {"tangentUses", uses},

@@ -11,6 +11,7 @@
 #include "asset/gltf/container.h"
 #include "asset/gltf/flip_maps.h"
 #include "asset/gltf/generate_plan.h"
+#include "asset/gltf/read_packed.h"
 #include "asset/gltf/repair_plan.h"
 #include "asset/gltf/strip_tangents.h"
 #include "asset/gltf/write_packed.h"
@@ -67,6 +68,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     checkRequiredExtensions(document);
     report.warnings = document.warnings;
     std::vector<Primitive> primitives = readPrimitives(document);
+    const bool removed = removeMiscounted(document, primitives, options.pack);
     const auto makePlan = [&] {
         GeneratePlan made = planGenerate(document, primitives, options);
         if (options.existing == ExistingTangents::repair) planRepair(document, primitives, options, made);
@@ -90,6 +92,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     tell(options, "reading", 1, 1);
 
     Editor editor(document, new_file);
+    if (removed) editor.touch();
     std::uint64_t total = 0, done = 0;
     for (const Pool& pool : plan.pools) total += pool.corner_count;
     PoolComputer computer(document, primitives, options);
@@ -106,6 +109,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     }
     tell(options, "computing tangents", total, total);
     if (options.bitangents) noteMissingBitangents(primitives, plan.reports);
+    noteStalePackedFrames(document, primitives, options, plan.reports);
     stripTangents(editor, primitives, plan.reports);
     if (options.pack) writePackedFrames(editor, document, options, plan.reports);
     report.normal_maps = std::move(flips.reports);

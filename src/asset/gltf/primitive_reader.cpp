@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "asset/file_error.h"
+#include "asset/gltf/packed_layout.h"
 
 namespace tspace::gltf {
 
@@ -36,6 +37,17 @@ void checkCounts(const Document& document, const AttributeList& list, std::size_
     }
 }
 
+/// Packed frames of another length are no reason to refuse a file: they can be made anew.
+void setMiscountedApart(const Document& document, Primitive& primitive) {
+    const auto is_good = [&](const auto& entry) {
+        return !isPackedAttribute(entry.first) || readAccessor(document, entry.second).count == primitive.vertex_count;
+    };
+    AttributeList& list = primitive.attributes;
+    const auto bad = std::stable_partition(list.begin(), list.end(), is_good);
+    primitive.miscounted.assign(bad, list.end());
+    list.erase(bad, list.end());
+}
+
 std::size_t trianglesOf(Mode mode, std::size_t corners) {
     if (mode == Mode::triangles) return corners / 3;
     return hasTriangles(mode) && corners >= 3 ? corners - 2 : 0;
@@ -65,6 +77,7 @@ Primitive readPrimitive(const Document& document, const Json& object, std::uint3
         const auto position = primitive.find("POSITION");
         primitive.vertex_count = readAccessor(document, position.value_or(primitive.attributes[0].second)).count;
     }
+    setMiscountedApart(document, primitive);
     checkCounts(document, primitive.attributes, primitive.vertex_count, join(place, "attributes"));
     for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
         checkCounts(document, primitive.targets[i], primitive.vertex_count, join(join(place, "targets"), i));

@@ -48,6 +48,8 @@ struct Primitive {
     std::optional<std::size_t> material = {};
     AttributeList attributes = {};
     std::vector<AttributeList> targets = {};
+    /// Attributes of packed frames that have not one element per vertex; not among `attributes`.
+    AttributeList miscounted = {};
     std::size_t vertex_count = 0;
     std::size_t corner_count = 0;  ///< entries of the index list, or vertices
 
@@ -62,7 +64,7 @@ struct Primitive {
     [[nodiscard]] std::size_t triangleCount() const;
 };
 
-/// All primitives in file order. Checks that attributes exist and agree in length.
+/// All primitives in file order. Checks that attributes exist and agree in length, but for `miscounted`.
 std::vector<Primitive> readPrimitives(const Document& document);
 
 /// Three vertices per triangle in file order; strips and fans as the specification cuts them. Incomplete

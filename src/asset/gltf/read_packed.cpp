@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "asset/file_error.h"
+
 namespace tspace::gltf {
 
 namespace {
@@ -23,6 +25,11 @@ std::string faultOf(const Document& document, const Accessor& accessor, const Pa
     return hasData(document, accessor) ? "" : "has no data that can be read here";
 }
 
+std::string countFault(const Accessor& accessor, const Primitive& primitive) {
+    return "has " + std::to_string(accessor.count) + " elements, and the primitive " +
+           std::to_string(primitive.vertex_count) + " vertices";
+}
+
 }  // namespace
 
 std::vector<StoredPacking> findPacked(const Document& document, const Primitive& primitive) {
@@ -32,11 +39,13 @@ std::vector<StoredPacking> findPacked(const Document& document, const Primitive&
         std::string missing;
         for (const PackedPart& part : layout.parts) {
             const auto index = primitive.find(part.attribute);
-            if (!index) {
+            const auto miscounted = findAttribute(primitive.miscounted, part.attribute);
+            if (!index && !miscounted) {
                 missing = part.attribute;
                 continue;
             }
-            const std::string fault = faultOf(document, readAccessor(document, *index), part);
+            const std::string fault = index ? faultOf(document, readAccessor(document, *index), part)
+                                            : countFault(readAccessor(document, *miscounted), primitive);
             if (packing.attribute.empty() || (packing.fault.empty() && !fault.empty())) {
                 packing.attribute = part.attribute;
                 packing.fault = fault;
@@ -64,6 +73,26 @@ Bytes readPackedWords(const Document& document, const Primitive& primitive, cons
         putPart(copyElements(document, accessor), layout.format, part, words);
     }
     return words;
+}
+
+bool removeMiscounted(Document& document, std::span<Primitive> primitives, std::optional<FrameFormat> pack) {
+    bool is_changed = false;
+    for (Primitive& primitive : primitives) {
+        for (const auto& [name, index] : primitive.miscounted) {
+            const bool is_made_anew =
+                pack && std::any_of(packedLayout(*pack).parts.begin(), packedLayout(*pack).parts.end(),
+                                    [&name](const PackedPart& part) { return part.attribute == name; });
+            if (!is_made_anew) {
+                failFile(ErrorCode::invalidFile,
+                         "the attribute " + countFault(readAccessor(document, index), primitive),
+                         join(join(primitive.place(), "attributes"), name));
+            }
+            document.json["meshes"][primitive.mesh]["primitives"][primitive.index]["attributes"].erase(name);
+            is_changed = true;
+        }
+        primitive.miscounted.clear();
+    }
+    return is_changed;
 }
 
 }  // namespace tspace::gltf

@@ -2,6 +2,8 @@
 // Packed frames that a primitive has.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,5 +29,9 @@ std::string packedAlone(const Document& document, const Primitive& primitive);
 
 /// The words, without padding, of a format without fault. Fails as copyElements.
 Bytes readPackedWords(const Document& document, const Primitive& primitive, const PackedLayout& layout);
+
+/// Takes Primitive::miscounted out of the document where packing in `pack` makes them anew, and fails with invalidFile
+/// where there are others. Returns whether the document changed.
+bool removeMiscounted(Document& document, std::span<Primitive> primitives, std::optional<FrameFormat> pack);
 
 }  // namespace tspace::gltf

@@ -9,6 +9,7 @@
 #include "asset/gltf/accessor.h"
 #include "asset/gltf/document.h"
 #include "asset/gltf/material_needs.h"
+#include "asset/gltf/read_packed.h"
 #include "asset/uri.h"
 
 namespace tspace::gltf {
@@ -69,6 +70,8 @@ class PrimitiveLoader {
                                             .normals = vec3(list, "NORMAL", place),
                                             .tangents = vec3(list, "TANGENT", place)});
         }
+        for (const StoredPacking& stored : findPacked(document_, primitive))
+            result.packed.push_back(loadPacked(primitive, stored));
         if (hasTriangles(primitive.mode) && !result.positions.empty()) result.corners = corners(primitive);
         return result;
     }
@@ -86,6 +89,21 @@ class PrimitiveLoader {
             result.uv_sets.resize(set + 1);
             result.uv_sets[set] = std::move(uvs);
         }
+    }
+
+    ScenePacked loadPacked(const Primitive& primitive, const StoredPacking& stored) {
+        ScenePacked packed{stored.layout->format, stored.attribute, stored.fault};
+        if (!stored.fault.empty()) return packed;
+        std::vector<std::size_t> accessors;
+        for (const PackedPart& part : stored.layout->parts) accessors.push_back(*primitive.find(part.attribute));
+        auto& words = words_[accessors];
+        if (words.empty()) {
+            budget_.take(2 * primitive.vertex_count * frameBytes(packed.format), primitive.place());
+            const Bytes bytes = readPackedWords(document_, primitive, *stored.layout);
+            words = std::vector<std::uint8_t>(bytes.begin(), bytes.end());
+        }
+        packed.words = words;
+        return packed;
     }
 
     SharedArray<Vec3> vec3(const AttributeList& list, const char* name, const std::string& place) {
@@ -117,6 +135,7 @@ class PrimitiveLoader {
     VectorCache<Vec3> vec3_{decodeVec3};
     VectorCache<Vec4> vec4_{decodeVec4};
     std::map<CornerKey, SharedArray<std::uint32_t>> corners_ = {};
+    std::map<std::vector<std::size_t>, SharedArray<std::uint8_t>> words_ = {};  ///< by the accessors that hold them
 };
 
 Bytes readImageBytes(const Document& document, const Json& image, const std::string& place) {

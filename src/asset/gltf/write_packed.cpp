@@ -10,7 +10,6 @@
 
 #include "asset/gltf/packed_layout.h"
 #include "asset/gltf/packed_words.h"
-#include "asset/gltf/primitive_reader.h"
 #include "asset/gltf/read_packed.h"
 #include "asset/gltf/set_attribute.h"
 #include "asset/gltf/strip_tangents.h"
@@ -183,6 +182,18 @@ class PackedWriter {
 void writePackedFrames(Editor& editor, const Document& document, const GenerateOptions& options,
                        std::span<PrimitiveReport> reports) {
     PackedWriter(editor, document, options, reports).run();
+}
+
+void noteStalePackedFrames(const Document& document, std::span<const Primitive> primitives,
+                           const GenerateOptions& options, std::span<PrimitiveReport> reports) {
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        if (reports[i].action != PrimitiveAction::generated && reports[i].action != PrimitiveAction::replaced) continue;
+        for (const StoredPacking& packing : findPacked(document, primitives[i])) {
+            if (!packing.fault.empty() || packing.layout->format == options.pack) continue;
+            reports[i].notes.push_back("its packed frames in " + packing.attribute + " are those of before (--pack " +
+                                       frameFormatName(packing.layout->format) + " renews them)");
+        }
+    }
 }
 
 }  // namespace tspace::gltf

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "asset/gltf/editor.h"
+#include "asset/gltf/primitive_reader.h"
 #include "tspace/asset.h"
 
 namespace tspace::gltf {
@@ -15,5 +16,9 @@ namespace tspace::gltf {
 /// note says why. Attributes that have these bits already stay as they are.
 void writePackedFrames(Editor& editor, const Document& document, const GenerateOptions& options,
                        std::span<PrimitiveReport> reports);
+
+/// Notes which packed frames stay what they were while the tangents beside them were made anew.
+void noteStalePackedFrames(const Document& document, std::span<const Primitive> primitives,
+                           const GenerateOptions& options, std::span<PrimitiveReport> reports);
 
 }  // namespace tspace::gltf
