@@ -7,6 +7,8 @@
 #include <functional>
 
 #include "job.h"
+#include "pack/formats.h"
+#include "pack/random_frames.h"
 
 namespace tspace::bench {
 namespace {
@@ -41,15 +43,51 @@ constexpr Case kCases[] = {
     {"split_20k", "split", [] { return foldsOf(20000); }},
 };
 
+struct PackCase {
+    const char* name;
+    FrameFormat format;
+    bool unpack;
+};
+
+constexpr PackCase kPackCases[] = {
+    {"pack_frame32_20k", FrameFormat::frame32, false},
+    {"pack_oct32_20k", FrameFormat::oct32, false},
+    {"unpack_frame32_20k", FrameFormat::frame32, true},
+    {"unpack_oct32_20k", FrameFormat::oct32, true},
+};
+
+/// Below the border, where targets can be chosen.
+Job packJob(FrameFormat name, bool unpack) {
+    const pack::Format& format = *pack::formatOf(name);
+    test::RandomBits random(1);
+    auto frames = std::make_shared<test::FrameList>(test::randomFrames(random, 20000));
+    auto bytes = std::make_shared<std::vector<std::byte>>(frames->size() * format.bytes);
+    const auto callPack = [=, &format](const Execution& execution) {
+        pack::pack(format, execution.simd, {frames->normals.data(), frames->size()},
+                   {frames->tangents.data(), frames->size()}, bytes->data());
+    };
+    if (!unpack) return {nullptr, callPack};
+    callPack({});
+    return {nullptr, [=, &format](const Execution& execution) {
+                pack::unpack(format, execution.simd, bytes->data(), frames->normals, frames->tangents);
+            }};
+}
+
+int count(const Job& job) {
+    Execution execution{.thread_count = 1};
+    forceSimd(execution, "sse2");
+    tspaceCountedCall(job, execution);
+    return 0;
+}
+
 int run(const char* name) {
+    for (const PackCase& c : kPackCases) {
+        if (std::strcmp(name, c.name) == 0) return count(packJob(c.format, c.unpack));
+    }
     for (const Case& c : kCases) {
         if (std::strcmp(name, c.name) != 0) continue;
         const Mesh mesh = c.mesh();
-        const Job job = makeJob(c.job, mesh);
-        Execution execution{.thread_count = 1};
-        forceSimd(execution, "sse2");
-        tspaceCountedCall(job, execution);
-        return 0;
+        return count(makeJob(c.job, mesh));
     }
     return 2;
 }
@@ -71,6 +109,7 @@ int main(int argc, char** argv) {
     }
     if (argc == 2 && std::strcmp(argv[1], "--list") == 0) {
         for (const auto& c : tspace::bench::kCases) std::puts(c.name);
+        for (const auto& c : tspace::bench::kPackCases) std::puts(c.name);
         return 0;
     }
     const int result = argc == 2 ? tspace::bench::run(argv[1]) : 2;

@@ -82,6 +82,7 @@ struct Row {
 std::vector<Row> speedRows();
 std::vector<Row> manyMeshRows();
 std::vector<Row> fileRows();
+std::vector<Row> packRows();
 std::vector<Row> memoryRows();
 std::vector<Row> worstCaseRows();
 

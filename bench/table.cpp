@@ -114,6 +114,7 @@ int printTable(Lab& lab, const TableOptions& options) {
     sections.push_back({"Time against the plain loop", speedRows()});
     sections.push_back({"Real models, and sizes where a cliff may be", manyMeshRows()});
     sections.push_back({"Files", fileRows()});
+    sections.push_back({"Packed frames: time of one", packRows()});
     sections.push_back({"Memory beside inputs and outputs", memoryRows()});
     sections.push_back({"Worst cases: time per triangle, 200k against 20k triangles", worstCaseRows()});
 

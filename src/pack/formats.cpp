@@ -9,18 +9,17 @@ namespace tspace::pack {
 
 namespace {
 
-/// A word of which only `kBytes` are there.
-template <std::size_t kBytes>
 std::uint32_t readWord(const std::byte* in) {
     std::uint32_t word = 0;
     if constexpr (std::endian::native == std::endian::little) {
-        std::memcpy(&word, in, kBytes);
+        std::memcpy(&word, in, 4);
     } else {
-        for (std::size_t i = 0; i < kBytes; ++i) word |= std::to_integer<std::uint32_t>(in[i]) << (8 * i);
+        for (std::size_t i = 0; i < 4; ++i) word |= std::to_integer<std::uint32_t>(in[i]) << (8 * i);
     }
     return word;
 }
 
+/// A word of which only `kBytes` are there.
 template <std::size_t kBytes>
 void writeWord(std::uint32_t word, std::byte* out) {
     if constexpr (std::endian::native == std::endian::little) {
@@ -40,8 +39,8 @@ void readWords(const std::byte* in, std::size_t count, WordBlock& words) {
     }
     constexpr std::size_t kWhole = kBytes / 4, kRest = kBytes % 4;
     for (std::size_t i = 0; i < count; ++i, in += kBytes) {
-        for (std::size_t w = 0; w < kWhole; ++w) words.word[w][i] = readWord<4>(in + 4 * w);
-        if constexpr (kRest != 0) words.word[kWhole][i] = readWord<kRest>(in + 4 * kWhole);
+        for (std::size_t w = 0; w < kWhole; ++w) words.word[w][i] = readWord(in + 4 * w);
+        if constexpr (kRest != 0) words.word[kWhole][i] = readWord(in + kBytes - 4) >> (32 - 8 * kRest);
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Frames to pack, made without tspace: random ones, and what packing did to them.
+// What packing did to frames.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "pack/random_frames.h"
 #include "tspace/pack.h"
 
 namespace tspace::test {
@@ -31,73 +32,6 @@ inline std::string nameOf(FrameFormat format) {
 inline long frameCount(long otherwise) {
     const char* text = std::getenv("TSPACE_FRAMES");
     return text != nullptr ? std::atol(text) : otherwise;
-}
-
-/// The same numbers on every machine.
-class RandomBits {
-  public:
-    explicit RandomBits(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t next() {
-        std::uint64_t x = state_ += 0x9e3779b97f4a7c15u;
-        x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-        x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-        return x ^ x >> 31;
-    }
-    /// In [-1, 1).
-    double number() { return static_cast<double>(next() >> 11) * 0x1p-52 - 1; }
-
-  private:
-    std::uint64_t state_;
-};
-
-struct Quaternion {
-    double x = 0, y = 0, z = 0, w = 1;
-};
-
-inline Quaternion unit(const Quaternion& q) {
-    const double scale = 1 / std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
-    return {q.x * scale, q.y * scale, q.z * scale, q.w * scale};
-}
-
-struct FrameList {
-    std::vector<Vec3> normals = {};
-    std::vector<Vec4> tangents = {};
-
-    [[nodiscard]] std::size_t size() const { return normals.size(); }
-    void add(const Vec3& n, const Vec4& t) {
-        normals.push_back(n);
-        tangents.push_back(t);
-    }
-    /// The frame that a rotation of the axes gives.
-    void add(Quaternion q, float sign) {
-        const double scale = 2 / (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
-        const auto f = [](double x) { return static_cast<float>(x); };
-        add({f(scale * (q.x * q.z + q.w * q.y)), f(scale * (q.y * q.z - q.w * q.x)),
-             f(1 - scale * (q.x * q.x + q.y * q.y))},
-            {f(1 - scale * (q.y * q.y + q.z * q.z)), f(scale * (q.x * q.y + q.w * q.z)),
-             f(scale * (q.x * q.z - q.w * q.y)), sign});
-    }
-    void resize(std::size_t count) {
-        normals.resize(count);
-        tangents.resize(count);
-    }
-};
-
-/// Evenly spread over all rotations: points in the ball of four dimensions.
-inline Quaternion randomRotation(RandomBits& random) {
-    for (;;) {
-        const Quaternion q{random.number(), random.number(), random.number(), random.number()};
-        const double square = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-        if (square > 0.01 && square <= 1) return q;
-    }
-}
-
-inline FrameList randomFrames(RandomBits& random, std::size_t count) {
-    FrameList frames;
-    frames.normals.reserve(count);
-    frames.tangents.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) frames.add(randomRotation(random), (random.next() & 1) != 0 ? -1.0f : 1.0f);
-    return frames;
 }
 
 inline std::vector<std::byte> packed(FrameFormat format, const FrameList& frames) {

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Packing and unpacking frames, beside copying them.
+#include <cstring>
+
+#include "pack/random_frames.h"
+#include "race.h"
+#include "rows.h"
+#include "tspace/pack.h"
+
+namespace tspace::bench {
+
+namespace {
+
+constexpr std::size_t kFrames = 16384;  ///< these stay in the second cache
+constexpr double kPackAsked = 60, kUnpackAsked = 3;
+
+const test::FrameList& someFrames() {
+    static const test::FrameList frames = [] {
+        test::RandomBits random(1);
+        return test::randomFrames(random, kFrames);
+    }();
+    return frames;
+}
+
+RowResult runPacking(const std::string& title, FrameFormat format, bool unpack, Lab& lab) {
+    RowResult row{.title = title, .unit = " ns"};
+    const test::FrameList& frames = someFrames();
+    test::FrameList out = frames;
+    std::vector<std::byte> bytes(kFrames * frameBytes(format));
+    row.wrong = !packFrames(format, frames.normals, frames.tangents, bytes);
+    Race race;
+    const std::size_t runner = race.add([&] {
+        const bool done = unpack ? unpackFrames(format, bytes, out.normals, out.tangents).ok()
+                                 : packFrames(format, frames.normals, frames.tangents, bytes).ok();
+        row.wrong = row.wrong || !done;
+    });
+    const std::size_t copy = race.add([&] {
+        std::memcpy(out.normals.data(), frames.normals.data(), kFrames * sizeof(Vec3));
+        std::memcpy(out.tangents.data(), frames.tangents.data(), kFrames * sizeof(Vec4));
+        asm volatile("" ::: "memory");  // or the copies would be left out
+    });
+    race.run(lab.rounds());
+    const auto ns = [&](std::size_t which) { return 1e9 * race.best(which) / kFrames; };
+    row.one_thread.value = ns(runner);
+    row.one_thread.asked = unpack ? kUnpackAsked : kPackAsked;
+    row.note = "copying the 28 bytes of a frame " + std::to_string(ns(copy)).substr(0, 4) + " ns";
+    return row;
+}
+
+}  // namespace
+
+std::vector<Row> packRows() {
+    constexpr const char* kNames[] = {"frame32",     "frame48",      "frame64",     "oct32",       "qtangent64",
+                                      "snorm8_pair", "snorm16_pair", "gltf_snorm8", "gltf_snorm16"};
+    std::vector<Row> rows;
+    for (const bool unpack : {false, true}) {
+        for (std::uint32_t f = 0; f < std::size(kNames); ++f) {
+            const std::string title = std::string(unpack ? "unpack `" : "pack `") + kNames[f] + "`";
+            rows.push_back({title, [=](Lab& lab) { return runPacking(title, FrameFormat{f}, unpack, lab); }});
+        }
+    }
+    return rows;
+}
+
+}  // namespace tspace::bench
