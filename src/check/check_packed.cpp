@@ -42,7 +42,7 @@ void unpackInto(FrameFormat format, std::span<const std::byte> words, std::size_
         unpackFrames(format, words, std::span(chunk.normals).first(count), std::span(chunk.tangents).first(count)));
 }
 
-PackedErrors compare(const ScenePrimitive& primitive, const ScenePacked& packed) {
+PackedErrors comparePacked(const ScenePrimitive& primitive, const ScenePacked& packed) {
     const FrameErrorBound bound = frameErrorBound(packed.format), finest = frameErrorBound(kFinest);
     const std::size_t total = primitive.normals.size(), word_bytes = frameBytes(packed.format);
     const auto words = std::as_bytes(packed.words.span());
@@ -105,7 +105,7 @@ bool canPack(const ScenePrimitive& primitive) {
     return primitive.packedAlone() == nullptr && canCompute(primitive);
 }
 
-Finding unreadable(const ScenePrimitive& primitive, const ScenePacked& packed) {
+Finding unreadablePacking(const ScenePrimitive& primitive, const ScenePacked& packed) {
     const Tally one{.count = 1, .total = 1};
     Finding finding = makeFinding(FindingCode::packedFramesUnreadable, Severity::warning, one, "attributes",
                                   packed.attribute + " " + packed.fault);
@@ -115,7 +115,7 @@ Finding unreadable(const ScenePrimitive& primitive, const ScenePacked& packed) {
     return finding;
 }
 
-Finding differing(const ScenePacked& packed, const PackedErrors& errors) {
+Finding differingPacking(const ScenePacked& packed, const PackedErrors& errors) {
     const bool can_be_seen = errors.sign_count != 0 || errors.beyond.worst_deg > kVisible_deg;
     Finding finding = makeFinding(FindingCode::packedFramesDiffer, can_be_seen ? Severity::warning : Severity::note,
                                   errors.beyond, "vertices", differenceText(packed, errors));
@@ -161,7 +161,7 @@ std::vector<PackedErrors> compareAll(const Scene& scene, std::span<const PackedE
     Parallel parallel(execution);
     workTogether(
         scene.memory.get(), firsts.size(), parallel, [](std::size_t) { return std::uint64_t{0}; },
-        [&](std::size_t i) { errors[i] = compare(*firsts[i]->primitive, *firsts[i]->packed); });
+        [&](std::size_t i) { errors[i] = comparePacked(*firsts[i]->primitive, *firsts[i]->packed); });
     return errors;
 }
 
@@ -189,8 +189,9 @@ PackedFindings checkPacked(const Scene& scene, const CheckOptions& options) {
         const PackedErrors errors = entry.isCompared() ? compared[entry.comparison] : PackedErrors{};
         const PackedFramesInfo& info = result.infos.emplace_back(infoOf(entry, errors));
         if (info.is_readable && errors.beyond.count == 0) continue;
-        Finding& finding = result.findings.emplace_back(info.is_readable ? differing(*entry.packed, errors)
-                                                                         : unreadable(*entry.primitive, *entry.packed));
+        Finding& finding =
+            result.findings.emplace_back(info.is_readable ? differingPacking(*entry.packed, errors)
+                                                          : unreadablePacking(*entry.primitive, *entry.packed));
         finding.place = info.place;
         finding.mesh = info.mesh;
         finding.primitive = info.primitive;
