@@ -16,20 +16,21 @@ Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList&
             any |= blocks[triangles.corners[i] / kBlockCorners];
         if (any == 0) return 0;
         std::uint32_t buffer[kBlockCorners];
-        const std::uint32_t* vertex = readTriangles(mesh, triangles, first, count, buffer);
-        std::uint32_t nodes[kBlockCorners];
-        if (node_of != nullptr) {
-            for (std::size_t i = 0; i < 3 * count; ++i) nodes[i] = node_of[vertex[i]];
-            vertex = nodes;
-        }
-        const auto marked = [&](std::size_t t) -> std::uint8_t {
-            const std::uint32_t* at = vertex + 3 * t;
-            return mark[at[0]] | mark[at[1]] | mark[at[2]];
+        const std::uint32_t* const vertex = readTriangles(mesh, triangles, first, count, buffer);
+        std::uint8_t marked[kCollectBlock], some = 0;
+        const auto look = [&](const auto& placeOf) {
+            for (std::size_t t = 0; t < count; ++t) {
+                const std::uint32_t* at = vertex + 3 * t;
+                some |= marked[t] = mark[placeOf(at[0])] | mark[placeOf(at[1])] | mark[placeOf(at[2])];
+            }
         };
-        std::uint8_t some = 0;  // as in most blocks
-        for (std::size_t t = 0; t < count; ++t) some |= marked(t);
+        if (node_of == nullptr) {
+            look([](std::uint32_t v) { return v; });
+        } else {
+            look([=](std::uint32_t v) { return node_of[v]; });
+        }
         std::uint64_t bits = 0;
-        for (std::size_t t = 0; some != 0 && t < count; ++t) bits |= std::uint64_t{marked(t) != 0 ? 1u : 0u} << t;
+        for (std::size_t t = 0; some != 0 && t < count; ++t) bits |= std::uint64_t{marked[t] != 0 ? 1u : 0u} << t;
         return bits;
     };
     return collectBits((triangles.count + kCollectBlock - 1) / kCollectBlock, bitsOf, allocator, parallel);
