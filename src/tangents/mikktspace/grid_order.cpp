@@ -125,7 +125,7 @@ class Cell {
 
 /// What the reference computes: the box of the corner list but for its first entry, starting from corner 0 of
 /// the mesh.
-Box listedBox(const MeshView& mesh, const TriangleList& triangles) {
+[[gnu::noinline]] Box listedBox(const MeshView& mesh, const TriangleList& triangles) {
     Box box(loadVec3(mesh.positions[mesh.indices[0]]));
     withListedVertices(mesh, triangles, [&](auto vertexOf) {
         for (std::size_t i = 1; i < 3 * triangles.count; ++i) box.add(loadVec3(mesh.positions[vertexOf(i)]));
@@ -134,7 +134,7 @@ Box listedBox(const MeshView& mesh, const TriangleList& triangles) {
 }
 
 /// Whether a vertex is in the corner list. Looks first where it is when vertices are numbered as triangles use them.
-bool isListed(std::uint32_t vertex, const MeshView& mesh, const TriangleList& triangles) {
+[[gnu::noinline]] bool isListed(std::uint32_t vertex, const MeshView& mesh, const TriangleList& triangles) {
     constexpr std::size_t kStep = 1024;  // entries between looks at what was found: a loop without branches
     const std::size_t count = 3 * triangles.count, steps = count / kStep + 1;
     const std::size_t guess = std::size_t{vertex} * steps / mesh.vertexCount();

@@ -52,7 +52,7 @@ class EdgeSort {
   public:
     EdgeSort(std::span<Record> records, std::uint32_t largest) : records_(records), largest_(largest) {}
 
-    bool run() {
+    [[gnu::cold]] bool run() {
         struct Range {
             std::int64_t begin, last;
             std::uint32_t seed;
@@ -119,6 +119,13 @@ struct BucketEdge {
     std::uint32_t usual = kNone, partner = kNone;  // other half-edges: as pairing links them, as the reference does
     bool ascending = false;                        // runs from the lower to the higher end
 };
+
+/// By half-edges; those of each higher end together where `by_ends`.
+[[gnu::cold]] void sortEdges(BucketEdge* begin, BucketEdge* end, bool by_ends) {
+    std::sort(begin, end, [=](const BucketEdge& a, const BucketEdge& b) {
+        return by_ends && a.high != b.high ? a.high < b.high : a.half_edge < b.half_edge;
+    });
+}
 
 class BucketFinder {
   public:
@@ -311,7 +318,7 @@ class BucketFinder {
     }
 
     /// V, and its edges.
-    void findBucket() {
+    [[gnu::cold]] void findBucket() {
         findExactly([&](std::uint32_t node) { return ranges_[node].last >= least_; });
         for (const LateEdge& e : edges_) {
             const std::uint32_t from = ranges_[e.from].first, to = ranges_[e.to].first, low = std::min(from, to);
@@ -330,11 +337,9 @@ class BucketFinder {
 
     /// Only where there are more than two half-edges, and an edge in both directions. Leaves the bucket sorted by
     /// higher ends, then half-edges.
-    bool orderMatters() {
+    [[gnu::cold]] bool orderMatters() {
         if (bucket_.size() <= 2) return false;
-        std::sort(bucket_.begin(), bucket_.end(), [](const BucketEdge& a, const BucketEdge& b) {
-            return a.high != b.high ? a.high < b.high : a.half_edge < b.half_edge;
-        });
+        sortEdges(bucket_.begin(), bucket_.end(), true);
         for (std::size_t i = 1; i < bucket_.size(); ++i) {
             if (bucket_[i].high == bucket_[i - 1].high && bucket_[i].ascending != bucket_[i - 1].ascending) return true;
         }
@@ -342,7 +347,7 @@ class BucketFinder {
     }
 
     /// Leaves the bucket in the order in which the reference meets its edges.
-    bool sortAsReference() {
+    [[gnu::cold]] bool sortAsReference() {
         if (!order_) order_.emplace(mesh_, triangles_, nodes_, allocator_, parallel_);
         order_->findAll(representatives_.data());
         Growing<Record> records(allocator_);
@@ -354,8 +359,7 @@ class BucketFinder {
             for (std::uint32_t k = 0; k < 3; ++k) records.push({std::min(r[k], r[(k + 1) % 3]), 3 * t + k});
         }
         if (!EdgeSort({records.begin(), records.size()}, key_).run()) return false;
-        std::sort(bucket_.begin(), bucket_.end(),
-                  [](const BucketEdge& a, const BucketEdge& b) { return a.half_edge < b.half_edge; });
+        sortEdges(bucket_.begin(), bucket_.end(), false);
         Growing<BucketEdge> ordered(allocator_);
         for (std::size_t i = records.size() - bucket_.size(); i < records.size(); ++i) {
             ordered.push(*std::lower_bound(bucket_.begin(), bucket_.end(), records[i].half_edge,
@@ -366,8 +370,7 @@ class BucketFinder {
         for (std::size_t begin = 0, end = 0; begin < bucket_.size(); begin = end) {
             end = endOfRun(begin);
             if (end == bucket_.size()) break;
-            std::sort(bucket_.begin() + begin, bucket_.begin() + end,
-                      [](const BucketEdge& a, const BucketEdge& b) { return a.half_edge < b.half_edge; });
+            sortEdges(bucket_.begin() + begin, bucket_.begin() + end, false);
         }
         return true;
     }
@@ -380,7 +383,7 @@ class BucketFinder {
 
     /// Within a run the oldest waiting half-edge of the opposite direction is the partner (see pairing.h);
     /// runs know nothing of each other.
-    void pairUp(std::uint32_t BucketEdge::*partner) {
+    [[gnu::cold]] void pairUp(std::uint32_t BucketEdge::*partner) {
         for (std::size_t begin = 0, end = 0; begin < bucket_.size(); begin = end) {
             end = endOfRun(begin);
             std::size_t waiting = begin;  // no half-edge before it waits
@@ -393,9 +396,8 @@ class BucketFinder {
         }
     }
 
-    void listChanges(LastBucket& result, const Allocator* kept) {
-        std::sort(bucket_.begin(), bucket_.end(),
-                  [](const BucketEdge& a, const BucketEdge& b) { return a.half_edge < b.half_edge; });
+    [[gnu::cold]] void listChanges(LastBucket& result, const Allocator* kept) {
+        sortEdges(bucket_.begin(), bucket_.end(), false);
         Growing<std::uint32_t> half_edges(kept), partners(kept), nodes(kept);
         for (const BucketEdge& e : bucket_) {
             if (e.usual == e.partner) continue;

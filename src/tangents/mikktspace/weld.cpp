@@ -234,7 +234,7 @@ class Lookup {
         return foldHash(hash, hashPosition({v.uv.x, v.uv.y, 0}));
     }
 
-    void matchData(const Allocator* allocator, bool& mixed) {
+    [[gnu::cold]] void matchData(const Allocator* allocator, bool& mixed) {
         struct Entry {
             std::uint64_t hash = 0;
             std::uint32_t vertex = kNone;
@@ -391,8 +391,8 @@ class VertexWelder {
 };
 
 /// Where nodes mix -0 and +0, the reference's representative decides on the bits.
-void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes, const Allocator* allocator,
-                  Parallel& parallel) {
+[[gnu::cold]] void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
+                                const Allocator* allocator, Parallel& parallel) {
     listVertices(nodes, allocator, parallel);
     Growing<std::uint32_t> different(allocator);
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
@@ -406,7 +406,7 @@ void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& no
     }
 }
 
-bool usesFiniteVerticesOnly(const MeshView& mesh, const TriangleList& triangles) {
+[[gnu::cold]] bool usesFiniteVerticesOnly(const MeshView& mesh, const TriangleList& triangles) {
     for (std::size_t i = 0; i < 3 * triangles.count; ++i) {
         if (!isAllFinite(load(mesh, mesh.indices[triangles.corner(i)]))) return false;
     }
