@@ -69,7 +69,7 @@ inline Vectors tangentsAt(const Bases& basis, Bits k) {
 }
 
 template <class Format>
-void decodeAngles(const WordBlock& words, std::size_t count, FrameRows& rows) {
+void decodeAngles(const WordBlock& words, std::size_t count, const FrameRows& rows) {
     constexpr AngleGrid kGrid = Format::kGrid;
     const Floats last = broadcast(static_cast<float>(2 * kGrid.half));
     for (std::size_t at = 0; at < count; at += kWidth) {

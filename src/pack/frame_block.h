@@ -24,16 +24,17 @@ struct FrameBlock {
     alignas(64) std::uint32_t mirrored[kBlockFrames];
 };
 
-/// As decoded: x, y, z, and after the tangent the sign.
+/// Where decoded frames go: three numbers for each normal, and one more after the last; four for each tangent, the
+/// fourth of which is the sign.
 struct FrameRows {
-    alignas(64) float normal[kBlockFrames][4], tangent[kBlockFrames][4];
+    float *normals, *tangents;
 };
 
 /// The functions of one format for one CPU. They read and write the first `count` frames, and may do so for all of the
 /// block.
 struct FrameKernel {
     void (*encode)(const FrameBlock& frames, std::size_t count, WordBlock& words) = nullptr;
-    void (*decode)(const WordBlock& words, std::size_t count, FrameRows& rows) = nullptr;
+    void (*decode)(const WordBlock& words, std::size_t count, const FrameRows& rows) = nullptr;
 };
 
 /// Frames this close to unit (their squares to twice as much) and orthogonal are encoded as they are, so that unpacked

@@ -81,9 +81,9 @@ inline Frames framesOf(Floats x, Floats y, Floats z, Floats w) {
 inline Floats squaredReach(Vectors turn) { return turn.y * turn.y + larger(turn.x * turn.x, turn.z * turn.z); }
 
 /// `signs`: the sign bit set where the frame is mirrored.
-inline void storeFrames(FrameRows& rows, std::size_t at, const Frames& f, Bits signs) {
-    storeRows<4>(rows.normal[at], f.normal.x, f.normal.y, f.normal.z, zero());
-    storeRows<4>(rows.tangent[at], f.tangent.x, f.tangent.y, f.tangent.z, flipped(broadcast(1.0f), signs));
+inline void storeFrames(const FrameRows& rows, std::size_t at, const Frames& f, Bits signs) {
+    storeRows<3>(rows.normals + 3 * at, f.normal.x, f.normal.y, f.normal.z, zero());
+    storeRows<4>(rows.tangents + 4 * at, f.tangent.x, f.tangent.y, f.tangent.z, flipped(broadcast(1.0f), signs));
 }
 
 }  // namespace tspace::pack::TSPACE_LANES

@@ -150,14 +150,19 @@ PackReport pack(const Format& format, SimdTarget wish, const StridedSpan<const V
 void unpack(const Format& format, SimdTarget wish, const std::byte* bytes, const StridedSpan<Vec3>& normals,
             const StridedSpan<Vec4>& tangents) {
     const FrameKernel kernel = format.kernel(wish);
+    const bool is_dense = normals.stride_bytes == sizeof(Vec3) && tangents.stride_bytes == sizeof(Vec4);
     WordBlock words{};
-    FrameRows rows;
+    alignas(64) float block_normals[3 * kBlockFrames + 1], block_tangents[4 * kBlockFrames];
     for (std::size_t begin = 0; begin < normals.count; begin += kBlockFrames) {
         const std::size_t count = std::min(normals.count - begin, kBlockFrames);
         format.read(bytes + begin * format.bytes, count, words);
-        kernel.decode(words, count, rows);
+        if (is_dense && begin + kBlockFrames < normals.count) {  // what is written beyond is written again
+            kernel.decode(words, count, {&normals[begin].x, &tangents[begin].x});
+            continue;
+        }
+        kernel.decode(words, count, {block_normals, block_tangents});
         for (std::size_t i = 0; i < count; ++i) {
-            const float *n = rows.normal[i], *t = rows.tangent[i];
+            const float *n = block_normals + 3 * i, *t = block_tangents + 4 * i;
             normals[begin + i] = {n[0], n[1], n[2]};
             tangents[begin + i] = {t[0], t[1], t[2], t[3]};
         }

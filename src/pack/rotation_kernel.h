@@ -11,7 +11,7 @@ namespace tspace::pack::TSPACE_LANES {
 namespace {
 
 /// Words that no chart needs read as the last one.
-void decodeRotations(const WordBlock& words, std::size_t count, FrameRows& rows) {
+void decodeRotations(const WordBlock& words, std::size_t count, const FrameRows& rows) {
     for (std::size_t at = 0; at < count; at += kWidth) {
         const Bits word = load(words.word[0] + at), code = smaller(shiftRight<1>(word), broadcastBits(kCodes - 1));
         const Bits columns = quotient<kColumns>(code), z = code - product(columns, kColumns);

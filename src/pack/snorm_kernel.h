@@ -127,7 +127,7 @@ void encodeQuaternions(const FrameBlock& frames, std::size_t count, WordBlock& w
 }
 
 /// A quaternion x, y, z, w. No rotation (all zero) reads as that of the axes.
-void decodeQuaternions(const WordBlock& words, std::size_t count, FrameRows& rows) {
+void decodeQuaternions(const WordBlock& words, std::size_t count, const FrameRows& rows) {
     for (std::size_t at = 0; at < count; at += kWidth) {
         const Floats x = numberAt<16, 0>(words, at), y = numberAt<16, 1>(words, at), z = numberAt<16, 2>(words, at);
         const Floats w = numberAt<16, 3>(words, at);
@@ -167,7 +167,7 @@ inline Vectors firstAxes(Vectors n) {
 
 /// T, then N from number 4; which number holds the sign. A zero N reads as (0, 0, 1), a zero T as a basis from N.
 template <int kBits, int kSignAt>
-void decodeVectors(const WordBlock& words, std::size_t count, FrameRows& rows) {
+void decodeVectors(const WordBlock& words, std::size_t count, const FrameRows& rows) {
     for (std::size_t at = 0; at < count; at += kWidth) {
         const Vectors t{numberAt<kBits, 0>(words, at), numberAt<kBits, 1>(words, at), numberAt<kBits, 2>(words, at)};
         const Vectors n{numberAt<kBits, 4>(words, at), numberAt<kBits, 5>(words, at), numberAt<kBits, 6>(words, at)};

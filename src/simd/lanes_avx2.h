@@ -173,10 +173,8 @@ inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     const __m256 zw_low = _mm256_unpacklo_ps(z.v, w.v), zw_high = _mm256_unpackhi_ps(z.v, w.v);
     const __m256 r[4] = {_mm256_shuffle_ps(xy_low, zw_low, 0x44), _mm256_shuffle_ps(xy_low, zw_low, 0xee),
                          _mm256_shuffle_ps(xy_high, zw_high, 0x44), _mm256_shuffle_ps(xy_high, zw_high, 0xee)};
-    for (std::size_t j = 0; j < 4; ++j) {
-        _mm_storeu_ps(rows + kStep * j, _mm256_castps256_ps128(r[j]));
-        _mm_storeu_ps(rows + kStep * (j + 4), _mm256_extractf128_ps(r[j], 1));
-    }
+    for (std::size_t j = 0; j < 4; ++j) _mm_storeu_ps(rows + kStep * j, _mm256_castps256_ps128(r[j]));
+    for (std::size_t j = 0; j < 4; ++j) _mm_storeu_ps(rows + kStep * (j + 4), _mm256_extractf128_ps(r[j], 1));
 }
 template <std::size_t kStep>
 inline void storePairs(float* rows, Floats x, Floats y) {

@@ -176,12 +176,10 @@ inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     const __m512 zw_low = _mm512_unpacklo_ps(z.v, w.v), zw_high = _mm512_unpackhi_ps(z.v, w.v);
     const __m512 r[4] = {_mm512_shuffle_ps(xy_low, zw_low, 0x44), _mm512_shuffle_ps(xy_low, zw_low, 0xee),
                          _mm512_shuffle_ps(xy_high, zw_high, 0x44), _mm512_shuffle_ps(xy_high, zw_high, 0xee)};
-    for (std::size_t j = 0; j < 4; ++j) {
-        _mm_storeu_ps(rows + kStep * j, _mm512_castps512_ps128(r[j]));
-        _mm_storeu_ps(rows + kStep * (j + 4), _mm512_extractf32x4_ps(r[j], 1));
-        _mm_storeu_ps(rows + kStep * (j + 8), _mm512_extractf32x4_ps(r[j], 2));
-        _mm_storeu_ps(rows + kStep * (j + 12), _mm512_extractf32x4_ps(r[j], 3));
-    }
+    for (std::size_t j = 0; j < 4; ++j) _mm_storeu_ps(rows + kStep * j, _mm512_castps512_ps128(r[j]));
+    for (std::size_t j = 0; j < 4; ++j) _mm_storeu_ps(rows + kStep * (j + 4), _mm512_extractf32x4_ps(r[j], 1));
+    for (std::size_t j = 0; j < 4; ++j) _mm_storeu_ps(rows + kStep * (j + 8), _mm512_extractf32x4_ps(r[j], 2));
+    for (std::size_t j = 0; j < 4; ++j) _mm_storeu_ps(rows + kStep * (j + 12), _mm512_extractf32x4_ps(r[j], 3));
 }
 template <std::size_t kStep>
 inline void storePairs(float* rows, Floats x, Floats y) {

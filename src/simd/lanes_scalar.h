@@ -163,7 +163,8 @@ inline Floats load(const float* p) { return {*p}; }
 inline void store(std::uint32_t* to, Bits b) { *to = b.v; }
 inline Bits load(const std::uint32_t* p) { return {*p}; }
 /// Writes lane i's four values to rows[kStep * i ...], by default row 3 * i of an array of rows of four floats. At any
-/// address that floats may have.
+/// address that floats may have. Rows are written one after the other: with a step of 3, all but the last row hold three
+/// values, and one more is written after them.
 template <std::size_t kStep = 12>
 inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     const float v[4] = {x.v, y.v, z.v, w.v};

@@ -153,6 +153,20 @@ TEST_P(PackExact, FindsTheFirstAndLastWordsAgain) {
     expectFoundAgain(GetParam(), bytes);
 }
 
+/// Evenly over all words of 4 bytes: TSPACE_FRAMES=4294967296 looks at each of them.
+TEST(PackWords, OfFourBytesAreFoundAgain) {
+    const std::uint64_t count = std::uint64_t{1} << 32, step = count / static_cast<std::uint64_t>(frameCount(500'000));
+    for (const FrameFormat format : {FrameFormat::frame32, FrameFormat::oct32}) {
+        std::vector<std::byte> bytes;
+        for (std::uint64_t word = 0; word < count && !HasFailure(); word += step) {
+            for (int b = 0; b < 4; ++b) bytes.push_back(static_cast<std::byte>(word >> 8 * b & 0xff));
+            if (bytes.size() < 4 * kBatch && word + step < count) continue;
+            expectFoundAgain(format, bytes);
+            bytes.clear();
+        }
+    }
+}
+
 /// Corners, edges and middles of the cubes in all charts of frame32.
 TEST(Frame32, FindsWordsAtTheBordersOfChartsAgain) {
     std::vector<std::byte> bytes;
