@@ -80,8 +80,9 @@ bool removeMiscounted(Document& document, std::span<Primitive> primitives, std::
     for (Primitive& primitive : primitives) {
         for (const auto& [name, index] : primitive.miscounted) {
             const bool is_made_anew =
-                pack && std::any_of(packedLayout(*pack).parts.begin(), packedLayout(*pack).parts.end(),
-                                    [&name](const PackedPart& part) { return part.attribute == name; });
+                pack &&
+                std::any_of(packedLayout(*pack).parts.begin(), packedLayout(*pack).parts.end(),
+                            [&attribute = name](const PackedPart& part) { return part.attribute == attribute; });
             if (!is_made_anew) {
                 failFile(ErrorCode::invalidFile,
                          "the attribute " + countFault(readAccessor(document, index), primitive),
