@@ -184,7 +184,7 @@ void findAngles(const AngleGrid& grid, const FrameBlock& frames, std::size_t cou
 
 template <class Format>
 void encodeAngles(const FrameBlock& frames, std::size_t count, WordBlock& words) {
-    AngleSteps steps;
+    AngleSteps steps{};
     findCells(Format::kGrid, frames, count, steps);
     findNormals(Format::kGrid, frames, count, steps);
     findAngles(Format::kGrid, frames, count, steps);
