@@ -428,20 +428,6 @@ class Cutter {
 
 }  // namespace
 
-bool quadCutsAlong13(const Vec3 positions[4], const Vec2* uvs) {
-    if (uvs != nullptr) {
-        const Vec2 d02 = uvs[2] - uvs[0];
-        const Vec2 d13 = uvs[3] - uvs[1];
-        const float length2_02 = d02.x * d02.x + d02.y * d02.y;
-        const float length2_13 = d13.x * d13.x + d13.y * d13.y;
-        if (length2_02 < length2_13) return false;
-        if (length2_13 < length2_02) return true;
-    }
-    const Vec3 d02 = positions[2] - positions[0];
-    const Vec3 d13 = positions[3] - positions[1];
-    return dot(d13, d13) < dot(d02, d02);
-}
-
 void cutPolygon(const Vec3* positions, const Vec2* uvs, std::uint32_t count, std::uint32_t* triangles,
                 PolygonScratch& scratch, std::uint32_t few) {
     if (count < 3) return;

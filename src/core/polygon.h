@@ -14,7 +14,19 @@ namespace tspace {
 /// True when the quad is cut along 1-3, false for 0-2 (also when a comparison meets a NaN). `uvs` may be
 /// null. MikkTSpace's rule: the shorter diagonal in UV space; if equal, 1-3 only when strictly shorter in
 /// space.
-bool quadCutsAlong13(const Vec3 positions[4], const Vec2* uvs);
+inline bool quadCutsAlong13(const Vec3 positions[4], const Vec2* uvs) {
+    if (uvs != nullptr) {
+        const Vec2 d02 = uvs[2] - uvs[0];
+        const Vec2 d13 = uvs[3] - uvs[1];
+        const float length2_02 = d02.x * d02.x + d02.y * d02.y;
+        const float length2_13 = d13.x * d13.x + d13.y * d13.y;
+        if (length2_02 < length2_13) return false;
+        if (length2_13 < length2_02) return true;
+    }
+    const Vec3 d02 = positions[2] - positions[0];
+    const Vec3 d13 = positions[3] - positions[1];
+    return dot(d13, d13) < dot(d02, d02);
+}
 
 /// Coordinates in the plane of a polygon.
 struct PlanePoint {

@@ -9,7 +9,6 @@
 #include "core/face_walk.h"
 #include "core/polygon.h"
 #include "core/typed_indices.h"
-#include "core/vec_math.h"
 #include "tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
@@ -31,25 +30,21 @@ class UsedSizes {
 struct FaceCounts {
     std::uint32_t triangles = 0;  // after cutting
     std::uint32_t faces_of_three = 0, skipped_faces = 0, skipped_corners = 0;
-    std::uint32_t largest = 0;
 };
 
 /// Without a branch, so that the loop becomes SIMD: a size that is not used counts as 0.
 FaceCounts countFaces(std::span<const std::uint32_t> sizes, Ngons ngons) {
     const UsedSizes used(ngons);
     std::uint32_t corners = 0, used_corners = 0, used_faces = 0, faces_of_three = 0;
-    std::int32_t largest = 0;  // signed is all that SSE2 can compare
     for (const std::uint32_t size : sizes) {
         const std::uint32_t used_size = used.has(size) ? size : 0;
         corners += size;
         used_corners += used_size;
         used_faces += used_size != 0 ? 1 : 0;
         faces_of_three += size == 3 ? 1 : 0;
-        largest = std::max(largest, static_cast<std::int32_t>(used_size));
     }
     const auto faces = static_cast<std::uint32_t>(sizes.size());
-    return {used_corners - 2 * used_faces, faces_of_three, faces - used_faces, corners - used_corners,
-            static_cast<std::uint32_t>(largest)};
+    return {used_corners - 2 * used_faces, faces_of_three, faces - used_faces, corners - used_corners};
 }
 
 /// The same for a mesh whose faces may have one size.
@@ -64,54 +59,21 @@ FaceCounts countFaces(const MeshView& mesh, Ngons ngons) {
     return counts;
 }
 
-/// The reference's choice of diagonal, on the face's own data: the shorter one in UV space; when equal (or
-/// NaN) 1-3 only if it is strictly shorter in space.
-bool cutsAlong13(const MeshView& mesh, std::size_t corner) {
-    Vec3 p[4];
-    Vec2 uv[4];
-    for (std::size_t k = 0; k < 4; ++k) {
-        const std::uint32_t vertex = mesh.indices[corner + k];
-        p[k] = mesh.positions[vertex];
-        uv[k] = mesh.uvs[vertex];
-    }
-    const Vec2 a = uv[2] - uv[0], b = uv[3] - uv[1];
-    const float length_a = a.x * a.x + a.y * a.y, length_b = b.x * b.x + b.y * b.y;
-    if (length_a < length_b) return false;
-    if (length_b < length_a) return true;
-    const Vec3 c = p[2] - p[0], d = p[3] - p[1];
-    return dot(d, d) < dot(c, c);
-}
-
 class Cutter {
   public:
-    Cutter(const MeshView& mesh, const Allocator* allocator, std::uint32_t largest, TriangleList& list)
-        : mesh_(mesh),
-          list_(list),
-          positions_(allocator, largest),
-          uvs_(allocator, largest),
-          triangles_(allocator, largest == 0 ? 0 : 3 * (std::size_t{largest} - 2)) {}
+    Cutter(const MeshView& mesh, TriangleList& list) : mesh_(mesh), list_(list), faces_(mesh) {}
 
     void cut(std::size_t face, std::size_t corner, std::uint32_t size) {
         if (size == 3) {
             add(face, corner, 0, 1, 2);
         } else if (size == 4) {
-            if (cutsAlong13(mesh_, corner)) {
-                add(face, corner, 0, 1, 3);
-                add(face, corner, 1, 2, 3);
-            } else {
-                add(face, corner, 0, 1, 2);
-                add(face, corner, 0, 2, 3);
-            }
+            const bool along13 = cutsAlong13(corner);
+            add(face, corner, 0, 1, along13 ? 3 : 2);
+            add(face, corner, along13 ? 1 : 0, 2, 3);
         } else {
-            for (std::uint32_t k = 0; k < size; ++k) {
-                const std::uint32_t vertex = mesh_.indices[corner + k];
-                positions_[k] = mesh_.positions[vertex];
-                uvs_[k] = mesh_.uvs[vertex];
-            }
-            cutPolygon(positions_.data(), uvs_.data(), size, triangles_.data(), scratch_);
-            for (std::size_t i = 0; i < 3 * (std::size_t{size} - 2); i += 3) {
-                add(face, corner, triangles_[i], triangles_[i + 1], triangles_[i + 2]);
-            }
+            faces_.cut(corner, size, list_.corners.data() + 3 * written_);
+            std::fill_n(list_.faces.data() + written_, size - 2, static_cast<std::uint32_t>(face));
+            written_ += size - 2;
         }
     }
 
@@ -125,12 +87,20 @@ class Cutter {
         list_.faces[written_++] = static_cast<std::uint32_t>(face);
     }
 
+    [[nodiscard]] bool cutsAlong13(std::size_t corner) const {
+        Vec3 positions[4];
+        Vec2 uvs[4];
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t vertex = mesh_.indices[corner + k];
+            positions[k] = mesh_.positions[vertex];
+            uvs[k] = mesh_.uvs[vertex];
+        }
+        return quadCutsAlong13(positions, uvs);
+    }
+
     const MeshView& mesh_;
     TriangleList& list_;
-    Buffer<Vec3> positions_;
-    Buffer<Vec2> uvs_;
-    Buffer<std::uint32_t> triangles_;
-    PolygonScratch scratch_;
+    FaceCutter faces_;
     std::size_t written_ = 0;
 };
 
@@ -147,7 +117,7 @@ TriangleList cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* alloca
     list.corners = Buffer<std::uint32_t>(allocator, 3 * list.count);
     list.faces = Buffer<std::uint32_t>(allocator, list.count);
     list.skipped_corners = Buffer<std::uint32_t>(allocator, counts.skipped_corners);
-    Cutter cutter(mesh, allocator, counts.largest > 4 ? counts.largest : 0, list);
+    Cutter cutter(mesh, list);
     const UsedSizes used(ngons);
     std::size_t skip = 0;
     forEachFace(mesh, [&](std::size_t face, std::size_t corner, std::uint32_t size) {
