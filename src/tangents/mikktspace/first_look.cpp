@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "tangents/mikktspace/first_look.h"
-
+// Whether one pass over a mesh is worth it.
 #include <algorithm>
 
 #include "core/vec_math.h"
+#include "tangents/mikktspace/one_pass.h"
 
 namespace tspace::mikk {
 

@@ -14,7 +14,6 @@
 #include "core/typed_indices.h"
 #include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/corner_source.h"
-#include "tangents/mikktspace/first_look.h"
 #include "tangents/mikktspace/group_sums.h"
 #include "tangents/mikktspace/joined_triangles.h"
 #include "tangents/mikktspace/node_sums.h"

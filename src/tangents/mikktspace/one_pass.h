@@ -18,6 +18,10 @@ struct PassOptions {
     unsigned range_shift = 0;  ///< log2 of the nodes of a range; 0: what suits the mesh
 };
 
+/// Judges by a sample of triangles whether one pass would leave so many nodes complex that it is faster to look at each
+/// node alone at once.
+bool mostNodesSeemComplex(const MeshView& mesh, const TriangleList& triangles);
+
 /// Writes tangents of the mesh's own pose. `transient`: for what is not needed any more when tangents are written: their own
 /// memory, unless somebody looks at it. Throws OutOfMemory.
 TangentReport evaluateInOnePass(const NodeSetting& setting, const LastBucket& bucket, ScratchBlock& transient,
