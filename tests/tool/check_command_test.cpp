@@ -48,6 +48,26 @@ TEST(CheckCommand, BeginsWithASummaryAndEndsEachFindingWithItsRemedy) {
     EXPECT_EQ(run.out.find('\x1b'), std::string::npos) << "colours are for terminals";
 }
 
+TEST(CheckCommand, SaysHowGoodPackedFramesAreAndWhatToRunWhereTheyAreOthers) {
+    const TempFolder folder;
+    writeGood(folder, "good.glb");
+    ASSERT_EQ(runTool(folder, "generate good.glb -q --in-place --pack frame32").exit_code, 0);
+    const ToolRun first = runTool(folder, "check good.glb --fail-on note");
+    EXPECT_EQ(first.exit_code, 0) << first.out;
+    EXPECT_NE(first.out.find("packed frames of 1 primitive in _FRAME32: N within "), std::string::npos) << first.out;
+    EXPECT_NE(first.out.find("(0.135 and 0.135 promised), all signs agree\n"), std::string::npos) << first.out;
+
+    // The tangents change, and nobody tells the packed frames.
+    ASSERT_EQ(runTool(folder, "generate good.glb -q -o other.glb --overwrite --convention opengl").exit_code, 0);
+    const ToolRun second = runTool(folder, "check other.glb --convention opengl --fail-on warning");
+    EXPECT_EQ(second.exit_code, 1);
+    EXPECT_NE(second.out.find("  warning  packedFramesDiffer\n"), std::string::npos) << second.out;
+    EXPECT_NE(second.out.find("mend: Pack them anew: tspace generate --pack frame32.\n"), std::string::npos)
+        << second.out;
+    ASSERT_EQ(runTool(folder, "generate other.glb -q --in-place --pack frame32").exit_code, 0);
+    EXPECT_EQ(runTool(folder, "check other.glb --convention opengl --fail-on note").exit_code, 0);
+}
+
 TEST(CheckCommand, FailsFromTheLevelThatWasAskedFor) {
     const TempFolder folder;
     writeInverted(folder, "error.glb");

@@ -34,6 +34,18 @@ TEST(Inspect, SeesTheTangentsThatGenerateWrote) {
     EXPECT_NE(run.out.find("needed and there"), std::string::npos) << run.out;
 }
 
+TEST(Inspect, NamesPackedFrames) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    writeBumpMap(folder);
+    ASSERT_EQ(runTool(folder, "generate a.obj -q -o a.glb --pack frame48 --pack-drop all").exit_code, 0);
+    const ToolRun run = runTool(folder, "inspect a.glb");
+    for (const char* text : {"_FRAME48 uint16x3", "needed, only packed", "frames as frame48"})
+        EXPECT_NE(run.out.find(text), std::string::npos) << text << "\n" << run.out;
+    const Json json = Json::parse(runTool(folder, "inspect --json a.glb").out);
+    EXPECT_EQ(json["files"][0]["primitives"][0]["packedFrames"], Json::array({"frame48"}));
+}
+
 TEST(Inspect, OneBadFileDoesNotStopTheOthers) {
     const TempFolder folder;
     writeFoldedObj(folder, "a.obj");
