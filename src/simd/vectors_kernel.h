@@ -32,7 +32,11 @@ inline Vectors cross(Vectors a, Vectors b) {
     if (exact) [[unlikely]]
         return gatherExactly(base, stride, index);
     Vectors v;
-    gather3(base, stride, index, false, v.x, v.y, v.z);
+    if (stride == 12) {  // addresses need no multiplication
+        gather3(base, 12, index, false, v.x, v.y, v.z);
+    } else {
+        gather3(base, stride, index, false, v.x, v.y, v.z);
+    }
     return v;
 }
 

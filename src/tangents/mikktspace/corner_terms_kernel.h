@@ -44,7 +44,11 @@ struct Group {
     void load(const CornerSource& source, const std::uint32_t* vertices, bool exact) {
         for (std::size_t k = 0; k < 3; ++k) {
             position[k] = gatherVectors(source.positions, source.position_stride, vertices + k, exact);
-            gather2(source.uvs, source.uv_stride, vertices + k, u[k], v[k]);
+            if (source.uv_stride == 8) {
+                gather2(source.uvs, 8, vertices + k, u[k], v[k]);
+            } else {
+                gather2(source.uvs, source.uv_stride, vertices + k, u[k], v[k]);
+            }
         }
     }
 
