@@ -76,15 +76,7 @@ class OnePass {
         complex_ = Buffer<std::uint64_t>(allocator_, nodes_.count / 64 + 1, std::uint64_t{0});
         sumNodes(
             mesh_, triangles_, nodes_, source, cornerTermsFor(options_.execution.simd), transient_, allocator_,
-            parallel_, sums_,
-            [&](std::size_t first, std::size_t end) {
-                if (!estimates_) finishNodes(first, end);
-            },
-            pass_.range_shift);
-        if (estimates_) {
-            finishInRanges(
-                nodes_.count, [&](std::size_t first, std::size_t end) { findComplex(first, end); }, parallel_);
-        }
+            parallel_, sums_, [&](std::size_t first, std::size_t end) { finishNodes(first, end); }, pass_.range_shift);
         checkFaces();
         checkDegenerateUvs();
         for (const std::uint32_t node : bucket_.nodes) {
@@ -148,12 +140,11 @@ class OnePass {
              reinterpret_cast<std::byte*>(sums_.rest.data()), sizeof(NodeRest),
              reinterpret_cast<std::byte*>(sums_.lengths_t.data()), sizeof(float), nodes_.count},
             estimatesIn(planned)};
-        const TriangleGroups& triangles = complex_count_ == 0 ? static_cast<const TriangleGroups&>(by_node) : joined;
         Execution execution = options_.execution;
         execution.allocator = transient_.allocator();
-        estimators::estimateGroups(options_.method, options_.refine, triangles, {mesh_.positions, mesh_.normals},
-                                   mesh_.uvs, inputScale(by_node, mesh_.positions, mesh_.uvs),
-                                   {to, complex_count_ == 0 ? std::size_t{1} : std::size_t{2}}, execution, parallel_);
+        estimators::estimateGroups(options_.method, options_.refine, joined, {mesh_.positions, mesh_.normals},
+                                   mesh_.uvs, inputScale(by_node, mesh_.positions, mesh_.uvs), to, execution,
+                                   parallel_);
         return planned;
     }
 
@@ -265,7 +256,8 @@ class OnePass {
         }
     }
 
-    /// Turns the sums of clear nodes into results, in place. `first`: a multiple of 64.
+    /// Turns the sums of clear nodes into results, in place, but for methods that estimate; finds the others. `first`: a
+    /// multiple of 64.
     void finishNodes(std::size_t first, std::size_t end) {
         std::uint64_t complex_here = 0, groups_here = 0;
         for (; first < end; first += 64) {
@@ -278,25 +270,6 @@ class OnePass {
                     sums_.row(n)[3] = kComplexSign;
                 }
                 groups_here += clear && !sums_.isEmpty(n) ? 1 : 0;
-            }
-            complex_[first / 64] = bits;
-            complex_here += static_cast<std::uint64_t>(std::popcount(bits));
-        }
-        complex_count_ += complex_here;
-        group_count_ += groups_here;
-    }
-
-    /// Of methods that estimate. `first`: a multiple of 64.
-    void findComplex(std::size_t first, std::size_t end) {
-        std::uint64_t complex_here = 0, groups_here = 0;
-        for (; first < end; first += 64) {
-            std::uint64_t bits = 0;
-            const std::size_t last = std::min(first + 64, end);
-            for (std::size_t n = first; n < last; ++n) {
-                if (sums_.isEmpty(n)) continue;
-                const bool clear = sums_.isOneGroup(n, mesh_.normals[nodes_.vertex(n)], false);
-                bits |= std::uint64_t{!clear} << (n - first);
-                groups_here += clear ? 1 : 0;
             }
             complex_[first / 64] = bits;
             complex_here += static_cast<std::uint64_t>(std::popcount(bits));
@@ -338,6 +311,7 @@ class OnePass {
     bool finishNode(std::size_t n) {
         const bool empty = sums_.isEmpty(n), splits = options_.method == Method::mikktspace;
         if (!empty && !sums_.isOneGroup(n, mesh_.normals[nodes_.vertex(n)], splits)) return false;
+        if (estimates_) return true;
         const Vec3 s = empty ? Vec3{1, 0, 0} : unit(tangentOf(n));
         // The other methods replace a sum that vanishes; the vertex path sees to that.
         if (!splits && !notZero(s)) return false;
