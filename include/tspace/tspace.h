@@ -26,6 +26,10 @@
 
 #include "tspace/version.h"
 
+/* Exported by shared libraries, whose other symbols are hidden. */
+#if defined(__GNUC__) && !defined(_WIN32)
+#pragma GCC visibility push(default)
+#endif
 #ifdef __cplusplus
 #define TSPACE_NOEXCEPT noexcept
 extern "C" {
@@ -548,6 +552,9 @@ void tspace_destroyTriangulation(tspace_Triangulation* result) TSPACE_NOEXCEPT;
 
 #ifdef __cplusplus
 }
+#endif
+#if defined(__GNUC__) && !defined(_WIN32)
+#pragma GCC visibility pop
 #endif
 
 #include "tspace/tspace_frame.h"

@@ -9,6 +9,9 @@
 
 #include "tspace/tspace.h"
 
+#if defined(__GNUC__) && !defined(_WIN32)
+#pragma GCC visibility push(default)
+#endif
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -106,6 +109,9 @@ tspace_Vec3 tspace_objectNormalMikktspace(tspace_Vec3 interpolated_normal, tspac
 
 #ifdef __cplusplus
 }
+#endif
+#if defined(__GNUC__) && !defined(_WIN32)
+#pragma GCC visibility pop
 #endif
 
 #endif

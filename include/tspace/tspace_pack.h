@@ -9,6 +9,9 @@
 
 #include "tspace/tspace.h"
 
+#if defined(__GNUC__) && !defined(_WIN32)
+#pragma GCC visibility push(default)
+#endif
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -67,6 +70,9 @@ tspace_ErrorCode tspace_unpackFrames(tspace_FrameFormat format, const void* byte
 
 #ifdef __cplusplus
 }
+#endif
+#if defined(__GNUC__) && !defined(_WIN32)
+#pragma GCC visibility pop
 #endif
 
 #endif

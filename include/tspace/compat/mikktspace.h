@@ -12,6 +12,9 @@
 #ifndef TSPACE_COMPAT_MIKKTSPACE_H
 #define TSPACE_COMPAT_MIKKTSPACE_H
 
+#if defined(__GNUC__) && !defined(_WIN32)
+#pragma GCC visibility push(default)
+#endif
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -66,6 +69,9 @@ tbool genTangSpace(const SMikkTSpaceContext* pContext, const float fAngularThres
 
 #ifdef __cplusplus
 }
+#endif
+#if defined(__GNUC__) && !defined(_WIN32)
+#pragma GCC visibility pop
 #endif
 
 #endif

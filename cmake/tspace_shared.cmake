@@ -1,0 +1,25 @@
+# Shared libraries with the C ABI alone, beside the static ones and from the same objects.
+include_guard(GLOBAL)
+
+# tspace_shared_library(TARGET OUTPUT_NAME STATIC_TARGET...): libOUTPUT_NAME.so.0 of all objects of these libraries.
+function(tspace_shared_library target output_name)
+    set(objects "")
+    foreach(library ${ARGN})
+        list(APPEND objects $<TARGET_OBJECTS:${library}>)
+    endforeach()
+    add_library(${target} SHARED ${objects})
+    # SOVERSION is the number of the ABI: it grows when an old program could no longer run.
+    set_target_properties(${target} PROPERTIES OUTPUT_NAME ${output_name} VERSION ${PROJECT_VERSION} SOVERSION 0
+                          LINKER_LANGUAGE CXX LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}"
+                          LINK_DEPENDS "${PROJECT_SOURCE_DIR}/cmake/exported.map")
+    target_include_directories(${target} INTERFACE "${PROJECT_SOURCE_DIR}/include" "${PROJECT_BINARY_DIR}/include")
+    target_link_options(${target} PRIVATE "-Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exported.map")
+    if(TSPACE_SANITIZE)
+        target_link_options(${target} PRIVATE -fsanitize=${TSPACE_SANITIZE})
+    else()
+        target_link_options(${target} PRIVATE -Wl,-z,defs)
+    endif()
+    target_link_libraries(${target} PRIVATE Threads::Threads)
+    install(TARGETS ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT ${target}
+            NAMELINK_COMPONENT ${target}_link)
+endfunction()
