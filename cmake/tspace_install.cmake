@@ -12,6 +12,7 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/tspace" DESTINATION "${CMAKE_IN
         PATTERN "asset.h" EXCLUDE PATTERN "check.h" EXCLUDE PATTERN "diff.h" EXCLUDE PATTERN "identify.h" EXCLUDE PATTERN "maps.h" EXCLUDE)
 install(FILES "${PROJECT_BINARY_DIR}/include/tspace/version.h" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/tspace"
         COMPONENT tspace_core)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/shaders" DESTINATION "${CMAKE_INSTALL_DATADIR}/tspace" COMPONENT tspace_core)
 install(EXPORT tspace_core NAMESPACE tspace:: FILE tspace-core.cmake DESTINATION "${TSPACE_CMAKE_DIR}"
         COMPONENT tspace_core)
 

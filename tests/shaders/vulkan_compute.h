@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Runs a compute shader on a Vulkan device, a software one where there is one.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tspace::shaders {
+
+class VulkanCompute {
+  public:
+    /// Null, and why, where there is no device.
+    static std::unique_ptr<VulkanCompute> open(std::string& why);
+    virtual ~VulkanCompute() = default;
+
+    [[nodiscard]] virtual std::string device() const = 0;
+    /// Dispatches main of `spirv`, local size 64, for `items`: buffer 0 holds the words, buffer 1 takes as many floats as
+    /// `results` has. Empty, or what failed.
+    virtual std::string run(std::span<const std::uint32_t> spirv, std::span<const std::uint32_t> words,
+                            std::size_t items, std::vector<float>& results) = 0;
+};
+
+}  // namespace tspace::shaders

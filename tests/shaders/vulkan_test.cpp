@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The shaders on a Vulkan device, lavapipe where it is installed, against the C++ decoder and geometry.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+
+#include "cases.h"
+#include "read_spirv.h"
+#include "vulkan_compute.h"
+
+namespace tspace::shaders {
+
+namespace {
+
+/// Frames of each format, fewer where code of a compiler is compiled; TSPACE_FRAMES sets others. The other functions get
+/// a tenth of that.
+std::size_t frameCount(const std::string& language) {
+    const char* asked = std::getenv("TSPACE_FRAMES");
+    if (asked != nullptr) return std::strtoull(asked, nullptr, 10);
+    return language.find("_as_") == std::string::npos ? 1'000'000 : 100'000;
+}
+
+/// A way to SPIR-V: which language, and what it was turned into on the way.
+class ShaderLanguage : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShaderLanguage, GivesTheFramesOfTheLibrary) {
+    std::string why;
+    const std::unique_ptr<VulkanCompute> vulkan = VulkanCompute::open(why);
+    if (vulkan == nullptr) GTEST_SKIP() << why << " (scripts/setup installs mesa-vulkan-drivers)";
+    std::cout << vulkan->device() << '\n';
+    const std::vector<std::uint32_t> spirv = readSpirv(GetParam());
+    ASSERT_FALSE(spirv.empty()) << GetParam();
+    for (std::uint32_t number = 0; number < caseCount(); ++number) {
+        const Case c = makeCase(number, frameCount(GetParam()));
+        std::vector<float> results(c.expected.size());
+        ASSERT_EQ(vulkan->run(spirv, c.buffer, c.count(), results), "") << c.name;
+        EXPECT_EQ(whatIsWrong(c, results), "");
+        std::cout << c.name << ": " << c.count() << " items, differences up to " << worstDifference(c, results) << '\n';
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Spirv, ShaderLanguage, testing::Values(TSPACE_SPIRV_NAMES),
+                         [](const auto& language) { return std::string(language.param); });
+
+}  // namespace
+
+}  // namespace tspace::shaders
