@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: MIT
+"""Normals and tangent frames for meshes: the (T, B, N) and the sign that normal maps need.
+
+A *corner* is one (face, local vertex) pair; corners are numbered face after face. A *vertex* is one entry of the arrays. One
+vertex can need several tangents (at UV seams, where the UV map is mirrored), so results come per corner. The *sign* is the
+fourth number of a tangent: B = sign * cross(N, T). A *convention* says what a format means by it, so it must be named.
+
+Tangents per corner, mended, then an indexed mesh:
+
+>>> import numpy, tspace
+>>> positions = numpy.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], numpy.float32)
+>>> uvs = numpy.array([[0, 1], [1, 1], [1, 0], [0, 0]], numpy.float32)
+>>> indices = numpy.array([[0, 1, 2], [0, 2, 3]], numpy.uint32)
+>>> normals = numpy.broadcast_to(numpy.float32([0, 0, 1]), positions.shape)
+>>> tangents = tspace.tangents(positions, normals, uvs, indices, convention="gltf")
+>>> tangents.shape
+(6, 4)
+>>> tangents[0].tolist()
+[1.0, 0.0, 0.0, 1.0]
+>>> mended = tspace.sanitize(tangents, positions, normals, indices)
+>>> mesh = tspace.split(indices, len(positions), [mended])
+>>> mesh.indices.tolist()
+[0, 1, 2, 0, 2, 3]
+>>> positions[mesh.source_vertex].shape, mended[mesh.source_corner].shape
+((4, 3), (4, 4))
+
+A mesh that deforms:
+
+>>> plan = tspace.Plan(positions, normals, uvs, indices, convention="gltf")
+>>> bool((plan.evaluate(positions, normals) == tangents).all())
+True
+
+Functions
+    tangents        one tangent per corner, by nine methods; "mikktspace" gives every bit of the reference
+    normals         one normal per corner; crease angles, smoothing groups
+    Plan            groups once, tangents for every pose
+    sanitize        mends broken tangents, leaves every other bit alone
+    split           from corners back to an indexed mesh
+    triangulate     quads and n-gons into triangles
+    pack_frames, unpack_frames   N, T and the sign in 4 to 16 bytes
+
+Arrays
+    Positions and normals have shape (vertices, 3), UVs (vertices, 2), indices (corners,) or (faces, k); units are yours, angles
+    are degrees. Arrays of float32 are read where they lie, with any stride, and so are indices of uint8, uint16, uint32 and
+    int32. Other real numbers (float64, float16, integers, lists) are converted into a new array of float32, other integers
+    into uint32; so are layouts such as reversed or broadcast arrays. Numbers that do not fit, and all other types (complex,
+    bool, text), are an error.
+
+Errors
+    TypeError for what is no array of numbers, InputError (a ValueError) for wrong shapes and options, IndexRangeError (an
+    IndexError too) for indices: they say which argument, and where. Broken geometry is no error: it is counted in the reports
+    that `full=True` gives.
+
+Threads
+    The interpreter's lock is free during each call. Do not write to arrays while another thread's call reads them. A call
+    uses one thread unless `threads` says more; the bits are the same for any number.
+"""
+
+from ._abi import library as _library
+from ._after import (
+    PackResult,
+    SanitizeResult,
+    Split,
+    Triangles,
+    pack_frames,
+    sanitize,
+    split,
+    triangulate,
+    unpack_frames,
+)
+from ._errors import Error, FileError, IndexRangeError, InputError
+from ._normals import NormalResult, normals
+from ._options import Convention
+from ._reports import NormalReport, PackReport, SanitizeReport, TangentReport
+from ._tangents import Plan, TangentResult, tangents
+
+_number = _library.tspace_version()
+__version__ = f"{_number // 10000}.{_number // 100 % 100}.{_number % 100}"
+
+__all__ = [
+    "Convention",
+    "Error",
+    "FileError",
+    "IndexRangeError",
+    "InputError",
+    "NormalReport",
+    "NormalResult",
+    "PackReport",
+    "PackResult",
+    "Plan",
+    "SanitizeReport",
+    "SanitizeResult",
+    "Split",
+    "TangentReport",
+    "TangentResult",
+    "Triangles",
+    "normals",
+    "pack_frames",
+    "sanitize",
+    "split",
+    "tangents",
+    "triangulate",
+    "unpack_frames",
+]

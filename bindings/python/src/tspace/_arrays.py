@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: MIT
+"""numpy arrays as the spans of the C API.
+
+Arrays that have the right type and a layout that the C API takes are used where they lie. All others are converted into new
+arrays; what has no sensible conversion is refused.
+"""
+
+from typing import Any, Optional, Sequence, Tuple
+
+import numpy
+
+from . import _abi
+from ._errors import IndexRangeError, InputError
+from ._memory import new_array
+
+FLOAT32 = numpy.dtype(numpy.float32)
+UINT32 = numpy.dtype(numpy.uint32)
+INT32 = numpy.dtype(numpy.int32)
+# The type of the C API, for indices that are used where they lie. Negative ones of int32 become far too large, which the
+# library refuses.
+_INDEX_TYPES = {
+    numpy.dtype(numpy.uint8): 1,
+    numpy.dtype(numpy.uint16): 2,
+    UINT32: 4,
+    INT32: 4,
+}
+EMPTY_SPAN = _abi.Span()
+NO_INDICES = _abi.Indices()
+
+
+def _shape_text(shape: Sequence[int]) -> str:
+    return "(" + ", ".join(str(n) for n in shape) + ("," if len(shape) == 1 else "") + ")"
+
+
+def _as_array(name: str, value: Any) -> numpy.ndarray:
+    if value is None:
+        raise TypeError(f"{name} is None: an array is needed")
+    try:
+        return numpy.asarray(value)
+    except Exception as error:
+        raise TypeError(f"{name} is not an array of numbers: {error}") from error
+
+
+def _converted_to_float32(name: str, value: numpy.ndarray) -> numpy.ndarray:
+    try:
+        with numpy.errstate(over="raise", invalid="ignore"):
+            return numpy.ascontiguousarray(value, FLOAT32)
+    except FloatingPointError:
+        with numpy.errstate(over="ignore"):
+            bad = numpy.isinf(value.astype(FLOAT32)) & ~numpy.isinf(value)
+        where = tuple(int(i[0]) for i in numpy.nonzero(bad))
+        place = "[" + ", ".join(str(i) for i in where) + "]"
+        raise InputError(f"{name}{place} is {value[where]}, which does not fit into float32", element=where[0]) from None
+
+
+def float_array(name: str, value: Any, components: int) -> numpy.ndarray:
+    """An array of shape (n, components) of real numbers; its type and layout may be any."""
+    array = value if type(value) is numpy.ndarray else _as_array(name, value)
+    if array.dtype is not FLOAT32 and array.dtype.kind not in "fiu":
+        raise TypeError(f"{name} must be an array of float32, not of {array.dtype}")
+    if array.shape == (0,):  # an empty list
+        array = array.reshape(0, components)
+    if array.ndim != 2 or array.shape[1] != components:
+        raise InputError(f"{name} must have shape (n, {components}), not {_shape_text(array.shape)}", "countMismatch")
+    if len(array) > _abi.MAX_COUNT:
+        raise InputError(f"{name} has {len(array)} entries; at most {_abi.MAX_COUNT} are possible", "tooLarge")
+    return array
+
+
+def read_span(name: str, array: numpy.ndarray) -> Tuple[_abi.Span, numpy.ndarray]:
+    """A span over the result of float_array, or over a copy, and the array that has to live as long."""
+    if array.dtype is not FLOAT32:
+        array = _converted_to_float32(name, array)
+    address, stride = array.ctypes.data, array.strides[0]
+    if array.strides[1] != 4 or stride < 4 * array.shape[1] or (stride | address) & 3:
+        array = array.copy(order="C")
+        address, stride = array.ctypes.data, array.strides[0]
+    return _abi.Span(address, len(array), stride), array
+
+
+def output_array(out: Optional[numpy.ndarray], count: int, components: int) -> numpy.ndarray:
+    """The caller's array for results, checked, or a new one. 0 components: of shape (count,)."""
+    shape = (count, components) if components else (count,)
+    if out is None:
+        return new_array(shape)
+    if type(out) is not numpy.ndarray or out.dtype != FLOAT32:
+        kind = out.dtype if isinstance(out, numpy.ndarray) else type(out).__name__
+        raise TypeError(f"out must be a numpy array of float32, not {kind}")
+    if out.shape != shape:
+        raise InputError(f"out must have shape {_shape_text(shape)}, not {_shape_text(out.shape)}", "countMismatch")
+    if not out.flags.writeable:
+        raise InputError("out is read-only")
+    if out.size and (out.strides[1] != 4 or out.strides[0] < 4 * components or (out.strides[0] | out.ctypes.data) & 3):
+        raise InputError("out must have its rows in order and each row's numbers side by side", "strideTooSmall")
+    return out
+
+
+def write_span(array: numpy.ndarray) -> _abi.Span:
+    """A span over an array of output_array."""
+    return _abi.Span(array.ctypes.data, len(array), array.strides[0])
+
+
+def check_apart(out: Optional[numpy.ndarray], inputs: Sequence[numpy.ndarray]) -> None:
+    """Refuses an array for results that shares memory with inputs, which are read while it is written."""
+    if out is None:
+        return
+    for array in inputs:
+        if numpy.may_share_memory(out, array) and _overlap(out, array):
+            raise InputError("out shares memory with an input")
+
+
+def _overlap(a: numpy.ndarray, b: numpy.ndarray) -> bool:
+    try:
+        return numpy.shares_memory(a, b, max_work=10000)
+    except Exception:  # too hard to tell
+        return True
+
+
+def index_array(name: str, value: Any) -> numpy.ndarray:
+    """An array of integers, not yet converted."""
+    array = value if type(value) is numpy.ndarray else _as_array(name, value)
+    if array.dtype.kind not in "iu":
+        if array.size or type(value) is numpy.ndarray:
+            raise TypeError(f"{name} must be an array of integers, not of {array.dtype}")
+        array = array.astype(UINT32)  # an empty list
+    if array.size > _abi.MAX_COUNT:
+        raise InputError(f"{name} has {array.size} entries; at most {_abi.MAX_COUNT} are possible", "tooLarge")
+    return array
+
+
+def uint32_array(name: str, value: Any) -> numpy.ndarray:
+    """One-dimensional, dense, of uint32; a copy where it is not."""
+    array = index_array(name, value)
+    if array.ndim != 1:
+        raise InputError(f"{name} must have shape (n,), not {_shape_text(array.shape)}", "countMismatch")
+    if array.dtype != UINT32:
+        bad = _first_outside(array, 2**32)
+        if bad is not None:
+            raise InputError(f"{name}[{bad}] is {array[bad]}, which does not fit into uint32", "invalidOption", bad)
+    return numpy.require(array, UINT32, ("C", "A"))
+
+
+def _first_outside(array: numpy.ndarray, end: int) -> Optional[int]:
+    """The place of the first number that is not in [0, end)."""
+    if array.size == 0 or (int(array.min()) >= 0 and int(array.max()) < end):
+        return None
+    flat = array.ravel()
+    return int(numpy.flatnonzero((flat < 0) | (flat >= end))[0])
+
+
+def index_error(name: str, array: numpy.ndarray, place: int, entry_count: int) -> IndexRangeError:
+    """An index out of range, as the caller wrote it."""
+    text = f"{name}[{place}] is {array.flat[place]}; it must be 0 or more and less than {entry_count}"
+    return IndexRangeError(text, "indexOutOfRange", place)
+
+
+def read_indices(name: str, array: numpy.ndarray, entry_count: int) -> Tuple[_abi.Indices, numpy.ndarray]:
+    """Indices over the result of index_array, or over a copy, and the array that has to live as long.
+    entry_count: of the attribute that the indices name."""
+    kind = _INDEX_TYPES.get(array.dtype)
+    if kind is None:
+        bad = _first_outside(array, entry_count)
+        if bad is not None:
+            raise index_error(name, array, bad, entry_count)
+        array, kind = array.astype(UINT32), 4
+    if not (array.flags.c_contiguous and array.flags.aligned):
+        array = array.copy(order="C")
+    return _abi.Indices(array.ctypes.data, array.size, kind), array

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: MIT
+"""Exceptions, and turning the errors of the C API into them."""
+
+from typing import Optional
+
+from . import _abi
+
+_OUT_OF_MEMORY = 9
+_FIRST_FILE_CODE = 100
+
+
+class Error(Exception):
+    """What tspace refused. `str(error)` says what is wrong and where.
+
+    code:    a stable name, such as "indexOutOfRange"
+    element: the number of the element that is wrong, or None
+    """
+
+    code: str
+    element: Optional[int]
+
+    def __init__(self, message: str, code: str = "invalidArgument", element: Optional[int] = None):
+        super().__init__(message)
+        self.code = code
+        self.element = element
+
+
+class InputError(Error, ValueError):
+    """An argument with the right type and a wrong value: shape, count, range, name of an option."""
+
+
+class IndexRangeError(InputError, IndexError):
+    """An index that names no vertex."""
+
+
+class FileError(Error):
+    """A model file that is broken, has what tspace does not read, or cannot be read or written."""
+
+
+def raise_error(error: _abi.Error) -> None:
+    """Raises what the C API said."""
+    message = error.message.decode("utf-8", "replace")
+    if error.code == _OUT_OF_MEMORY:
+        raise MemoryError(message)
+    code = _abi.library.tspace_errorName(error.code).decode()
+    element = None if error.element == _abi.NO_ELEMENT else error.element
+    if error.code >= _FIRST_FILE_CODE:
+        kind = FileError
+    elif code == "indexOutOfRange":
+        kind = IndexRangeError
+    elif code == "internal":
+        kind = Error
+    else:
+        kind = InputError
+    raise kind(message, code, element)

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+"""Arrays for results. The memory of a large one is kept for the next when nobody uses it any more: to get fresh pages from
+the system takes a fifth as long as to compute tangents."""
+
+import math
+from collections import deque
+from typing import Deque, Tuple
+
+import numpy
+
+_LARGE_BYTES = 1 << 20  # the C library keeps smaller ones itself
+_spare: Deque[numpy.ndarray] = deque(maxlen=1)
+
+
+class _Block:
+    """Owns the memory of one result: arrays over it, and views of these, keep it alive."""
+
+    def __init__(self, memory: numpy.ndarray, shape: Tuple[int, ...]):
+        self.memory = memory
+        self.__array_interface__ = {
+            "data": (memory.ctypes.data, False),
+            "shape": shape,
+            "typestr": numpy.dtype(numpy.float32).str,
+            "version": 3,
+        }
+
+    # The default holds the list also while the interpreter ends.
+    def __del__(self, spare: Deque[numpy.ndarray] = _spare) -> None:
+        spare.append(self.memory)
+
+
+def new_array(shape: Tuple[int, ...]) -> numpy.ndarray:
+    """An array of float32 with any content."""
+    size = 4 * math.prod(shape)
+    if size < _LARGE_BYTES:
+        return numpy.empty(shape, numpy.float32)
+    try:
+        memory = _spare.pop()
+    except IndexError:
+        memory = None
+    # At most twice as much as needed, so that a small result does not hold a large one's memory.
+    if memory is None or not size <= memory.nbytes <= 2 * size:
+        memory = numpy.empty(size, numpy.uint8)
+    return numpy.asarray(_Block(memory, shape))

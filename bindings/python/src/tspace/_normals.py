@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: MIT
+"""Normals per corner."""
+
+import ctypes
+from ctypes import byref
+from typing import Any, NamedTuple, Optional, Union
+
+import numpy
+
+from . import _abi
+from ._arrays import check_apart, output_array, uint32_array, write_span
+from ._mesh import Mesh
+from ._options import ConventionLike, convention_struct, execution, named, real, small_number
+from ._reports import NormalReport, report
+
+
+class NormalResult(NamedTuple):
+    """Normals, and what was met."""
+
+    normals: numpy.ndarray  #: (corners, 3) float32
+    report: NormalReport
+
+
+def normals(
+    positions: Any,
+    indices: Any = None,
+    *,
+    face_sizes: Any = None,
+    weighting: str = "angle",
+    crease: float = 180.0,
+    smoothing_groups: Any = None,
+    smoothing_masks: bool = False,
+    weld_positions: bool = True,
+    convention: Optional[ConventionLike] = None,
+    refine: int = 1,
+    threads: Union[int, str] = 1,
+    out: Optional[numpy.ndarray] = None,
+    full: bool = False,
+) -> Union[numpy.ndarray, NormalResult]:
+    """Computes one unit normal per corner: (corners, 3) float32.
+
+    Without hard edges all corners of a vertex get one normal, so that
+    `vertex_normals = numpy.empty_like(positions); vertex_normals[indices] = normals` gives normals per vertex. With hard
+    edges they differ: `make_indexed_frames` or `split` make the vertices for them.
+
+    positions:        (vertices, 3)
+    indices:          (corners,), or (faces, k) for faces of k corners; None: corner c is vertex c
+    face_sizes:       None: triangles. A number: corners of every face. (faces,): corners of each face
+    weighting:        how much a face counts: "angle", "area", "angle_area", "uniform", "max", "best"; "flat": no averaging
+    crease:           degrees, 180: no edge is hard. Two faces are smoothed over their edge only when their normals differ
+                      by no more than this
+    smoothing_groups: (faces,), a number per face: faces smooth together only when theirs are equal and not 0
+    smoothing_masks:  True: faces smooth together whose numbers have a bit in common
+    weld_positions:   True: vertices at the same position are one point, so that UV seams stay smooth; False: only equal
+                      indices are
+    convention:       its handedness and winding say which side is out; None: right-handed, counter-clockwise
+    refine:           steps that "best" takes after its fit: 0, 1 or 2
+    threads:          1, another number, or "all". The bits are the same for any
+    out:              an array of float32 that takes the result and is returned
+    full:             True: returns a NormalResult, which has a report too
+    """
+    mesh = Mesh(positions, None, None, indices, face_sizes)
+    groups = None if smoothing_groups is None else uint32_array("smoothing_groups", smoothing_groups)
+    options = _abi.NormalOptions(
+        ctypes.sizeof(_abi.NormalOptions),
+        named("weighting", weighting, _abi.WEIGHTINGS),
+        real("crease", crease),
+        bool(smoothing_masks),
+        None if groups is None else groups.ctypes.data,
+        0 if groups is None else groups.size,
+        not weld_positions,
+        _abi.Convention() if convention is None else convention_struct(convention),
+        execution(threads),
+        small_number("refine", refine),
+    )
+    result = output_array(out, mesh.corner_count, 3)
+    check_apart(out, mesh.arrays if groups is None else [*mesh.arrays, groups])
+    counts = _abi.NormalReport(ctypes.sizeof(_abi.NormalReport))
+    error = _abi.Error()
+    if _abi.library.tspace_generateNormals(
+        byref(mesh.struct), byref(options), write_span(result), byref(counts), byref(error)
+    ):
+        mesh.fail(error)
+    return NormalResult(result, report(NormalReport, counts)) if full else result

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: MIT
+"""Options by their names, and conventions."""
+
+import functools
+import math
+import numbers
+from ctypes import byref
+from dataclasses import dataclass
+from typing import Any, Dict, Union
+
+from . import _abi
+from ._errors import InputError, raise_error
+
+_ALL_THREADS = 2**32 - 1
+
+
+def named(option: str, name: Any, table: Dict[str, int]) -> int:
+    """The number of a name."""
+    number = table.get(name) if isinstance(name, str) else None
+    if number is None:
+        known = ", ".join(repr(known) for known in table)
+        if not isinstance(name, str):
+            raise TypeError(f"{option} must be one of {known}, not {name!r}")
+        raise InputError(f"{option} is {name!r}, which is none of {known}", "invalidOption")
+    return number
+
+
+@dataclass(frozen=True)
+class Convention:
+    """What a format or engine means by its numbers: it decides the sign of tangents, and which side of a face is out.
+
+    Functions take one of these, or the name of a preset: "gltf", "opengl", "directx", "unreal", "unity", "blender", "godot".
+
+    v_axis:      "up" (v = 0 is the bottom row of the image) or "down" (the top row, as in glTF); has no default
+    green:       what large green means: "up" (towards the top row, "OpenGL") or "down" ("DirectX")
+    stored_sign: "as_is" (B = sign * cross(N, T)) or "negated"
+    handedness:  of the coordinate system, "right" or "left"
+    winding:     of a face seen from outside, "counter_clockwise" or "clockwise"
+    """
+
+    v_axis: str
+    green: str = "up"
+    stored_sign: str = "as_is"
+    handedness: str = "right"
+    winding: str = "counter_clockwise"
+
+    @staticmethod
+    def preset(name: str) -> "Convention":
+        """The preset of this name."""
+        found = convention_struct(name)
+        values = []
+        for table, number in zip(_CONVENTION_TABLES, (getattr(found, field) for field, _ in found._fields_)):
+            values.append(next(word for word, value in table.items() if value == number))
+        return Convention(*values)
+
+
+_CONVENTION_TABLES = (_abi.V_AXES, _abi.GREENS, _abi.STORED_SIGNS, _abi.HANDEDNESSES, _abi.WINDINGS)
+ConventionLike = Union[str, Convention]
+
+
+@functools.lru_cache(maxsize=64)
+def _convention_struct(convention: ConventionLike) -> _abi.Convention:
+    struct = _abi.Convention()
+    if isinstance(convention, Convention):
+        for (field, _), table in zip(struct._fields_, _CONVENTION_TABLES):
+            setattr(struct, field, named(field, getattr(convention, field), table))
+        return struct
+    error = _abi.Error()
+    if _abi.library.tspace_findConvention(convention.encode(), byref(struct), byref(error)):
+        raise_error(error)
+    return struct
+
+
+def convention_struct(convention: ConventionLike) -> _abi.Convention:
+    """The struct of the C API; it is shared, so nobody may write it."""
+    if not isinstance(convention, (str, Convention)):
+        raise TypeError(f"convention must be the name of a preset or a tspace.Convention, not {convention!r}")
+    return _convention_struct(convention)
+
+
+def thread_count(threads: Union[int, str]) -> int:
+    """The number of the C API: `threads` is a number from 1 on, or "all"."""
+    if threads == 1:
+        return 1
+    if threads == "all":
+        return _ALL_THREADS
+    if not isinstance(threads, numbers.Integral) or isinstance(threads, bool):
+        raise TypeError(f'threads must be a number or "all", not {threads!r}')
+    if not 1 <= threads < _ALL_THREADS:
+        raise InputError(f'threads is {threads}; it must be 1 or more, or "all"', "invalidOption")
+    return int(threads)
+
+
+def execution(threads: Union[int, str]) -> _abi.Execution:
+    return _abi.Execution(None, None, thread_count(threads), 0)
+
+
+def real(option: str, value: Any) -> float:
+    """A real number; the library says which range it needs."""
+    if not isinstance(value, numbers.Real) or isinstance(value, bool):
+        raise TypeError(f"{option} must be a real number, not {value!r}")
+    if math.isnan(value):
+        raise InputError(f"{option} is not a number", "invalidOption")
+    return float(value)
+
+
+def small_number(option: str, value: Any) -> int:
+    """A whole number that a uint32 holds; the library says which it takes."""
+    if not isinstance(value, numbers.Integral) or isinstance(value, bool):
+        raise TypeError(f"{option} must be a whole number, not {value!r}")
+    if not 0 <= value < 2**32:
+        raise InputError(f"{option} is {value}, which is out of range", "invalidOption")
+    return int(value)

@@ -1,0 +1,266 @@
+# SPDX-License-Identifier: MIT
+"""Tangents per corner, in one call or by a plan."""
+
+import ctypes
+import functools
+import weakref
+from ctypes import byref
+from typing import Any, NamedTuple, Optional, Tuple, Union
+
+import numpy
+
+from . import _abi
+from ._arrays import EMPTY_SPAN, check_apart, float_array, output_array, read_span, write_span
+from ._errors import InputError, raise_error
+from ._mesh import Mesh
+from ._options import ConventionLike, convention_struct, execution, named, real, small_number, thread_count
+from ._reports import TangentReport, report
+
+_library = _abi.library
+_OUTPUT_SIZE = ctypes.sizeof(_abi.TangentOutput)
+_METHOD_NAMES = {number: name for name, number in _abi.METHODS.items()}
+
+
+class TangentResult(NamedTuple):
+    """All outputs of a method, one entry per corner (or per vertex: domain="vertex")."""
+
+    tangents: numpy.ndarray  #: (n, 4) float32: unit tangent, and the sign
+    bitangents: numpy.ndarray  #: (n, 3) float32: unit direction of dP/dv; in general not cross(N, T)
+    magnitudes_s: numpy.ndarray  #: (n,) float32: mean length of dP/du; 1 for methods without
+    magnitudes_t: numpy.ndarray  #: (n,) float32: mean length of dP/dv; 1 for methods without
+    report: TangentReport
+
+
+def tangent_options(
+    method: Any,
+    convention: Any,
+    threshold: Any,
+    pairing: Any,
+    ngons: Any,
+    domain: Any,
+    frame: Any,
+    refine: Any,
+    threads: Any,
+) -> _abi.TangentOptions:
+    """The struct of the C API. It is shared, so nobody may write it."""
+    key = (method, convention, threshold, pairing, ngons, domain, frame, refine, thread_count(threads))
+    try:
+        hash(key)
+    except TypeError:  # wrong types, as the function will say
+        return _tangent_options.__wrapped__(*key)
+    return _tangent_options(*key)
+
+
+@functools.lru_cache(maxsize=64, typed=True)
+def _tangent_options(
+    method: Any,
+    convention: Any,
+    threshold: Any,
+    pairing: Any,
+    ngons: Any,
+    domain: Any,
+    frame: Any,
+    refine: Any,
+    threads: int,
+) -> _abi.TangentOptions:
+    return _abi.TangentOptions(
+        ctypes.sizeof(_abi.TangentOptions),
+        named("method", method, _abi.METHODS),
+        real("threshold", threshold),
+        named("pairing", pairing, _abi.PAIRINGS),
+        named("ngons", ngons, _abi.NGONS),
+        named("domain", domain, _abi.DOMAINS),
+        convention_struct(convention),
+        _abi.Execution(None, None, threads, 0),
+        named("frame", frame, _abi.FRAME_SHAPES),
+        small_number("refine", refine),
+    )
+
+
+def _output(count: int, out: Optional[numpy.ndarray], full: bool) -> Tuple[_abi.TangentOutput, Tuple[numpy.ndarray, ...]]:
+    """The struct, and the arrays that it points into: of tangents alone, or all four."""
+    tangents = output_array(out, count, 4)
+    if not full:
+        output = _abi.TangentOutput(_OUTPUT_SIZE, 0, write_span(tangents), EMPTY_SPAN, EMPTY_SPAN, EMPTY_SPAN)
+        return output, (tangents,)
+    arrays = (tangents, output_array(None, count, 3), output_array(None, count, 0), output_array(None, count, 0))
+    return _abi.TangentOutput(_OUTPUT_SIZE, 0, *(write_span(array) for array in arrays)), arrays
+
+
+def _new_report() -> _abi.TangentReport:
+    return _abi.TangentReport(ctypes.sizeof(_abi.TangentReport))
+
+
+def tangents(
+    positions: Any,
+    normals: Any,
+    uvs: Any,
+    indices: Any = None,
+    *,
+    face_sizes: Any = None,
+    method: str = "mikktspace",
+    convention: ConventionLike,
+    threshold: float = 180.0,
+    pairing: str = "reference",
+    ngons: str = "triangulate",
+    domain: str = "corner",
+    frame: str = "gram_schmidt",
+    refine: int = 1,
+    threads: Union[int, str] = 1,
+    out: Optional[numpy.ndarray] = None,
+    full: bool = False,
+) -> Union[numpy.ndarray, TangentResult]:
+    """Computes one tangent per corner, with its sign: (corners, 4) float32.
+
+    The first three numbers of a row are the unit tangent T, the fourth is the sign (+1 or -1): B = sign * cross(N, T). One
+    vertex can need several tangents, so never write rows through the old index list: `make_indexed_frames` or `split` make
+    the new one.
+
+    positions:  (vertices, 3)
+    normals:    (vertices, 3), unit; used as given. `tspace.normals` makes them
+    uvs:        (vertices, 2); None for method="basis", which needs none
+    indices:    (corners,), the vertex of each corner, or (faces, k) for faces of k corners; None: corner c is vertex c
+    face_sizes: None: triangles. A number: corners of every face. (faces,): corners of each face
+    method:     "mikktspace" (every bit of the MikkTSpace reference), "fast", "best", "lengyel", "uniform", "angle", "area",
+                "flat", or "basis"
+    convention: decides the sign, so it has no default: "gltf", "opengl", "directx", "unreal", "unity", "blender", "godot",
+                or a tspace.Convention
+    threshold:  degrees, 180 as in the reference; mikktspace only: faces whose tangents differ by this or more are not averaged
+    pairing:    mikktspace only: "reference", or "corrected", without the defect of its last bucket of edges
+    ngons:      faces of more than 4 corners: "triangulate", or "skip": their rows are zero, as the reference leaves them
+    domain:     "corner"; or "vertex", for "lengyel" and "basis" only: one row per vertex
+    frame:      "gram_schmidt"; or "symmetric": T is the bisector of dP/du and the direction across dP/dv
+    refine:     steps that "best" takes after its fit: 0, 1 or 2
+    threads:    1, another number, or "all". The bits are the same for any
+    out:        an array of float32 that takes the result and is returned; it may be a field of interleaved vertices
+    full:       True: returns a TangentResult, which has bitangents, magnitudes and a report too
+
+    Broken geometry (NaN, faces without area) is no error: it is counted in the report, and `sanitize` mends the result.
+    Raises TypeError, or InputError (a ValueError) that says which argument is wrong, and where; MemoryError.
+    """
+    options = tangent_options(method, convention, threshold, pairing, ngons, domain, frame, refine, threads)
+    mesh = Mesh(positions, normals, uvs, indices, face_sizes)
+    count = mesh.corner_count if options.domain == 0 else mesh.vertex_count
+    output, arrays = _output(count, out, full)
+    check_apart(out, mesh.arrays)
+    error = _abi.Error()
+    if not full:
+        if _library.tspace_generateTangents(byref(mesh.struct), byref(options), byref(output), None, byref(error)):
+            mesh.fail(error)
+        return arrays[0]
+    counts = _new_report()
+    if _library.tspace_generateTangents(byref(mesh.struct), byref(options), byref(output), byref(counts), byref(error)):
+        mesh.fail(error)
+    return TangentResult(*arrays, report(TangentReport, counts))
+
+
+class Plan:
+    """Everything about a mesh that does not change while it deforms: neighbours, groups, splits, UVs.
+
+    Takes what `tangents` takes. `evaluate` then gives the tangents of a pose, in a fraction of the time. Immutable, so
+    that many threads may evaluate one plan at the same time; keeps no array alive.
+
+    >>> plan = tspace.Plan(positions, normals, uvs, indices, convention="gltf")
+    >>> tangents = plan.evaluate(posed_positions, posed_normals)
+    """
+
+    def __init__(
+        self,
+        positions: Any,
+        normals: Any,
+        uvs: Any,
+        indices: Any = None,
+        *,
+        face_sizes: Any = None,
+        method: str = "mikktspace",
+        convention: ConventionLike,
+        threshold: float = 180.0,
+        pairing: str = "reference",
+        ngons: str = "triangulate",
+        domain: str = "corner",
+        frame: str = "gram_schmidt",
+        refine: int = 1,
+        threads: Union[int, str] = 1,
+    ):
+        """Makes a plan; arguments as those of `tangents`."""
+        options = tangent_options(method, convention, threshold, pairing, ngons, domain, frame, refine, threads)
+        mesh = Mesh(positions, normals, uvs, indices, face_sizes)
+        plan = ctypes.c_void_p()
+        error = _abi.Error()
+        if _library.tspace_planTangents(byref(mesh.struct), byref(options), byref(plan), byref(error)):
+            mesh.fail(error)
+        weakref.finalize(self, _library.tspace_destroyTangentPlan, plan)
+        info = _abi.TangentPlanInfo(ctypes.sizeof(_abi.TangentPlanInfo))
+        if _library.tspace_describeTangentPlan(plan, byref(info), byref(error)):
+            raise_error(error)
+        self._plan = plan
+        self._info = info
+
+    def evaluate(
+        self,
+        positions: Any,
+        normals: Any,
+        *,
+        threads: Union[int, str] = 1,
+        out: Optional[numpy.ndarray] = None,
+        full: bool = False,
+    ) -> Union[numpy.ndarray, TangentResult]:
+        """The tangents of a pose, with the plan's groups and splits: (corners, 4) float32.
+
+        On the pose that the plan was made from, the result is bit for bit that of `tangents`.
+
+        positions: (vertices, 3), as many as the plan's
+        normals:   (vertices, 3), unit, of this pose; as many as the plan's
+        threads, out, full: as for `tangents`
+        """
+        positions = float_array("positions", positions, 3)
+        normals = float_array("normals", normals, 3)
+        for name, array in (("positions", positions), ("normals", normals)):
+            if len(array) != self._info.vertex_count:
+                raise InputError(
+                    f"{name} has {len(array)} entries, the plan's mesh has {self._info.vertex_count} vertices",
+                    "planMismatch",
+                )
+        positions_span, positions = read_span("positions", positions)
+        normals_span, normals = read_span("normals", normals)
+        pose = _abi.Pose(ctypes.sizeof(_abi.Pose), 0, positions_span, normals_span)
+        output, arrays = _output(self._info.output_count, out, full)
+        check_apart(out, (positions, normals))
+        counts = _new_report() if full else None
+        error = _abi.Error()
+        if _library.tspace_evaluateTangents(
+            self._plan,
+            byref(pose),
+            byref(output),
+            byref(execution(threads)),
+            byref(counts) if counts is not None else None,
+            byref(error),
+        ):
+            raise_error(error)
+        return TangentResult(*arrays, report(TangentReport, counts)) if full else arrays[0]
+
+    @property
+    def method(self) -> str:
+        """The name of the method."""
+        return _METHOD_NAMES[self._info.method]
+
+    @property
+    def vertex_count(self) -> int:
+        """Vertices of the mesh."""
+        return self._info.vertex_count
+
+    @property
+    def corner_count(self) -> int:
+        """Corners of the mesh."""
+        return self._info.corner_count
+
+    @property
+    def memory_bytes(self) -> int:
+        """Bytes that the plan holds."""
+        return self._info.memory_bytes
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a Plan cannot be copied or pickled: make another one from the mesh")
+
+    def __repr__(self) -> str:
+        return f"<tspace.Plan: {self.method}, {self.vertex_count} vertices, {self.corner_count} corners>"

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: MIT
+"""The ctypes declarations against the C headers: every struct, field, number and count of parameters."""
+
+import ctypes
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from tspace import _abi
+
+INCLUDE = Path(__file__).resolve().parents[3] / "include"
+HEADERS = ("tspace.h", "tspace_frame.h", "tspace_pack.h")
+ENUMERATIONS = {
+    "METHOD": _abi.METHODS,
+    "PAIRING": _abi.PAIRINGS,
+    "NGONS": _abi.NGONS,
+    "DOMAIN": _abi.DOMAINS,
+    "FRAME": _abi.FRAME_SHAPES,
+    "NORMAL_WEIGHTING": _abi.WEIGHTINGS,
+    "FRAME_FORMAT": _abi.FRAME_FORMATS,
+    "V": _abi.V_AXES,
+    "GREEN": _abi.GREENS,
+    "SIGN": _abi.STORED_SIGNS,
+    "HANDEDNESS": _abi.HANDEDNESSES,
+    "WINDING": _abi.WINDINGS,
+}
+
+
+def structs():
+    kinds = [kind for kind in vars(_abi).values() if isinstance(kind, type) and issubclass(kind, ctypes.Structure)]
+    return [kind for kind in kinds if kind is not ctypes.Structure]
+
+
+def expected():
+    """C expression -> what Python says."""
+    values = {"TSPACE_NO_ELEMENT": _abi.NO_ELEMENT, "TSPACE_NO_CORNER": _abi.NO_CORNER}
+    for kind in structs():
+        for name in [kind.__name__] + (["ConstSpan"] if kind.__name__ == "Span" else []):
+            values[f"sizeof(tspace_{name})"] = ctypes.sizeof(kind)
+            for field, _ in kind._fields_:
+                values[f"offsetof(tspace_{name}, {field})"] = getattr(kind, field).offset
+    for prefix, table in ENUMERATIONS.items():
+        for name, number in table.items():
+            values[f"TSPACE_{prefix}_{name.upper()}"] = number
+    return values
+
+
+@unittest.skipUnless(INCLUDE.exists(), "the C headers are not there")
+class Abi(unittest.TestCase):
+    @unittest.skipUnless(shutil.which("cc"), "no C compiler")
+    def test_structs_and_numbers_are_those_of_the_headers(self):
+        values = expected()
+        self.assertGreater(len(values), 150)
+        lines = [f'printf("%llu\\n", (unsigned long long)({expression}));' for expression in values]
+        program = "#include <stdio.h>\n#include <tspace/tspace.h>\nint main(void) {\n" + "\n".join(lines) + "\n}\n"
+        with tempfile.TemporaryDirectory() as folder:
+            # CMake makes this header; nothing here depends on what it says.
+            (Path(folder) / "tspace").mkdir()
+            (Path(folder) / "tspace" / "version.h").write_text("")
+            (Path(folder) / "a.c").write_text(program)
+            compiler = ["cc", "-I", INCLUDE, "-I", folder, Path(folder) / "a.c", "-o", Path(folder) / "a"]
+            subprocess.run(compiler, check=True)
+            printed = subprocess.run([Path(folder) / "a"], check=True, capture_output=True, text=True).stdout
+        found = dict(zip(values, map(int, printed.split())))
+        self.assertEqual(found, values)
+
+    def test_all_fields_of_the_headers_are_declared(self):
+        text = "".join((INCLUDE / "tspace" / header).read_text() for header in HEADERS)
+        text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
+        bodies = {name: body for body, name in re.findall(r"typedef struct \w+ \{(.*?)\} tspace_(\w+);", text, re.S)}
+        for kind in structs():
+            with self.subTest(kind.__name__):
+                fields = re.findall(r"(\w+)(?:\[\d+\])?;", bodies[kind.__name__])
+                self.assertEqual(fields, [field for field, _ in kind._fields_])
+
+    def test_functions_take_as_many_parameters_as_the_headers_say(self):
+        text = "".join((INCLUDE / "tspace" / header).read_text() for header in HEADERS)
+        text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
+        declared = dict(re.findall(r"(tspace_\w+)\(([^()]*)\) TSPACE_NOEXCEPT;", text))
+        checked = 0
+        for name, parameters in declared.items():
+            arguments = getattr(_abi.library, name).argtypes
+            if arguments is not None:
+                count = 0 if parameters == "void" else parameters.count(",") + 1
+                self.assertEqual(len(arguments), count, name)
+                checked += 1
+        self.assertGreater(checked, 15)
+
+
+if __name__ == "__main__":
+    unittest.main()

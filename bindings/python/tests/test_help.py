@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: MIT
+"""What help() shows: its examples run, all arguments are explained, all have types."""
+
+import doctest
+import inspect
+import pydoc
+import typing
+import unittest
+from pathlib import Path
+
+import tspace
+
+
+def functions():
+    """Public functions and methods by their names."""
+    for name in tspace.__all__:
+        value = getattr(tspace, name)
+        if inspect.isfunction(value):
+            yield name, value
+    yield "Plan", tspace.Plan.__init__
+    yield "Plan.evaluate", tspace.Plan.evaluate
+
+
+class Help(unittest.TestCase):
+    def test_the_examples_of_the_package_run(self):
+        result = doctest.testmod(tspace)
+        self.assertGreater(result.attempted, 10)
+        self.assertEqual(result.failed, 0)
+
+    def test_help_shows_shapes_and_every_public_name(self):
+        text = pydoc.render_doc(tspace, renderer=pydoc.plaintext)
+        for name in tspace.__all__:
+            self.assertIn(name, text)
+        for shape in ("(vertices, 3)", "(vertices, 2)", "(corners, 4)", "(faces, k)"):
+            self.assertIn(shape, text)
+
+    def test_every_argument_is_explained_and_has_a_type(self):
+        for name, function in functions():
+            text = inspect.getdoc(tspace.tangents if name == "Plan" else function)
+            hints = typing.get_type_hints(function)
+            for argument in inspect.signature(function).parameters:
+                if argument != "self":
+                    with self.subTest(function=name, argument=argument):
+                        self.assertRegex(text, rf"(?m)^[ ,\w]*\b{argument}\b[ ,\w]*:")
+                        self.assertIn(argument, hints)
+            self.assertTrue(name == "Plan" or "return" in hints, name)
+
+    def test_type_checkers_are_told_that_there_are_types(self):
+        self.assertTrue((Path(tspace.__file__).parent / "py.typed").exists())
+
+    def test_the_version_is_that_of_the_library(self):
+        self.assertRegex(tspace.__version__, r"^\d+\.\d+\.\d+$")
+
+
+if __name__ == "__main__":
+    unittest.main()
