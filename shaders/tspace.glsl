@@ -41,14 +41,10 @@ vec3 tspace_axisAcross(vec3 n) {
 
 // +1 or -1 of a sign that was interpolated. Triangles whose vertices differ in sign are wrong in the mesh.
 // Cost: 2 operations.
-float tspace_signOf(float w) {
-    return w < 0.0 ? -1.0 : 1.0;
-}
+float tspace_signOf(float w) { return w < 0.0 ? -1.0 : 1.0; }
 
 // Cost: 14 operations.
-vec3 tspace_bitangent(vec3 normal, vec4 tangent) {
-    return cross(normal, tangent.xyz) * tspace_signOf(tangent.w);
-}
+vec3 tspace_bitangent(vec3 normal, vec4 tangent) { return cross(normal, tangent.xyz) * tspace_signOf(tangent.w); }
 
 // ---- packed frames. Words are little-endian, the first one holds the lowest bytes. Decode in the vertex shader and
 // interpolate what comes out, never words. Every word is a frame. The fold of the octahedron, the side of the basis and
@@ -56,15 +52,11 @@ vec3 tspace_bitangent(vec3 normal, vec4 tangent) {
 
 // The word of an attribute of four bytes: _FRAME32, _OCT32. Bind it as integers, not normalised.
 // Cost: 6 operations.
-uint tspace_word(uvec4 bytes) {
-    return bytes.x | bytes.y << 8u | bytes.z << 16u | bytes.w << 24u;
-}
+uint tspace_word(uvec4 bytes) { return bytes.x | bytes.y << 8u | bytes.z << 16u | bytes.w << 24u; }
 
 // The words of an attribute of shorts: _FRAME48 (with w = 0), _FRAME64. Bind it as integers, not normalised.
 // Cost: 4 operations.
-uvec2 tspace_words(uvec4 shorts) {
-    return shorts.xz | shorts.yw << 16u;
-}
+uvec2 tspace_words(uvec4 shorts) { return shorts.xz | shorts.yw << 16u; }
 
 // 4 bytes, N and T within 0.135 degrees: one of 24 turns of the axes, after a small rotation.
 // Cost: 119 operations, 1 division.
@@ -94,7 +86,8 @@ tspace_Frame tspace_decodeFrame32(uint word) {
 // Cost: 84 operations, 2 roots, 1 division.
 tspace_Frame tspace_frameOfAngle(vec2 ij, uint quarters, float k, float half_width, float quarter, uint mirrored) {
     vec2 d = ij - half_width;
-    float c = half_width - abs(d.x) - abs(d.y);  // whole numbers: below zero in the lower half, folded over the edges
+    // Whole numbers: below zero in the lower half, which is folded over the edges.
+    float c = half_width - abs(d.x) - abs(d.y);
     float s = c < 0.0 ? -1.0 : 1.0;
     vec3 b = vec3(abs(d) + min(c, 0.0), abs(c));
     vec3 n = b * (2.5 * half_width - b);
@@ -124,7 +117,8 @@ tspace_Frame tspace_decodeFrame48(uvec2 words) {
     uint ij = min(words.y << 15u | words.x >> 17u, 2147302920u);
     uint i = ij / 46339u;
     vec2 place = vec2(float(i), float(ij - i * 46339u));
-    return tspace_frameOfAngle(place, words.x >> 15u & 3u, float(words.x >> 1u & 16383u), 23169.0, 16384.0, words.x & 1u);
+    return tspace_frameOfAngle(place, words.x >> 15u & 3u, float(words.x >> 1u & 16383u), 23169.0, 16384.0,
+                               words.x & 1u);
 }
 
 // 8 bytes, N within 0.0001 and T within 0.00015 degrees.
@@ -157,9 +151,7 @@ tspace_Frame tspace_frameOfVectors(vec3 normal, vec3 tangent, float mirrored) {
 
 // The numbers of a word, lowest bits first: two of 16 bits, or four of 8, with a sign. The least one reads as the next.
 // Cost: 7 operations.
-vec2 tspace_shortsOf(uint word) {
-    return max(vec2(float(int(word << 16u) >> 16u), float(int(word) >> 16u)), -32767.0);
-}
+vec2 tspace_shortsOf(uint word) { return max(vec2(float(int(word << 16u) >> 16u), float(int(word) >> 16u)), -32767.0); }
 // Cost: 15 operations.
 vec4 tspace_bytesOf(uint word) {
     ivec4 bytes = ivec4(int(word << 24u), int(word << 16u), int(word << 8u), int(word)) >> 24;
@@ -197,35 +189,34 @@ tspace_Frame tspace_decodeGltfSnorm8(uvec2 words) {
 // Cost: 66 operations, 2 roots, 1 division.
 tspace_Frame tspace_decodeGltfSnorm16(uvec4 words) {
     vec2 tangent = tspace_shortsOf(words.x), last = tspace_shortsOf(words.y);
-    return tspace_frameOfVectors(vec3(tspace_shortsOf(words.z), tspace_shortsOf(words.w).x), vec3(tangent, last.x), last.y);
+    return tspace_frameOfVectors(vec3(tspace_shortsOf(words.z), tspace_shortsOf(words.w).x), vec3(tangent, last.x),
+                                 last.y);
 }
 
 // ---- texels of normal maps: green points along the bitangent. For maps made for DirectX negate y.
 
 // Of a map with three channels.
 // Cost: 6 operations.
-vec3 tspace_texel(vec3 rgb) {
-    return rgb * 2.0 - 1.0;
-}
+vec3 tspace_texel(vec3 rgb) { return rgb * 2.0 - 1.0; }
 
-// Of a map with two (BC5, EAC, RG8); for x in alpha and y in green (DXT5nm) pass rgba.ag. z is never negative. Filtering
-// shortens (x, y), so z comes out too long between texels that differ: the price of two channels.
+// Of a map with two (BC5, EAC, RG8); for x in alpha and y in green (DXT5nm) pass rgba.ag. z is never negative.
+// Filtering shortens (x, y), so z comes out too long between texels that differ: the price of two channels.
 // Cost: 9 operations, 1 root.
 vec3 tspace_texelOfTwo(vec2 rg) {
-    vec2 xy = rg * 2.0 - 1.0;
-    return vec3(xy, sqrt(max(0.0, 1.0 - dot(xy, xy))));
+    vec2 v = rg * 2.0 - 1.0;
+    return vec3(v, sqrt(max(0.0, 1.0 - dot(v, v))));
 }
 
 // ---- applying a texel. Take the one by which the map was baked: they differ by degrees on coarse meshes. normal,
 // tangent and bitangent are as interpolated.
 
-// MikkTSpace, bitangent per pixel (Blender, xNormal, Substance since 2020): nothing is made unit before the end.
+// MikkTSpace, bitangent per pixel (Blender): nothing is made unit before the end.
 // Cost: 37 operations, 1 root.
 vec3 tspace_applyMikktspace(vec3 texel, vec3 normal, vec4 tangent) {
     return normalize(texel.x * tangent.xyz + texel.y * tspace_bitangent(normal, tangent) + texel.z * normal);
 }
 
-// MikkTSpace, bitangent per vertex (older bakers; Unity's built-in pipeline): tspace_bitangent in the vertex shader.
+// MikkTSpace, bitangent per vertex (Unity's built-in pipeline): tspace_bitangent in the vertex shader.
 // Cost: 23 operations, 1 root.
 vec3 tspace_applyMikktspacePerVertex(vec3 texel, vec3 normal, vec3 tangent, vec3 bitangent) {
     return normalize(texel.x * tangent + texel.y * bitangent + texel.z * normal);
@@ -235,10 +226,12 @@ vec3 tspace_applyMikktspacePerVertex(vec3 texel, vec3 normal, vec3 tangent, vec3
 // whose frame is turned as a whole, else 1.
 // Cost: 50 operations, 4 roots.
 vec3 tspace_applyThree(vec3 texel, vec3 normal, vec3 tangent, vec3 bitangent, float face) {
-    return normalize(texel.x * normalize(tangent) + texel.y * normalize(bitangent) + texel.z * normalize(normal)) * face;
+    return normalize(texel.x * normalize(tangent) + texel.y * normalize(bitangent) + texel.z * normalize(normal)) *
+           face;
 }
 
-// Unreal: MikkTSpace per pixel, maps of two channels. Unreal's maps have green down, its frames V down.
+// Unreal: MikkTSpace per pixel, maps of two channels. Unreal's bitangents run the way V does, down, as green in its
+// maps.
 // Cost: 46 operations, 2 roots.
 vec3 tspace_applyUnreal(vec2 rg, vec3 normal, vec4 tangent) {
     return tspace_applyMikktspace(tspace_texelOfTwo(rg), normal, tangent);
@@ -281,8 +274,7 @@ tspace_Frame tspace_transformFrame(tspace_Frame frame, mat3 m) {
 // position, moves both N and T: blending frames of single bones instead would lose the right angle.
 // Cost: 155 operations, 2 roots.
 tspace_Frame tspace_skinFrame(tspace_Frame frame, mat3 bone0, mat3 bone1, mat3 bone2, mat3 bone3, vec4 weights) {
-    return tspace_transformFrame(frame,
-                                 bone0 * weights.x + bone1 * weights.y + bone2 * weights.z + bone3 * weights.w);
+    return tspace_transformFrame(frame, bone0 * weights.x + bone1 * weights.y + bone2 * weights.z + bone3 * weights.w);
 }
 
 // A frame with morph targets: the deltas are the sums of weight times target. N is made unit, T unit and across it; the
@@ -296,8 +288,8 @@ tspace_Frame tspace_morphFrame(tspace_Frame frame, vec3 normal_delta, vec3 tange
 
 // ---- meshes without tangents
 
-// The frame from how position and UV change from pixel to pixel: T along dP/du across N, and the sign of the UVs as seen
-// along N. Flat over each triangle, so seams show where stored tangents would be smooth. V must run the way green
+// The frame from how position and UV change from pixel to pixel: T along dP/du across N, and the sign of the UVs as
+// seen along N. Flat over each triangle, so seams show where stored tangents would be smooth. V must run the way green
 // points: for glTF pass (u, -v). Where UVs do not change, T is any vector across N.
 // Cost: 91 operations, 3 roots, 1 division.
 tspace_Frame tspace_frameOfSteps(vec3 normal, vec3 p_dx, vec3 p_dy, vec2 uv_dx, vec2 uv_dy) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Tangent frames in HLSL: decoding packed ones, normal maps, skinning, morphing, and frames where a mesh has none.
-// For shader model 4 and later, for Direct3D and Vulkan. Pixel shaders define TSPACE_FRAGMENT first, to have the function
-// that takes derivatives. tspace.glsl, tspace.metal and tspace.wgsl hold the same functions. docs/pack.md of tspace says
-// what the words mean and how exact they are; docs/shaders.md has the rules for everything else.
+// Tangent frames in HLSL: decoding packed ones, normal maps, skinning, morphing, and frames where a mesh has none. For
+// shader model 4 and later, for Direct3D and Vulkan. Pixel shaders define TSPACE_FRAGMENT first, to have the function
+// that takes derivatives. tspace.glsl, tspace.metal and tspace.wgsl hold the same functions. docs/pack.md of tspace
+// says what the words mean and how exact they are; docs/shaders.md has the rules for everything else.
 //
-// Costs are scalar operations as GLSL's compiler counts them: each + - * < ? & | ^ << >> and each conversion is one for each
-// component, a division of whole numbers by a constant two (high product and shift). Roots are inverse square roots or
-// square roots. Compilers merge some: what they leave is less.
+// Costs are scalar operations as GLSL's compiler counts them: each + - * < ? & | ^ << >> and each conversion is one for
+// each component, a division of whole numbers by a constant two (high product and shift). Roots are inverse square
+// roots or square roots. Compilers merge some: what they leave is less.
 #ifndef TSPACE_HLSL
 #define TSPACE_HLSL
 
@@ -41,14 +41,10 @@ float3 tspace_axisAcross(float3 n) {
 
 // +1 or -1 of a sign that was interpolated. Triangles whose vertices differ in sign are wrong in the mesh.
 // Cost: 2 operations.
-float tspace_signOf(float w) {
-    return w < 0.0 ? -1.0 : 1.0;
-}
+float tspace_signOf(float w) { return w < 0.0 ? -1.0 : 1.0; }
 
 // Cost: 14 operations.
-float3 tspace_bitangent(float3 normal, float4 tangent) {
-    return cross(normal, tangent.xyz) * tspace_signOf(tangent.w);
-}
+float3 tspace_bitangent(float3 normal, float4 tangent) { return cross(normal, tangent.xyz) * tspace_signOf(tangent.w); }
 
 // ---- packed frames. Words are little-endian, the first one holds the lowest bytes. Decode in the vertex shader and
 // interpolate what comes out, never words. Every word is a frame. The fold of the octahedron, the side of the basis and
@@ -56,15 +52,11 @@ float3 tspace_bitangent(float3 normal, float4 tangent) {
 
 // The word of an attribute of four bytes: _FRAME32, _OCT32. Bind it as integers, not normalised.
 // Cost: 6 operations.
-uint tspace_word(uint4 bytes) {
-    return bytes.x | bytes.y << 8u | bytes.z << 16u | bytes.w << 24u;
-}
+uint tspace_word(uint4 bytes) { return bytes.x | bytes.y << 8u | bytes.z << 16u | bytes.w << 24u; }
 
 // The words of an attribute of shorts: _FRAME48 (with w = 0), _FRAME64. Bind it as integers, not normalised.
 // Cost: 4 operations.
-uint2 tspace_words(uint4 shorts) {
-    return shorts.xz | shorts.yw << 16u;
-}
+uint2 tspace_words(uint4 shorts) { return shorts.xz | shorts.yw << 16u; }
 
 // 4 bytes, N and T within 0.135 degrees: one of 24 turns of the axes, after a small rotation.
 // Cost: 119 operations, 1 division.
@@ -94,7 +86,8 @@ tspace_Frame tspace_decodeFrame32(uint word) {
 // Cost: 84 operations, 2 roots, 1 division.
 tspace_Frame tspace_frameOfAngle(float2 ij, uint quarters, float k, float half_width, float quarter, uint mirrored) {
     float2 d = ij - half_width;
-    float c = half_width - abs(d.x) - abs(d.y);  // whole numbers: below zero in the lower half, folded over the edges
+    // Whole numbers: below zero in the lower half, which is folded over the edges.
+    float c = half_width - abs(d.x) - abs(d.y);
     float s = c < 0.0 ? -1.0 : 1.0;
     float3 b = float3(abs(d) + min(c, 0.0), abs(c));
     float3 n = b * (2.5 * half_width - b);
@@ -124,15 +117,16 @@ tspace_Frame tspace_decodeFrame48(uint2 words) {
     uint ij = min(words.y << 15u | words.x >> 17u, 2147302920u);
     uint i = ij / 46339u;
     float2 place = float2(float(i), float(ij - i * 46339u));
-    return tspace_frameOfAngle(place, words.x >> 15u & 3u, float(words.x >> 1u & 16383u), 23169.0, 16384.0, words.x & 1u);
+    return tspace_frameOfAngle(place, words.x >> 15u & 3u, float(words.x >> 1u & 16383u), 23169.0, 16384.0,
+                               words.x & 1u);
 }
 
 // 8 bytes, N within 0.0001 and T within 0.00015 degrees.
 // Cost: 99 operations, 2 roots, 1 division.
 tspace_Frame tspace_decodeFrame64(uint2 words) {
     uint i = min(words.y >> 11u, 2097150u), j = min((words.y << 10u & 2096128u) | words.x >> 22u, 2097150u);
-    return tspace_frameOfAngle(float2(float(i), float(j)), words.x >> 20u & 3u, float(words.x >> 1u & 524287u), 1048575.0,
-                               524288.0, words.x & 1u);
+    return tspace_frameOfAngle(float2(float(i), float(j)), words.x >> 20u & 3u, float(words.x >> 1u & 524287u),
+                               1048575.0, 524288.0, words.x & 1u);
 }
 
 // Of a quaternion of any length, as a normalised attribute has it: qtangent64 in glTF (_QTANGENT64), Filament and
@@ -197,35 +191,34 @@ tspace_Frame tspace_decodeGltfSnorm8(uint2 words) {
 // Cost: 66 operations, 2 roots, 1 division.
 tspace_Frame tspace_decodeGltfSnorm16(uint4 words) {
     float2 tangent = tspace_shortsOf(words.x), last = tspace_shortsOf(words.y);
-    return tspace_frameOfVectors(float3(tspace_shortsOf(words.z), tspace_shortsOf(words.w).x), float3(tangent, last.x), last.y);
+    return tspace_frameOfVectors(float3(tspace_shortsOf(words.z), tspace_shortsOf(words.w).x), float3(tangent, last.x),
+                                 last.y);
 }
 
 // ---- texels of normal maps: green points along the bitangent. For maps made for DirectX negate y.
 
 // Of a map with three channels.
 // Cost: 6 operations.
-float3 tspace_texel(float3 rgb) {
-    return rgb * 2.0 - 1.0;
-}
+float3 tspace_texel(float3 rgb) { return rgb * 2.0 - 1.0; }
 
-// Of a map with two (BC5, EAC, RG8); for x in alpha and y in green (DXT5nm) pass rgba.ag. z is never negative. Filtering
-// shortens (x, y), so z comes out too long between texels that differ: the price of two channels.
+// Of a map with two (BC5, EAC, RG8); for x in alpha and y in green (DXT5nm) pass rgba.ag. z is never negative.
+// Filtering shortens (x, y), so z comes out too long between texels that differ: the price of two channels.
 // Cost: 9 operations, 1 root.
 float3 tspace_texelOfTwo(float2 rg) {
-    float2 xy = rg * 2.0 - 1.0;
-    return float3(xy, sqrt(max(0.0, 1.0 - dot(xy, xy))));
+    float2 v = rg * 2.0 - 1.0;
+    return float3(v, sqrt(max(0.0, 1.0 - dot(v, v))));
 }
 
 // ---- applying a texel. Take the one by which the map was baked: they differ by degrees on coarse meshes. normal,
 // tangent and bitangent are as interpolated.
 
-// MikkTSpace, bitangent per pixel (Blender, xNormal, Substance since 2020): nothing is made unit before the end.
+// MikkTSpace, bitangent per pixel (Blender): nothing is made unit before the end.
 // Cost: 37 operations, 1 root.
 float3 tspace_applyMikktspace(float3 texel, float3 normal, float4 tangent) {
     return normalize(texel.x * tangent.xyz + texel.y * tspace_bitangent(normal, tangent) + texel.z * normal);
 }
 
-// MikkTSpace, bitangent per vertex (older bakers; Unity's built-in pipeline): tspace_bitangent in the vertex shader.
+// MikkTSpace, bitangent per vertex (Unity's built-in pipeline): tspace_bitangent in the vertex shader.
 // Cost: 23 operations, 1 root.
 float3 tspace_applyMikktspacePerVertex(float3 texel, float3 normal, float3 tangent, float3 bitangent) {
     return normalize(texel.x * tangent + texel.y * bitangent + texel.z * normal);
@@ -235,10 +228,12 @@ float3 tspace_applyMikktspacePerVertex(float3 texel, float3 normal, float3 tange
 // whose frame is turned as a whole, else 1.
 // Cost: 50 operations, 4 roots.
 float3 tspace_applyThree(float3 texel, float3 normal, float3 tangent, float3 bitangent, float face) {
-    return normalize(texel.x * normalize(tangent) + texel.y * normalize(bitangent) + texel.z * normalize(normal)) * face;
+    return normalize(texel.x * normalize(tangent) + texel.y * normalize(bitangent) + texel.z * normalize(normal)) *
+           face;
 }
 
-// Unreal: MikkTSpace per pixel, maps of two channels. Unreal's maps have green down, its frames V down.
+// Unreal: MikkTSpace per pixel, maps of two channels. Unreal's bitangents run the way V does, down, as green in its
+// maps.
 // Cost: 46 operations, 2 roots.
 float3 tspace_applyUnreal(float2 rg, float3 normal, float4 tangent) {
     return tspace_applyMikktspace(tspace_texelOfTwo(rg), normal, tangent);
@@ -262,12 +257,12 @@ float3 tspace_applyGodot(float2 rg, float3 normal, float3 tangent, float3 bitang
 
 // ---- deformed meshes: glTF's order is morphing, then skinning, then the node's matrix.
 
-// A frame after the linear map mul(m, v) (without the translation). T, a direction on the surface, goes by m itself. N goes by
-// the cofactor matrix: cof(m) cross(a, b) = cross(m a, m b), and dot(cof(m) N, m T) = det(m) dot(N, T) = 0, so N and T
-// stay at a right angle under any scale or shear, which m alone would break; and unlike the inverse transpose it needs
-// no division and holds when m is flat. Where m mirrors (det < 0), cof(m) N points inwards: N is turned outwards again,
-// and the sign turns with it, so that the bitangent stays m B. A renderer that flips normals of back faces and cannot
-// turn the winding of such triangles (skins) wants N and the sign both negated: same bitangent.
+// A frame after the linear map mul(m, v) (without the translation). T, a direction on the surface, goes by m itself. N
+// goes by the cofactor matrix: cof(m) cross(a, b) = cross(m a, m b), and dot(cof(m) N, m T) = det(m) dot(N, T) = 0, so
+// N and T stay at a right angle under any scale or shear, which m alone would break; and unlike the inverse transpose
+// it needs no division and holds when m is flat. Where m mirrors (det < 0), cof(m) N points inwards: N is turned
+// outwards again, and the sign turns with it, so that the bitangent stays m B. A renderer that flips normals of back
+// faces and cannot turn the winding of such triangles (skins) wants N and the sign both negated: same bitangent.
 // Cost: 92 operations, 2 roots.
 tspace_Frame tspace_transformFrame(tspace_Frame frame, float3x3 m) {
     float3x3 columns = transpose(m);
@@ -275,15 +270,16 @@ tspace_Frame tspace_transformFrame(tspace_Frame frame, float3x3 m) {
     float s = tspace_signOf(dot(columns[0], c0));
     float3 n = (c0 * frame.normal.x + c1 * frame.normal.y + c2 * frame.normal.z) * s;
     float3 t = columns[0] * frame.tangent.x + columns[1] * frame.tangent.y + columns[2] * frame.tangent.z;
-    return tspace_makeFrame(tspace_unit(n, frame.normal), float4(tspace_unit(t, frame.tangent.xyz), frame.tangent.w * s));
+    return tspace_makeFrame(tspace_unit(n, frame.normal),
+                            float4(tspace_unit(t, frame.tangent.xyz), frame.tangent.w * s));
 }
 
 // A frame of a skinned vertex: linear blend skinning with up to four bones. The blended matrix, the one that moves the
 // position, moves both N and T: blending frames of single bones instead would lose the right angle.
 // Cost: 155 operations, 2 roots.
-tspace_Frame tspace_skinFrame(tspace_Frame frame, float3x3 bone0, float3x3 bone1, float3x3 bone2, float3x3 bone3, float4 weights) {
-    return tspace_transformFrame(frame,
-                                 bone0 * weights.x + bone1 * weights.y + bone2 * weights.z + bone3 * weights.w);
+tspace_Frame tspace_skinFrame(tspace_Frame frame, float3x3 bone0, float3x3 bone1, float3x3 bone2, float3x3 bone3,
+                              float4 weights) {
+    return tspace_transformFrame(frame, bone0 * weights.x + bone1 * weights.y + bone2 * weights.z + bone3 * weights.w);
 }
 
 // A frame with morph targets: the deltas are the sums of weight times target. N is made unit, T unit and across it; the
@@ -297,8 +293,8 @@ tspace_Frame tspace_morphFrame(tspace_Frame frame, float3 normal_delta, float3 t
 
 // ---- meshes without tangents
 
-// The frame from how position and UV change from pixel to pixel: T along dP/du across N, and the sign of the UVs as seen
-// along N. Flat over each triangle, so seams show where stored tangents would be smooth. V must run the way green
+// The frame from how position and UV change from pixel to pixel: T along dP/du across N, and the sign of the UVs as
+// seen along N. Flat over each triangle, so seams show where stored tangents would be smooth. V must run the way green
 // points: for glTF pass (u, -v). Where UVs do not change, T is any vector across N.
 // Cost: 91 operations, 3 roots, 1 division.
 tspace_Frame tspace_frameOfSteps(float3 normal, float3 p_dx, float3 p_dy, float2 uv_dx, float2 uv_dy) {

@@ -304,25 +304,26 @@ void threeItem(RandomBits& random, Item& item) {
     item.add(face);
     item.expect(face * unitOf(combined(texel, unitOf(in.tangent), unitOf(in.bitangent), unitOf(in.normal))));
 }
-void unrealItem(RandomBits& random, Item& item) {
+/// After the channels of a map that holds x and y, (r, g).
+void addTwoChannelRest(RandomBits& random, Item& item, double r, double g) {
     const Interpolated in = someInterpolated(random);
+    item.add(in.normal);
+    item.add(in.tangent);
+    item.add(in.w);
+    const DVec3 bitangent = in.sign * cross(in.normal, in.tangent);
+    item.expect(unitOf(combined(unpackedTexel(r, g), in.tangent, bitangent, in.normal)));
+}
+void unrealItem(RandomBits& random, Item& item) {
     const double r = number(random, 0.25, 0.75), g = number(random, 0.25, 0.75);
     item.add(r);
     item.add(g);
-    item.add(in.normal);
-    item.add(in.tangent);
-    item.add(in.w);
-    item.expect(unitOf(combined(unpackedTexel(r, g), in.tangent, in.sign * cross(in.normal, in.tangent), in.normal)));
+    addTwoChannelRest(random, item, r, g);
 }
 void unityItem(RandomBits& random, Item& item) {
-    const Interpolated in = someInterpolated(random);
     const double x = number(random, 0.25, 0.75), g = number(random, 0.25, 0.75);
     const bool is_in_alpha = (random.next() & 1) != 0;
     for (const double channel : {is_in_alpha ? 1.0 : x, g, 0.3, is_in_alpha ? x : 1.0}) item.add(channel);
-    item.add(in.normal);
-    item.add(in.tangent);
-    item.add(in.w);
-    item.expect(unitOf(combined(unpackedTexel(x, g), in.tangent, in.sign * cross(in.normal, in.tangent), in.normal)));
+    addTwoChannelRest(random, item, x, g);
 }
 void godotItem(RandomBits& random, Item& item) {
     const Interpolated in = someInterpolated(random);

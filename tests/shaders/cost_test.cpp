@@ -48,7 +48,7 @@ TEST_P(ShaderFiles, HaveTheFunctionsAndCostsOfTheOthers) {
     EXPECT_EQ(statedCosts(GetParam()), statedCosts("tspace.glsl"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Languages, ShaderFiles, testing::Values("tspace.hlsl"));
+INSTANTIATE_TEST_SUITE_P(Languages, ShaderFiles, testing::Values("tspace.hlsl", "tspace.metal", "tspace.wgsl"));
 
 }  // namespace
 

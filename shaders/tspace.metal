@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+// Tangent frames in the Metal shading language: decoding packed ones, normal maps, skinning, morphing, and frames where
+// a mesh has none. For Metal 1 and later. Include it; files with fragment functions define TSPACE_FRAGMENT first, to
+// have the function that takes derivatives. tspace.glsl, tspace.hlsl and tspace.wgsl hold the same functions.
+// docs/pack.md of tspace says what the words mean and how exact they are; docs/shaders.md has the rules for everything
+// else.
+//
+// Costs are scalar operations as GLSL's compiler counts them: each + - * < ? & | ^ << >> and each conversion is one for
+// each component, a division of whole numbers by a constant two (high product and shift). Roots are inverse square
+// roots or square roots. Compilers merge some: what they leave is less.
+#pragma once
+
+#include <metal_stdlib>
+
+// N and T are unit. tangent.w is the sign, +1 or -1: the bitangent is cross(normal, tangent.xyz) * tangent.w.
+struct tspace_Frame {
+    float3 normal;
+    float4 tangent;
+};
+
+// ---- small things
+
+// v made unit, or `otherwise` where v has no direction.
+// Cost: 12 operations, 1 root.
+inline float3 tspace_unit(float3 v, float3 otherwise) {
+    float square = metal::dot(v, v);
+    return square > 0.0f ? v * metal::rsqrt(square) : otherwise;
+}
+
+// A unit vector across the unit vector n.
+// Cost: 12 operations, 1 division.
+inline float3 tspace_axisAcross(float3 n) {
+    float s = n.z < 0.0f ? -1.0f : 1.0f;
+    float h = -1.0f / (s + n.z);
+    return float3(1.0f + s * n.x * n.x * h, s * n.x * n.y * h, -s * n.x);
+}
+
+// +1 or -1 of a sign that was interpolated. Triangles whose vertices differ in sign are wrong in the mesh.
+// Cost: 2 operations.
+inline float tspace_signOf(float w) { return w < 0.0f ? -1.0f : 1.0f; }
+
+// Cost: 14 operations.
+inline float3 tspace_bitangent(float3 normal, float4 tangent) {
+    return metal::cross(normal, tangent.xyz) * tspace_signOf(tangent.w);
+}
+
+// ---- packed frames. Words are little-endian, the first one holds the lowest bytes. Decode in the vertex shader and
+// interpolate what comes out, never words. Every word is a frame. The fold of the octahedron, the side of the basis and
+// the sign come from whole numbers, so no rounding of a GPU turns a frame over; there is no sine or cosine.
+
+// The word of an attribute of four bytes: _FRAME32, _OCT32. Bind it as integers, not normalised.
+// Cost: 6 operations.
+inline uint tspace_word(uint4 bytes) { return bytes.x | bytes.y << 8u | bytes.z << 16u | bytes.w << 24u; }
+
+// The words of an attribute of shorts: _FRAME48 (with w = 0), _FRAME64. Bind it as integers, not normalised.
+// Cost: 4 operations.
+inline uint2 tspace_words(uint4 shorts) { return shorts.xz | shorts.yw << 16u; }
+
+// 4 bytes, N and T within 0.135 degrees: one of 24 turns of the axes, after a small rotation.
+// Cost: 119 operations, 1 division.
+inline tspace_Frame tspace_decodeFrame32(uint word) {
+    uint code = metal::min(word >> 1u, 2147306975u);
+    uint columns = code / 453u, z = code - columns * 453u;
+    uint rest = columns / 436u, y = columns - rest * 436u;
+    uint g = rest / 453u, x = rest - g * 453u;
+    float3 u = float3(float(x) - 226.0f, float(2u * y + ((x + z) & 1u)) - 436.0f, float(z) - 226.0f);
+    u *= float3(1.0f / 226.0f, 1.0f / 435.0f, 1.0f / 226.0f);
+    float3 p = u * (0.38728967f + 0.02692388f * (u * u));  // axis times the tangent of half the angle
+    float k = 2.0f / (1.0f + metal::dot(p, p));
+    float3 n = float3(k * (p.x * p.z + p.y), k * (p.y * p.z - p.x), 1.0f - k * (p.x * p.x + p.y * p.y));
+    float3 t = float3(1.0f - k * (p.y * p.y + p.z * p.z), k * (p.x * p.y + p.z), k * (p.x * p.z - p.y));
+    bool is_swap = g >= 12u;
+    uint turns = is_swap ? g - 12u : g;
+    n = is_swap ? n.xzy : n;
+    t = is_swap ? t.xzy : t;
+    n = turns < 4u ? n : turns < 8u ? n.yzx : n.zxy;
+    t = turns < 4u ? t : turns < 8u ? t.yzx : t.zxy;
+    uint third = (g ^ g >> 1u) & 1u;
+    float3 s = 1.0f - 2.0f * float3(float(g & 1u), float(g >> 1u & 1u), float(is_swap ? third ^ 1u : third));
+    return tspace_Frame{n * s, float4(t * s, 1.0f - 2.0f * float(word & 1u))};
+}
+
+// N at (i, j) of the unfolded octahedron, 2 half + 1 wide, and T at step k of a turn of 4 quarter steps around it.
+// Cost: 84 operations, 2 roots, 1 division.
+inline tspace_Frame tspace_frameOfAngle(float2 ij, uint quarters, float k, float half_width, float quarter,
+                                        uint mirrored) {
+    float2 d = ij - half_width;
+    // Whole numbers: below zero in the lower half, which is folded over the edges.
+    float c = half_width - metal::abs(d.x) - metal::abs(d.y);
+    float s = c < 0.0f ? -1.0f : 1.0f;
+    float3 b = float3(metal::abs(d) + metal::min(c, 0.0f), metal::abs(c));
+    float3 n = b * (2.5f * half_width - b);
+    n *= metal::rsqrt(metal::dot(n, n));
+    n = float3(d.x < 0.0f ? -n.x : n.x, d.y < 0.0f ? -n.y : n.y, s * n.z);
+
+    float h = -1.0f / (s + n.z), e = n.x * n.y * h;
+    float3 p = float3(1.0f + s * n.x * n.x * h, s * e, -s * n.x), q = float3(e, s + n.y * n.y * h, -n.y);
+    float l = quarter - k, run = l * (2.75f * quarter - l), rise = k * (2.75f * quarter - k);
+    float scale = metal::rsqrt(run * run + rise * rise);
+    scale = (quarters & 2u) != 0u ? -scale : scale;
+    float2 turn = (quarters & 1u) != 0u ? float2(-rise, run) : float2(run, rise);
+    return tspace_Frame{n, float4((p * turn.x + q * turn.y) * scale, 1.0f - 2.0f * float(mirrored))};
+}
+
+// 4 bytes, N within 0.15 and T within 0.165 degrees.
+// Cost: 97 operations, 2 roots, 1 division.
+inline tspace_Frame tspace_decodeOct32(uint word) {
+    float2 ij = float2(float(metal::min(word >> 22u, 1022u)), float(metal::min(word >> 12u & 1023u, 1022u)));
+    return tspace_frameOfAngle(ij, word >> 10u & 3u, float(word >> 1u & 511u), 511.0f, 512.0f, word & 1u);
+}
+
+// 6 bytes, N within 0.0037 and T within 0.0042 degrees. words.y has the upper 16 bits; what is above them counts for
+// nothing.
+// Cost: 100 operations, 2 roots, 1 division.
+inline tspace_Frame tspace_decodeFrame48(uint2 words) {
+    uint ij = metal::min(words.y << 15u | words.x >> 17u, 2147302920u);
+    uint i = ij / 46339u;
+    float2 place = float2(float(i), float(ij - i * 46339u));
+    return tspace_frameOfAngle(place, words.x >> 15u & 3u, float(words.x >> 1u & 16383u), 23169.0f, 16384.0f,
+                               words.x & 1u);
+}
+
+// 8 bytes, N within 0.0001 and T within 0.00015 degrees.
+// Cost: 99 operations, 2 roots, 1 division.
+inline tspace_Frame tspace_decodeFrame64(uint2 words) {
+    uint i = metal::min(words.y >> 11u, 2097150u);
+    uint j = metal::min((words.y << 10u & 2096128u) | words.x >> 22u, 2097150u);
+    return tspace_frameOfAngle(float2(float(i), float(j)), words.x >> 20u & 3u, float(words.x >> 1u & 524287u),
+                               1048575.0f, 524288.0f, words.x & 1u);
+}
+
+// Of a quaternion of any length, as a normalised attribute has it: qtangent64 in glTF (_QTANGENT64), Filament and
+// CryEngine. The sign is that of w, which encoders never leave 0, not even at half turns: there it is 1/32767. So
+// compare with zero, as here: sign() is as good, but half precision may flush 1/32767 to zero, and the sign with it.
+// Cost: 39 operations, 1 division.
+inline tspace_Frame tspace_frameOfQuaternion(float4 q) {
+    float square = metal::dot(q, q), w = square > 0.0f ? q.w : 1.0f, k = square > 0.0f ? 2.0f / square : 2.0f;
+    float3 v = q.xyz;
+    float3 normal = float3(k * (v.z * v.x + w * v.y), k * (v.y * v.z - w * v.x), 1.0f - k * (v.x * v.x + v.y * v.y));
+    float3 tangent = float3(1.0f - k * (v.y * v.y + v.z * v.z), k * (v.x * v.y + w * v.z), k * (v.z * v.x - w * v.y));
+    return tspace_Frame{normal, float4(tangent, tspace_signOf(w))};
+}
+
+// N and T that are stored apart, and made unit here: snorm pairs as normalised attributes, (T, 1) and (N, sign), and
+// glTF's quantised (T, sign) and N.
+// Cost: 38 operations, 2 roots, 1 division.
+inline tspace_Frame tspace_frameOfVectors(float3 normal, float3 tangent, float mirrored) {
+    float3 n = tspace_unit(normal, float3(0.0f, 0.0f, 1.0f));
+    return tspace_Frame{n, float4(tspace_unit(tangent, tspace_axisAcross(n)), tspace_signOf(mirrored))};
+}
+
+// The numbers of a word, lowest bits first: two of 16 bits, or four of 8, with a sign. The least one reads as the next.
+// Cost: 7 operations.
+inline float2 tspace_shortsOf(uint word) {
+    return metal::max(float2(float(int(word << 16u) >> 16u), float(int(word) >> 16u)), -32767.0f);
+}
+// Cost: 15 operations.
+inline float4 tspace_bytesOf(uint word) {
+    int4 bytes = int4(int(word << 24u), int(word << 16u), int(word << 8u), int(word)) >> 24;
+    return metal::max(float4(bytes), -127.0f);
+}
+
+// 8 bytes, N and T within 0.004 degrees.
+// Cost: 53 operations, 1 division.
+inline tspace_Frame tspace_decodeQtangent64(uint2 words) {
+    return tspace_frameOfQuaternion(float4(tspace_shortsOf(words.x), tspace_shortsOf(words.y)));
+}
+
+// 8 bytes, N and T within 0.391 degrees: (T, 1) and (N, sign), as Unreal's TangentX and TangentZ.
+// Cost: 68 operations, 2 roots, 1 division.
+inline tspace_Frame tspace_decodeSnorm8Pair(uint2 words) {
+    float4 normal = tspace_bytesOf(words.y);
+    return tspace_frameOfVectors(normal.xyz, tspace_bytesOf(words.x).xyz, normal.w);
+}
+
+// 16 bytes, N and T within 0.00152 degrees: the same.
+// Cost: 66 operations, 2 roots, 1 division.
+inline tspace_Frame tspace_decodeSnorm16Pair(uint4 words) {
+    float2 tangent = tspace_shortsOf(words.x), normal = tspace_shortsOf(words.z), last = tspace_shortsOf(words.w);
+    return tspace_frameOfVectors(float3(normal, last.x), float3(tangent, tspace_shortsOf(words.y).x), last.y);
+}
+
+// 7 bytes, N and T within 0.391 degrees: (T, sign) and N, as KHR_mesh_quantization. The eighth byte counts for nothing.
+// Cost: 68 operations, 2 roots, 1 division.
+inline tspace_Frame tspace_decodeGltfSnorm8(uint2 words) {
+    float4 tangent = tspace_bytesOf(words.x);
+    return tspace_frameOfVectors(tspace_bytesOf(words.y).xyz, tangent.xyz, tangent.w);
+}
+
+// 14 bytes, N and T within 0.00152 degrees: the same. The upper half of the last word counts for nothing.
+// Cost: 66 operations, 2 roots, 1 division.
+inline tspace_Frame tspace_decodeGltfSnorm16(uint4 words) {
+    float2 tangent = tspace_shortsOf(words.x), last = tspace_shortsOf(words.y);
+    return tspace_frameOfVectors(float3(tspace_shortsOf(words.z), tspace_shortsOf(words.w).x), float3(tangent, last.x),
+                                 last.y);
+}
+
+// ---- texels of normal maps: green points along the bitangent. For maps made for DirectX negate y.
+
+// Of a map with three channels.
+// Cost: 6 operations.
+inline float3 tspace_texel(float3 rgb) { return rgb * 2.0f - 1.0f; }
+
+// Of a map with two (BC5, EAC, RG8); for x in alpha and y in green (DXT5nm) pass rgba.ag. z is never negative.
+// Filtering shortens (x, y), so z comes out too long between texels that differ: the price of two channels.
+// Cost: 9 operations, 1 root.
+inline float3 tspace_texelOfTwo(float2 rg) {
+    float2 v = rg * 2.0f - 1.0f;
+    return float3(v, metal::sqrt(metal::max(0.0f, 1.0f - metal::dot(v, v))));
+}
+
+// ---- applying a texel. Take the one by which the map was baked: they differ by degrees on coarse meshes. normal,
+// tangent and bitangent are as interpolated.
+
+// MikkTSpace, bitangent per pixel (Blender): nothing is made unit before the end.
+// Cost: 37 operations, 1 root.
+inline float3 tspace_applyMikktspace(float3 texel, float3 normal, float4 tangent) {
+    return metal::normalize(texel.x * tangent.xyz + texel.y * tspace_bitangent(normal, tangent) + texel.z * normal);
+}
+
+// MikkTSpace, bitangent per vertex (Unity's built-in pipeline): tspace_bitangent in the vertex shader.
+// Cost: 23 operations, 1 root.
+inline float3 tspace_applyMikktspacePerVertex(float3 texel, float3 normal, float3 tangent, float3 bitangent) {
+    return metal::normalize(texel.x * tangent + texel.y * bitangent + texel.z * normal);
+}
+
+// three.js: bitangent per vertex, each vector made unit before. `face`: -1 on back faces of double-sided materials,
+// whose frame is turned as a whole, else 1.
+// Cost: 50 operations, 4 roots.
+inline float3 tspace_applyThree(float3 texel, float3 normal, float3 tangent, float3 bitangent, float face) {
+    float3 t = metal::normalize(tangent), b = metal::normalize(bitangent), n = metal::normalize(normal);
+    return metal::normalize(texel.x * t + texel.y * b + texel.z * n) * face;
+}
+
+// Unreal: MikkTSpace per pixel, maps of two channels. Unreal's bitangents run the way V does, down, as green in its
+// maps.
+// Cost: 46 operations, 2 roots.
+inline float3 tspace_applyUnreal(float2 rg, float3 normal, float4 tangent) {
+    return tspace_applyMikktspace(tspace_texelOfTwo(rg), normal, tangent);
+}
+
+// Unity, URP and HDRP: MikkTSpace per pixel; x is red times alpha, so that maps with x in either do. The sign that the
+// vertex shader hands over is TANGENT.w * unity_WorldTransformParams.w.
+// Cost: 47 operations, 2 roots.
+inline float3 tspace_applyUnity(float4 rgba, float3 normal, float4 tangent) {
+    return tspace_applyMikktspace(tspace_texelOfTwo(float2(rgba.x * rgba.w, rgba.y)), normal, tangent);
+}
+
+// Godot 4: bitangent per vertex, each vector made unit before, maps of two channels, and `depth` (normal_map_depth)
+// mixes with the normal.
+// Cost: 65 operations, 5 roots.
+inline float3 tspace_applyGodot(float2 rg, float3 normal, float3 tangent, float3 bitangent, float depth) {
+    float3 texel = tspace_texelOfTwo(rg), n = metal::normalize(normal);
+    float3 mapped = texel.x * metal::normalize(tangent) + texel.y * metal::normalize(bitangent) + texel.z * n;
+    return metal::normalize(metal::mix(n, mapped, depth));
+}
+
+// ---- deformed meshes: glTF's order is morphing, then skinning, then the node's matrix.
+
+// A frame after the linear map m (without the translation). T, a direction on the surface, goes by m itself. N goes by
+// the cofactor matrix: cof(m) cross(a, b) = cross(m a, m b), and dot(cof(m) N, m T) = det(m) dot(N, T) = 0, so N and T
+// stay at a right angle under any scale or shear, which m alone would break; and unlike the inverse transpose it needs
+// no division and holds when m is flat. Where m mirrors (det < 0), cof(m) N points inwards: N is turned outwards again,
+// and the sign turns with it, so that the bitangent stays m B. A renderer that flips normals of back faces and cannot
+// turn the winding of such triangles (skins) wants N and the sign both negated: same bitangent.
+// Cost: 92 operations, 2 roots.
+inline tspace_Frame tspace_transformFrame(tspace_Frame frame, metal::float3x3 m) {
+    float3 c0 = metal::cross(m[1], m[2]), c1 = metal::cross(m[2], m[0]), c2 = metal::cross(m[0], m[1]);
+    float s = tspace_signOf(metal::dot(m[0], c0));
+    float3 n = (c0 * frame.normal.x + c1 * frame.normal.y + c2 * frame.normal.z) * s;
+    float3 t = m[0] * frame.tangent.x + m[1] * frame.tangent.y + m[2] * frame.tangent.z;
+    return tspace_Frame{tspace_unit(n, frame.normal), float4(tspace_unit(t, frame.tangent.xyz), frame.tangent.w * s)};
+}
+
+// A frame of a skinned vertex: linear blend skinning with up to four bones. The blended matrix, the one that moves the
+// position, moves both N and T: blending frames of single bones instead would lose the right angle.
+// Cost: 155 operations, 2 roots.
+inline tspace_Frame tspace_skinFrame(tspace_Frame frame, metal::float3x3 bone0, metal::float3x3 bone1,
+                                     metal::float3x3 bone2, metal::float3x3 bone3, float4 weights) {
+    return tspace_transformFrame(frame, bone0 * weights.x + bone1 * weights.y + bone2 * weights.z + bone3 * weights.w);
+}
+
+// A frame with morph targets: the deltas are the sums of weight times target. N is made unit, T unit and across it; the
+// sign stays, as glTF's targets have none. Where the sums have no direction, what was before stays.
+// Cost: 65 operations, 3 roots, 1 division.
+inline tspace_Frame tspace_morphFrame(tspace_Frame frame, float3 normal_delta, float3 tangent_delta) {
+    float3 n = tspace_unit(frame.normal + normal_delta, frame.normal);
+    float3 t = tspace_unit(frame.tangent.xyz + tangent_delta, frame.tangent.xyz);
+    return tspace_Frame{n, float4(tspace_unit(t - n * metal::dot(n, t), tspace_axisAcross(n)), frame.tangent.w)};
+}
+
+// ---- meshes without tangents
+
+// The frame from how position and UV change from pixel to pixel: T along dP/du across N, and the sign of the UVs as
+// seen along N. Flat over each triangle, so seams show where stored tangents would be smooth. V must run the way green
+// points: for glTF pass (u, -v). Where UVs do not change, T is any vector across N.
+// Cost: 91 operations, 3 roots, 1 division.
+inline tspace_Frame tspace_frameOfSteps(float3 normal, float3 p_dx, float3 p_dy, float2 uv_dx, float2 uv_dy) {
+    float3 n = metal::normalize(normal);
+    float area = uv_dx.x * uv_dy.y - uv_dx.y * uv_dy.x;
+    float3 t = tspace_unit((p_dx * uv_dy.y - p_dy * uv_dx.y) * tspace_signOf(area), float3(0.0f));
+    float s = tspace_signOf(area) * tspace_signOf(metal::dot(metal::cross(p_dx, p_dy), n));
+    return tspace_Frame{n, float4(tspace_unit(t - n * metal::dot(n, t), tspace_axisAcross(n)), s)};
+}
+
+#ifdef TSPACE_FRAGMENT
+// The same at this pixel; `position` in the space of `normal`.
+// Cost: 91 operations, 3 roots, 1 division, 10 derivatives.
+inline tspace_Frame tspace_frameOfPixel(float3 normal, float3 position, float2 uv) {
+    return tspace_frameOfSteps(normal, metal::dfdx(position), metal::dfdy(position), metal::dfdx(uv), metal::dfdy(uv));
+}
+#endif
