@@ -21,6 +21,11 @@ namespace tspace {
 
 inline constexpr std::uint64_t kNoMemoryLimit = ~std::uint64_t{0};
 
+/// Gives the bytes of a file that a model in memory names. `path` is relative to the model: escapes of the URI decoded, with
+/// slashes. The bytes must stay as they are until the call that asks is over. cannotRead: there is no such file; any other
+/// error ends the call. Called from the thread of the call, and perhaps more than once for a file.
+using FindFile = std::function<Result<std::span<const std::uint8_t>>(const std::string& path)>;
+
 /// How files are opened.
 struct FileOptions {
     /// URIs in a model may lead only to files in its own folder (and below). true: anywhere.
@@ -39,10 +44,12 @@ struct FileOptions {
     /// compressed geometry unpacks to. Other values stand for that, and for import_max_memory_bytes;
     /// kNoMemoryLimit: as much as there is.
     std::uint64_t memory_limit_bytes = 0;
-    /// The model itself, GLB or glTF, where it is not in a file; then the path is only what it is called. It has no
-    /// folder, so it must hold all that it needs: other files that it names are an error (invalidFile). Read during the
-    /// call only.
+    /// The model itself, where it is not in a file: GLB, glTF, or OBJ where the path, which is only what it is called,
+    /// ends in .obj. Read during the call only. It has no folder: files that it names come from `find_file`.
     std::span<const std::uint8_t> content = {};
+    /// Gives the files that `content` names; only those in the model's own folder (and below), unless `allow_external`.
+    /// Without it they are an error (invalidFile) where they are needed.
+    FindFile find_file = {};
 };
 
 /// Takes bytes of an output, in their order. Returns false when it can take no more.

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,7 +64,8 @@ struct PrimitiveDiff {
 
 struct DiffOptions {
     FileOptions file = {};
-    std::size_t worst_count = 8;  ///< how many of the worst places are listed
+    std::optional<FileOptions> file_b = {};  ///< how B is opened, where that is not how A is
+    std::size_t worst_count = 8;             ///< how many of the worst places are listed
 };
 
 struct FrameDiff {

@@ -53,6 +53,8 @@ std::string pathInQuotes(const Path& path) { return inQuotes(path.string(), 1000
 
 Error fileErrorInFlight() try { throw; } catch (const FileError& failure) {
     return failure.error;
+} catch (const CallerError& failure) {
+    return failure.error;
 } catch (const std::filesystem::filesystem_error& failure) {
     return Error{ErrorCode::cannotRead,
                  "cannot look up " + pathInQuotes(failure.path1()) + ": " + failure.code().message()};

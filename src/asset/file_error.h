@@ -18,6 +18,11 @@ struct FileError {
     Error error;
 };
 
+/// Thrown where a function of the caller says that the call is over. Nobody between there and the border catches it.
+struct CallerError {
+    Error error;
+};
+
 /// `message` is one sentence without a line break; `place` a JSON pointer, line or byte offset.
 [[noreturn]] inline void failFile(ErrorCode code, std::string message, std::string place = {}) {
     throw FileError{Error{code, std::move(message), kNoElement, std::move(place)}};
@@ -35,10 +40,10 @@ T valueOrThrow(Result<T> result) {
     return *std::move(result);
 }
 
-/// What is being thrown, where it is a FileError or one of std::filesystem; all else flies on. Only inside a catch.
+/// What is being thrown, where it is a FileError, a CallerError or one of std::filesystem; all else flies on. Only inside a catch.
 Error fileErrorInFlight();
 
-/// Runs `body`, which returns a Result and may throw FileError.
+/// Runs `body`, which returns a Result and may throw FileError or CallerError.
 template <class Body>
 auto atFileBorder(Body&& body) -> std::invoke_result_t<Body> {
     return atBorder([&]() -> std::invoke_result_t<Body> {

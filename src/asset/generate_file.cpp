@@ -18,8 +18,7 @@ Result<GenerateReport> generateFile(const std::string& input, const std::string&
         return Error{ErrorCode::invalidOption, "normals and tangents go only where frames are packed"};
     // An OBJ file has no magic word, so only its name tells it; everything else is read as glTF and refused
     // there.
-    if (options.file.content.data() == nullptr && lowerExtension(input) == ".obj")
-        return generateObj(input, output, options);
+    if (lowerExtension(input) == ".obj") return generateObj(input, output, options);
     return gltf::generateGltf(input, output, options);
 }
 

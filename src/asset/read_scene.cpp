@@ -7,7 +7,7 @@ namespace tspace {
 
 Scene readScene(const std::string& input, const FileOptions& options, bool with_images) {
     // An OBJ file has no magic word, so only its name tells it.
-    const bool is_obj = options.content.data() == nullptr && lowerExtension(input) == ".obj";
+    const bool is_obj = lowerExtension(input) == ".obj";
     return is_obj ? obj::readObjScene(input, options, with_images) : gltf::readGltfScene(input, options, with_images);
 }
 

@@ -87,6 +87,10 @@ std::string encodeBase64(const Bytes& bytes) {
     return text;
 }
 
+[[noreturn]] void refuse(std::string_view uri, const char* why, const std::string& place) {
+    failFile(ErrorCode::forbiddenPath, "the URI " + inQuotes(uri, 200) + " " + why, place);
+}
+
 bool startsWith(const fs::path& path, const fs::path& prefix) {
     return std::mismatch(prefix.begin(), prefix.end(), path.begin(), path.end()).first == prefix.end();
 }
@@ -163,31 +167,28 @@ std::string pathOfUri(std::string_view uri) {
     return path;
 }
 
-Path resolveUri(const Path& in_folder, std::string_view uri, bool allow_external, const std::string& place) {
-    const auto refuse = [&](const char* why) {
-        failFile(ErrorCode::forbiddenPath, "the URI " + inQuotes(uri, 200) + " " + why, place);
-    };
-    if (uriKind(uri) != UriKind::path) refuse("has a scheme other than data, which is never loaded");
+std::string checkedPathOfUri(std::string_view uri, bool allow_external, const std::string& place) {
+    if (uriKind(uri) != UriKind::path) refuse(uri, "has a scheme other than data, which is never loaded", place);
     if (uri.starts_with(':'))
         failFile(ErrorCode::invalidFile, "the URI " + inQuotes(uri, 200) + " has no scheme before its colon", place);
-    const std::string path = pathOfUri(uri);
+    std::string path = pathOfUri(uri);
     if (path.empty() || path.find('\0') != std::string::npos) {
         failFile(ErrorCode::invalidFile, "a URI names no file", place);
     }
-    if (in_folder.empty()) {
-        failFile(
-            ErrorCode::invalidFile,
-            "the file " + inQuotes(path, 200) + " that the model names cannot be found, for the model is not a file",
-            place);
-    }
-    const fs::path folder = in_folder, relative(path);
-    if (allow_external) return folder / relative;
-    if (relative.is_absolute()) refuse("is an absolute path");
+    if (allow_external) return path;
+    const fs::path relative(path);
+    if (relative.is_absolute()) refuse(uri, "is an absolute path", place);
     if (std::find(relative.begin(), relative.end(), fs::path("..")) != relative.end())
-        refuse("leads out of the model's folder");
+        refuse(uri, "leads out of the model's folder", place);
+    return path;
+}
+
+Path resolveUri(const Path& in_folder, std::string_view uri, bool allow_external, const std::string& place) {
+    const fs::path folder = in_folder, relative(checkedPathOfUri(uri, allow_external, place));
+    if (allow_external) return folder / relative;
     const fs::path root = fs::weakly_canonical(fs::absolute(folder));
     if (!startsWith(fs::weakly_canonical(root / relative), root)) {
-        refuse("leads out of the model's folder by a symbolic link");
+        refuse(uri, "leads out of the model's folder by a symbolic link", place);
     }
     return folder / relative;
 }

@@ -35,9 +35,12 @@ std::string percentEncode(std::string_view path);
 /// slashes.
 std::string pathOfUri(std::string_view uri);
 
-/// The file that `uri` names. Fails with forbiddenPath when it is absolute, has a scheme or a `..`, or when a symbolic
-/// link leads out of `folder`; `allow_external` lifts all of these but the scheme. With invalidFile where the folder is
-/// empty: the model is in no file, so nothing can lie beside it.
+/// The same, checked. Fails with forbiddenPath when it is absolute, has a scheme or a `..`; `allow_external` lifts all of
+/// these but the scheme.
+std::string checkedPathOfUri(std::string_view uri, bool allow_external, const std::string& place);
+
+/// The file that `uri` names in a folder on the disk. Fails as checkedPathOfUri, and with forbiddenPath when a symbolic
+/// link leads out of `folder`, unless `allow_external`.
 Path resolveUri(const Path& folder, std::string_view uri, bool allow_external, const std::string& place);
 
 }  // namespace tspace

@@ -180,7 +180,7 @@ bool FrameDiff::isWithin(double tolerance_deg) const {
 Result<FrameDiff> diffFiles(const std::string& a, const std::string& b, const DiffOptions& options) {
     return atFileBorder([&]() -> Result<FrameDiff> {
         const Scene scene_a = readNumbered(a, options.file, 0);
-        const Scene scene_b = readNumbered(b, options.file, 1);
+        const Scene scene_b = readNumbered(b, options.file_b.value_or(options.file), 1);
         Comparison comparison(options);
         comparison.compare(scene_a, scene_b);
         return comparison.result();

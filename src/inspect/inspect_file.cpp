@@ -8,7 +8,7 @@ namespace tspace {
 
 Result<Inspection> inspectFile(const std::string& input, const FileOptions& options) {
     return atFileBorder([&]() -> Result<Inspection> {
-        const bool is_obj = options.content.data() == nullptr && lowerExtension(input) == ".obj";
+        const bool is_obj = lowerExtension(input) == ".obj";
         return is_obj ? inspectObj(input, options) : inspectGltf(input, options);
     });
 }

@@ -225,7 +225,7 @@ class Comparison {
         }
         const auto& uri = image.at("uri").text();
         if (uriKind(uri) == UriKind::data) return decodeDataUri(uri, "").bytes;
-        const auto path = resolveUri(document.folder, uri, false, "");
+        const auto path = resolveUri(document.files.folder(), uri, false, "");
         return std::filesystem::exists(path) ? readFile(path) : Bytes{};
     }
 

@@ -8,8 +8,8 @@
 #include "console.h"
 #include "help.h"
 #include "jobs.h"
-#include "nearest_name.h"
 #include "options.h"
+#include "options/nearest_name.h"
 #include "read_command_line.h"
 
 namespace tspace::tool {
@@ -46,8 +46,8 @@ ExitCode runHelp(const ToolTable& tool, const std::string& topic) {
 
 Arguments parseArguments(int argc, char** argv) {
     AllArguments all;
-    for (FileOptions* file : {&all.generate.options.file, &all.diff.options.file, &all.identify.options.file,
-                              &all.inspect.file, &all.check.options.file}) {
+    for (FileOptions* file : {&all.generate.options.file, &all.diff.request.options.file, &all.identify.options.file,
+                              &all.inspect.file, &all.check.request.options.file}) {
         file->importer = importerPath();
     }
     const ToolTable tool = toolTable(all);

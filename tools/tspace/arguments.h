@@ -6,14 +6,14 @@
 #include <variant>
 #include <vector>
 
-#include "exit_code.h"
-#include "tspace/asset.h"
-#include "tspace/check.h"
-#include "tspace/diff.h"
-#include "tspace/identify.h"
-#include "tspace/maps.h"
+#include "options/request.h"
+#include "report/exit_code.h"
 
 namespace tspace::tool {
+
+using report::ExitCode;
+using report::exitCodeOf;
+using report::worse;
 
 /// The file format of outputs whose name does not say it.
 enum class Container { sameAsInput, glb, gltf };
@@ -40,7 +40,6 @@ struct GenerateArguments {
     std::vector<std::string> inputs = {};
     std::string output = {};
     bool in_place = false;
-    bool dry_run = false;
     Container container = Container::sameAsInput;
     GenerateOptions options = {};
     std::string option_text = {};  ///< the options given that decide about results, in one spelling
@@ -59,11 +58,8 @@ struct InspectArguments {
 
 struct CheckArguments {
     std::vector<std::string> inputs = {};
-    CheckOptions options = {};
-    Severity fail_on = Severity::error;        ///< findings from here on make exit code 1
-    Severity least_severity = Severity::note;  ///< findings below are left out
-    std::vector<FindingCode> ignored = {};     ///< these too
-    std::string sarif = {};                    ///< a file for the findings in SARIF; empty: none
+    options::CheckRequest request = {};
+    std::string sarif = {};  ///< a file for the findings in SARIF; empty: none
     Color color = Color::automatic;
     BatchArguments batch = {};
     bool json = false;
@@ -73,8 +69,7 @@ struct CheckArguments {
 struct DiffArguments {
     std::string a = {};
     std::string b = {};
-    DiffOptions options = {};
-    double tolerance_deg = 1;
+    options::DiffRequest request = {};
     bool json = false;
     bool quiet = false;
 };
@@ -91,8 +86,7 @@ struct FlipGreenArguments {
     std::string input = {};
     std::string output = {};  ///< the input, where it is written over
     bool in_place = false;
-    bool dry_run = false;
-    FileOptions file = {};
+    FlipGreenOptions options = {};
     bool json = false;
     bool quiet = false;
 };

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // tspace check
-#include <algorithm>
-
 #include "commands.h"
 #include "read_files.h"
 #include "standard_input.h"
@@ -10,34 +8,12 @@
 namespace tspace::tool {
 namespace {
 
-/// Takes away what the user does not want to hear of, and counts anew.
-void leaveOut(CheckReport& report, const CheckArguments& arguments) {
-    const auto is_unwanted = [&](const Finding& finding) {
-        const auto& ignored = arguments.ignored;
-        return finding.severity < arguments.least_severity ||
-               std::find(ignored.begin(), ignored.end(), finding.code) != ignored.end();
-    };
-    std::erase_if(report.findings, is_unwanted);
-    const auto count = [&](Severity severity) {
-        return static_cast<std::uint64_t>(std::count_if(report.findings.begin(), report.findings.end(),
-                                                        [&](const Finding& f) { return f.severity == severity; }));
-    };
-    report.error_count = count(Severity::error);
-    report.warning_count = count(Severity::warning);
-    report.note_count = count(Severity::note);
-}
-
 Result<CheckReport> check(const std::string& input, CheckOptions options, const CheckArguments& arguments) {
     StandardInput standard_input;
     if (const Result<Done> opened = standard_input.open(input, options.file); !opened) return opened.error();
     Result<CheckReport> report = checkFile(input, options);
-    if (report) leaveOut(*report, arguments);
+    if (report) options::leaveOut(arguments.request, *report);
     return report;
-}
-
-bool hasFindings(const CheckReport& report, Severity least) {
-    return std::any_of(report.findings.begin(), report.findings.end(),
-                       [&](const Finding& finding) { return finding.severity >= least; });
 }
 
 }  // namespace
@@ -49,7 +25,7 @@ ExitCode runCheck(const CheckArguments& arguments) {
     std::vector<Job> jobs = inputJobs(arguments.inputs);
     takeShard(jobs, arguments.batch.shard);
     const unsigned workers = workerCount(arguments.batch, jobs.size());
-    CheckOptions options = arguments.options;
+    CheckOptions options = arguments.request.options;
     options.execution.thread_count = threadsPerFile(options.execution.thread_count, workers);
     const auto files = readFiles<CheckReport>(
         jobs, arguments.batch, {.progress = !arguments.quiet, .text = wants_text},
@@ -58,7 +34,7 @@ ExitCode runCheck(const CheckArguments& arguments) {
     if (files.output_is_closed) return ExitCode::cannotReadOrWrite;
     ExitCode exit_code = files.exit_code;
     for (const CheckOutcome& outcome : files.outcomes) {
-        if (outcome.result && hasFindings(*outcome.result, arguments.fail_on))
+        if (outcome.result && options::failsBy(arguments.request, *outcome.result))
             exit_code = worse(exit_code, ExitCode::findings);
     }
     if (!arguments.sarif.empty() && !sarif_to_stdout) {
@@ -69,7 +45,7 @@ ExitCode runCheck(const CheckArguments& arguments) {
     if (sarif_to_stdout) {
         last = checkSarif(files.outcomes, exit_code);
     } else if (arguments.json) {
-        last = checkJson(files.outcomes, exit_code, arguments.fail_on);
+        last = report::checkJson(files.outcomes, exit_code, arguments.request.fail_on);
     } else if (wants_text && files.outcomes.size() > 1) {
         last = checkSummary(files.outcomes, in_color);
     }

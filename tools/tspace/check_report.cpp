@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Results of tspace check as text and JSON. The JSON is described in docs/json.md.
+// Results of tspace check as text.
 #include <fmt/format.h>
 
 #include <map>
@@ -22,7 +22,7 @@ std::string summaryLine(const CheckOutcome& outcome) {
     const std::string what = report.findings.empty()
                                  ? "nothing found"
                                  : countsText(report.error_count, report.warning_count, report.note_count);
-    std::string text = fmt::format("{}: {} in {}, {} of them with tangents", printable(outcome.job.input), what,
+    std::string text = fmt::format("{}: {} in {}, {} of them with tangents", printable(outcome.input), what,
                                    counted(report.primitive_count, "primitive"), report.tangents_count);
     if (report.image_count > 0) text += fmt::format("; looked at {}", counted(report.image_count, "normal map"));
     return text + "\n";
@@ -98,67 +98,6 @@ std::string groupText(std::span<const Finding* const> group, bool in_color) {
     return text + fmt::format("      mend: {}\n", first.remedy);
 }
 
-Json findingJson(const Finding& finding) {
-    return {
-        {"code", findingName(finding.code)},
-        {"severity", severityName(finding.severity)},
-        {"place", finding.place},
-        {"mesh", finding.mesh},
-        {"primitive", finding.primitive},
-        {"meshName", finding.mesh_name},
-        {"materialName", finding.material_name},
-        {"unit", finding.unit},
-        {"count", finding.count},
-        {"total", finding.total},
-        {"surfaceShare", finding.surface_share},
-        {"worstDegrees", finding.worst_deg},
-        {"confidence", finding.confidence},
-        {"vertices", finding.vertices},
-        {"message", finding.message},
-        {"remedy", finding.remedy},
-    };
-}
-
-Json packedJson(const PackedFramesInfo& info) {
-    const FrameErrorBound bound = frameErrorBound(info.format);
-    return {
-        {"place", info.place},
-        {"attribute", info.attribute},
-        {"format", frameFormatName(info.format)},
-        {"mesh", info.mesh},
-        {"primitive", info.primitive},
-        {"vertices", info.vertex_count},
-        {"readable", info.is_readable},
-        {"compared", info.is_compared},
-        {"worstNormalDegrees", info.worst_normal_deg},
-        {"worstTangentDegrees", info.worst_tangent_deg},
-        {"promisedNormalDegrees", bound.normal_deg},
-        {"promisedTangentDegrees", bound.tangent_deg},
-        {"differingSigns", info.differing_sign_count},
-    };
-}
-
-Json outcomeJson(const CheckOutcome& outcome) {
-    Json json = {
-        {"input", outcome.job.input},
-        {"ok", outcome.result.ok()},
-        {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())},
-    };
-    if (!outcome.result) return json;
-    const CheckReport& report = *outcome.result;
-    json["format"] = report.format;
-    json["generator"] = report.generator;
-    json["primitives"] = report.primitive_count;
-    json["primitivesWithTangents"] = report.tangents_count;
-    json["normalMaps"] = report.image_count;
-    json["counts"] = {{"error", report.error_count}, {"warning", report.warning_count}, {"note", report.note_count}};
-    json["packedFrames"] = Json::array();
-    for (const PackedFramesInfo& info : report.packed_frames) json["packedFrames"].push_back(packedJson(info));
-    json["findings"] = Json::array();
-    for (const Finding& finding : report.findings) json["findings"].push_back(findingJson(finding));
-    return json;
-}
-
 }  // namespace
 
 std::string checkText(const CheckOutcome& outcome, bool in_color) {
@@ -212,16 +151,6 @@ std::string checkSummary(const std::vector<CheckOutcome>& outcomes, bool in_colo
                             counted(code.file_count, "file"));
     }
     return text;
-}
-
-std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, Severity fail_on) {
-    Json json = {
-        {"schema", "tspace.check/1"},        {"version", TSPACE_VERSION},
-        {"ok", exit_code == ExitCode::done}, {"exitCode", static_cast<int>(exit_code)},
-        {"failOn", severityName(fail_on)},   {"files", Json::array()},
-    };
-    for (const CheckOutcome& outcome : outcomes) json["files"].push_back(outcomeJson(outcome));
-    return jsonText(json);
 }
 
 }  // namespace tspace::tool

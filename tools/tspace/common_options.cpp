@@ -7,7 +7,7 @@
 namespace tspace::tool {
 namespace {
 
-constexpr unsigned kMostThreads = 1024;
+constexpr unsigned kMostJobs = 1024;
 
 /// "I/N" with 1 <= I <= N.
 bool parseShard(const std::string& text, Shard& shard) {
@@ -20,23 +20,23 @@ bool parseShard(const std::string& text, Shard& shard) {
     return true;
 }
 
-/// "500M", "8G" or "none"; K, M, G and T count by 1024. At least what any file gets.
-bool parseMemory(const std::string& text, std::uint64_t& bytes) {
-    constexpr std::uint64_t kLeast = std::uint64_t{64} << 20, kMost = std::uint64_t{1} << 56;
-    if (text == "none") {
-        bytes = kNoMemoryLimit;
-        return true;
-    }
-    const std::size_t unit = text.find_first_not_of("0123456789");
-    const std::size_t power = unit + 1 == text.size() ? std::string("KMGT").find(text[unit]) : std::string::npos;
-    std::uint64_t count = 0;
-    if (power == std::string::npos || !parseNumber(text.substr(0, unit), count)) return false;
-    const std::uint64_t factor = std::uint64_t{1} << (10 * (power + 1));
-    bytes = count * factor;
-    return count <= kMost / factor && bytes >= kLeast;
+}  // namespace
+
+Option operand(const char* value_name, std::string& target, std::string help) {
+    Option made = text("", value_name, target, std::move(help));
+    made.is_file = made.is_required = true;
+    return made;
 }
 
-}  // namespace
+Option operand(const char* value_name, std::vector<std::string>& target, std::string help) {
+    const auto take = [&target](const std::string& given) {
+        target.push_back(given);
+        return std::string();
+    };
+    Option made = option("", value_name, take, std::move(help));
+    made.is_file = made.is_required = made.is_repeatable = true;
+    return made;
+}
 
 void addInputs(Command& command, std::vector<std::string>& inputs) {
     command.add(kInputAndOutput,
@@ -48,8 +48,8 @@ void addInputs(Command& command, std::vector<std::string>& inputs) {
 
 void addBatch(Command& command, BatchArguments& batch, bool with_manifest) {
     const char* group = kManyFiles;
-    command.add(group, number("--jobs", batch.jobs, kMostThreads,
-                              "Files worked on at one time; 0: as many as there are cores."));
+    command.add(group,
+                number("--jobs", batch.jobs, kMostJobs, "Files worked on at one time; 0: as many as there are cores."));
     const auto take_shard = [&batch](const std::string& text) -> std::string {
         return parseShard(text, batch.shard) ? "" : "must be I/N with I from 1 to N, such as 2/8";
     };
@@ -65,6 +65,7 @@ void addBatch(Command& command, BatchArguments& batch, bool with_manifest) {
                                 "Append a line of JSON to this file for every file done: hashes of what was read and "
                                 "written, options, result, time (schema: docs/json.md)."));
     manifest.is_file = true;
+    manifest.excludes = {"--dry-run"};
     command
         .add(group, flag("--resume", batch.resume,
                          "Leave out files that the manifest says are done with these options, where neither they nor "
@@ -97,36 +98,6 @@ void addReporting(Command& command, bool& json, bool& quiet) {
 Option helpOption() {
     return option(
         "-h, --help", "", [](const std::string&) { return std::string(); }, "Print this page.");
-}
-
-void addAllowExternal(Command& command, FileOptions& file) {
-    command.add(kInputAndOutput,
-                flag("--allow-external", file.allow_external,
-                     "Also follow paths in a model that lead outside its own folder. By default absolute paths, paths "
-                     "with '..' and URLs are refused."));
-}
-
-void addThreads(Command& command, Execution& execution, std::string help) {
-    command.add(kRunning, number("--threads", execution.thread_count, kMostThreads, std::move(help)));
-}
-
-void addMemoryLimit(Command& command, FileOptions& file) {
-    const auto take = [&file](const std::string& text) -> std::string {
-        return parseMemory(text, file.memory_limit_bytes) ? "" : "must be a number with M or G, 64M or more, or none";
-    };
-    command.add(kRunning, option("--memory-limit", "SIZE", take,
-                                 "What working on one file may take of memory, about: a number with M or G (64M or "
-                                 "more), or none. What it would take is estimated first, and more is refused. Default: "
-                                 "64M, and 16 times the bytes of the file and of those it names, so that a small file "
-                                 "that claims to be huge does no harm."));
-}
-
-void addLimits(Command& command, FileOptions& file) {
-    addMemoryLimit(command, file);
-    constexpr unsigned kMostSeconds = 1000000;
-    command.add(kRunning, number("--import-seconds", file.import_max_seconds, kMostSeconds,
-                                 "Time for reading one file of another format (FBX, PLY, DAE, ...); 0: 2 seconds of "
-                                 "processor time, and one more for each MiB of the file."));
 }
 
 }  // namespace tspace::tool

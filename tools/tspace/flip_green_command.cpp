@@ -13,58 +13,21 @@
 namespace tspace::tool {
 namespace {
 
-const char* nameOf(ImageFileFormat format) {
-    switch (format) {
-        case ImageFileFormat::png:
-            return "PNG";
-        case ImageFileFormat::jpeg:
-            return "JPEG";
-        case ImageFileFormat::webp:
-            return "WebP";
-        case ImageFileFormat::sameAsInput:
-            break;
-    }
-    return "";
-}
-
-std::string textOf(const FlipGreenArguments& arguments, const FlipGreenReport& report) {
+std::string textOf(const FlipGreenArguments& arguments, const FlipGreenReport& done) {
     Table table;
-    table.addRow({"image", fmt::format("{}, {} x {}, {} bits a channel", nameOf(report.format), report.width,
-                                       report.height, report.bits)});
-    table.addRow({"green", report.is_exact ? "inverted exactly" : "inverted, and compressed once more"});
-    for (const std::string& warning : report.warnings) table.addRow({"warning", printable(warning)});
+    table.addRow({"image", fmt::format("{}, {} x {}, {} bits a channel", report::imageFormatName(done.format),
+                                       done.width, done.height, done.bits)});
+    table.addRow({"green", done.is_exact ? "inverted exactly" : "inverted, and compressed once more"});
+    for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
     return fmt::format("{} -> {}{}\n{}", printable(arguments.input), printable(arguments.output),
-                       arguments.dry_run ? " (not written)" : "", table.text("  "));
-}
-
-std::string jsonOf(const FlipGreenArguments& arguments, const Result<FlipGreenReport>& result, ExitCode exit_code) {
-    Json json = {
-        {"schema", "tspace.flip-green/1"},
-        {"version", TSPACE_VERSION},
-        {"ok", result.ok()},
-        {"exitCode", static_cast<int>(exit_code)},
-        {"input", arguments.input},
-        {"output", arguments.output},
-        {"dryRun", arguments.dry_run},
-        {"error", errorJson(result ? nullptr : &result.error())},
-    };
-    if (!result) return jsonText(json);
-    json["format"] = nameOf(result->format);
-    json["width"] = result->width;
-    json["height"] = result->height;
-    json["bits"] = result->bits;
-    json["exact"] = result->is_exact;
-    json["warnings"] = result->warnings;
-    return jsonText(json);
+                       arguments.options.dry_run ? " (not written)" : "", table.text("  "));
 }
 
 /// Of any format: what it is, the library says better.
 bool isAnything(std::string_view) { return true; }
 
 Result<FlipGreenReport> flip(const FlipGreenArguments& arguments) {
-    FlipGreenOptions options;
-    options.memory_limit_bytes = arguments.file.memory_limit_bytes;
-    options.dry_run = arguments.dry_run;
+    FlipGreenOptions options = arguments.options;
     std::vector<std::uint8_t> bytes;
     if (arguments.input == "-") {
         Result<std::vector<std::uint8_t>> read =
@@ -89,13 +52,17 @@ ExitCode runFlipGreen(const FlipGreenArguments& arguments) {
         return printUsageError("the output " + arguments.output + " is the input; --in-place writes over it");
     }
     const bool to_stdout = arguments.output == "-";
-    if (to_stdout && !arguments.dry_run && isatty(STDOUT_FILENO) != 0)
+    if (to_stdout && !arguments.options.dry_run && isatty(STDOUT_FILENO) != 0)
         return printUsageError("an image is no text for a terminal; send stdout to a file or a pipe");
     const Result<FlipGreenReport> result = flip(arguments);
     const ExitCode exit_code = result ? ExitCode::done : printError(arguments.input, result.error());
     std::string text;
     if (arguments.json) {
-        text = jsonOf(arguments, result, exit_code);
+        text = report::flipGreenJson({.input = arguments.input,
+                                      .output = arguments.output,
+                                      .result = result,
+                                      .is_dry_run = arguments.options.dry_run},
+                                     exit_code);
     } else if (!arguments.quiet && result) {
         text = textOf(arguments, *result);
     }

@@ -41,8 +41,7 @@ Command flipGreenCommand(FlipGreenArguments& arguments) {
                                 "Write over the input, once the result is complete. Without this, an output that "
                                 "is the input is refused."));
     in_place.excludes = {"--output"};
-    command.add(group, flag("--dry-run", arguments.dry_run, "Do everything but write."));
-    addMemoryLimit(command, arguments.file);
+    command.add(flipGreenOptions(arguments.options));
     addReporting(command, arguments.json, arguments.quiet);
     return command;
 }

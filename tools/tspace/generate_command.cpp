@@ -29,16 +29,16 @@ double secondsSince(Clock::time_point start) { return std::chrono::duration<doub
 struct Interrupted {};
 
 /// What was read and written, with fingerprints. A file that was written over is an output alone.
-ManifestEntry manifestEntry(const GenerateOutcome& outcome, const std::string& options) {
-    ManifestEntry entry{.version = TSPACE_VERSION, .options = options, .job = outcome.job, .seconds = outcome.seconds};
+ManifestEntry manifestEntry(const Job& job, const GenerateOutcome& outcome, const std::string& options) {
+    ManifestEntry entry{.version = TSPACE_VERSION, .options = options, .job = job, .seconds = outcome.seconds};
     if (!outcome.result) {
         entry.job.error = outcome.result.error();
-        entry.inputs = hashFiles({outcome.job.input});
+        entry.inputs = hashFiles({outcome.input});
         return entry;
     }
     const GenerateReport& report = *outcome.result;
     std::vector<std::string> outputs = report.output_files;
-    if (outputs.empty()) outputs.push_back(outcome.job.output);
+    if (outputs.empty()) outputs.push_back(outcome.output);
     std::vector<std::string> inputs;
     for (const std::string& input : report.input_files) {
         if (std::find(outputs.begin(), outputs.end(), input) == outputs.end()) inputs.push_back(input);
@@ -87,7 +87,7 @@ class GenerateRun {
         for (std::optional<GenerateOutcome>& outcome : outcomes_) outcomes.push_back(std::move(*outcome));
         std::string last;
         if (arguments_.json) {
-            last = generateJson(outcomes, exit_code_, secondsSince(start_));
+            last = report::generateJson(outcomes, exit_code_, secondsSince(start_));
         } else if (wants_text_ && outcomes.size() > 1) {
             last = generateSummary(outcomes, secondsSince(start_));
         }
@@ -120,7 +120,7 @@ class GenerateRun {
     void work(std::size_t number) {
         const Clock::time_point start = Clock::now();
         const Job& job = jobs_[number];
-        GenerateOutcome outcome{.job = job, .is_dry_run = arguments_.dry_run};
+        GenerateOutcome outcome{.input = job.input, .output = job.output, .is_dry_run = arguments_.options.dry_run};
         if (job.error.code == ErrorCode::ok && record_ && record_->isDone(job, arguments_.option_text)) {
             outcome.was_done_before = true;
             outcome.result = GenerateReport{};
@@ -129,13 +129,13 @@ class GenerateRun {
         }
         outcome.seconds = secondsSince(start);
         const bool is_given_up = !outcome.result && wasInterrupted();
-        if (!arguments_.batch.manifest.empty() && !outcome.was_done_before && !is_given_up) record(outcome);
+        if (!arguments_.batch.manifest.empty() && !outcome.was_done_before && !is_given_up) record(job, outcome);
         progress_.fileDone(outcome.result.ok());
         outcomes_[number] = std::move(outcome);
     }
 
-    void record(const GenerateOutcome& outcome) {
-        const ManifestEntry entry = manifestEntry(outcome, arguments_.option_text);
+    void record(const Job& job, const GenerateOutcome& outcome) {
+        const ManifestEntry entry = manifestEntry(job, outcome, arguments_.option_text);
         const std::lock_guard lock(mutex_);
         if (!writer_) return;
         const Result<Done> written = writer_->append(entry);
@@ -150,9 +150,9 @@ class GenerateRun {
         progress_.clear();
         if (wasInterrupted()) {
             const char* state = outcome.result ? "done, then interrupted" : "interrupted; nothing was written";
-            printError(outcome.job.input, {ErrorCode::internal, state});
+            printError(outcome.input, {ErrorCode::internal, state});
         } else if (!outcome.result) {
-            const ExitCode code = printError(outcome.job.input, outcome.result.error());
+            const ExitCode code = printError(outcome.input, outcome.result.error());
             const std::lock_guard lock(mutex_);
             exit_code_ = worse(exit_code_, code);
         } else if (wants_text_ && !output_is_closed_) {

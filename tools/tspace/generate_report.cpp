@@ -1,34 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Results of tspace generate as text and JSON. The JSON is described in docs/json.md.
+// Results of tspace generate as text.
 #include <fmt/format.h>
 
 #include <map>
+
 #include "console.h"
 #include "report.h"
+#include "report/generate_totals.h"
 
 namespace tspace::tool {
 namespace {
 
-struct NamedCount {
-    const char* json_name;
-    const char* words;
-    std::uint64_t SanitizeReport::*count;
-};
-constexpr NamedCount kCauses[] = {
-    {"notFinite", "not finite", &SanitizeReport::not_finite_count},
-    {"zero", "zero", &SanitizeReport::zero_count},
-    {"notUnit", "not unit", &SanitizeReport::not_unit_count},
-    {"parallel", "parallel to the normal", &SanitizeReport::parallel_count},
-    {"placeholder", "without a direction", &SanitizeReport::placeholder_count},
-    {"badSign", "sign not +1 or -1", &SanitizeReport::bad_sign_count},
-    {"mixedSign", "mixed signs in a face", &SanitizeReport::mixed_sign_count},
-    {"orthogonalized", "made orthogonal as asked", &SanitizeReport::orthogonalized_count},
-};
-constexpr NamedCount kCures[] = {
-    {"normalized", "", &SanitizeReport::normalized_count},
-    {"fromNeighbor", "", &SanitizeReport::from_neighbor_count},
-    {"fromBasis", "", &SanitizeReport::from_basis_count},
-};
+using report::kActions;
+using report::kCauses;
+using report::NamedCount;
+using report::Totals;
+using report::totalsOf;
+using report::wasComputed;
 
 const char* actionWords(PrimitiveAction action) {
     switch (action) {
@@ -51,65 +39,6 @@ const char* actionWords(PrimitiveAction action) {
     }
     return "unknown";
 }
-constexpr PrimitiveAction kActions[] = {
-    PrimitiveAction::generated, PrimitiveAction::replaced,     PrimitiveAction::unchanged,  PrimitiveAction::kept,
-    PrimitiveAction::notNeeded, PrimitiveAction::notTriangles, PrimitiveAction::impossible, PrimitiveAction::removed,
-};
-
-bool wasComputed(PrimitiveAction action) {
-    return action == PrimitiveAction::generated || action == PrimitiveAction::replaced ||
-           action == PrimitiveAction::unchanged;
-}
-
-/// Sums over primitives; vertices and triangles of those that were computed only.
-struct Totals {
-    std::uint64_t actions[std::size(kActions)] = {};
-    std::uint64_t primitive_count = 0;
-    std::uint64_t triangle_count = 0;
-    std::uint64_t vertices_before = 0;
-    std::uint64_t vertices_after = 0;
-    std::uint64_t normals_generated = 0;
-    std::uint64_t on_quads = 0, quad_count = 0;  ///< primitives, and their quads
-    std::uint64_t bitangents_generated = 0;
-    std::uint64_t frames_packed = 0, packed_mended = 0;  ///< primitives, and their frames
-    std::uint64_t tangents_dropped = 0, normals_dropped = 0;
-    std::uint64_t morph_deltas_computed = 0;
-    std::uint64_t morph_sign_flip_count = 0;
-    std::uint64_t degenerate_uv_count = 0;
-    std::uint64_t degenerate_triangle_count = 0;
-    SanitizeReport sanitize = {};
-    bool reference_order_abandoned = false;
-};
-
-Totals totalsOf(const GenerateReport& report) {
-    Totals totals;
-    for (const PrimitiveReport& primitive : report.primitives) {
-        ++totals.primitive_count;
-        ++totals.actions[static_cast<std::size_t>(primitive.action)];
-        totals.normals_generated += primitive.normals_generated;
-        totals.on_quads += primitive.faces == Faces::quads ? 1 : 0;
-        totals.quad_count += primitive.quad_count;
-        totals.bitangents_generated += primitive.bitangents_generated;
-        totals.frames_packed += primitive.frames_packed;
-        totals.packed_mended += primitive.packing.mendedCount();
-        totals.tangents_dropped += primitive.tangents_dropped;
-        totals.normals_dropped += primitive.normals_dropped;
-        totals.morph_deltas_computed += primitive.morph_deltas_computed;
-        totals.morph_sign_flip_count += primitive.morph_sign_flip_count;
-        if (!wasComputed(primitive.action)) continue;
-        totals.triangle_count += primitive.triangle_count;
-        totals.vertices_before += primitive.vertices_before;
-        totals.vertices_after += primitive.vertices_after;
-        totals.degenerate_uv_count += primitive.tangents.degenerate_uv_count;
-        totals.degenerate_triangle_count += primitive.tangents.degenerate_triangle_count;
-        totals.reference_order_abandoned |= primitive.tangents.reference_order_abandoned;
-        for (const NamedCount& cause : kCauses) totals.sanitize.*cause.count += primitive.sanitize.*cause.count;
-        for (const NamedCount& cure : kCures) totals.sanitize.*cure.count += primitive.sanitize.*cure.count;
-        totals.sanitize.bad_normal_count += primitive.sanitize.bad_normal_count;
-    }
-    return totals;
-}
-
 std::string actionsText(const Totals& totals) {
     std::string text;
     for (const PrimitiveAction action : kActions) {
@@ -208,7 +137,7 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     for (const NormalMapReport& map : report.normal_maps) table.addRow({"normal map", normalMapText(map)});
     for (const std::string& warning : warningsOf(report, totals)) table.addRow({"warning", printable(warning)});
     table.addRow({"time", fmt::format("{:.2f} s", outcome.seconds)});
-    const std::string first = report.output_files.empty() ? outcome.job.output : report.output_files.front();
+    const std::string first = report.output_files.empty() ? outcome.output : report.output_files.front();
     const std::string others = report.output_files.size() > 1
                                    ? fmt::format(" and {}", counted(report.output_files.size() - 1, "other file"))
                                    : "";
@@ -268,112 +197,20 @@ std::string primitiveRows(const GenerateReport& report) {
     return table.text("  ") + notesText(report);
 }
 
-Json sanitizeJson(const SanitizeReport& report) {
-    Json json = {{"mended", report.mendedCount()}};
-    for (const NamedCount& cause : kCauses) json["causes"][cause.json_name] = report.*cause.count;
-    for (const NamedCount& cure : kCures) json["cures"][cure.json_name] = report.*cure.count;
-    json["badNormals"] = report.bad_normal_count;
-    return json;
-}
-
-Json primitiveJson(const PrimitiveReport& primitive) {
-    const TangentReport& tangents = primitive.tangents;
-    return {
-        {"mesh", primitive.mesh},
-        {"primitive", primitive.primitive},
-        {"meshName", primitive.mesh_name},
-        {"materialName", primitive.material_name},
-        {"action", actionName(primitive.action)},
-        {"reason", primitive.reason},
-        {"notes", primitive.notes},
-        {"uvSet", primitive.uv_set},
-        {"faces", facesName(primitive.faces)},
-        {"quads", primitive.quad_count},
-        {"triangles", primitive.triangle_count},
-        {"verticesBefore", primitive.vertices_before},
-        {"verticesAfter", primitive.vertices_after},
-        {"mendedVertices", primitive.mended_vertex_count},
-        {"normalsGenerated", primitive.normals_generated},
-        {"bitangentsGenerated", primitive.bitangents_generated},
-        {"packed", primitive.frames_packed},
-        {"packedMended", primitive.packing.mendedCount()},
-        {"normalsDropped", primitive.normals_dropped},
-        {"tangentsDropped", primitive.tangents_dropped},
-        {"morphTargets", primitive.morph_target_count},
-        {"morphDeltas", primitive.morph_deltas_computed},
-        {"morphSignFlips", primitive.morph_sign_flip_count},
-        {"normals",
-         {{"faces", primitive.normals.face_count},
-          {"degenerateFaces", primitive.normals.degenerate_face_count},
-          {"fallbackCorners", primitive.normals.fallback_corner_count}}},
-        {"tangents",
-         {{"triangles", tangents.triangle_count},
-          {"degenerateTriangles", tangents.degenerate_triangle_count},
-          {"degenerateUvTriangles", tangents.degenerate_uv_count},
-          {"negativeUvTriangles", tangents.mirrored_count},
-          {"skippedFaces", tangents.skipped_face_count},
-          {"groups", tangents.group_count},
-          {"defaultCorners", tangents.default_corner_count},
-          {"notFiniteCorners", tangents.not_finite_count},
-          {"referenceOrderAbandoned", tangents.reference_order_abandoned}}},
-        {"sanitize", sanitizeJson(primitive.sanitize)},
-    };
-}
-
-Json totalsJson(const GenerateReport& report) {
-    const Totals totals = totalsOf(report);
-    Json json = {{"primitives", totals.primitive_count}};
-    for (const PrimitiveAction action : kActions) {
-        json["actions"][actionName(action)] = totals.actions[static_cast<std::size_t>(action)];
-    }
-    json["triangles"] = totals.triangle_count;
-    json["verticesBefore"] = totals.vertices_before;
-    json["verticesAfter"] = totals.vertices_after;
-    json["mended"] = totals.sanitize.mendedCount();
-    json["morphDeltas"] = totals.morph_deltas_computed;
-    json["packed"] = totals.frames_packed;
-    return json;
-}
-
-Json outcomeJson(const GenerateOutcome& outcome) {
-    Json json = {
-        {"input", outcome.job.input}, {"output", outcome.job.output},
-        {"ok", outcome.result.ok()},  {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())},
-        {"seconds", outcome.seconds},
-    };
-    json["skipped"] = outcome.was_done_before;
-    if (!outcome.result || outcome.was_done_before) return json;
-    const GenerateReport& report = *outcome.result;
-    json["changed"] = report.changed;
-    json["inputBytes"] = report.input_bytes;
-    json["outputBytes"] = report.output_bytes;
-    json["outputFiles"] = report.output_files;
-    json["warnings"] = report.warnings;
-    json["totals"] = totalsJson(report);
-    json["normalMaps"] = Json::array();
-    for (const NormalMapReport& map : report.normal_maps) {
-        json["normalMaps"].push_back(
-            {{"image", map.image}, {"name", map.name}, {"flipped", map.flipped}, {"reason", map.reason}});
-    }
-    json["primitives"] = Json::array();
-    for (const PrimitiveReport& primitive : report.primitives) json["primitives"].push_back(primitiveJson(primitive));
-    return json;
-}
-
 }  // namespace
 
 std::string generateText(const GenerateOutcome& outcome) {
     if (outcome.was_done_before) {
-        return fmt::format("{} -> {}\n  done before, and nothing has changed\n\n", printable(outcome.job.input),
-                           printable(outcome.job.output));
+        return fmt::format("{} -> {}\n  done before, and nothing has changed\n\n", printable(outcome.input),
+                           printable(outcome.output));
     }
     const Totals totals = totalsOf(*outcome.result);
-    return fmt::format("{} -> {}\n{}\n{}\n", printable(outcome.job.input), printable(outcome.job.output),
+    return fmt::format("{} -> {}\n{}\n{}\n", printable(outcome.input), printable(outcome.output),
                        summaryRows(outcome, totals), primitiveRows(*outcome.result));
 }
 
 std::string generateLine(const GenerateOutcome& outcome) {
-    std::string line = fmt::format("{} -> {}: ", printable(outcome.job.input), printable(outcome.job.output));
+    std::string line = fmt::format("{} -> {}: ", printable(outcome.input), printable(outcome.output));
     if (outcome.was_done_before) return line + "done before, and nothing has changed\n";
     const Totals totals = totalsOf(*outcome.result);
     line += actionsText(totals);
@@ -408,16 +245,6 @@ std::string generateSummary(const std::vector<GenerateOutcome>& outcomes, double
     return fmt::format("{} of {} {}, {}{} failed; {}, {} mended, {:.2f} s\n  {}\n", done,
                        counted(outcomes.size(), "file"), written, before, outcomes.size() - done - skipped,
                        counted(triangles, "triangle"), counted(mended, "corner"), seconds, actionsText(all));
-}
-
-std::string generateJson(const std::vector<GenerateOutcome>& outcomes, ExitCode exit_code, double seconds) {
-    Json json = {
-        {"schema", "tspace.generate/1"},           {"version", TSPACE_VERSION}, {"ok", exit_code == ExitCode::done},
-        {"exitCode", static_cast<int>(exit_code)}, {"seconds", seconds},        {"files", Json::array()},
-    };
-    json["dryRun"] = !outcomes.empty() && outcomes.front().is_dry_run;
-    for (const GenerateOutcome& outcome : outcomes) json["files"].push_back(outcomeJson(outcome));
-    return jsonText(json);
 }
 
 }  // namespace tspace::tool

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "option_table.h"
+#include "command_table.h"
 
 namespace tspace::tool {
 

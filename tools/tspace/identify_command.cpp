@@ -23,7 +23,8 @@ ExitCode runIdentify(const IdentifyArguments& arguments) {
         identifyText);
     if (files.output_is_closed) return ExitCode::cannotReadOrWrite;
     if (!arguments.json) return files.exit_code;
-    return printResult(identifyJson(files.outcomes, files.exit_code)) ? files.exit_code : ExitCode::cannotReadOrWrite;
+    return printResult(report::identifyJson(files.outcomes, files.exit_code)) ? files.exit_code
+                                                                              : ExitCode::cannotReadOrWrite;
 }
 
 }  // namespace tspace::tool

@@ -20,7 +20,8 @@ ExitCode runInspect(const InspectArguments& arguments) {
         inspectText);
     if (files.output_is_closed) return ExitCode::cannotReadOrWrite;
     if (!arguments.json) return files.exit_code;
-    return printResult(inspectJson(files.outcomes, files.exit_code)) ? files.exit_code : ExitCode::cannotReadOrWrite;
+    return printResult(report::inspectJson(files.outcomes, files.exit_code)) ? files.exit_code
+                                                                             : ExitCode::cannotReadOrWrite;
 }
 
 }  // namespace tspace::tool

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Results of tspace inspect as text and JSON. The JSON is described in docs/json.md.
+// Results of tspace inspect as text.
 #include <fmt/format.h>
 
 #include "console.h"
@@ -11,12 +11,6 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 
 std::string listed(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, ", ")); }
-
-std::vector<std::string> packedNames(const PrimitiveInfo& primitive) {
-    std::vector<std::string> names;
-    for (const FrameFormat format : primitive.packed_frames) names.emplace_back(frameFormatName(format));
-    return names;
-}
 
 std::string needText(const PrimitiveInfo& primitive) {
     if (!primitive.needs_tangents) {
@@ -77,7 +71,7 @@ std::string summaryLine(const InspectOutcome& outcome) {
         tangents = fmt::format("{} {} tangents, {}", counted(needed, "primitive"), needed == 1 ? "needs" : "need",
                                missing == 0 ? "none lacks them" : fmt::format("{} without", missing));
     }
-    return fmt::format("{}: {}, {}, {}, {}; {}\n", printable(outcome.job.input),
+    return fmt::format("{}: {}, {}, {}, {}; {}\n", printable(outcome.input),
                        counted(file.primitives.size(), "primitive"), counted(triangles, "triangle"),
                        counted(vertices, "vertex"), byteText(file.file_bytes), tangents);
 }
@@ -131,112 +125,13 @@ std::string primitiveRows(const PrimitiveInfo& primitive) {
                        table.text("    "));
 }
 
-Json useJson(const TangentUseInfo& use) {
-    return {
-        {"neededBy", use.needed_by},
-        {"place", use.place},
-        {"material", use.material},
-        {"onlyInVariant", use.only_in_variant},
-        {"uvSet", use.uv_set},
-        {"uvOffset", use.uv_offset},
-        {"uvRotation", use.uv_rotation_rad},
-        {"uvScale", use.uv_scale},
-        {"followsFirst", use.follows_first},
-    };
-}
-
-Json primitiveJson(const PrimitiveInfo& primitive) {
-    Json uses = Json::array();
-    for (const TangentUseInfo& use : primitive.tangent_uses) uses.push_back(useJson(use));
-    return {
-        {"mesh", primitive.mesh},
-        {"primitive", primitive.primitive},
-        {"meshName", primitive.mesh_name},
-        {"materialName", primitive.material_name},
-        {"mode", primitive.mode},
-        {"triangles", primitive.triangle_count},
-        {"vertices", primitive.vertex_count},
-        {"indexType", primitive.index_type},
-        {"compression", primitive.compression},
-        {"attributes", primitive.attributes},
-        {"uvSets", primitive.uv_set_count},
-        {"morphTargets", primitive.morph_target_count},
-        {"skinned", primitive.skinned},
-        {"hasNormals", primitive.has_normals},
-        {"hasTangents", primitive.has_tangents},
-        {"tangentsNotRead", primitive.tangents_not_read},
-        {"packedFrames", packedNames(primitive)},
-        {"needsTangents", primitive.needs_tangents},
-        {"neededBy", primitive.needed_by},
-        {"tangentUses", uses},
-        {"variantMaterials", primitive.variant_material_count},
-        {"nodes", primitive.node_count},
-        {"instances", primitive.instance_count},
-        {"uvSet", primitive.uv_set},
-        {"degenerateUvTriangles", primitive.degenerate_uv_count},
-        {"degenerateTriangles", primitive.degenerate_triangle_count},
-        {"mirroredTriangles", primitive.mirrored_triangle_count},
-        {"uvIslands", primitive.uv_island_count},
-        {"mirroredUvIslands", primitive.mirrored_island_count},
-    };
-}
-
-Json outcomeJson(const InspectOutcome& outcome) {
-    Json json = {
-        {"input", outcome.job.input},
-        {"ok", outcome.result.ok()},
-        {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())},
-    };
-    if (!outcome.result) return json;
-    const Inspection& file = *outcome.result;
-    json["format"] = file.format;
-    json["generator"] = file.generator;
-    json["fileBytes"] = file.file_bytes;
-    json["meshes"] = file.mesh_count;
-    json["materials"] = file.material_count;
-    json["nodes"] = file.node_count;
-    json["animations"] = file.animation_count;
-    json["images"] = file.image_count;
-    json["extensionsUsed"] = file.extensions_used;
-    json["extensionsRequired"] = file.extensions_required;
-    json["variants"] = file.variants;
-    json["warnings"] = file.warnings;
-    json["primitives"] = Json::array();
-    for (const PrimitiveInfo& primitive : file.primitives) json["primitives"].push_back(primitiveJson(primitive));
-    return json;
-}
-
 }  // namespace
-
-Json errorJson(const Error* error) {
-    if (error == nullptr) return nullptr;
-    return {
-        {"code", errorName(error->code)},
-        {"message", error->message},
-        {"place", error->place},
-        {"exitCode", static_cast<int>(exitCodeOf(error->code))},
-    };
-}
-
-std::string jsonText(const Json& document) { return document.dump(2, ' ', BadUtf8::replace) + "\n"; }
 
 std::string inspectText(const InspectOutcome& outcome) {
     std::string text = summaryLine(outcome) + fileRows(*outcome.result);
     for (const PrimitiveInfo& primitive : outcome.result->primitives)
         text += fmt::format("\n{}", primitiveRows(primitive));
     return text;
-}
-
-std::string inspectJson(const std::vector<InspectOutcome>& outcomes, ExitCode exit_code) {
-    Json json = {
-        {"schema", "tspace.inspect/1"},
-        {"version", TSPACE_VERSION},
-        {"ok", exit_code == ExitCode::done},
-        {"exitCode", static_cast<int>(exit_code)},
-        {"files", Json::array()},
-    };
-    for (const InspectOutcome& outcome : outcomes) json["files"].push_back(outcomeJson(outcome));
-    return jsonText(json);
 }
 
 }  // namespace tspace::tool

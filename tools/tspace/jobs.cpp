@@ -157,7 +157,7 @@ Result<std::vector<Job>> jobToStandardOutput(const GenerateArguments& arguments,
     if (has_several) return usage("only one model can go to stdout");
     if (arguments.container == Container::gltf) return usage("only a GLB can go to stdout, not --container gltf");
     if (!arguments.batch.manifest.empty()) return usage("a manifest is about files, not about stdout");
-    if (!arguments.dry_run && isatty(STDOUT_FILENO) != 0)
+    if (!arguments.options.dry_run && isatty(STDOUT_FILENO) != 0)
         return usage("a model is no text for a terminal; send stdout to a file or a pipe");
     const std::string& input = arguments.inputs.front();
     return std::vector<Job>{{.input = input, .output = "-", .name = input}};

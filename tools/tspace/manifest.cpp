@@ -129,7 +129,7 @@ Result<Done> ManifestWriter::append(const ManifestEntry& entry) {
         {"input", entry.job.input},
         {"output", entry.job.output},
         {"ok", ok},
-        {"error", errorJson(ok ? nullptr : &entry.job.error)},
+        {"error", report::errorJson(ok ? nullptr : &entry.job.error)},
         {"changed", entry.changed},
         {"seconds", entry.seconds},
         {"inputs", filesJson(entry.inputs)},

@@ -36,8 +36,7 @@ Command inspectCommand(InspectArguments& arguments) {
         .examples = {"tspace inspect helmet.glb", "tspace inspect --json models/ > models.json"},
     };
     addInputs(command, arguments.inputs);
-    addAllowExternal(command, arguments.file);
-    addLimits(command, arguments.file);
+    command.add(inspectOptions(arguments.file));
     addBatch(command, arguments.batch, false);
     addReporting(command, arguments.json, arguments.quiet);
     return command;
@@ -55,16 +54,9 @@ Command diffCommand(DiffArguments& arguments) {
         .examples = {"tspace diff before.glb after.glb",
                      "tspace diff mine.glb theirs.gltf --tolerance 0.5 --json > diff.json"},
     };
-    const char* group = "Comparing";
     command.add(kInputAndOutput, operand("A", arguments.a, "A model file."));
     command.add(kInputAndOutput, operand("B", arguments.b, "Another one."));
-    addAllowExternal(command, arguments.options.file);
-    command.add(group, degrees("--tolerance", arguments.tolerance_deg, 180,
-                               "Exit with 1 when an angle is above this, a sign differs, or a triangle has no partner. "
-                               "In degrees, 0 to 180."));
-    command.add(group,
-                number("--worst", arguments.options.worst_count, 10000, "How many of the worst places are listed."));
-    addLimits(command, arguments.options.file);
+    command.add(diffOptions(arguments.request));
     addReporting(command, arguments.json, arguments.quiet);
     return command;
 }
@@ -81,12 +73,7 @@ Command identifyCommand(IdentifyArguments& arguments) {
         .examples = {"tspace identify helmet.glb", "tspace identify --json models/ > methods.json"},
     };
     addInputs(command, arguments.inputs);
-    addAllowExternal(command, arguments.options.file);
-    command.add("Comparing", degrees("--tolerance", arguments.options.tolerance_deg, 180,
-                                     "Tangents nearer than this count as the same. In degrees, 0 to 180."));
-    addThreads(command, arguments.options.execution,
-               "Number of threads; 0: as many as there are cores. Changes no bit of the result.");
-    addLimits(command, arguments.options.file);
+    command.add(identifyOptions(arguments.options));
     addBatch(command, arguments.batch, false);
     addReporting(command, arguments.json, arguments.quiet);
     return command;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "arguments.h"
-#include "option_table.h"
+#include "command_table.h"
 
 namespace tspace::tool {
 

@@ -5,16 +5,8 @@
 #include <algorithm>
 #include <string_view>
 
-#include "nearest_name.h"
-
 namespace tspace::tool {
 namespace {
-
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-    return text;
-}
 
 class Reader {
   public:
@@ -45,19 +37,11 @@ class Reader {
         return nullptr;
     }
 
-    [[nodiscard]] std::string unknown(const std::string& name) const {
-        std::vector<std::string> names;
-        for (const Option& option : command_.options) {
-            names.insert(names.end(), option.names.rbegin(), option.names.rend());
-        }
-        return "there is no option '" + name + "'" + didYouMean(name, names);
-    }
-
     std::string readLong(const std::string& argument) {
         const std::size_t equals = argument.find('=');
         const std::string name = argument.substr(0, equals);
         const Option* option = find(name);
-        if (option == nullptr) return unknown(name);
+        if (option == nullptr) return unknownOption(command_.options, name);
         if (equals == std::string::npos) return option->value.empty() ? take(*option, "") : takeNext(*option);
         if (option->value.empty()) return name + " takes no value";
         return take(*option, argument.substr(equals + 1));
@@ -66,7 +50,7 @@ class Reader {
     std::string readShort(const std::string& argument) {
         for (std::size_t i = 1; i < argument.size(); ++i) {
             const Option* option = find({'-', argument[i]});
-            if (option == nullptr) return unknown(argument);
+            if (option == nullptr) return unknownOption(command_.options, argument);
             if (!option->value.empty()) {
                 return i + 1 < argument.size() ? take(*option, argument.substr(i + 1)) : takeNext(*option);
             }
@@ -97,46 +81,11 @@ class Reader {
         return take(*operands[place], argument);
     }
 
-    std::string take(const Option& option, const std::string& value) {
-        if (!option.is_repeatable && given_.has(option.name()))
-            return option.value.empty() ? "" : option.name() + " is given twice";
-        given_.items.push_back({&option, value});
-        std::size_t begin = 0;
-        std::string wrong;
-        while (wrong.empty() && begin <= value.size()) {
-            const std::size_t end = option.is_list ? std::min(value.find(',', begin), value.size()) : value.size();
-            wrong = takePart(option, value.substr(begin, end - begin));
-            begin = end + 1;
-        }
-        return wrong;
-    }
-
-    static std::string takePart(const Option& option, const std::string& value) {
-        const auto& choices = option.choices;
-        std::string wrong;
-        if (!choices.empty() && std::find(choices.begin(), choices.end(), value) == choices.end()) {
-            constexpr std::size_t kMostListed = 12;
-            wrong = choices.size() <= kMostListed ? "must be one of " + joined(choices)
-                                                  : "there is no such " + option.value;
-            wrong += didYouMean(value, choices);
-        } else {
-            wrong = option.take(value);
-        }
-        return wrong.empty() ? "" : option.name() + " " + (value.empty() ? "''" : value) + ": " + wrong;
-    }
+    std::string take(const Option& option, const std::string& value) { return giveValue(option, value, given_); }
 
     [[nodiscard]] std::string checkWhole() const {
-        for (const Option& option : command_.options) {
-            if (!given_.has(option.name())) {
-                if (option.is_required) return option.name() + " is missing";
-                continue;
-            }
-            for (const std::string& other : option.excludes) {
-                if (given_.has(other)) return option.name() + " and " + other + " exclude each other";
-            }
-            if (!option.needs.empty() && !given_.has(option.needs)) return option.name() + " needs " + option.needs;
-        }
-        return command_.finish ? command_.finish(given_) : "";
+        const std::string wrong = checkTogether(command_.options, given_);
+        return wrong.empty() && command_.finish ? command_.finish(given_) : wrong;
     }
 
     const Command& command_;

@@ -15,7 +15,7 @@ namespace tspace::tool {
 
 template <class Value>
 struct ReadFiles {
-    std::vector<Outcome<Value>> outcomes = {};
+    std::vector<report::Outcome<Value>> outcomes = {};
     ExitCode exit_code = ExitCode::done;  ///< the worst of the files that could not be read
     bool output_is_closed = false;        ///< nobody reads stdout any more; files may have been left out
 };
@@ -40,14 +40,14 @@ ReadFiles<Value> readFiles(const std::vector<Job>& jobs, const BatchArguments& b
         const Job& job = jobs[number];
         progress.update(job.input, "reading", 0, 0);
         files.outcomes[number] = {
-            .job = job, .result = job.error.code == ErrorCode::ok ? read(job.input) : Result<Value>(job.error)};
+            .input = job.input, .result = job.error.code == ErrorCode::ok ? read(job.input) : Result<Value>(job.error)};
         progress.fileDone(files.outcomes[number].result.ok());
     };
     const auto finished = [&](std::size_t number) {
-        const Outcome<Value>& outcome = files.outcomes[number];
+        const report::Outcome<Value>& outcome = files.outcomes[number];
         progress.clear();
         if (!outcome.result) {
-            files.exit_code = worse(files.exit_code, printError(outcome.job.input, outcome.result.error()));
+            files.exit_code = worse(files.exit_code, printError(outcome.input, outcome.result.error()));
         } else if (telling.text && !output_is_closed) {
             std::string text = wants_details && number > 0 ? "\n" : "";
             text.append(textOf(outcome));

@@ -84,7 +84,7 @@ Json notificationJson(const CheckOutcome& outcome) {
     return {
         {"level", "error"},
         {"message", {{"text", text}}},
-        {"locations", Json::array({{{"physicalLocation", physicalLocation(outcome.job.input)}}})},
+        {"locations", Json::array({{{"physicalLocation", physicalLocation(outcome.input)}}})},
     };
 }
 
@@ -98,8 +98,7 @@ std::string checkSarif(const std::vector<CheckOutcome>& outcomes, ExitCode exit_
             notifications.push_back(notificationJson(outcome));
             continue;
         }
-        for (const Finding& finding : outcome.result->findings)
-            results.push_back(resultJson(outcome.job.input, finding));
+        for (const Finding& finding : outcome.result->findings) results.push_back(resultJson(outcome.input, finding));
     }
     const bool all_read = notifications.empty();
     const Json driver = {{"name", "tspace"}, {"version", TSPACE_VERSION}, {"rules", rulesJson()}};
@@ -111,7 +110,7 @@ std::string checkSarif(const std::vector<CheckOutcome>& outcomes, ExitCode exit_
     const Json document = {{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
                            {"version", "2.1.0"},
                            {"runs", Json::array({run})}};
-    return jsonText(document);
+    return report::jsonText(document);
 }
 
 }  // namespace tspace::tool

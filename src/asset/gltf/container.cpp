@@ -27,20 +27,19 @@ std::optional<DataUri> loadImage(Document& document, const std::string& uri, con
     if (uriKind(uri) == UriKind::data) {
         image = decodeDataUri(uri, join(place, "uri"));
         if (!declared.empty()) image.mime_type = declared;
-    } else if (uriKind(uri) == UriKind::otherScheme || document.folder.empty()) {
+    } else if (uriKind(uri) == UriKind::otherScheme || document.files.areNone()) {
         warnings.push_back("the image " + inQuotes(uri) + " is not a file and stays outside of the GLB");
         return {};
     } else {
-        const fs::path path = resolveUri(document.folder, uri, document.options.allow_external, join(place, "uri"));
-        std::error_code error;
+        const Path path = document.files.resolve(uri, join(place, "uri"));
+        const NamedFiles::Kind kind = document.files.kindOf(path);
         // FBX files name the folder of an image that has no name.
-        const bool is_folder = fs::is_directory(path, error);
-        if (is_folder || !fs::exists(path, error)) {
-            warnings.push_back("the image " + inQuotes(uri) + (is_folder ? " is a folder" : " does not exist") +
-                               "; its URI is kept");
+        if (kind != NamedFiles::Kind::file) {
+            const char* why = kind == NamedFiles::Kind::folder ? " is a folder" : " does not exist";
+            warnings.push_back("the image " + inQuotes(uri) + why + "; its URI is kept");
             return {};
         }
-        image.bytes = readFile(path, join(place, "uri"));
+        image.bytes = document.files.read(path, join(place, "uri"));
         document.input_files.push_back(path.string());
         image.mime_type = declared;
     }
@@ -157,23 +156,22 @@ void embedImages(Document& document, std::vector<std::string>& warnings) {
 void copyNamedFile(const Document& document, const OutputTarget& target, const std::string& uri,
                    const std::string& place, AtomicOutput& output, std::vector<std::string>& warnings) {
     if (uri.empty() || uriKind(uri) != UriKind::path || document.new_files.contains(pathOfUri(uri))) return;
-    if (output.isStream() || document.folder.empty()) {
+    if (output.isStream() || document.files.areNone()) {
         warnings.push_back("the file " + inQuotes(uri) + " that the model names does not come along");
         return;
     }
-    const fs::path from = resolveUri(document.folder, uri, document.options.allow_external, place);
+    const Path from = document.files.resolve(uri, place);
     const fs::path relative = fs::path(pathOfUri(uri)).lexically_normal();
     if (relative.is_absolute() || *relative.begin() == "..") {
         warnings.push_back("the file " + inQuotes(uri) + " lies outside of the model's folder and was not copied");
         return;
     }
-    std::error_code error;
-    const bool is_folder = fs::is_directory(from, error);
-    if (is_folder || !fs::exists(from, error)) {
+    const NamedFiles::Kind kind = document.files.kindOf(from);
+    if (kind != NamedFiles::Kind::file) {
         // Taking it in failed before, with a warning.
         if (!target.takes_images_in) {
-            warnings.push_back("the file " + inQuotes(uri) + (is_folder ? " is a folder" : " does not exist") +
-                               " and was not copied");
+            const char* why = kind == NamedFiles::Kind::folder ? " is a folder" : " does not exist";
+            warnings.push_back("the file " + inQuotes(uri) + why + " and was not copied");
         }
         return;
     }
@@ -181,15 +179,16 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
     const fs::path to = fs::path(folderOf(target.path)) / relative;
     const std::vector<std::string> planned = output.files();
     if (std::find(planned.begin(), planned.end(), to.string()) != planned.end()) return;
+    std::error_code error;
     if (fs::exists(to, error)) {
-        if (isSameFile(from, to)) return;
-        if (readFile(from, place) == readFile(to, place)) return;
+        if (!document.files.areInMemory() && isSameFile(from, to)) return;
+        if (document.files.read(from, place) == readFile(to, place)) return;
         failFile(ErrorCode::cannotWrite,
                  "the model needs the file " + inQuotes(uri) + " beside it, but " + pathInQuotes(to) +
                      " exists already and is another one",
                  place);
     }
-    output.add(to, readFile(from, place));
+    output.add(to, document.files.read(from, place));
 }
 
 void copyNamedFiles(const Document& document, const OutputTarget& target, AtomicOutput& output,
@@ -227,8 +226,8 @@ OutputTarget outputTarget(const Document& document, const Path& path, bool is_st
         if (target.container != Container::glb) failFile(ErrorCode::invalidOption, "only a GLB is one stream of bytes");
         return target;
     }
-    target.in_place = isSameFile(document.path, path);
-    target.same_folder = isSameFile(document.folder, folderOf(path));
+    target.in_place = !document.files.areInMemory() && isSameFile(document.path, path);
+    target.same_folder = !document.files.areInMemory() && isSameFile(document.files.folder(), folderOf(path));
     return target;
 }
 

@@ -127,8 +127,8 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
         document.memory->take(bytes.size(), place);
     } else {
         buffer.source = BufferSource::file;
-        buffer.path = resolveUri(document.folder, text, document.options.allow_external, join(place, "uri"));
-        bytes = readFile(buffer.path, join(place, "uri"));
+        buffer.path = document.files.resolve(text, join(place, "uri"));
+        bytes = document.files.read(buffer.path, join(place, "uri"));
         const std::string name = buffer.path.string();
         // A file that is named twice is read twice, but has its bytes once.
         if (std::find(document.input_files.begin(), document.input_files.end(), name) == document.input_files.end()) {
@@ -151,7 +151,7 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
 
 /// Images are not read here, but a URI that leads out is refused for every file that a model names.
 void checkImageUris(const Document& document) {
-    if (document.folder.empty()) return;  // the model is in no file, and no URI is followed
+    if (document.files.areNone()) return;  // no URI is followed
     const Json& images = rootArray(document, "images");
     for (std::size_t i = 0; i < images.size(); ++i) {
         const std::string place = join("/images", i);
@@ -159,7 +159,7 @@ void checkImageUris(const Document& document) {
         if (uri.empty() || uriKind(uri) == UriKind::data) continue;
         // With allow_external a web address is nobody's file: it stays as it is.
         if (uriKind(uri) == UriKind::otherScheme && document.options.allow_external) continue;
-        resolveUri(document.folder, uri, document.options.allow_external, join(place, "uri"));
+        static_cast<void>(document.files.resolve(uri, join(place, "uri")));
     }
 }
 
@@ -196,7 +196,7 @@ Json& editableRootArray(Document& document, const char* name) {
 Document parseDocument(Bytes file_bytes, const Path& path, const FileOptions& options) {
     Document document;
     document.path = path;
-    if (options.content.data() == nullptr) document.folder = folderOf(path);
+    document.files = NamedFiles(path, options);
     document.options = options;
     document.memory = std::make_shared<MemoryBudget>(options.memory_limit_bytes);
     document.file_bytes = std::move(file_bytes);

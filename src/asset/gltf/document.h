@@ -16,6 +16,7 @@
 #include "asset/gltf/glb.h"
 #include "asset/gltf/json.h"
 #include "asset/memory_budget.h"
+#include "asset/named_files.h"
 #include "asset/path.h"
 #include "tspace/asset.h"
 
@@ -49,7 +50,7 @@ struct Buffer {
 
 struct Document {
     Path path = {};
-    Path folder = {};
+    NamedFiles files = {};  ///< what it names
     Container container = Container::gltf;
     Bytes file_bytes = {};  ///< the model file as it was read; BIN lies in it, and is edited there
     Json json = {};

@@ -274,8 +274,7 @@ void noteInputFile(Document& document, std::size_t image) {
     const Json& entry = rootArray(document, "images")[image];
     const std::string uri = readString(entry, "uri", place);
     if (uri.empty() || uriKind(uri) != UriKind::path) return;
-    document.input_files.push_back(
-        resolveUri(document.folder, uri, document.options.allow_external, join(place, "uri")).string());
+    document.input_files.push_back(document.files.resolve(uri, join(place, "uri")).string());
 }
 
 }  // namespace

@@ -150,7 +150,7 @@ Bytes readImageBytes(const Document& document, const Json& image, const std::str
     const std::string uri = readString(image, "uri", place);
     if (uriKind(uri) == UriKind::data) return decodeDataUri(uri, join(place, "uri")).bytes;
     if (uri.empty() || uriKind(uri) == UriKind::otherScheme) return {};
-    return readFile(resolveUri(document.folder, uri, document.options.allow_external, join(place, "uri")));
+    return document.files.read(document.files.resolve(uri, join(place, "uri")));
 }
 
 }  // namespace

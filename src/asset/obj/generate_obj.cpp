@@ -119,7 +119,7 @@ std::vector<NormalMapReport> flipMaps(std::span<const ObjPrimitive> primitives, 
     std::vector<NormalMapReport> reports;
     if (options.flip_green == FlipGreen::none) return reports;
     const std::int64_t left = model.memory->left();
-    const Scene scene = sceneOf(model, primitives, options.file, true);
+    const Scene scene = sceneOf(model, primitives, true);
     std::vector<const Texture*> textures(scene.images.size());
     for (const ScenePrimitive& primitive : scene.primitives) {
         for (const TangentUse& use : primitive.uses)
@@ -172,7 +172,7 @@ GenerateReport generate(const std::string& input, const std::string& output, con
     report.input_bytes = model.input_bytes;
     report.warnings = model.warnings;
     AtomicOutput files(options.sink, options.dry_run);
-    writeScene(model, finished, output, options.file, files, report.warnings);
+    writeScene(model, finished, output, files, report.warnings);
     files.commit();
     report.input_files = std::move(model.input_files);
     report.input_files.insert(report.input_files.end(), files.sources().begin(), files.sources().end());

@@ -86,21 +86,20 @@ std::uint64_t countOf(const std::string& word, const std::string& text) {
 
 /// false when there is no such file. A file that was read before is there, and not read again. Fails with
 /// forbiddenPath.
-bool readLibrary(const fs::path& folder, const std::string& name, const FileOptions& options, Model& model,
-                 std::vector<Material>& materials) {
-    const fs::path path = resolveUri(folder, percentEncode(plainPath(name)), options.allow_external, "mtllib");
-    std::error_code ignored;
-    if (!fs::is_regular_file(path, ignored)) return false;
+bool readLibrary(const std::string& name, Model& model, std::vector<Material>& materials) {
+    if (model.files.areNone()) return false;
+    const Path path = model.files.resolve(percentEncode(plainPath(name)), "mtllib");
+    if (model.files.kindOf(path) != NamedFiles::Kind::file) return false;
     const auto& known = model.input_files;
     if (std::find(known.begin(), known.end(), path.string()) != known.end()) return true;
-    const Bytes bytes = readFile(path, "mtllib");
+    const Bytes bytes = model.files.read(path, "mtllib");
     model.input_bytes += bytes.size();
     model.input_files.push_back(path.string());
     model.memory->allow(bytes.size());
     std::string text(bytes.begin(), bytes.end());
     makeLineEndsPlain(text);
     if (completeTextureOptions(text) != 0) {
-        model.warnings.push_back("the material library '" + path.filename().string() +
+        model.warnings.push_back("the material library '" + fs::path(path).filename().string() +
                                  "' moves or scales textures (-o, -s, -t), which is not carried over");
     }
 
@@ -126,14 +125,21 @@ std::vector<std::string> splitNames(const std::string& names) {
     return result;
 }
 
+/// Whether the whole line is the name of a file.
+bool isOneFile(const std::string& line, const NamedFiles& files) try {
+    const Path path = files.resolve(percentEncode(plainPath(line)), "mtllib");
+    return files.kindOf(path) != NamedFiles::Kind::missing;
+} catch (const FileError&) {
+    return false;
+}
+
 }  // namespace
 
-std::vector<Material> readMaterials(const Path& folder, const std::vector<std::string>& names,
-                                    const FileOptions& options, Model& model) {
+std::vector<Material> readMaterials(const std::vector<std::string>& names, Model& model) {
     std::vector<Material> materials;
     const auto read = [&](const std::string& name) {
         try {
-            return readLibrary(folder, name, options, model, materials);
+            return readLibrary(name, model, materials);
         } catch (const FileError& failure) {
             model.warnings.push_back("material library left out: " + failure.error.message);
             return true;
@@ -144,9 +150,8 @@ std::vector<Material> readMaterials(const Path& folder, const std::vector<std::s
         if (line.empty() || std::find(seen.begin(), seen.end(), line) != seen.end()) continue;
         seen.push_back(line);
         const std::vector<std::string> words = splitNames(line);
-        std::error_code ignored;
         // File names may have spaces in them, but several files may also stand in one line.
-        if (words.size() == 1 || fs::exists(folder / plainPath(line), ignored)) {
+        if (words.size() == 1 || isOneFile(line, model.files)) {
             if (!read(line)) model.warnings.push_back("there is no material library '" + line + "'");
             continue;
         }

@@ -10,6 +10,7 @@
 
 #include "asset/file_io.h"
 #include "asset/memory_budget.h"
+#include "asset/named_files.h"
 #include "asset/path.h"
 #include "tspace/vec.h"
 
@@ -56,7 +57,7 @@ struct Material {
 };
 
 struct Model {
-    Path folder = {};                  ///< that of the OBJ file
+    NamedFiles files = {};             ///< what it names
     std::vector<Vec3> positions = {};  ///< all finite
     std::vector<Vec2> uvs = {};        ///< v runs down, as in glTF
     std::vector<Vec3> normals = {};    ///< unit or zero; corners never refer to zero ones

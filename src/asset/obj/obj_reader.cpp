@@ -315,12 +315,13 @@ void requireFaces(const Model& model) {
 Model readModel(const Path& path, const FileOptions& options) {
     // Beyond this, counts of vertices might not fit 32 bits.
     constexpr std::uintmax_t kMostBytes = std::uintmax_t{8} << 30;
+    const bool is_in_memory = options.content.data() != nullptr;
     std::error_code no_file;
-    const std::uintmax_t size = std::filesystem::file_size(path, no_file);
+    const std::uintmax_t size = is_in_memory ? options.content.size() : std::filesystem::file_size(path, no_file);
     if (!no_file && size > kMostBytes) failFile(ErrorCode::unsupportedFile, "the OBJ file is larger than 8 GiB");
-    Bytes bytes = readFile(path);
+    Bytes bytes = is_in_memory ? Bytes(options.content.begin(), options.content.end()) : readFile(path);
     Model model;
-    model.folder = folderOf(path);
+    model.files = NamedFiles(path, options);
     model.input_bytes = bytes.size();
     model.input_files.push_back(path.string());
     model.memory = std::make_shared<MemoryBudget>(options.memory_limit_bytes);
@@ -341,7 +342,7 @@ Model readModel(const Path& path, const FileOptions& options) {
     if (model.faces.empty()) failFile(ErrorCode::invalidFile, "the OBJ file has no faces");
     requireFaces(model);
     addWarnings(build, model);
-    fillMaterials(model, readMaterials(model.folder, notes.material_libraries, options, model));
+    fillMaterials(model, readMaterials(notes.material_libraries, model));
     return model;
 }
 

@@ -17,7 +17,6 @@ Model readModel(const Path& path, const FileOptions& options);
 
 /// The materials of the named libraries. `names` is what stands after `mtllib`: a file name, or several with
 /// spaces between.
-std::vector<Material> readMaterials(const Path& folder, const std::vector<std::string>& names,
-                                    const FileOptions& options, Model& model);
+std::vector<Material> readMaterials(const std::vector<std::string>& names, Model& model);
 
 }  // namespace tspace::obj

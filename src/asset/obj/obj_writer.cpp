@@ -130,12 +130,11 @@ class BufferBuilder {
 /// Images and textures, one per file however often it is used.
 class ImageBuilder {
   public:
-    ImageBuilder(const Model& model, const Path& output, const FileOptions& options, BufferBuilder& buffer,
-                 AtomicOutput& files, std::vector<std::string>& warnings)
-        : names_by_uri_(isSameFile(folderOf(output), model.folder)),
+    ImageBuilder(const Model& model, const Path& output, BufferBuilder& buffer, AtomicOutput& files,
+                 std::vector<std::string>& warnings)
+        : names_by_uri_(!model.files.areInMemory() && isSameFile(folderOf(output), model.files.folder())),
           flipped_maps_(model.flipped_maps),
-          folder_(model.folder),
-          options_(options),
+          named_(model.files),
           buffer_(buffer),
           files_(files),
           warnings_(warnings) {}
@@ -157,9 +156,8 @@ class ImageBuilder {
     /// `flipped`: goes into the output in place of the file; may be null.
     int addTexture(const Texture& texture, const Bytes* flipped) {
         try {
-            const fs::path path =
-                resolveUri(texture.folder, percentEncode(texture.file), options_.allow_external, "material");
-            const Bytes bytes = readFile(path);
+            const Path path = named_.resolve(texture.folder, percentEncode(texture.file), "material");
+            const Bytes bytes = named_.read(path);
             files_.addSource(path);
             // By content, because names lie. Core glTF has no other formats.
             const ImageFormat format = imageFormat(bytes);
@@ -178,11 +176,9 @@ class ImageBuilder {
 
     Json imageJson(const fs::path& path, const Bytes& bytes, const char* type, bool names_by_uri) {
         Json image = {{"name", path.stem().string()}};
-        const fs::path root = fs::weakly_canonical(fs::absolute(folder_));
-        const fs::path relative = fs::weakly_canonical(fs::absolute(path)).lexically_relative(root);
-        const bool lies_below = !relative.empty() && *relative.begin() != "..";
-        if (names_by_uri && lies_below) {
-            image["uri"] = percentEncode(relative.generic_string());
+        const std::string below = names_by_uri ? pathBelowModel(path) : "";
+        if (!below.empty()) {
+            image["uri"] = percentEncode(below);
         } else {
             image["mimeType"] = type;
             image["bufferView"] = buffer_.addView(bytes.data(), bytes.size(), 0);
@@ -190,10 +186,16 @@ class ImageBuilder {
         return image;
     }
 
+    /// Relative to the model's folder; empty where it lies elsewhere.
+    [[nodiscard]] std::string pathBelowModel(const fs::path& path) const {
+        const fs::path root = fs::weakly_canonical(fs::absolute(fs::path(named_.folder())));
+        const fs::path relative = fs::weakly_canonical(fs::absolute(path)).lexically_relative(root);
+        return relative.empty() || *relative.begin() == ".." ? "" : relative.generic_string();
+    }
+
     const bool names_by_uri_;
     const std::map<std::string, Bytes>& flipped_maps_;
-    const fs::path folder_;
-    const FileOptions& options_;
+    const NamedFiles& named_;
     BufferBuilder& buffer_;
     AtomicOutput& files_;
     std::vector<std::string>& warnings_;
@@ -307,9 +309,9 @@ void writeFiles(Json& root, const Bytes& bytes, const fs::path& output, AtomicOu
 }  // namespace
 
 void writeScene(const Model& model, const std::vector<FinishedPrimitive>& primitives, const Path& output,
-                const FileOptions& options, AtomicOutput& files, std::vector<std::string>& warnings) {
+                AtomicOutput& files, std::vector<std::string>& warnings) {
     BufferBuilder buffer;
-    ImageBuilder images(model, output, options, buffer, files, warnings);
+    ImageBuilder images(model, output, buffer, files, warnings);
     Json root = {{"asset", {{"version", "2.0"}, {"generator", "tspace"}}}};
     Json materials = Json::array();
     const std::vector<int> material_numbers = addMaterials(model, images, materials);

@@ -37,6 +37,6 @@ struct FinishedPrimitive {
 /// are named by URI, others go into the file. Textures that are missing, forbidden or neither PNG nor JPEG
 /// are left out with a warning. Throws FileError.
 void writeScene(const Model& model, const std::vector<FinishedPrimitive>& primitives, const Path& output,
-                const FileOptions& options, AtomicOutput& files, std::vector<std::string>& warnings);
+                AtomicOutput& files, std::vector<std::string>& warnings);
 
 }  // namespace tspace::obj

@@ -16,8 +16,8 @@ namespace {
 /// Number of each normal map among the images of the scene, one per file.
 class NormalMaps {
   public:
-    NormalMaps(const FileOptions& options, bool with_bytes, MemoryBudget& memory)
-        : options_(options), with_bytes_(with_bytes), memory_(memory) {}
+    NormalMaps(const NamedFiles& files, bool with_bytes, MemoryBudget& memory)
+        : files_(files), with_bytes_(with_bytes), memory_(memory) {}
 
     std::size_t indexOf(const Texture& texture) {
         const auto [entry, is_new] = numbers_.emplace(texture.path(), images.size());
@@ -34,8 +34,7 @@ class NormalMaps {
   private:
     void readBytes(const Texture& texture, SceneImage& image) const {
         try {
-            const Bytes bytes =
-                readFile(resolveUri(texture.folder, percentEncode(texture.file), options_.allow_external, "material"));
+            const Bytes bytes = files_.read(files_.resolve(texture.folder, percentEncode(texture.file), "material"));
             memory_.allow(bytes.size());
             memory_.take(bytes.size(), "material");
             image.bytes.assign(bytes.begin(), bytes.end());
@@ -44,7 +43,7 @@ class NormalMaps {
         }
     }
 
-    const FileOptions& options_;
+    const NamedFiles& files_;
     bool with_bytes_;
     MemoryBudget& memory_;
     std::map<std::string, std::size_t> numbers_ = {};
@@ -82,13 +81,12 @@ ScenePrimitive loadPrimitive(const Model& model, const ObjPrimitive& primitive, 
 
 }  // namespace
 
-Scene sceneOf(const Model& model, std::span<const ObjPrimitive> primitives, const FileOptions& options,
-              bool with_images) {
+Scene sceneOf(const Model& model, std::span<const ObjPrimitive> primitives, bool with_images) {
     Scene scene;
     scene.format = "obj";
     scene.memory = model.memory;
     scene.warnings = model.warnings;
-    NormalMaps maps(options, with_images, *scene.memory);
+    NormalMaps maps(model.files, with_images, *scene.memory);
     std::vector<std::uint32_t> next_in_mesh(model.shape_names.size(), 0);
     for (const ObjPrimitive& primitive : primitives) {
         scene.primitives.push_back(loadPrimitive(model, primitive, maps));
@@ -100,7 +98,7 @@ Scene sceneOf(const Model& model, std::span<const ObjPrimitive> primitives, cons
 
 Scene readObjScene(const std::string& input, const FileOptions& options, bool with_images) {
     const Model model = readModel(input, options);
-    return sceneOf(model, collectPrimitives(model), options, with_images);
+    return sceneOf(model, collectPrimitives(model), with_images);
 }
 
 }  // namespace tspace::obj

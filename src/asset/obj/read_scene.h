@@ -11,7 +11,6 @@ namespace tspace::obj {
 
 /// The primitives that a glTF made from the model would have. `with_images`: also the bytes of normal maps. Throws
 /// FileError.
-Scene sceneOf(const Model& model, std::span<const ObjPrimitive> primitives, const FileOptions& options,
-              bool with_images);
+Scene sceneOf(const Model& model, std::span<const ObjPrimitive> primitives, bool with_images);
 
 }  // namespace tspace::obj

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "option_table.h"
+#include "command_table.h"
 
 namespace tspace::tool {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What the tool's exit codes mean, and which error leads to which.
+// What the tool's exit codes mean, which stand in its JSON too, and which error leads to which.
 #pragma once
 
 #include <algorithm>
 
 #include "tspace/result.h"
 
-namespace tspace::tool {
+namespace tspace::report {
 
 /// Larger is worse: of several files the worst decides.
 enum class ExitCode : int {
@@ -48,4 +48,4 @@ inline ExitCode exitCodeOf(ErrorCode code) {
     return ExitCode::internal;
 }
 
-}  // namespace tspace::tool
+}  // namespace tspace::report

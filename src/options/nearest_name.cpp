@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Edit distance with swaps of neighbours (optimal string alignment).
-#include "nearest_name.h"
+#include "options/nearest_name.h"
 
 #include <algorithm>
 
-namespace tspace::tool {
+namespace tspace::options {
 namespace {
 
 std::size_t editDistance(const std::string& a, const std::string& b) {
@@ -48,4 +48,4 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
     return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
 }
 
-}  // namespace tspace::tool
+}  // namespace tspace::options

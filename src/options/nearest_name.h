@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace tspace::tool {
+namespace tspace::options {
 
 /// The name that `word` becomes by the fewest letters added, left out, changed or swapped with their neighbour, or that
 /// it is the beginning of. Empty where none is near enough to be what was meant.
@@ -14,4 +14,4 @@ std::string nearestName(const std::string& word, const std::vector<std::string>&
 /// "; did you mean '...'?", or nothing.
 std::string didYouMean(const std::string& word, const std::vector<std::string>& names);
 
-}  // namespace tspace::tool
+}  // namespace tspace::options

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The table of commands and options: one description of each, from which the command line is read (parse.h), and --help
-// (help.h), man pages and completions (pages/) are made.
+// What an option of a call on files is: one description of each, from which the C API reads its JSON (json_options.h), and
+// the tool its command line, help, man pages and completions.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-namespace tspace::tool {
+namespace tspace::options {
 
 /// What takes a value: stores it, and returns what is wrong with it ("must be ..."), or nothing.
 using Take = std::function<std::string(const std::string& value)>;
 
-/// An option, or an operand (what stands on the command line without a name, such as input files).
+/// An option, or an operand of a command line (what stands there without a name, such as input files).
 struct Option {
     std::vector<std::string> names = {};    ///< {"-o", "--output"}; none: an operand
     std::string value = {};                 ///< what stands for the value in help, "DEG"; empty: a flag
@@ -33,7 +33,7 @@ struct Option {
     [[nodiscard]] const std::string& name() const { return names.empty() ? value : names.back(); }
 };
 
-/// What a command line gave: options in its order, with their values (empty for flags).
+/// What was given: options in its order, with their values (empty for flags).
 struct Given {
     struct Item {
         const Option* option = nullptr;
@@ -45,29 +45,22 @@ struct Given {
     [[nodiscard]] bool has(const std::string& name) const;
 };
 
-struct Command {
-    std::string name = {};
-    std::string summary = {};                ///< "add the tangents that normal maps need"
-    std::string operands = {};               ///< "IN... -o OUT", for the usage line
-    std::string description = {};            ///< a paragraph
-    std::vector<std::string> examples = {};  ///< whole command lines
-    std::vector<Option> options = {};
-    /// Called when everything is taken. Returns what makes no sense together, or nothing.
-    std::function<std::string(const Given& given)> finish = {};
+/// The options of one call.
+using OptionList = std::vector<Option>;
 
-    Option& add(const char* group, Option option);
-};
+/// Appends an option under the heading `group` of help.
+Option& add(OptionList& list, const char* group, Option option);
 
-/// What stands in `tspace --help` in place of a description.
-inline constexpr const char* kToolSummary = "exact tangent frames for the normal maps of 3D models";
+/// Gives a value ("" for a flag) to an option, and notes it in `given`. Returns what is wrong with it, or nothing.
+std::string giveValue(const Option& option, const std::string& value, Given& given);
 
-/// The whole tool.
-struct ToolTable {
-    std::vector<Command> commands = {};
-    std::vector<Option> options = {};  ///< those in the place of a command: --help, --version
-};
+/// Returns which options exclude each other or are missing, or nothing.
+std::string checkTogether(const OptionList& list, const Given& given);
 
-/// A name on the command line and what it stands for.
+/// What to say of a name that no option has.
+std::string unknownOption(const OptionList& list, const std::string& name);
+
+/// A name of a choice and what it stands for.
 template <class Value>
 struct Named {
     const char* name;
@@ -76,10 +69,6 @@ struct Named {
 
 /// `names` as they stand in help: "-q, --quiet"; empty for an operand. Without a `value_name` it is a flag.
 Option option(const char* names, const char* value_name, Take take, std::string help);
-/// A file, or several where `target` is a list.
-Option operand(const char* value_name, std::string& target, std::string help);
-Option operand(const char* value_name, std::vector<std::string>& target, std::string help);
-
 /// Sets `target` to `value`.
 template <class Value>
 Option setting(const char* names, Value& target, Value value, std::string help) {
@@ -133,4 +122,4 @@ Option choice(const char* names, const char* value_name, const Named<Value> (&ta
 /// The whole text as a whole number. false: it is none, or too large.
 bool parseNumber(const std::string& text, std::uint64_t& number);
 
-}  // namespace tspace::tool
+}  // namespace tspace::options

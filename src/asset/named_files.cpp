@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Looking on the disk, or asking the caller.
+#include "asset/named_files.h"
+
+#include <filesystem>
+
+#include "asset/file_error.h"
+#include "asset/uri.h"
+
+namespace tspace {
+
+namespace fs = std::filesystem;
+
+NamedFiles::NamedFiles(const Path& model, const FileOptions& options)
+    : find_file_(options.find_file),
+      is_in_memory_(options.content.data() != nullptr),
+      allow_external_(options.allow_external) {
+    if (!is_in_memory_) folder_ = folderOf(model);
+}
+
+Path NamedFiles::resolve(const Path& folder, std::string_view uri, const std::string& place) const {
+    if (!is_in_memory_) return resolveUri(folder, uri, allow_external_, place);
+    const std::string path = checkedPathOfUri(uri, allow_external_, place);
+    if (!find_file_) {
+        failFile(
+            ErrorCode::invalidFile,
+            "the file " + inQuotes(path, 200) + " that the model names cannot be found, for the model is not a file",
+            place);
+    }
+    return (fs::path(folder) / path).lexically_normal();
+}
+
+Result<std::span<const std::uint8_t>> NamedFiles::find(const Path& file) const {
+    Result<std::span<const std::uint8_t>> found = find_file_(file.string());
+    if (found || found.error().code == ErrorCode::cannotRead) return found;
+    throw CallerError{std::move(found).error()};
+}
+
+NamedFiles::Kind NamedFiles::kindOf(const Path& file) const {
+    if (is_in_memory_) return find(file) ? Kind::file : Kind::missing;
+    std::error_code error;
+    if (fs::is_directory(file.string(), error)) return Kind::folder;
+    return fs::exists(file.string(), error) ? Kind::file : Kind::missing;
+}
+
+Bytes NamedFiles::read(const Path& file, const std::string& place) const {
+    if (!is_in_memory_) return readFile(file, place);
+    const Result<std::span<const std::uint8_t>> found = find(file);
+    if (!found) failFile(ErrorCode::invalidFile, "the file " + pathInQuotes(file) + " was not given", place);
+    return Bytes(found->begin(), found->end());
+}
+
+}  // namespace tspace

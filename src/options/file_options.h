@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Options that several calls have.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "options/option_table.h"
+#include "tspace/asset.h"
+
+namespace tspace::options {
+
+inline constexpr Named<Convention> kConventions[] = {
+    {"gltf", conventions::gltf},     {"opengl", conventions::opengl}, {"directx", conventions::directx},
+    {"unreal", conventions::unreal}, {"unity", conventions::unity},   {"blender", conventions::blender},
+    {"godot", conventions::godot},
+};
+inline constexpr Named<Faces> kFaces[] = {
+    {"triangles", Faces::triangles},
+    {"quads", Faces::quads},
+    {"auto", Faces::automatic},
+};
+
+/// Headings in help. What stands under the last decides how a call runs, not what it finds or writes.
+inline constexpr const char* kInputAndOutput = "Input and output";
+inline constexpr const char* kRunning = "Running";
+
+void addAllowExternal(OptionList& list, FileOptions& file);
+void addThreads(OptionList& list, Execution& execution, std::string help);
+/// Only the first of the limits: for what needs no importer.
+void addMemoryLimit(OptionList& list, std::uint64_t& memory_limit_bytes);
+void addLimits(OptionList& list, FileOptions& file);
+
+}  // namespace tspace::options

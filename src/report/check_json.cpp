@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Findings as JSON.
+#include "report/report.h"
+#include "tspace/version.h"
+
+namespace tspace::report {
+namespace {
+
+Json findingJson(const Finding& finding) {
+    return {
+        {"code", findingName(finding.code)},
+        {"severity", severityName(finding.severity)},
+        {"place", finding.place},
+        {"mesh", finding.mesh},
+        {"primitive", finding.primitive},
+        {"meshName", finding.mesh_name},
+        {"materialName", finding.material_name},
+        {"unit", finding.unit},
+        {"count", finding.count},
+        {"total", finding.total},
+        {"surfaceShare", finding.surface_share},
+        {"worstDegrees", finding.worst_deg},
+        {"confidence", finding.confidence},
+        {"vertices", finding.vertices},
+        {"message", finding.message},
+        {"remedy", finding.remedy},
+    };
+}
+
+Json packedJson(const PackedFramesInfo& info) {
+    const FrameErrorBound bound = frameErrorBound(info.format);
+    return {
+        {"place", info.place},
+        {"attribute", info.attribute},
+        {"format", frameFormatName(info.format)},
+        {"mesh", info.mesh},
+        {"primitive", info.primitive},
+        {"vertices", info.vertex_count},
+        {"readable", info.is_readable},
+        {"compared", info.is_compared},
+        {"worstNormalDegrees", info.worst_normal_deg},
+        {"worstTangentDegrees", info.worst_tangent_deg},
+        {"promisedNormalDegrees", bound.normal_deg},
+        {"promisedTangentDegrees", bound.tangent_deg},
+        {"differingSigns", info.differing_sign_count},
+    };
+}
+
+Json outcomeJson(const CheckOutcome& outcome) {
+    Json json = {
+        {"input", outcome.input},
+        {"ok", outcome.result.ok()},
+        {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())},
+    };
+    if (!outcome.result) return json;
+    const CheckReport& report = *outcome.result;
+    json["format"] = report.format;
+    json["generator"] = report.generator;
+    json["primitives"] = report.primitive_count;
+    json["primitivesWithTangents"] = report.tangents_count;
+    json["normalMaps"] = report.image_count;
+    json["counts"] = {{"error", report.error_count}, {"warning", report.warning_count}, {"note", report.note_count}};
+    json["packedFrames"] = Json::array();
+    for (const PackedFramesInfo& info : report.packed_frames) json["packedFrames"].push_back(packedJson(info));
+    json["findings"] = Json::array();
+    for (const Finding& finding : report.findings) json["findings"].push_back(findingJson(finding));
+    return json;
+}
+
+}  // namespace
+
+std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, Severity fail_on) {
+    Json json = {
+        {"schema", "tspace.check/1"},        {"version", TSPACE_VERSION_STRING},
+        {"ok", exit_code == ExitCode::done}, {"exitCode", static_cast<int>(exit_code)},
+        {"failOn", severityName(fail_on)},   {"files", Json::array()},
+    };
+    for (const CheckOutcome& outcome : outcomes) json["files"].push_back(outcomeJson(outcome));
+    return jsonText(json);
+}
+
+}  // namespace tspace::report

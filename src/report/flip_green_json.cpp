@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// An image whose green was inverted, as JSON.
+#include "report/report.h"
+#include "tspace/version.h"
+
+namespace tspace::report {
+
+const char* imageFormatName(ImageFileFormat format) {
+    switch (format) {
+        case ImageFileFormat::png:
+            return "PNG";
+        case ImageFileFormat::jpeg:
+            return "JPEG";
+        case ImageFileFormat::webp:
+            return "WebP";
+        case ImageFileFormat::sameAsInput:
+            break;
+    }
+    return "";
+}
+
+std::string flipGreenJson(const Outcome<FlipGreenReport>& outcome, ExitCode exit_code) {
+    const Result<FlipGreenReport>& result = outcome.result;
+    Json json = {
+        {"schema", "tspace.flip-green/1"},
+        {"version", TSPACE_VERSION_STRING},
+        {"ok", result.ok()},
+        {"exitCode", static_cast<int>(exit_code)},
+        {"input", outcome.input},
+        {"output", outcome.output},
+        {"dryRun", outcome.is_dry_run},
+        {"error", errorJson(result ? nullptr : &result.error())},
+    };
+    if (!result) return jsonText(json);
+    json["format"] = imageFormatName(result->format);
+    json["width"] = result->width;
+    json["height"] = result->height;
+    json["bits"] = result->bits;
+    json["exact"] = result->is_exact;
+    json["warnings"] = result->warnings;
+    return jsonText(json);
+}
+
+}  // namespace tspace::report

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// What was generated, as JSON.
+#include "report/generate_totals.h"
+#include "report/report.h"
+#include "tspace/version.h"
+
+namespace tspace::report {
+namespace {
+
+Json sanitizeJson(const SanitizeReport& report) {
+    Json json = {{"mended", report.mendedCount()}};
+    for (const NamedCount& cause : kCauses) json["causes"][cause.json_name] = report.*cause.count;
+    for (const NamedCount& cure : kCures) json["cures"][cure.json_name] = report.*cure.count;
+    json["badNormals"] = report.bad_normal_count;
+    return json;
+}
+
+Json primitiveJson(const PrimitiveReport& primitive) {
+    const TangentReport& tangents = primitive.tangents;
+    return {
+        {"mesh", primitive.mesh},
+        {"primitive", primitive.primitive},
+        {"meshName", primitive.mesh_name},
+        {"materialName", primitive.material_name},
+        {"action", actionName(primitive.action)},
+        {"reason", primitive.reason},
+        {"notes", primitive.notes},
+        {"uvSet", primitive.uv_set},
+        {"faces", facesName(primitive.faces)},
+        {"quads", primitive.quad_count},
+        {"triangles", primitive.triangle_count},
+        {"verticesBefore", primitive.vertices_before},
+        {"verticesAfter", primitive.vertices_after},
+        {"mendedVertices", primitive.mended_vertex_count},
+        {"normalsGenerated", primitive.normals_generated},
+        {"bitangentsGenerated", primitive.bitangents_generated},
+        {"packed", primitive.frames_packed},
+        {"packedMended", primitive.packing.mendedCount()},
+        {"normalsDropped", primitive.normals_dropped},
+        {"tangentsDropped", primitive.tangents_dropped},
+        {"morphTargets", primitive.morph_target_count},
+        {"morphDeltas", primitive.morph_deltas_computed},
+        {"morphSignFlips", primitive.morph_sign_flip_count},
+        {"normals",
+         {{"faces", primitive.normals.face_count},
+          {"degenerateFaces", primitive.normals.degenerate_face_count},
+          {"fallbackCorners", primitive.normals.fallback_corner_count}}},
+        {"tangents",
+         {{"triangles", tangents.triangle_count},
+          {"degenerateTriangles", tangents.degenerate_triangle_count},
+          {"degenerateUvTriangles", tangents.degenerate_uv_count},
+          {"negativeUvTriangles", tangents.mirrored_count},
+          {"skippedFaces", tangents.skipped_face_count},
+          {"groups", tangents.group_count},
+          {"defaultCorners", tangents.default_corner_count},
+          {"notFiniteCorners", tangents.not_finite_count},
+          {"referenceOrderAbandoned", tangents.reference_order_abandoned}}},
+        {"sanitize", sanitizeJson(primitive.sanitize)},
+    };
+}
+
+Json totalsJson(const GenerateReport& report) {
+    const Totals totals = totalsOf(report);
+    Json json = {{"primitives", totals.primitive_count}};
+    for (const PrimitiveAction action : kActions) {
+        json["actions"][actionName(action)] = totals.actions[static_cast<std::size_t>(action)];
+    }
+    json["triangles"] = totals.triangle_count;
+    json["verticesBefore"] = totals.vertices_before;
+    json["verticesAfter"] = totals.vertices_after;
+    json["mended"] = totals.sanitize.mendedCount();
+    json["morphDeltas"] = totals.morph_deltas_computed;
+    json["packed"] = totals.frames_packed;
+    return json;
+}
+
+Json outcomeJson(const GenerateOutcome& outcome) {
+    Json json = {
+        {"input", outcome.input},     {"output", outcome.output},
+        {"ok", outcome.result.ok()},  {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())},
+        {"seconds", outcome.seconds},
+    };
+    json["skipped"] = outcome.was_done_before;
+    if (!outcome.result || outcome.was_done_before) return json;
+    const GenerateReport& report = *outcome.result;
+    json["changed"] = report.changed;
+    json["inputBytes"] = report.input_bytes;
+    json["outputBytes"] = report.output_bytes;
+    json["outputFiles"] = report.output_files;
+    json["warnings"] = report.warnings;
+    json["totals"] = totalsJson(report);
+    json["normalMaps"] = Json::array();
+    for (const NormalMapReport& map : report.normal_maps) {
+        json["normalMaps"].push_back(
+            {{"image", map.image}, {"name", map.name}, {"flipped", map.flipped}, {"reason", map.reason}});
+    }
+    json["primitives"] = Json::array();
+    for (const PrimitiveReport& primitive : report.primitives) json["primitives"].push_back(primitiveJson(primitive));
+    return json;
+}
+
+}  // namespace
+
+std::string generateJson(const std::vector<GenerateOutcome>& outcomes, ExitCode exit_code, double seconds) {
+    Json json = {
+        {"schema", "tspace.generate/1"},
+        {"version", TSPACE_VERSION_STRING},
+        {"ok", exit_code == ExitCode::done},
+        {"exitCode", static_cast<int>(exit_code)},
+        {"seconds", seconds},
+        {"files", Json::array()},
+    };
+    json["dryRun"] = !outcomes.empty() && outcomes.front().is_dry_run;
+    for (const GenerateOutcome& outcome : outcomes) json["files"].push_back(outcomeJson(outcome));
+    return jsonText(json);
+}
+
+}  // namespace tspace::report

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Results as JSON for programs, as docs/json.md describes it: what the tool prints with --json, and the C API gives back.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "json/json.h"
+#include "report/exit_code.h"
+#include "tspace/asset.h"
+#include "tspace/check.h"
+#include "tspace/diff.h"
+#include "tspace/identify.h"
+#include "tspace/maps.h"
+
+namespace tspace::report {
+
+/// What became of one file: a value, or an error.
+template <class Value>
+struct Outcome {
+    std::string input = {};
+    std::string output = {};  ///< empty for calls that write nothing
+    Result<Value> result = Error{};
+    double seconds = 0;
+    bool is_dry_run = false;       ///< nothing was written
+    bool was_done_before = false;  ///< by the manifest; nothing changed, nothing was done, the value is empty
+};
+using GenerateOutcome = Outcome<GenerateReport>;
+using IdentifyOutcome = Outcome<Identification>;
+using InspectOutcome = Outcome<Inspection>;
+using CheckOutcome = Outcome<CheckReport>;
+
+std::string generateJson(const std::vector<GenerateOutcome>& outcomes, ExitCode exit_code, double seconds);
+std::string identifyJson(const std::vector<IdentifyOutcome>& outcomes, ExitCode exit_code);
+std::string inspectJson(const std::vector<InspectOutcome>& outcomes, ExitCode exit_code);
+std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, Severity fail_on);
+/// Of the models `a` and `b`.
+std::string diffJson(const std::string& a, const std::string& b, double tolerance_deg, const Result<FrameDiff>& diff,
+                     ExitCode exit_code);
+std::string flipGreenJson(const Outcome<FlipGreenReport>& outcome, ExitCode exit_code);
+
+/// null, or the error as docs/json.md describes it.
+Json errorJson(const Error* error);
+/// The document as text. Bytes that are not UTF-8 (from file names) become U+FFFD.
+std::string jsonText(const Json& document);
+
+/// The names of the formats of packed frames that a primitive has.
+std::vector<std::string> packedNames(const PrimitiveInfo& primitive);
+/// "PNG", "JPEG" or "WebP".
+const char* imageFormatName(ImageFileFormat format);
+
+}  // namespace tspace::report

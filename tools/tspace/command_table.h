@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The table of commands, from which the command line is read (read_command_line.h), and --help (help.h), man pages and
+// completions (pages/) are made. What decides about results is described in the library (src/options/); the rest is added
+// here.
+#pragma once
+
+#include <functional>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "options/option_table.h"
+
+namespace tspace::tool {
+
+using namespace tspace::options;  // NOLINT: the words of the table
+
+struct Command {
+    std::string name = {};
+    std::string summary = {};                ///< "add the tangents that normal maps need"
+    std::string operands = {};               ///< "IN... -o OUT", for the usage line
+    std::string description = {};            ///< a paragraph
+    std::vector<std::string> examples = {};  ///< whole command lines
+    OptionList options = {};
+    /// Called when everything is taken. Returns what makes no sense together, or nothing.
+    std::function<std::string(const Given& given)> finish = {};
+
+    Option& add(const char* group, Option option) { return options::add(options, group, std::move(option)); }
+    /// Options that calls of the library have too.
+    void add(OptionList more) { std::move(more.begin(), more.end(), std::back_inserter(options)); }
+};
+
+/// What stands in `tspace --help` in place of a description.
+inline constexpr const char* kToolSummary = "exact tangent frames for the normal maps of 3D models";
+
+/// The whole tool.
+struct ToolTable {
+    std::vector<Command> commands = {};
+    std::vector<Option> options = {};  ///< those in the place of a command: --help, --version
+};
+
+/// A file, or several where `target` is a list.
+Option operand(const char* value_name, std::string& target, std::string help);
+Option operand(const char* value_name, std::vector<std::string>& target, std::string help);
+
+}  // namespace tspace::tool
