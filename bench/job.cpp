@@ -65,7 +65,7 @@ Job allFieldsJob(const Mesh& mesh) {
     outputs->magnitudes_t.resize(mesh.cornerCount());
     return {outputs, [&mesh, outputs](const Execution& execution) {
                 orDie(generateTangents(
-                    mesh.view(), {.execution = execution},
+                    mesh.view(), {.convention = conventions::opengl, .execution = execution},
                     {outputs->tangents, outputs->bitangents, outputs->magnitudes_s, outputs->magnitudes_t}));
             }};
 }
@@ -73,7 +73,7 @@ Job allFieldsJob(const Mesh& mesh) {
 Job evaluateJob(const Mesh& mesh) {
     auto outputs = std::make_shared<Outputs>();
     outputs->tangents.resize(mesh.cornerCount());
-    auto plan = std::make_shared<TangentPlan>(orDie(planTangents(mesh.view(), {})));
+    auto plan = std::make_shared<TangentPlan>(orDie(planTangents(mesh.view(), {.convention = conventions::opengl})));
     return {
         outputs, [&mesh, outputs, plan](const Execution& execution) {
             orDie(evaluateTangents(*plan, {mesh.positions, mesh.normals}, {.tangents = outputs->tangents}, execution));
@@ -91,7 +91,7 @@ bool askForVertexDomain(Options& options) {
 }
 
 Job lengyelVertexJob(const Mesh& mesh) {
-    TangentOptions options{.method = Method::lengyel};
+    TangentOptions options{.method = Method::lengyel, .convention = conventions::opengl};
     if (!askForVertexDomain(options)) return {};
     Job job = tangentsJob(mesh, options);
     job.outputs->tangents.resize(mesh.positions.size());
@@ -122,7 +122,7 @@ Result<SplitResult> split(const Mesh& mesh, const Outputs& outputs, const Run& e
 }
 
 Job splitJob(const Mesh& mesh) {
-    const Job tangents = tangentsJob(mesh, {});
+    const Job tangents = tangentsJob(mesh, {.convention = conventions::opengl});
     tangents.call({});
     auto outputs = tangents.outputs;
     return {outputs,
@@ -157,14 +157,15 @@ std::uint64_t hashOf(const Mesh& mesh) {
 Job makeJob(const std::string& name, const Mesh& mesh) {
     if (name == "normals_crease") return normalsJob(mesh, NormalWeighting::angle, 30);
     if (name == "mikktspace_all") return allFieldsJob(mesh);
-    if (name == "mikktspace_corrected") return tangentsJob(mesh, {.pairing = Pairing::corrected});
+    if (name == "mikktspace_corrected")
+        return tangentsJob(mesh, {.pairing = Pairing::corrected, .convention = conventions::opengl});
     if (name == "evaluate") return evaluateJob(mesh);
     if (name == "lengyel_vertex") return lengyelVertexJob(mesh);
     if (name == "normals") return normalsJob(mesh);
     if (name == "normals_best") return normalsJob(mesh, NormalWeighting::best);
     if (name == "split") return splitJob(mesh);
     for (const auto& method : kMethods) {
-        if (name == method.name) return tangentsJob(mesh, {.method = method.method});
+        if (name == method.name) return tangentsJob(mesh, {.method = method.method, .convention = conventions::opengl});
     }
     std::fprintf(stderr, "bench: there is no job %s\n", name.c_str());
     std::exit(1);

@@ -87,7 +87,7 @@ RowResult runContest(const std::string& title, const Contest& contest, Lab& lab)
 
     const Mesh &mesh = lab.mesh(name), &plain_mesh = lab.plainMesh(name);
     const Job job = makeJob(contest.job, mesh);
-    Execution one{.thread_count = contest.any_threads ? 0u : 1u}, two{.thread_count = 2};
+    Execution one{.thread_count = contest.any_threads ? kAllThreads : 1u}, two{.thread_count = 2};
     forceSimd(one, contest.simd);
     forceSimd(two, contest.simd);
     std::vector<Vec4> plain_tangents(plain_mesh.positions.size()), other_tangents(plain_tangents.size());

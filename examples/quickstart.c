@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Tangents for a small mesh from C: generate, sanitize, split, print. */
+/* Tangents for a small mesh from C: one call, and what it gives. */
 #include <stdio.h>
 #include <tspace/tspace.h>
 
@@ -21,34 +21,29 @@ static int fail(const tspace_Error* error) {
 int main(void) {
     tspace_Error error;
     tspace_Mesh mesh;
-    TSPACE_INIT(mesh); /* sets struct_size, zeroes the rest: zero is the default everywhere */
+    TSPACE_INIT(mesh); /* sets struct_size and every default */
     mesh.positions = (tspace_ConstSpan){&vertices[0][0], VERTICES, sizeof(vertices[0])};
     mesh.normals = (tspace_ConstSpan){&vertices[0][3], VERTICES, sizeof(vertices[0])};
     mesh.uvs = (tspace_ConstSpan){&vertices[0][6], VERTICES, sizeof(vertices[0])};
     mesh.indices = (tspace_Indices){indices, CORNERS, TSPACE_INDEX_U16};
     mesh.face_size = 4;
 
-    float tangents[CORNERS][4]; /* one per corner: x, y, z, sign */
-    tspace_TangentOutput out;
-    TSPACE_INIT(out);
-    out.tangents = (tspace_Span){&tangents[0][0], CORNERS, 0};
-    tspace_TangentOptions options;
-    TSPACE_INIT(options); /* method mikktspace */
-    if (tspace_findConvention("gltf", &options.convention, &error) != TSPACE_OK) return fail(&error);
-    if (tspace_generateTangents(&mesh, &options, &out, NULL, &error) != TSPACE_OK) return fail(&error);
-    if (tspace_sanitizeTangents(&mesh, NULL, out.tangents, NULL, &error) != TSPACE_OK) return fail(&error);
+    tspace_TangentOptions tangents;
+    TSPACE_INIT(tangents); /* method mikktspace */
+    if (tspace_findConvention("gltf", &tangents.convention, &error) != TSPACE_OK) return fail(&error);
+    tspace_IndexedFramesOptions options;
+    TSPACE_INIT(options);
+    options.tangents = &tangents;
+    tspace_IndexedFrames* frames = NULL;
+    if (tspace_makeIndexedFrames(&mesh, &options, &frames, &error) != TSPACE_OK) return fail(&error);
 
-    /* Corners that disagree get a vertex of their own. */
-    tspace_CornerAttribute attribute = {&tangents[0][0], 0, 4, 0.0f};
-    tspace_SplitResult* split = NULL;
-    if (tspace_splitVertices(&mesh.indices, VERTICES, CORNERS, &attribute, 1, NULL, &split, &error) != TSPACE_OK)
-        return fail(&error);
-    for (size_t v = 0; v < split->vertex_count; ++v) {
-        const float* t = tangents[split->source_corners[v]];
-        printf("vertex %zu copies %u: tangent %g %g %g sign %g\n", v, (unsigned)split->source_vertices[v], t[0], t[1],
+    /* Corners that disagree got a vertex of their own. */
+    for (size_t v = 0; v < frames->vertex_count; ++v) {
+        const float* t = frames->tangents + 4 * v;
+        printf("vertex %zu copies %u: tangent %g %g %g sign %g\n", v, (unsigned)frames->source_vertex[v], t[0], t[1],
                t[2], t[3]);
     }
-    printf("%d vertices became %zu\n", VERTICES, split->vertex_count);
-    tspace_destroySplitResult(split);
+    printf("%d vertices became %zu\n", VERTICES, frames->vertex_count);
+    tspace_destroyIndexedFrames(frames);
     return 0;
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Tangents for a small mesh from C++: generate, sanitize, split, print.
+// Tangents for a small mesh from C++: one call, and what it gives.
 #include <array>
 #include <cstdio>
 #include <tspace/tspace.hpp>
-#include <vector>
 
 namespace {
 
@@ -38,23 +37,17 @@ int main() {
     mesh.indices = std::span<const std::uint16_t>(kIndices);
     mesh.face_size = 4;
 
-    std::vector<tspace::Vec4> tangents(mesh.cornerCount());  // one per corner: x, y, z, sign
-    tspace::TangentOptions options;                          // method mikktspace
-    options.convention = tspace::conventions::gltf;
-    const auto generated = tspace::generateTangents(mesh, options, {.tangents = tangents});
-    if (!generated) return fail(generated.error());
-    const auto sanitized = tspace::sanitizeTangents(mesh, tangents);
-    if (!sanitized) return fail(sanitized.error());
+    tspace::IndexedFramesOptions options;  // method mikktspace
+    options.tangents.convention = tspace::conventions::gltf;
+    const auto frames = tspace::makeIndexedFrames(mesh, options);
+    if (!frames) return fail(frames.error());
 
-    // Corners that disagree get a vertex of their own.
-    const std::array attributes = {tspace::cornerAttribute(tspace::StridedSpan<const tspace::Vec4>(tangents))};
-    const auto split = tspace::splitVertices(mesh.indices, kVertices.size(), tangents.size(), attributes);
-    if (!split) return fail(split.error());
-    for (std::size_t v = 0; v < split->vertexCount(); ++v) {
-        const tspace::Vec4& t = tangents[split->source_corners[v]];
+    // Corners that disagree got a vertex of their own.
+    for (std::size_t v = 0; v < frames->vertexCount(); ++v) {
+        const tspace::Vec4& t = frames->tangents[v];
         std::printf("vertex %zu copies %u: tangent %g %g %g sign %g\n", v,
-                    static_cast<unsigned>(split->source_vertices[v]), t.x, t.y, t.z, t.w);
+                    static_cast<unsigned>(frames->source_vertex[v]), t.x, t.y, t.z, t.w);
     }
-    std::printf("%zu vertices became %zu\n", kVertices.size(), split->vertexCount());
+    std::printf("%zu vertices became %zu\n", kVertices.size(), frames->vertexCount());
     return 0;
 }

@@ -32,7 +32,7 @@ Frames framesBy(Method method, const TestMesh& mesh, std::uint32_t refine) {
     Frames frames;
     frames.tangents.resize(mesh.indices.size());
     frames.bitangents.resize(mesh.indices.size());
-    TangentOptions options;
+    TangentOptions options{.convention = conventions::opengl};
     options.method = method;
     options.refine = refine;
     options.execution.thread_count = 1;

@@ -6,10 +6,11 @@
 
 namespace tspace {
 
-/// Where v = 0 lies in the texture.
+/// Where v = 0 lies in the texture. It decides every sign, so nothing stands for it when it is not said.
 enum class VAxis : std::uint32_t {
-    up = 0,   ///< v = 0 is the bottom row of the image (OpenGL, Blender, Unity)
-    down = 1  ///< v = 0 is the top row of the image (glTF, DirectX, Unreal, Godot)
+    unset = 0,  ///< not said; what computes tangents then fails with invalidOption
+    up = 1,     ///< v = 0 is the bottom row of the image (OpenGL, Blender, Unity)
+    down = 2    ///< v = 0 is the top row of the image (glTF, DirectX, Unreal, Godot)
 };
 
 /// What a large green value in a normal map means.
@@ -26,15 +27,16 @@ enum class Handedness : std::uint32_t { right = 0, left = 1 };
 /// Order of a face's vertices as seen from outside.
 enum class Winding : std::uint32_t { counterClockwise = 0, clockwise = 1 };
 
-/// The default is the plain mathematical reading (and OpenGL's): B points along growing v, B = sign * cross(N, T),
-/// faces are counter-clockwise in a right-handed system. `mikktspace` under it gives the reference's sign.
+/// There is no default: take a preset, `conventions::gltf` for glTF. `conventions::opengl` is the plain mathematical
+/// reading: B points along growing v, B = sign * cross(N, T), faces are counter-clockwise in a right-handed system;
+/// `mikktspace` under it gives the reference's sign.
 ///
 /// T always points along growing u. The image's green axis decides where B must point, and so the stored sign:
 ///     sign = uv_orientation * (v_axis down ? -1 : 1) * (green down ? -1 : 1) * (stored_sign negated ? -1 : 1)
 /// where uv_orientation is +1 when cross(dP/du, dP/dv) points along N. Handedness and winding say which side of a
 /// face is out (see `normalFactor`), and so which way N points; B = sign * cross(N, T) holds numerically in either.
 struct Convention {
-    VAxis v_axis = VAxis::up;
+    VAxis v_axis = VAxis::unset;
     Green green = Green::up;
     StoredSign stored_sign = StoredSign::asIs;
     Handedness handedness = Handedness::right;
@@ -56,14 +58,14 @@ inline constexpr float normalFactor(const Convention& c) {
 
 /// Named presets. `docs/conventions.md` says where each one comes from.
 namespace conventions {
-inline constexpr Convention opengl{};
+inline constexpr Convention opengl{.v_axis = VAxis::up};
 /// glTF 2.0: v down, green up; so w is the negative of the raw UV orientation.
 inline constexpr Convention gltf{.v_axis = VAxis::down};
 inline constexpr Convention directx{
     .v_axis = VAxis::down, .green = Green::down, .handedness = Handedness::left, .winding = Winding::clockwise};
 inline constexpr Convention unreal{.v_axis = VAxis::down, .green = Green::down, .handedness = Handedness::left};
-inline constexpr Convention unity{.handedness = Handedness::left, .winding = Winding::clockwise};
-inline constexpr Convention blender{};
+inline constexpr Convention unity{.v_axis = VAxis::up, .handedness = Handedness::left, .winding = Winding::clockwise};
+inline constexpr Convention blender{.v_axis = VAxis::up};
 inline constexpr Convention godot{.v_axis = VAxis::down, .winding = Winding::clockwise};
 }  // namespace conventions
 

@@ -13,7 +13,13 @@
 
 namespace tspace {
 
-enum class IndexType : std::uint32_t { none = 0, u8 = 1, u16 = 2, u32 = 4 };
+enum class IndexType : std::uint32_t {
+    none = 0,
+    u8 = 1,
+    u16 = 2,
+    u32 = 4,
+    corners = 8,  ///< for MeshView::normal_indices and uv_indices: corner c uses entry c, without a list in memory
+};
 
 /// Tightly packed indices, one per corner. With IndexType::none, corner c uses vertex c.
 struct IndexView {
@@ -37,6 +43,7 @@ struct IndexView {
             case IndexType::u32:
                 return static_cast<const std::uint32_t*>(data)[c];
             case IndexType::none:
+            case IndexType::corners:
                 break;
         }
         return static_cast<std::uint32_t>(c);
@@ -53,6 +60,12 @@ struct MeshView {
     /// and ignored: nothing is computed for them.
     std::span<const std::uint32_t> face_sizes = {};
     std::uint32_t face_size = 3;  ///< corners of every face when face_sizes is empty; at least 1
+    /// One per corner, into `normals` and `uvs`, which then have any number of entries: FBX, USD, OBJ and Houdini keep
+    /// them so. Type none: these attributes have one entry per vertex, and follow `indices`. Type corners: they have one
+    /// entry per corner. Corners count as one vertex, as if the mesh had one list, where their three indices are equal,
+    /// and for type corners where the entries have the same bits.
+    IndexView normal_indices = {};
+    IndexView uv_indices = {};
 
     [[nodiscard]] std::size_t vertexCount() const { return positions.count; }
     [[nodiscard]] std::size_t cornerCount() const {
@@ -61,6 +74,10 @@ struct MeshView {
     [[nodiscard]] std::size_t faceCount() const {
         if (!face_sizes.empty()) return face_sizes.size();
         return face_size == 0 ? 0 : cornerCount() / face_size;
+    }
+    /// Whether normals or UVs have an index list of their own.
+    [[nodiscard]] bool hasOwnLists() const {
+        return normal_indices.type != IndexType::none || uv_indices.type != IndexType::none;
     }
 };
 

@@ -77,7 +77,9 @@ struct TangentOptions {
     Pairing pairing = Pairing::reference;  ///< `mikktspace` only
     Ngons ngons = Ngons::triangulate;
     OutputDomain domain = OutputDomain::corner;  ///< `vertex` for `lengyel` and `basis` only
-    Convention convention = {};  ///< decides the stored sign; the default stores the raw one, as the reference does
+    /// Decides the stored sign, and has no default: conventions::gltf for glTF; conventions::opengl stores the raw sign, as
+    /// the reference does. invalidOption where it is not set.
+    Convention convention = {};
     Execution execution = {};
     /// `symmetric` is refused for `mikktspace`, whose results are the reference's, and for `basis`, which has no UVs.
     FrameShape frame = FrameShape::gramSchmidt;
@@ -115,7 +117,8 @@ struct TangentOutput {
     StridedSpan<float> magnitudes_t = {};  ///< mean length of dP/dv; 1 for methods without
 };
 
-/// The shape of a mesh at one moment: what changes while a mesh deforms. Counts and meaning as in MeshView.
+/// The shape of a mesh at one moment: what changes while a mesh deforms. Counts and meaning as in the MeshView that the
+/// plan was made from, index lists included.
 struct Pose {
     StridedSpan<const Vec3> positions = {};
     StridedSpan<const Vec3> normals = {};
@@ -153,6 +156,8 @@ class TangentPlan {
 /// out       spans of mesh.cornerCount() entries (mesh.vertexCount() with OutputDomain::vertex); must not overlap the
 ///           inputs or each other
 /// Corners of faces with fewer than 3 corners (and of n-gons with Ngons::skip) get 0 in every output.
+/// A mesh with several index lists (MeshView::normal_indices, uv_indices) is given one first, in about 40 bytes per
+/// corner of operator new; its results are those of the mesh that its caller would have unrolled.
 /// Errors: those of validate(); missingAttribute, countMismatch (outputs), nullData, invalidOption, outOfMemory;
 /// tooLarge also for more than 715,827,882 triangles (the methods that group: mikktspace, uniform, angle, area, fast,
 /// best). Linear in the number of corners whatever the input (fans, books, collapsed faces). Thread-safe. Same bits for

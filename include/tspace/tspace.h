@@ -7,10 +7,12 @@
  * Rules that hold for every function:
  * - A function that can fail returns TSPACE_OK or an error code. Its last parameter `error` may be null;
  *   otherwise it is written in either case (code TSPACE_OK and an empty message after success).
- * - Structs that start with `struct_size` are prepared with TSPACE_INIT, which sets the size and zeroes the
- *   rest. Zero means the default in every field. A size that this version does not know is
+ * - Structs that start with `struct_size` are prepared with TSPACE_INIT, which sets the size and every default; what
+ *   has no other default is zero. Fields are only ever added at the end, and the size says which a program knows: one
+ *   that was compiled with an older header works with a newer library. A size that this version does not know is
  *   TSPACE_ERROR_INVALID_OPTION.
- * - Options and reports may be null: default options, no report wanted. A report is written only on success.
+ * - Options and reports may be null: default options, no report wanted. (Tangents need options: a convention has no
+ *   default.) A report is written only on success.
  * - Arrays are the caller's. Inputs are read during the call only. Outputs must not overlap inputs or each
  *   other.
  * - Every function may be called from any thread at the same time as any other, as long as nobody writes what
@@ -37,9 +39,11 @@ extern "C" {
 #define TSPACE_NOEXCEPT
 #endif
 
-/* Prepares a sized struct: tspace_TangentOptions options; TSPACE_INIT(options); */
-#define TSPACE_INIT(object) \
-    ((void)memset(&(object), 0, sizeof(object)), (void)((object).struct_size = (uint32_t)sizeof(object)))
+/* Prepares a sized struct, from its size and the defaults of this header: tspace_TangentOptions options;
+ * TSPACE_INIT(options); */
+#define TSPACE_INIT(object)                                                                               \
+    ((void)memset(&(object), 0, sizeof(object)), (void)((object).struct_size = (uint32_t)sizeof(object)), \
+     TSPACE_SET_DEFAULTS(object))
 
 /* Version of the library that is linked: 10000 * major + 100 * minor + patch. TSPACE_VERSION_NUMBER is that
  * of the headers. */
@@ -100,7 +104,13 @@ typedef struct tspace_Span {
 
 /* Bytes of one index. */
 typedef uint32_t tspace_IndexType;
-enum { TSPACE_INDEX_NONE = 0, TSPACE_INDEX_U8 = 1, TSPACE_INDEX_U16 = 2, TSPACE_INDEX_U32 = 4 };
+enum {
+    TSPACE_INDEX_NONE = 0,
+    TSPACE_INDEX_U8 = 1,
+    TSPACE_INDEX_U16 = 2,
+    TSPACE_INDEX_U32 = 4,
+    TSPACE_INDEX_CORNERS = 8 /* for normal_indices and uv_indices: corner c uses entry c, without a list in memory */
+};
 
 /* Tightly packed indices, one per corner. TSPACE_INDEX_NONE (count 0): corner c uses vertex c. */
 typedef struct tspace_Indices {
@@ -120,6 +130,12 @@ typedef struct tspace_Mesh {
     tspace_Indices indices;     /* one per corner, or none */
     const uint32_t* face_sizes; /* corners of each face, or null; faces of 0, 1 or 2 corners are ignored */
     size_t face_count;          /* entries of face_sizes */
+    /* One per corner, into normals and uvs, which then have any number of entries. TSPACE_INDEX_NONE: these attributes
+     * have one entry per vertex, and follow `indices`. TSPACE_INDEX_CORNERS (data null, count 0): they have one entry
+     * per corner. Corners count as one vertex, as if the mesh had one list, where their three indices are equal, and for
+     * TSPACE_INDEX_CORNERS where the entries have the same bits. */
+    tspace_Indices normal_indices;
+    tspace_Indices uv_indices;
 } tspace_Mesh;
 
 /* Corners of a mesh: the length of results. Not checked: call tspace_validate for that. 0 for null. */
@@ -162,12 +178,15 @@ enum {
     TSPACE_SIMD_NEON = 5    /* 64-bit ARM, every CPU */
 };
 
+/* For tspace_Execution.thread_count: as many as there are cores. */
+#define TSPACE_ALL_THREADS UINT32_MAX
+
 /* Where work runs and where its memory comes from. Neither changes a bit of any result. The structs are read
  * during the call only; the functions in them, and `user`, must outlive a plan that was made with them. */
 typedef struct tspace_Execution {
-    const tspace_Executor* executor;   /* null: threads started and joined within the call */
+    const tspace_Executor* executor;   /* runs all work, whatever thread_count says; null: threads joined in the call */
     const tspace_Allocator* allocator; /* null: operator new. For scratch memory and plans */
-    uint32_t thread_count;             /* 0: as many as there are cores; 1: the calling thread only */
+    uint32_t thread_count;             /* 0 and 1: the calling thread only; TSPACE_ALL_THREADS */
     tspace_SimdTarget simd; /* for tests and measurements; what the CPU lacks becomes the best of a lower number */
 } tspace_Execution;
 
@@ -194,11 +213,12 @@ void tspace_trimArena(tspace_Arena* arena) TSPACE_NOEXCEPT;
 /* Frees an arena. Null is allowed. */
 void tspace_destroyArena(tspace_Arena* arena) TSPACE_NOEXCEPT;
 
-/* Where v = 0 lies in the texture. */
+/* Where v = 0 lies in the texture. It decides every sign, so nothing stands for it when it is not said. */
 typedef uint32_t tspace_VAxis;
 enum {
-    TSPACE_V_UP = 0,  /* bottom row of the image */
-    TSPACE_V_DOWN = 1 /* top row */
+    TSPACE_V_UNSET = 0, /* not said: what computes tangents then fails with INVALID_OPTION */
+    TSPACE_V_UP = 1,    /* bottom row of the image */
+    TSPACE_V_DOWN = 2   /* top row */
 };
 
 /* What a large green value in a normal map means. */
@@ -219,8 +239,9 @@ enum { TSPACE_HANDEDNESS_RIGHT = 0, TSPACE_HANDEDNESS_LEFT = 1 };
 typedef uint32_t tspace_Winding;
 enum { TSPACE_WINDING_COUNTER_CLOCKWISE = 0, TSPACE_WINDING_CLOCKWISE = 1 };
 
-/* What the sign of a tangent means and which side of a face is out. All zero: the plain mathematical reading
- * (and OpenGL's), under which the method mikktspace gives the reference's sign. */
+/* What the sign of a tangent means and which side of a face is out. There is no default for tangents: take a preset,
+ * "gltf" for glTF. "opengl" is the plain mathematical reading, under which the method mikktspace gives the reference's
+ * sign. Normals look at the last two fields only. */
 typedef struct tspace_Convention {
     tspace_VAxis v_axis;
     tspace_Green green;
@@ -243,43 +264,31 @@ float tspace_normalFactor(tspace_Convention convention) TSPACE_NOEXCEPT;
 /* How much a face counts in the mean at one of its corners. e1, e2 are the edges, a the angle between. */
 typedef uint32_t tspace_NormalWeighting;
 enum {
-    TSPACE_NORMAL_WEIGHTING_DEFAULT = 0,    /* angle */
-    TSPACE_NORMAL_WEIGHTING_FLAT = 1,       /* no averaging: each corner gets its face's unit normal */
-    TSPACE_NORMAL_WEIGHTING_UNIFORM = 2,    /* 1: mean of unit face normals (Gouraud 1971) */
-    TSPACE_NORMAL_WEIGHTING_AREA = 3,       /* |e1 x e2| */
-    TSPACE_NORMAL_WEIGHTING_ANGLE = 4,      /* a: independent of tessellation (Thuermer & Wuethrich 1998) */
-    TSPACE_NORMAL_WEIGHTING_ANGLE_AREA = 5, /* a * area */
-    TSPACE_NORMAL_WEIGHTING_MAX = 6,        /* sin(a) / (|e1| |e2|): exact on a sphere (Max 1999) */
-    TSPACE_NORMAL_WEIGHTING_BEST = 7        /* quadratic fit; angle * area on noise and bevels */
-};
-
-/* How many steps `best` takes after its fit, for normals and tangents: each makes what is interpolated along edges fit
- * the edges. Other weightings and methods take none. */
-typedef uint32_t tspace_Refine;
-enum {
-    TSPACE_REFINE_DEFAULT = 0, /* one step */
-    TSPACE_REFINE_ONE = 1,
-    TSPACE_REFINE_TWO = 2,
-    TSPACE_REFINE_NONE = 3 /* the fit alone */
+    TSPACE_NORMAL_WEIGHTING_FLAT = 0,    /* no averaging: each corner gets its face's unit normal */
+    TSPACE_NORMAL_WEIGHTING_UNIFORM = 1, /* 1: mean of unit face normals (Gouraud 1971) */
+    TSPACE_NORMAL_WEIGHTING_AREA = 2,    /* |e1 x e2| */
+    TSPACE_NORMAL_WEIGHTING_ANGLE = 3,   /* a: independent of tessellation (Thuermer & Wuethrich 1998); the default */
+    TSPACE_NORMAL_WEIGHTING_ANGLE_AREA = 4, /* a * area */
+    TSPACE_NORMAL_WEIGHTING_MAX = 5,        /* sin(a) / (|e1| |e2|): exact on a sphere (Max 1999) */
+    TSPACE_NORMAL_WEIGHTING_BEST = 6        /* quadratic fit; angle * area on noise and bevels */
 };
 
 typedef struct tspace_NormalOptions {
     uint32_t struct_size;
-    tspace_NormalWeighting weighting;
-    /* Degrees, above 0 to 180; 0 means 180: never hard. Two faces that share an edge are smoothed over it
-     * only when their normals differ by no more than this. For an angle of zero give a tiny one, such as
-     * 1e-6. */
+    tspace_NormalWeighting weighting; /* default: angle */
+    /* Degrees, 0 to 180; default 180: never hard. Two faces that share an edge are smoothed over it only when their
+     * normals differ by no more than this. */
     float crease_angle_deg;
     uint32_t smoothing_groups_are_masks; /* 0 or 1; 1: faces with a bit in common smooth together */
     /* One number per face, or null. Faces smooth together only when their numbers are equal and not 0. */
     const uint32_t* smoothing_groups;
     size_t smoothing_group_count; /* entries of smoothing_groups */
-    /* 0 or 1. 0: vertices at the same position are one point, so that UV seams stay smooth. 1: only equal
+    /* 0 or 1; default 1: vertices at the same position are one point, so that UV seams stay smooth. 0: only equal
      * indices are. */
-    uint32_t keep_positions_apart;
+    uint32_t weld_positions;
     tspace_Convention convention; /* handedness and winding say which side is out */
     tspace_Execution execution;
-    tspace_Refine refine; /* steps of TSPACE_NORMAL_WEIGHTING_BEST */
+    uint32_t refine; /* 0, 1 or 2 steps that TSPACE_NORMAL_WEIGHTING_BEST takes after its fit; default 1 */
 } tspace_NormalOptions;
 
 /* What was met. Broken input is counted and never makes a call fail. */
@@ -350,17 +359,16 @@ enum {
 typedef struct tspace_TangentOptions {
     uint32_t struct_size;
     tspace_Method method;
-    /* Degrees; 0 means 180, the reference's default. mikktspace only: faces of one group
-     * whose tangents (or bitangents) differ by this or more are not averaged. For a threshold of zero give a
-     * tiny one, such as 1e-6: its cosine is 1 as well. */
+    /* Degrees; default 180, as in the reference. mikktspace only: faces of one group whose tangents (or bitangents)
+     * differ by this or more are not averaged. */
     float angular_threshold_deg;
     tspace_Pairing pairing; /* mikktspace only */
     tspace_Ngons ngons;
     tspace_OutputDomain domain;
-    tspace_Convention convention; /* decides the stored sign */
+    tspace_Convention convention; /* decides the stored sign; has no default: tspace_findConvention */
     tspace_Execution execution;
     tspace_FrameShape frame;
-    tspace_Refine refine; /* steps of TSPACE_METHOD_BEST */
+    uint32_t refine; /* 0, 1 or 2 steps that TSPACE_METHOD_BEST takes after its fit; default 1 */
 } tspace_TangentOptions;
 
 /* What was met. Broken input is counted and never makes a call fail. */
@@ -392,6 +400,7 @@ typedef struct tspace_TangentOutput {
 
 /* Computes tangents for a mesh in one call.
  * mesh      not null; positions and normals are used, and UVs by all methods but BASIS
+ * options   not null, since its convention has no default
  * out       not null; spans of tspace_cornerCount(mesh) entries (or as many as vertices: DOMAIN_VERTEX)
  * Corners of faces with fewer than 3 corners (and of n-gons with NGONS_SKIP) get 0 in every output.
  * Errors: those of tspace_validate; MISSING_ATTRIBUTE, COUNT_MISMATCH, INVALID_OPTION, OUT_OF_MEMORY.
@@ -530,6 +539,56 @@ tspace_ErrorCode tspace_splitVertices(const tspace_Indices* indices, size_t vert
 /* Frees a result of tspace_splitVertices. Null is allowed. */
 void tspace_destroySplitResult(tspace_SplitResult* result) TSPACE_NOEXCEPT;
 
+/* How tspace_makeIndexedFrames works. */
+typedef struct tspace_IndexedFramesOptions {
+    uint32_t struct_size;
+    uint32_t make_normals;      /* 0 or 1; 1: also where the mesh has normals. Made anyway where it has none */
+    uint32_t sanitize;          /* 0 or 1; default 1: mend tangents as tspace_sanitizeTangents */
+    uint32_t orthogonalize_all; /* as in tspace_SanitizeOptions */
+    /* Not null, since its convention has no default. The convention also says which side of a face is out, and the
+     * execution serves all steps. */
+    const tspace_TangentOptions* tangents;
+    /* Where normals are made; null: defaults. Its convention and execution are not looked at. */
+    const tspace_NormalOptions* normals;
+    /* Further attributes, one entry per corner, that must not be shared: corners that disagree get a vertex each. Only a
+     * mesh without indices needs it, for what hangs on its vertices beside position, normal and UV. */
+    const tspace_CornerAttribute* keep_apart;
+    size_t keep_apart_count;
+} tspace_IndexedFramesOptions;
+
+/* A mesh with the faces of the given one. Gather every other vertex attribute, skin weight and morph target through
+ * source_vertex, and attributes that have an index list of their own through the corner: their_indices[source_corner].
+ * Made by the library; later versions may append fields. */
+typedef struct tspace_IndexedFrames {
+    const uint32_t* indices; /* one per corner: the new vertex */
+    size_t corner_count;
+    const uint32_t* source_vertex; /* one per new vertex: the entry of positions that it copies */
+    const uint32_t* source_corner; /* one per new vertex: the first corner that uses it, or TSPACE_NO_CORNER */
+    const float* normals;          /* 3 per new vertex: those of the mesh, bit for bit, or the ones made */
+    const float* tangents;         /* 4 per new vertex: unit tangent and sign */
+    size_t vertex_count;
+    const tspace_NormalReport* normal_report; /* null where normals were not made */
+    const tspace_TangentReport* tangent_report;
+    const tspace_SanitizeReport* sanitize_report;
+} tspace_IndexedFrames;
+
+/* The usual case in one call: makes normals where they are missing or asked for, tangents, mends those that are broken,
+ * and splits vertices whose corners disagree in either. Each corner has the tangent that tspace_generateNormals,
+ * tspace_generateTangents and tspace_sanitizeTangents give it, bit for bit.
+ * A mesh with one index list keeps its vertices in their places, also those that no corner uses (which get a frame from
+ * their normal), and copies come behind them. A mesh without indices, or with an index list per attribute, gets new
+ * vertices in the order in which corners first use them, one for all corners with the same bits of position, normal, UV,
+ * tangent and keep_apart (the zeros of a position are equal, as they are for normals).
+ * mesh      not null; positions; normals or none; UVs (all methods but BASIS)
+ * options   not null
+ * frames    not null; *frames is null after an error. Free it with tspace_destroyIndexedFrames.
+ * Errors: those of the four calls. O(corners) expected. */
+tspace_ErrorCode tspace_makeIndexedFrames(const tspace_Mesh* mesh, const tspace_IndexedFramesOptions* options,
+                                          tspace_IndexedFrames** frames, tspace_Error* error) TSPACE_NOEXCEPT;
+
+/* Frees a result of tspace_makeIndexedFrames. Null is allowed. */
+void tspace_destroyIndexedFrames(tspace_IndexedFrames* frames) TSPACE_NOEXCEPT;
+
 /* Triangles of a polygon mesh. Made by the library; later versions may append fields. */
 typedef struct tspace_Triangulation {
     const uint32_t* corners; /* three per triangle: corners of the mesh (not vertices), winding kept */
@@ -550,8 +609,39 @@ tspace_ErrorCode tspace_triangulate(const tspace_Mesh* mesh, tspace_Triangulatio
 /* Frees a result of tspace_triangulate. Null is allowed. */
 void tspace_destroyTriangulation(tspace_Triangulation* result) TSPACE_NOEXCEPT;
 
+/* For TSPACE_INIT: the defaults that are not zero. */
+static inline void tspace_setNoDefaults(void* object) { (void)object; }
+static inline void tspace_setNormalDefaults(tspace_NormalOptions* options) {
+    options->weighting = TSPACE_NORMAL_WEIGHTING_ANGLE;
+    options->crease_angle_deg = 180.0f;
+    options->weld_positions = 1;
+    options->refine = 1;
+}
+static inline void tspace_setIndexedFramesDefaults(tspace_IndexedFramesOptions* options) { options->sanitize = 1; }
+static inline void tspace_setTangentDefaults(tspace_TangentOptions* options) {
+    options->angular_threshold_deg = 180.0f;
+    options->refine = 1;
+}
+
 #ifdef __cplusplus
 }
+
+inline void tspace_setDefaults(void*) noexcept {}
+inline void tspace_setDefaults(tspace_NormalOptions* options) noexcept { tspace_setNormalDefaults(options); }
+inline void tspace_setDefaults(tspace_IndexedFramesOptions* options) noexcept {
+    tspace_setIndexedFramesDefaults(options);
+}
+inline void tspace_setDefaults(tspace_TangentOptions* options) noexcept { tspace_setTangentDefaults(options); }
+#define TSPACE_SET_DEFAULTS(object) tspace_setDefaults(&(object))
+#else
+/* clang-format off */
+#define TSPACE_SET_DEFAULTS(object)                             \
+    _Generic((object),                                          \
+        tspace_NormalOptions: tspace_setNormalDefaults,         \
+        tspace_IndexedFramesOptions: tspace_setIndexedFramesDefaults, \
+        tspace_TangentOptions: tspace_setTangentDefaults,       \
+        default: tspace_setNoDefaults)((void*)&(object))
+/* clang-format on */
 #endif
 #if defined(__GNUC__) && !defined(_WIN32)
 #pragma GCC visibility pop

@@ -6,6 +6,7 @@
 #include "tspace/convention.h"
 #include "tspace/execution.h"
 #include "tspace/frame.h"
+#include "tspace/indexed_frames.h"
 #include "tspace/mesh.h"
 #include "tspace/normals.h"
 #include "tspace/pack.h"

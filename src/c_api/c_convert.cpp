@@ -33,8 +33,11 @@ static_assert(TSPACE_NO_ELEMENT == kNoElement);
 static_assert(TSPACE_INDEX_NONE == static_cast<std::uint32_t>(IndexType::none));
 static_assert(TSPACE_INDEX_U8 == static_cast<std::uint32_t>(IndexType::u8));
 static_assert(TSPACE_INDEX_U16 == static_cast<std::uint32_t>(IndexType::u16));
+static_assert(TSPACE_INDEX_CORNERS == static_cast<std::uint32_t>(IndexType::corners));
 static_assert(TSPACE_INDEX_U32 == static_cast<std::uint32_t>(IndexType::u32));
 
+static_assert(TSPACE_ALL_THREADS == kAllThreads);
+static_assert(TSPACE_V_UP == static_cast<std::uint32_t>(VAxis::up));
 static_assert(TSPACE_V_DOWN == static_cast<std::uint32_t>(VAxis::down));
 static_assert(TSPACE_GREEN_DOWN == static_cast<std::uint32_t>(Green::down));
 static_assert(TSPACE_SIGN_NEGATED == static_cast<std::uint32_t>(StoredSign::negated));
@@ -56,11 +59,11 @@ tspace_ErrorCode finish(const Error& error, tspace_Error* out) noexcept {
     return code;
 }
 
-Error checkStructSize(std::uint32_t size, std::size_t expected, const char* name) {
-    if (size == expected) return {ErrorCode::ok};
+Error checkStructSize(std::uint32_t size, std::size_t first, std::size_t latest, const char* name) {
+    if (size == first || size == latest) return {ErrorCode::ok};
     return makeError(ErrorCode::invalidOption, kNoElement,
                      "%s.struct_size is %u, this version knows %zu: prepare the struct with TSPACE_INIT", name, size,
-                     expected);
+                     latest);
 }
 
 Error checkChoice(std::uint32_t value, std::uint32_t largest, const char* name) {
@@ -72,7 +75,8 @@ IndexView toIndices(const tspace_Indices& indices) {
     return {indices.data, indices.count, static_cast<IndexType>(indices.type)};
 }
 
-MeshView toMesh(const tspace_Mesh& mesh) {
+MeshView toMesh(const tspace_Mesh& given) {
+    const tspace_Mesh mesh = orDefault(&given);
     MeshView view;
     view.positions = toSpan<Vec3>(mesh.positions);
     view.normals = toSpan<Vec3>(mesh.normals);
@@ -80,6 +84,8 @@ MeshView toMesh(const tspace_Mesh& mesh) {
     view.indices = toIndices(mesh.indices);
     if (mesh.face_sizes != nullptr) view.face_sizes = {mesh.face_sizes, mesh.face_count};
     view.face_size = mesh.face_size == 0 ? 3 : mesh.face_size;
+    view.normal_indices = toIndices(mesh.normal_indices);
+    view.uv_indices = toIndices(mesh.uv_indices);
     return view;
 }
 

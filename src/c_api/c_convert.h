@@ -2,15 +2,22 @@
 // What every function of the C API does: turn C structs into C++ ones, and Results into codes.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <cstring>
 #include <string>
+#include <vector>
 
 #include "core/border.h"
 #include "tspace/convention.h"
 #include "tspace/execution.h"
 #include "tspace/mesh.h"
+#include "tspace/normals.h"
 #include "tspace/result.h"
+#include "tspace/sanitize.h"
+#include "tspace/split.h"
+#include "tspace/tangents.h"
 #include "tspace/tspace.h"
 
 namespace tspace::c_api {
@@ -25,12 +32,25 @@ tspace_ErrorCode atCBorder(tspace_Error* out, Body&& body) noexcept {
     return finish(result ? Error{ErrorCode::ok} : result.error(), out);
 }
 
-/// An Error with code ok when `size` is the one of `Struct`. Null is a struct that was not given: fine here.
-Error checkStructSize(std::uint32_t size, std::size_t expected, const char* name);
+/// The size that `Struct` had in the first header, where fields came after it.
+template <class Struct>
+inline constexpr std::size_t kFirstSize = sizeof(Struct);
+template <>
+inline constexpr std::size_t kFirstSize<tspace_Mesh> = offsetof(tspace_Mesh, normal_indices);
+template <>
+inline constexpr std::size_t kFirstSize<tspace_TangentOptions> = offsetof(tspace_TangentOptions, frame);
+template <>
+inline constexpr std::size_t kFirstSize<tspace_NormalOptions> = offsetof(tspace_NormalOptions, refine);
+template <>
+inline constexpr std::size_t kFirstSize<tspace_SanitizeReport> = offsetof(tspace_SanitizeReport, placeholder_count);
+
+/// An Error with code ok when `size` is one that the struct has or had. Null is a struct that was not given: fine here.
+Error checkStructSize(std::uint32_t size, std::size_t first, std::size_t latest, const char* name);
 
 template <class Struct>
 Error checkSized(const Struct* sized, const char* name) {
-    return sized == nullptr ? Error{ErrorCode::ok} : checkStructSize(sized->struct_size, sizeof(Struct), name);
+    if (sized == nullptr) return {ErrorCode::ok};
+    return checkStructSize(sized->struct_size, kFirstSize<Struct>, sizeof(Struct), name);
 }
 
 /// The same for a struct that must be given.
@@ -40,13 +60,21 @@ Error checkNeeded(const Struct* sized, const char* name) {
     return checkSized(sized, name);
 }
 
-/// The given struct, or one of defaults. Only after checkSized.
+/// The fields that the caller has given, and defaults for the others.
 template <class Struct>
 Struct orDefault(const Struct* given) {
-    if (given != nullptr) return *given;
-    Struct defaults;
-    TSPACE_INIT(defaults);
-    return defaults;
+    Struct whole;
+    TSPACE_INIT(whole);
+    if (given != nullptr) std::memcpy(&whole, given, std::min<std::size_t>(given->struct_size, sizeof(Struct)));
+    return whole;
+}
+
+/// Writes those fields of a report that its caller knows.
+template <class Struct>
+void give(Struct report, Struct* to) {
+    if (to == nullptr) return;
+    report.struct_size = to->struct_size;
+    std::memcpy(to, &report, to->struct_size);
 }
 
 /// Checks that a choice or flag is not above its largest value.
@@ -70,11 +98,6 @@ StridedSpan<T> toSpan(const tspace_Span& span) {
     return {reinterpret_cast<T*>(span.data), span.count, span.stride_bytes == 0 ? sizeof(T) : span.stride_bytes};
 }
 
-/// The number of steps that the C constant means.
-constexpr std::uint32_t toRefine(tspace_Refine refine) {
-    return refine == TSPACE_REFINE_NONE ? 0 : refine == TSPACE_REFINE_DEFAULT ? 1 : refine;
-}
-
 IndexView toIndices(const tspace_Indices& indices);
 
 /// The mesh without checks; only its struct size must be right.
@@ -89,6 +112,18 @@ Convention toConvention(const tspace_Convention& convention);
 
 Error checkExecution(const tspace_Execution& execution);
 
+/// Options without their execution, whose hooks need a place that lives longer. Null: defaults.
+Error checkOptions(const tspace_NormalOptions* given);
+NormalOptions toOptions(const tspace_NormalOptions& options);
+Error checkOptions(const tspace_TangentOptions* given);
+TangentOptions toOptions(const tspace_TangentOptions& options);
+Result<std::vector<CornerAttribute>> toAttributes(const tspace_CornerAttribute* attributes, std::size_t count,
+                                                  const char* name);
+
+tspace_NormalReport toReport(const NormalReport& report);
+tspace_TangentReport toReport(const TangentReport& report);
+tspace_SanitizeReport toReport(const SanitizeReport& report);
+
 /// C++ copies of the caller's hooks. Must outlive the Execution it gives, so it neither moves nor is copied.
 class Hooks {
   public:
@@ -102,7 +137,7 @@ class Hooks {
   private:
     Executor executor_;
     Allocator allocator_;
-    unsigned thread_count_ = 0;
+    std::uint32_t thread_count_ = 1;
     SimdTarget simd_ = SimdTarget::best;
 };
 

@@ -9,8 +9,7 @@ using namespace tspace::c_api;  // NOLINT
 
 namespace {
 
-// In C 0 is the default weighting, so the others come one later than in C++.
-constexpr std::uint32_t inC(NormalWeighting weighting) { return static_cast<std::uint32_t>(weighting) + 1; }
+constexpr std::uint32_t inC(NormalWeighting weighting) { return static_cast<std::uint32_t>(weighting); }
 static_assert(TSPACE_NORMAL_WEIGHTING_FLAT == inC(NormalWeighting::flat));
 static_assert(TSPACE_NORMAL_WEIGHTING_UNIFORM == inC(NormalWeighting::uniform));
 static_assert(TSPACE_NORMAL_WEIGHTING_AREA == inC(NormalWeighting::area));
@@ -19,14 +18,16 @@ static_assert(TSPACE_NORMAL_WEIGHTING_ANGLE_AREA == inC(NormalWeighting::angleAr
 static_assert(TSPACE_NORMAL_WEIGHTING_MAX == inC(NormalWeighting::max));
 static_assert(TSPACE_NORMAL_WEIGHTING_BEST == inC(NormalWeighting::best));
 
+}  // namespace
+
+namespace tspace::c_api {
+
 Error checkOptions(const tspace_NormalOptions* given) {
-    if (given == nullptr) return {ErrorCode::ok};
-    const tspace_NormalOptions& options = *given;
-    return firstError([&] { return checkSized(given, "options"); },
-                      [&] { return checkChoice(options.weighting, TSPACE_NORMAL_WEIGHTING_BEST, "weighting"); },
+    if (Error error = checkSized(given, "options"); error.code != ErrorCode::ok) return error;
+    const tspace_NormalOptions options = orDefault(given);
+    return firstError([&] { return checkChoice(options.weighting, TSPACE_NORMAL_WEIGHTING_BEST, "weighting"); },
                       [&] { return checkChoice(options.smoothing_groups_are_masks, 1, "smoothing_groups_are_masks"); },
-                      [&] { return checkChoice(options.keep_positions_apart, 1, "keep_positions_apart"); },
-                      [&] { return checkChoice(options.refine, TSPACE_REFINE_NONE, "refine"); },
+                      [&] { return checkChoice(options.weld_positions, 1, "weld_positions"); },
                       [&] { return checkConvention(options.convention); },
                       [&] { return checkExecution(options.execution); },
                       [&]() -> Error {
@@ -36,24 +37,30 @@ Error checkOptions(const tspace_NormalOptions* given) {
                       });
 }
 
-/// All but the execution, whose hooks need a place that lives longer.
 NormalOptions toOptions(const tspace_NormalOptions& options) {
     NormalOptions result;
-    if (options.weighting != TSPACE_NORMAL_WEIGHTING_DEFAULT) {
-        result.weighting = static_cast<NormalWeighting>(options.weighting - 1);
-    }
-    if (options.crease_angle_deg != 0.0f) result.crease_angle_deg = options.crease_angle_deg;
+    result.weighting = static_cast<NormalWeighting>(options.weighting);
+    result.crease_angle_deg = options.crease_angle_deg;
     if (options.smoothing_groups != nullptr) {
         result.smoothing_groups = {options.smoothing_groups, options.smoothing_group_count};
     }
     result.smoothing_groups_are_masks = options.smoothing_groups_are_masks != 0;
-    result.weld_positions = options.keep_positions_apart == 0;
+    result.weld_positions = options.weld_positions != 0;
     result.convention = toConvention(options.convention);
-    result.refine = toRefine(options.refine);
+    result.refine = options.refine;
     return result;
 }
 
-}  // namespace
+tspace_NormalReport toReport(const NormalReport& report) {
+    tspace_NormalReport made;
+    TSPACE_INIT(made);
+    made.face_count = report.face_count;
+    made.degenerate_face_count = report.degenerate_face_count;
+    made.fallback_corner_count = report.fallback_corner_count;
+    return made;
+}
+
+}  // namespace tspace::c_api
 
 tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_NormalOptions* options, tspace_Span out,
                                         tspace_NormalReport* report, tspace_Error* error) noexcept {
@@ -67,12 +74,7 @@ tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_No
         converted.execution = hooks.execution();
         const Result<NormalReport> result = generateNormals(toMesh(*mesh), converted, toSpan<Vec3>(out));
         if (!result) return result.error();
-        if (report != nullptr) {
-            TSPACE_INIT(*report);
-            report->face_count = result->face_count;
-            report->degenerate_face_count = result->degenerate_face_count;
-            report->fallback_corner_count = result->fallback_corner_count;
-        }
+        give(toReport(*result), report);
         return Done{};
     });
 }

@@ -19,16 +19,17 @@ static_assert(TSPACE_FRAME_FORMAT_GLTF_SNORM16 == static_cast<std::uint32_t>(Fra
 namespace {
 
 void writePackReport(const PackReport& from, tspace_PackReport* to) {
-    if (to == nullptr) return;
-    TSPACE_INIT(*to);
-    to->bad_normal_count = from.bad_normal_count;
-    to->not_finite_count = from.not_finite_count;
-    to->zero_count = from.zero_count;
-    to->parallel_count = from.parallel_count;
-    to->not_unit_count = from.not_unit_count;
-    to->not_orthogonal_count = from.not_orthogonal_count;
-    to->bad_sign_count = from.bad_sign_count;
-    to->mended_count = from.mendedCount();
+    tspace_PackReport made;
+    TSPACE_INIT(made);
+    made.bad_normal_count = from.bad_normal_count;
+    made.not_finite_count = from.not_finite_count;
+    made.zero_count = from.zero_count;
+    made.parallel_count = from.parallel_count;
+    made.not_unit_count = from.not_unit_count;
+    made.not_orthogonal_count = from.not_orthogonal_count;
+    made.bad_sign_count = from.bad_sign_count;
+    made.mended_count = from.mendedCount();
+    give(made, to);
 }
 
 /// A span can be made of these bytes: null has none.

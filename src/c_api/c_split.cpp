@@ -25,10 +25,16 @@ struct OwnedTriangulation : tspace_Triangulation {
     Triangulation result;
 };
 
-Result<std::vector<CornerAttribute>> toAttributes(const tspace_CornerAttribute* attributes, std::size_t count) {
+}  // namespace
+
+namespace tspace::c_api {
+
+Result<std::vector<CornerAttribute>> toAttributes(const tspace_CornerAttribute* attributes, std::size_t count,
+                                                  const char* name) {
     std::vector<CornerAttribute> result;
     if (count == 0) return result;
-    if (attributes == nullptr) return Error{ErrorCode::nullData, "attributes is null but attribute_count is not 0"};
+    if (attributes == nullptr)
+        return makeError(ErrorCode::nullData, kNoElement, "%s is null but %s_count is not 0", name, name);
     result.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         const tspace_CornerAttribute& given = attributes[i];
@@ -39,7 +45,7 @@ Result<std::vector<CornerAttribute>> toAttributes(const tspace_CornerAttribute* 
     return result;
 }
 
-}  // namespace
+}  // namespace tspace::c_api
 
 tspace_ErrorCode tspace_splitVertices(const tspace_Indices* indices, size_t vertex_count, size_t corner_count,
                                       const tspace_CornerAttribute* attributes, size_t attribute_count,
@@ -48,7 +54,7 @@ tspace_ErrorCode tspace_splitVertices(const tspace_Indices* indices, size_t vert
     return atCBorder(error, [&]() -> Result<Done> {
         if (result == nullptr) return Error{ErrorCode::nullData, "result is null"};
         *result = nullptr;
-        const Result<std::vector<CornerAttribute>> converted = toAttributes(attributes, attribute_count);
+        const Result<std::vector<CornerAttribute>> converted = toAttributes(attributes, attribute_count, "attribute");
         if (!converted) return converted.error();
         const tspace_Execution given = execution == nullptr ? tspace_Execution{} : *execution;
         if (Error e = checkExecution(given); e.code != ErrorCode::ok) return e;

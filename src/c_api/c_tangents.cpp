@@ -36,69 +36,76 @@ static_assert(TSPACE_NGONS_SKIP == static_cast<std::uint32_t>(Ngons::skip));
 static_assert(TSPACE_FRAME_SYMMETRIC == static_cast<std::uint32_t>(FrameShape::symmetric));
 static_assert(TSPACE_DOMAIN_VERTEX == static_cast<std::uint32_t>(OutputDomain::vertex));
 
+}  // namespace
+
+namespace tspace::c_api {
+
 Error checkOptions(const tspace_TangentOptions* given) {
-    if (given == nullptr) return {ErrorCode::ok};
-    const tspace_TangentOptions& options = *given;
-    return firstError([&] { return checkSized(given, "options"); },
-                      [&] { return checkChoice(options.method, TSPACE_METHOD_BEST, "method"); },
+    if (Error error = checkSized(given, "options"); error.code != ErrorCode::ok) return error;
+    const tspace_TangentOptions options = orDefault(given);
+    return firstError([&] { return checkChoice(options.method, TSPACE_METHOD_BEST, "method"); },
                       [&] { return checkChoice(options.pairing, TSPACE_PAIRING_CORRECTED, "pairing"); },
                       [&] { return checkChoice(options.ngons, TSPACE_NGONS_SKIP, "ngons"); },
                       [&] { return checkChoice(options.domain, TSPACE_DOMAIN_VERTEX, "domain"); },
                       [&] { return checkChoice(options.frame, TSPACE_FRAME_SYMMETRIC, "frame"); },
-                      [&] { return checkChoice(options.refine, TSPACE_REFINE_NONE, "refine"); },
                       [&] { return checkConvention(options.convention); },
                       [&] { return checkExecution(options.execution); });
 }
 
-TangentOptions toOptions(const tspace_TangentOptions& options, const Hooks& hooks) {
+TangentOptions toOptions(const tspace_TangentOptions& options) {
     TangentOptions result;
     result.method = static_cast<Method>(options.method);
-    if (options.angular_threshold_deg != 0.0f) result.angular_threshold_deg = options.angular_threshold_deg;
+    result.angular_threshold_deg = options.angular_threshold_deg;
     result.pairing = static_cast<Pairing>(options.pairing);
     result.ngons = static_cast<Ngons>(options.ngons);
     result.domain = static_cast<OutputDomain>(options.domain);
     result.convention = toConvention(options.convention);
-    result.execution = hooks.execution();
     result.frame = static_cast<FrameShape>(options.frame);
-    result.refine = toRefine(options.refine);
+    result.refine = options.refine;
     return result;
 }
+
+tspace_TangentReport toReport(const TangentReport& from) {
+    tspace_TangentReport made;
+    TSPACE_INIT(made);
+    made.reference_order_abandoned = from.reference_order_abandoned ? 1 : 0;
+    made.triangle_count = from.triangle_count;
+    made.degenerate_triangle_count = from.degenerate_triangle_count;
+    made.degenerate_uv_count = from.degenerate_uv_count;
+    made.mirrored_count = from.mirrored_count;
+    made.skipped_face_count = from.skipped_face_count;
+    made.group_count = from.group_count;
+    made.default_corner_count = from.default_corner_count;
+    made.not_finite_count = from.not_finite_count;
+    return made;
+}
+
+tspace_SanitizeReport toReport(const SanitizeReport& from) {
+    tspace_SanitizeReport made;
+    TSPACE_INIT(made);
+    made.not_finite_count = from.not_finite_count;
+    made.zero_count = from.zero_count;
+    made.not_unit_count = from.not_unit_count;
+    made.parallel_count = from.parallel_count;
+    made.placeholder_count = from.placeholder_count;
+    made.bad_sign_count = from.bad_sign_count;
+    made.mixed_sign_count = from.mixed_sign_count;
+    made.orthogonalized_count = from.orthogonalized_count;
+    made.normalized_count = from.normalized_count;
+    made.from_neighbor_count = from.from_neighbor_count;
+    made.from_basis_count = from.from_basis_count;
+    made.bad_normal_count = from.bad_normal_count;
+    made.mended_count = from.mendedCount();
+    return made;
+}
+
+}  // namespace tspace::c_api
+
+namespace {
 
 TangentOutput toOutput(const tspace_TangentOutput& out) {
     return {toSpan<Vec4>(out.tangents), toSpan<Vec3>(out.bitangents), toSpan<float>(out.magnitudes_s),
             toSpan<float>(out.magnitudes_t)};
-}
-
-void writeReport(const TangentReport& from, tspace_TangentReport* to) {
-    if (to == nullptr) return;
-    TSPACE_INIT(*to);
-    to->reference_order_abandoned = from.reference_order_abandoned ? 1 : 0;
-    to->triangle_count = from.triangle_count;
-    to->degenerate_triangle_count = from.degenerate_triangle_count;
-    to->degenerate_uv_count = from.degenerate_uv_count;
-    to->mirrored_count = from.mirrored_count;
-    to->skipped_face_count = from.skipped_face_count;
-    to->group_count = from.group_count;
-    to->default_corner_count = from.default_corner_count;
-    to->not_finite_count = from.not_finite_count;
-}
-
-void writeReport(const SanitizeReport& from, tspace_SanitizeReport* to) {
-    if (to == nullptr) return;
-    TSPACE_INIT(*to);
-    to->not_finite_count = from.not_finite_count;
-    to->zero_count = from.zero_count;
-    to->not_unit_count = from.not_unit_count;
-    to->parallel_count = from.parallel_count;
-    to->placeholder_count = from.placeholder_count;
-    to->bad_sign_count = from.bad_sign_count;
-    to->mixed_sign_count = from.mixed_sign_count;
-    to->orthogonalized_count = from.orthogonalized_count;
-    to->normalized_count = from.normalized_count;
-    to->from_neighbor_count = from.from_neighbor_count;
-    to->from_basis_count = from.from_basis_count;
-    to->bad_normal_count = from.bad_normal_count;
-    to->mended_count = from.mendedCount();
 }
 
 }  // namespace
@@ -112,9 +119,11 @@ tspace_ErrorCode tspace_generateTangents(const tspace_Mesh* mesh, const tspace_T
         if (e.code != ErrorCode::ok) return e;
         const tspace_TangentOptions given = orDefault(options);
         const Hooks hooks(given.execution);
-        const Result<TangentReport> result = generateTangents(toMesh(*mesh), toOptions(given, hooks), toOutput(*out));
+        TangentOptions converted = toOptions(given);
+        converted.execution = hooks.execution();
+        const Result<TangentReport> result = generateTangents(toMesh(*mesh), converted, toOutput(*out));
         if (!result) return result.error();
-        writeReport(*result, report);
+        give(toReport(*result), report);
         return Done{};
     });
 }
@@ -128,7 +137,9 @@ tspace_ErrorCode tspace_planTangents(const tspace_Mesh* mesh, const tspace_Tange
         if (e.code != ErrorCode::ok) return e;
         const tspace_TangentOptions given = orDefault(options);
         auto made = std::make_unique<tspace_TangentPlan>(given.execution);
-        Result<TangentPlan> result = planTangents(toMesh(*mesh), toOptions(given, made->hooks));
+        TangentOptions converted = toOptions(given);
+        converted.execution = made->hooks.execution();
+        Result<TangentPlan> result = planTangents(toMesh(*mesh), converted);
         if (!result) return result.error();
         made->plan.emplace(std::move(*result));
         *plan = made.release();
@@ -150,7 +161,7 @@ tspace_ErrorCode tspace_evaluateTangents(const tspace_TangentPlan* plan, const t
         const Result<TangentReport> result =
             evaluateTangents(*plan->plan, converted, toOutput(*out), hooks.execution());
         if (!result) return result.error();
-        writeReport(*result, report);
+        give(toReport(*result), report);
         return Done{};
     });
 }
@@ -160,12 +171,14 @@ tspace_ErrorCode tspace_describeTangentPlan(const tspace_TangentPlan* plan, tspa
     return atCBorder(error, [&]() -> Result<Done> {
         if (plan == nullptr) return Error{ErrorCode::nullData, "plan is null"};
         if (Error e = checkNeeded(info, "info"); e.code != ErrorCode::ok) return e;
-        TSPACE_INIT(*info);
-        info->method = static_cast<tspace_Method>(plan->plan->method());
-        info->vertex_count = plan->plan->vertexCount();
-        info->corner_count = plan->plan->cornerCount();
-        info->output_count = plan->plan->outputCount();
-        info->memory_bytes = plan->plan->memoryBytes();
+        tspace_TangentPlanInfo made;
+        TSPACE_INIT(made);
+        made.method = static_cast<tspace_Method>(plan->plan->method());
+        made.vertex_count = plan->plan->vertexCount();
+        made.corner_count = plan->plan->cornerCount();
+        made.output_count = plan->plan->outputCount();
+        made.memory_bytes = plan->plan->memoryBytes();
+        give(made, info);
         return Done{};
     });
 }
@@ -187,7 +200,7 @@ tspace_ErrorCode tspace_sanitizeTangents(const tspace_Mesh* mesh, const tspace_S
         const SanitizeOptions converted{given.orthogonalize_all != 0, hooks.execution()};
         const Result<SanitizeReport> result = sanitizeTangents(toMesh(*mesh), toSpan<Vec4>(tangents), converted);
         if (!result) return result.error();
-        writeReport(*result, report);
+        give(toReport(*result), report);
         return Done{};
     });
 }

@@ -129,7 +129,7 @@ bool generate(const SMikkTSpaceContext* context, float angular_threshold_deg) {
     mesh.normals = corners.normals;
     mesh.uvs = corners.uvs;
     mesh.face_sizes = corners.face_sizes;
-    tspace::TangentOptions options;
+    tspace::TangentOptions options{.convention = tspace::conventions::opengl};
     options.angular_threshold_deg = angular_threshold_deg;
     options.ngons = tspace::Ngons::skip;
     const tspace::TangentOutput out{tangents, bitangents, magnitudes_s, magnitudes_t};

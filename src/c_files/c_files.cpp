@@ -23,7 +23,6 @@ void giveReport(const std::string& json, tspace_Bytes* to) {
 }
 
 void readGenerateOptions(const char* text, GenerateOptions& options) {
-    options.tangents.execution.thread_count = 1;
     options::Given given;
     const options::OptionList list = options::generateOptions(options);
     readOptions(list, text, given);
@@ -42,7 +41,6 @@ void generate(const std::string& input, const std::string& output, const Generat
 }
 
 void readCheckOptions(const char* text, options::CheckRequest& request) {
-    request.options.execution.thread_count = 1;
     options::Given given;
     readOptions(options::checkOptions(request), text, given);
 }
@@ -67,7 +65,6 @@ void inspect(const std::string& input, const FileOptions& options, tspace_Bytes*
 }
 
 void readIdentifyOptions(const char* text, IdentifyOptions& options) {
-    options.execution.thread_count = 1;
     options::Given given;
     readOptions(options::identifyOptions(options), text, given);
 }

@@ -86,23 +86,55 @@ bool allBelow(const IndexView& indices, std::size_t vertex_count, Parallel* para
         case IndexType::u32:
             return allBelow<std::uint32_t>(indices, limit, parallel);
         case IndexType::none:
+        case IndexType::corners:
             break;
     }
     return true;
 }
 
-Error checkIndexSpan(const IndexView& indices) {
+/// Checks that each index is below `count`.
+Error checkBelow(const IndexView& indices, std::size_t count, Parallel* parallel, const char* index_name,
+                 const char* name) {
+    if (allBelow(indices, count, parallel)) return fine();
+    std::size_t c = 0;
+    while (c < indices.count && indices[c] < count) ++c;
+    if (c == indices.count) return fine();
+    return makeError(ErrorCode::indexOutOfRange, c, "%s %u of corner %zu is not below the %zu %s", index_name,
+                     indices[c], c, count, name);
+}
+
+Error checkIndexSpan(const IndexView& indices, const char* name) {
     if (indices.type == IndexType::none) {
         if (indices.count != 0) {
-            return {ErrorCode::invalidOption, "indices have a count but IndexType::none"};
+            return makeError(ErrorCode::invalidOption, kNoElement, "%s have a count but IndexType::none", name);
         }
         return fine();
     }
     const auto bytes = static_cast<std::size_t>(indices.type);
-    if (bytes != 1 && bytes != 2 && bytes != 4) {
+    if (bytes != 1 && bytes != 2 && bytes != 4) {  // IndexType::corners is for attributes only
         return makeError(ErrorCode::invalidOption, kNoElement, "unknown index type %zu", bytes);
     }
-    return checkSpan(indices.data, indices.count, bytes, bytes, kNoElement, "indices");
+    return checkSpan(indices.data, indices.count, bytes, bytes, kNoElement, name);
+}
+
+/// One attribute: one entry per vertex, or any number with indices of its own.
+template <class T>
+Error checkAttribute(const StridedSpan<const T>& span, const IndexView& indices, std::size_t vertex_count,
+                     std::size_t corner_count, const char* name, const char* indices_name) {
+    if (indices.type == IndexType::none && indices.count == 0) {
+        return span.empty() ? fine() : checkSpan(span, vertex_count, name);
+    }
+    if (indices.type == IndexType::corners) return span.empty() ? fine() : checkSpan(span, corner_count, name);
+    if (span.count > kMaxCorners) return makeError(ErrorCode::tooLarge, kNoElement, "more than 2^31-1 %s", name);
+    if (Error e = checkSpan(span, kNoElement, name); e.code != ErrorCode::ok) return e;
+    if (Error e = checkIndexSpan(indices, indices_name); e.code != ErrorCode::ok) return e;
+    if (indices.count != corner_count) {
+        return makeError(ErrorCode::countMismatch, kNoElement,
+                         "%s has %zu entries, one for each of %zu corners is needed", indices_name, indices.count,
+                         corner_count);
+    }
+    if (span.empty() && corner_count != 0) return fine();
+    return checkBelow(indices, span.count, nullptr, indices_name, name);
 }
 
 /// checkTheIndices(indices) as checkSpan.
@@ -113,13 +145,14 @@ Error check(const MeshView& mesh, const CheckTheIndices& checkTheIndices) {
     }
     const std::size_t vertices = mesh.positions.count;
     if (Error e = checkSpan(mesh.positions, kNoElement, "positions"); e.code != ErrorCode::ok) return e;
-    if (!mesh.normals.empty()) {
-        if (Error e = checkSpan(mesh.normals, vertices, "normals"); e.code != ErrorCode::ok) return e;
-    }
-    if (!mesh.uvs.empty()) {
-        if (Error e = checkSpan(mesh.uvs, vertices, "uvs"); e.code != ErrorCode::ok) return e;
-    }
     if (Error e = checkTheIndices(mesh.indices); e.code != ErrorCode::ok) return e;
+    const std::size_t corners = mesh.cornerCount();
+    if (Error e = checkAttribute(mesh.normals, mesh.normal_indices, vertices, corners, "normals", "normal_indices");
+        e.code != ErrorCode::ok)
+        return e;
+    if (Error e = checkAttribute(mesh.uvs, mesh.uv_indices, vertices, corners, "uvs", "uv_indices");
+        e.code != ErrorCode::ok)
+        return e;
     return checkFaces(mesh);
 }
 
@@ -149,16 +182,13 @@ Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, s
 }
 
 Error checkIndices(const IndexView& indices, std::size_t vertex_count, Parallel* parallel) {
-    if (Error e = checkIndexSpan(indices); e.code != ErrorCode::ok) return e;
-    if (allBelow(indices, vertex_count, parallel)) return fine();
-    std::size_t c = 0;
-    while (c < indices.count && indices[c] < vertex_count) ++c;
-    if (c == indices.count) return fine();
-    return makeError(ErrorCode::indexOutOfRange, c, "index %u of corner %zu is not below the %zu vertices", indices[c],
-                     c, vertex_count);
+    if (Error e = checkIndexSpan(indices, "indices"); e.code != ErrorCode::ok) return e;
+    return checkBelow(indices, vertex_count, parallel, "index", "vertices");
 }
 
-Error checkAllButIndices(const MeshView& mesh) { return check(mesh, checkIndexSpan); }
+Error checkAllButIndices(const MeshView& mesh) {
+    return check(mesh, [](const IndexView& indices) { return checkIndexSpan(indices, "indices"); });
+}
 
 Error checkMesh(const MeshView& mesh, Parallel* parallel) {
     return check(mesh, [&](const IndexView& indices) { return checkIndices(indices, mesh.positions.count, parallel); });

@@ -128,14 +128,15 @@ class Parallel::Pool {
 Parallel::Parallel(const Execution& execution, std::uint64_t corners) {
     constexpr unsigned kMostThreads = 256;  // a wrong request must not exhaust the machine
     constexpr std::uint64_t kWorthAThread = 48 * 1024;
-    if (execution.executor != nullptr && execution.executor->run != nullptr && execution.thread_count != 1) {
+    if (execution.executor != nullptr && execution.executor->run != nullptr) {
         executor_ = execution.executor;
         width_ = std::clamp(executor_->concurrency, 1u, kMostThreads);
         return;
     }
     const auto useful = static_cast<unsigned>(std::min<std::uint64_t>(corners / kWorthAThread, kMostThreads));
     if (useful <= 1) return;  // without asking the system how many there are
-    const unsigned wanted = execution.thread_count != 0 ? execution.thread_count : std::thread::hardware_concurrency();
+    const unsigned wanted =
+        execution.thread_count != kAllThreads ? execution.thread_count : std::thread::hardware_concurrency();
     width_ = std::clamp(wanted, 1u, useful);
 }
 

@@ -32,6 +32,7 @@ inline const std::uint32_t* readIndices(const IndexView& view, std::size_t first
         case IndexType::u8:
             return widen(static_cast<const std::uint8_t*>(view.data) + first);
         case IndexType::none:
+        case IndexType::corners:
             break;
     }
     for (std::size_t i = 0; i < count; ++i) buffer[i] = static_cast<std::uint32_t>(first + i);

@@ -21,6 +21,7 @@
 #include "core/sum_ranges.h"
 #include "core/typed_indices.h"
 #include "core/vec_math.h"
+#include "frames/one_list.h"
 
 namespace tspace {
 
@@ -503,6 +504,11 @@ Error check(const MeshView& mesh, const StridedSpan<Vec4>& tangents) {
 Result<SanitizeReport> sanitizeTangents(const MeshView& mesh, StridedSpan<Vec4> tangents,
                                         const SanitizeOptions& options) {
     return atBorder([&]() -> Result<SanitizeReport> {
+        if (mesh.hasOwnLists()) {
+            return withOneList(mesh, options.execution, [&](const MeshView& with_one_list) {
+                return sanitizeTangents(with_one_list, tangents, options);
+            });
+        }
         if (Error e = check(mesh, tangents); e.code != ErrorCode::ok) return e;
         return Sanitizer(mesh, tangents, options).run();
     });

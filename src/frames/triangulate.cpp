@@ -5,6 +5,7 @@
 #include "core/border.h"
 #include "core/face_walk.h"
 #include "core/polygon.h"
+#include "frames/one_list.h"
 
 namespace tspace {
 
@@ -33,7 +34,10 @@ Result<Triangulation> cutFaces(const MeshView& mesh) {
 }  // namespace
 
 Result<Triangulation> triangulate(const MeshView& mesh) {
-    return atBorder([&] { return cutFaces(mesh); });
+    return atBorder([&] {
+        // Only the UVs of quads are read, and the normals never.
+        return mesh.hasOwnLists() ? withOneList(mesh, {}, cutFaces) : cutFaces(mesh);
+    });
 }
 
 }  // namespace tspace

@@ -34,7 +34,11 @@ void addAllowExternal(OptionList& list, FileOptions& file) {
 }
 
 void addThreads(OptionList& list, Execution& execution, std::string help) {
-    add(list, kRunning, number("--threads", execution.thread_count, kMostThreads, std::move(help)));
+    const auto store = [&execution](std::uint64_t given) {
+        execution.thread_count = given == 0 ? kAllThreads : static_cast<std::uint32_t>(given);
+    };
+    const std::uint32_t threads = execution.thread_count == kAllThreads ? 0 : execution.thread_count;
+    add(list, kRunning, numberOption("--threads", threads, kMostThreads, store, std::move(help)));
 }
 
 void addMemoryLimit(OptionList& list, std::uint64_t& memory_limit_bytes) {

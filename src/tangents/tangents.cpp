@@ -5,9 +5,11 @@
 #include <memory>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "core/border.h"
 #include "core/parallel.h"
+#include "frames/one_list.h"
 #include "tangents/estimators/group_estimates.h"
 #include "tangents/indexed_plan.h"
 #include "tangents/mikktspace/evaluation_plan.h"
@@ -23,6 +25,9 @@ struct TangentPlan::State {
     std::size_t output_count = 0;
     bool is_symmetric = false;
     Buffer<std::uint32_t> corner_vertices;  ///< for a symmetric frame, one per corner; empty: outputs are per vertex
+    std::size_t normal_count = 0;           ///< of a pose
+    /// Where the mesh had several index lists: the pose's position and normal of each vertex that the plan works on.
+    std::vector<std::uint32_t> source_vertices, source_normals;
 
     [[nodiscard]] TangentReport evaluate(const Pose& pose, const TangentOutput& out, const Execution& execution,
                                          Parallel& parallel) const {
@@ -30,6 +35,18 @@ struct TangentPlan::State {
             return evaluateIndexed(*indexed, pose, out, execution, parallel);
         const auto& grouped = *std::get_if<mikk::EvaluationPlan>(&plan);
         return mikk::evaluateGroups(grouped, pose, {grouped.uvs.data(), grouped.uvs.size()}, out, execution, parallel);
+    }
+
+    /// The same with the frame that was asked for.
+    [[nodiscard]] TangentReport evaluateFrames(const Pose& pose, const TangentOutput& out, const Execution& execution,
+                                               Parallel& parallel) const {
+        if (!is_symmetric) return evaluate(pose, out, execution, parallel);
+        const NeededBitangents needed(out, execution.allocator);
+        const TangentReport report = evaluate(pose, needed.out, execution, parallel);
+        makeSymmetric(
+            out.tangents, needed.out.bitangents,
+            [&](std::size_t i) { return pose.normals[corner_vertices.empty() ? i : corner_vertices[i]]; }, parallel);
+        return report;
     }
 };
 
@@ -45,6 +62,12 @@ Error checkOptions(const TangentOptions& options) {
         return makeError(ErrorCode::invalidOption, kNoElement, "unknown method %u",
                          static_cast<unsigned>(options.method));
     }
+    if (options.convention.v_axis == VAxis::unset) {
+        return {ErrorCode::invalidOption,
+                "the convention is not set, and signs depend on it: for glTF it is the preset \"gltf\", for plain "
+                "MikkTSpace \"opengl\""};
+    }
+    if (options.convention.v_axis > VAxis::down) return {ErrorCode::invalidOption, "unknown v axis of the convention"};
     if (options.pairing > Pairing::corrected) return {ErrorCode::invalidOption, "unknown pairing"};
     if (options.ngons > Ngons::skip) return {ErrorCode::invalidOption, "unknown treatment of n-gons"};
     if (options.domain > OutputDomain::vertex) return {ErrorCode::invalidOption, "unknown output domain"};
@@ -102,14 +125,27 @@ TangentReport generateFrames(const MeshView& mesh, const TangentOptions& options
     return evaluateIndexed(plan, {mesh.positions, mesh.normals}, out, options.execution, parallel);
 }
 
-Error checkPose(const Pose& pose, std::size_t vertex_count) {
-    if (pose.positions.count != vertex_count || pose.normals.count != vertex_count) {
+Error checkPose(const Pose& pose, std::size_t vertex_count, std::size_t normal_count) {
+    if (pose.positions.count != vertex_count || pose.normals.count != normal_count) {
         return makeError(ErrorCode::planMismatch, kNoElement,
-                         "the pose has %zu positions and %zu normals, the plan needs %zu", pose.positions.count,
-                         pose.normals.count, vertex_count);
+                         "the pose has %zu positions and %zu normals, the plan needs %zu and %zu", pose.positions.count,
+                         pose.normals.count, vertex_count, normal_count);
     }
     if (Error e = checkSpan(pose.positions, vertex_count, "positions"); e.code != ErrorCode::ok) return e;
-    return checkSpan(pose.normals, vertex_count, "normals");
+    return checkSpan(pose.normals, normal_count, "normals");
+}
+
+Buffer<Vec3> gather(const StridedSpan<const Vec3>& values, const std::vector<std::uint32_t>& sources,
+                    const Allocator* allocator) {
+    Buffer<Vec3> gathered(allocator, sources.size());
+    for (std::size_t i = 0; i < sources.size(); ++i) gathered[i] = values[sources[i]];
+    return gathered;
+}
+
+/// Results per vertex have no place where vertices are combinations that only we know.
+Error checkDomain(const TangentOptions& options) {
+    if (options.domain == OutputDomain::corner) return {ErrorCode::ok, {}};
+    return {ErrorCode::invalidOption, "results per vertex need a mesh with one index list"};
 }
 
 }  // namespace
@@ -127,12 +163,20 @@ std::size_t TangentPlan::cornerCount() const { return state_->corner_count; }
 std::size_t TangentPlan::outputCount() const { return state_->output_count; }
 Method TangentPlan::method() const { return state_->method; }
 std::size_t TangentPlan::memoryBytes() const {
+    const std::size_t indices =
+        state_->corner_vertices.size() + state_->source_vertices.size() + state_->source_normals.size();
     return std::visit([](const auto& plan) { return plan.memoryBytes(); }, state_->plan) +
-           state_->corner_vertices.size() * sizeof(std::uint32_t);
+           indices * sizeof(std::uint32_t);
 }
 
 Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out) {
     return atBorder([&]() -> Result<TangentReport> {
+        if (mesh.hasOwnLists()) {
+            if (Error e = checkDomain(options); e.code != ErrorCode::ok) return e;
+            return withOneList(mesh, options.execution, [&](const MeshView& with_one_list) {
+                return generateTangents(with_one_list, options, out);
+            });
+        }
         Parallel parallel(options.execution, work(options.method, mesh.cornerCount()));
         if (Error e = checkInput(mesh, options, parallel); e.code != ErrorCode::ok) return e;
         if (Error e = checkOutput(out, outputCount(mesh, options)); e.code != ErrorCode::ok) return e;
@@ -147,26 +191,52 @@ Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOption
     });
 }
 
+namespace {
+
+Result<std::unique_ptr<TangentPlan::State>> makePlan(const MeshView& mesh, const TangentOptions& options) {
+    Parallel parallel(options.execution, work(options.method, mesh.cornerCount()));
+    if (Error e = checkInput(mesh, options, parallel); e.code != ErrorCode::ok) return e;
+    auto state = std::make_unique<TangentPlan::State>();
+    state->method = options.method;
+    state->vertex_count = state->normal_count = mesh.vertexCount();
+    state->corner_count = mesh.cornerCount();
+    state->output_count = outputCount(mesh, options);
+    if (isGrouped(options.method)) {
+        state->plan = mikk::planGrouped(mesh, options, parallel);
+    } else {
+        state->plan = planIndexed(mesh, options, parallel);
+    }
+    state->is_symmetric = options.frame == FrameShape::symmetric;
+    if (state->is_symmetric && options.domain == OutputDomain::corner) {
+        state->corner_vertices = Buffer<std::uint32_t>(options.execution.allocator, mesh.cornerCount());
+        for (std::size_t c = 0; c < mesh.cornerCount(); ++c) state->corner_vertices[c] = mesh.indices[c];
+    }
+    return state;
+}
+
+/// The plan of a mesh with several index lists: that of the mesh with one, and where its vertices come from.
+Result<std::unique_ptr<TangentPlan::State>> planLists(const MeshView& mesh, const TangentOptions& options) {
+    if (Error e = checkDomain(options); e.code != ErrorCode::ok) return e;
+    if (Result<Done> valid = validate(mesh); !valid) return std::move(valid).error();
+    OneListMesh made;
+    if (Result<Done> done = useOneList(mesh, options.execution, made); !done) return std::move(done).error();
+    Result<std::unique_ptr<TangentPlan::State>> state = makePlan(made.view, options);
+    if (!state) return state;
+    (*state)->vertex_count = mesh.vertexCount();
+    (*state)->normal_count = mesh.normals.count;
+    (*state)->source_vertices = std::move(made.source_vertices);
+    (*state)->source_normals = std::move(made.source_normals);
+    return state;
+}
+
+}  // namespace
+
 Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& options) {
     return atBorder([&]() -> Result<TangentPlan> {
-        Parallel parallel(options.execution, work(options.method, mesh.cornerCount()));
-        if (Error e = checkInput(mesh, options, parallel); e.code != ErrorCode::ok) return e;
-        auto state = std::make_unique<TangentPlan::State>();
-        state->method = options.method;
-        state->vertex_count = mesh.vertexCount();
-        state->corner_count = mesh.cornerCount();
-        state->output_count = outputCount(mesh, options);
-        if (isGrouped(options.method)) {
-            state->plan = mikk::planGrouped(mesh, options, parallel);
-        } else {
-            state->plan = planIndexed(mesh, options, parallel);
-        }
-        state->is_symmetric = options.frame == FrameShape::symmetric;
-        if (state->is_symmetric && options.domain == OutputDomain::corner) {
-            state->corner_vertices = Buffer<std::uint32_t>(options.execution.allocator, mesh.cornerCount());
-            for (std::size_t c = 0; c < mesh.cornerCount(); ++c) state->corner_vertices[c] = mesh.indices[c];
-        }
-        return TangentPlan(state.release());
+        Result<std::unique_ptr<TangentPlan::State>> state =
+            mesh.hasOwnLists() ? planLists(mesh, options) : makePlan(mesh, options);
+        if (!state) return std::move(state).error();
+        return TangentPlan((*state).release());
     });
 }
 
@@ -174,20 +244,17 @@ Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose
                                        const Execution& execution) {
     return atBorder([&]() -> Result<TangentReport> {
         const TangentPlan::State& state = plan.state();
-        if (Error e = checkPose(pose, state.vertex_count); e.code != ErrorCode::ok) return e;
+        if (Error e = checkPose(pose, state.vertex_count, state.normal_count); e.code != ErrorCode::ok) return e;
         if (Error e = checkOutput(out, state.output_count); e.code != ErrorCode::ok) {
             if (e.code == ErrorCode::countMismatch) e.code = ErrorCode::planMismatch;
             return e;
         }
         Parallel parallel(execution, work(state.method, state.corner_count));
-        if (!state.is_symmetric) return state.evaluate(pose, out, execution, parallel);
-        const NeededBitangents needed(out, execution.allocator);
-        const TangentReport report = state.evaluate(pose, needed.out, execution, parallel);
-        const auto& vertices = state.corner_vertices;
-        makeSymmetric(
-            out.tangents, needed.out.bitangents,
-            [&](std::size_t i) { return pose.normals[vertices.empty() ? i : vertices[i]]; }, parallel);
-        return report;
+        if (state.source_vertices.empty()) return state.evaluateFrames(pose, out, execution, parallel);
+        const Buffer<Vec3> positions = gather(pose.positions, state.source_vertices, execution.allocator);
+        const Buffer<Vec3> normals = gather(pose.normals, state.source_normals, execution.allocator);
+        const Pose with_one_list{{positions.data(), positions.size()}, {normals.data(), normals.size()}};
+        return state.evaluateFrames(with_one_list, out, execution, parallel);
     });
 }
 

@@ -143,7 +143,7 @@ void addTangents(const Mesh& mesh, Method method, const Execution& execution, Re
     std::vector<Vec3> bitangents(count);
     std::vector<float> magnitudes_s(count), magnitudes_t(count);
     const TangentOutput out{tangents, bitangents, magnitudes_s, magnitudes_t};
-    TangentOptions options;
+    TangentOptions options{.convention = conventions::opengl};
     options.method = method;
     options.execution = execution;
     const std::string name = methodName(method);

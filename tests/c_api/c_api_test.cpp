@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -65,7 +66,7 @@ TEST(CApi, GivesTheTangentsOfTheCppApiForEveryMethod) {
     const RandomMesh mesh(1, 60);
     for (std::uint32_t method = TSPACE_METHOD_MIKKTSPACE; method <= TSPACE_METHOD_BASIS; ++method) {
         Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
-        TangentOptions options;
+        TangentOptions options{.convention = conventions::opengl};
         options.method = static_cast<Method>(method);
         options.angular_threshold_deg = 70.0f;
         options.pairing = Pairing::corrected;
@@ -74,8 +75,7 @@ TEST(CApi, GivesTheTangentsOfTheCppApiForEveryMethod) {
         const auto expected = generateTangents(mesh.view(), options, cpp.view());
         ASSERT_TRUE(expected);
 
-        tspace_TangentOptions c_options;
-        TSPACE_INIT(c_options);
+        tspace_TangentOptions c_options = tangentOptions();
         c_options.method = method;
         c_options.angular_threshold_deg = 70.0f;
         c_options.pairing = TSPACE_PAIRING_CORRECTED;
@@ -102,9 +102,10 @@ TEST(CApi, GivesTangentsPerVertexAsTheCppApi) {
     pose.normals = c_mesh.normals;
     for (const Method method : {Method::lengyel, Method::basis}) {
         Outputs cpp(vertex_count), c(vertex_count);
-        ASSERT_TRUE(generateTangents(mesh.view(), {.method = method, .domain = OutputDomain::vertex}, cpp.view()));
-        tspace_TangentOptions options;
-        TSPACE_INIT(options);
+        ASSERT_TRUE(generateTangents(
+            mesh.view(), {.method = method, .domain = OutputDomain::vertex, .convention = conventions::opengl},
+            cpp.view()));
+        tspace_TangentOptions options = tangentOptions();
         options.method = static_cast<tspace_Method>(method);
         options.domain = TSPACE_DOMAIN_VERTEX;
         tspace_TangentPlan* plan = nullptr;
@@ -123,37 +124,87 @@ TEST(CApi, GivesTangentsPerVertexAsTheCppApi) {
 
 TEST(CApi, DefaultsOfTangentsAreThoseOfCpp) {
     const RandomMesh mesh(2, 60);
-    Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount()), zeroed(mesh.cornerCount());
-    ASSERT_TRUE(generateTangents(mesh.view(), {}, cpp.view()));
+    Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
+    ASSERT_TRUE(generateTangents(mesh.view(), {.convention = conventions::opengl}, cpp.view()));
     const tspace_Mesh c_mesh = mesh.c();
-    tspace_TangentOutput out = c.c();
-    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, nullptr, &out, nullptr, nullptr));
+    const tspace_TangentOutput out = c.c();
+    const tspace_TangentOptions options = tangentOptions();
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr));
     expectSame(cpp, c);
+    EXPECT_EQ(TangentOptions{}.angular_threshold_deg, options.angular_threshold_deg);
+    EXPECT_EQ(TangentOptions{}.refine, options.refine);
+    EXPECT_EQ(0u, options.execution.thread_count);  // as 1, the default of C++
+    tspace_NormalOptions normals;
+    TSPACE_INIT(normals);
+    EXPECT_EQ(static_cast<std::uint32_t>(NormalOptions{}.weighting), normals.weighting);
+    EXPECT_EQ(NormalOptions{}.crease_angle_deg, normals.crease_angle_deg);
+    EXPECT_EQ(NormalOptions{}.weld_positions ? 1u : 0u, normals.weld_positions);
+    EXPECT_EQ(NormalOptions{}.refine, normals.refine);
+    tspace_IndexedFramesOptions frames;
+    TSPACE_INIT(frames);
+    EXPECT_EQ(IndexedFramesOptions{}.sanitize ? 1u : 0u, frames.sanitize);
+    EXPECT_EQ(IndexedFramesOptions{}.make_normals ? 1u : 0u, frames.make_normals);
+}
+
+TEST(CApi, TheConventionHasNoDefault) {
+    const RandomMesh mesh(2, 60);
+    Outputs c(mesh.cornerCount());
+    const tspace_Mesh c_mesh = mesh.c();
+    const tspace_TangentOutput out = c.c();
     tspace_TangentOptions options;
     TSPACE_INIT(options);
-    out = zeroed.c();
+    for (const tspace_TangentOptions* given :
+         {static_cast<const tspace_TangentOptions*>(nullptr), &std::as_const(options)}) {
+        tspace_Error error;
+        EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_generateTangents(&c_mesh, given, &out, nullptr, &error));
+        EXPECT_NE(nullptr, std::strstr(error.message, "convention")) << error.message;
+        tspace_TangentPlan* plan = nullptr;
+        EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_planTangents(&c_mesh, given, &plan, nullptr));
+    }
+    EXPECT_EQ(ErrorCode::invalidOption, generateTangents(mesh.view(), {}, c.view()).error().code);
+}
+
+TEST(CApi, ZeroDegreesCanBeSaid) {
+    const RandomMesh mesh(6, 60);
+    const tspace_Mesh c_mesh = mesh.c();
+    Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
+    ASSERT_TRUE(
+        generateTangents(mesh.view(), {.angular_threshold_deg = 0, .convention = conventions::opengl}, cpp.view()));
+    tspace_TangentOptions options = tangentOptions();
+    options.angular_threshold_deg = 0;
+    const tspace_TangentOutput out = c.c();
     ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr));
-    expectSame(cpp, zeroed);
+    expectSame(cpp, c);
+    std::vector<Vec3> hard(mesh.cornerCount()), hard_in_c(mesh.cornerCount()), smooth(mesh.cornerCount());
+    ASSERT_TRUE(generateNormals(mesh.view(), {.crease_angle_deg = 0}, hard));
+    ASSERT_TRUE(generateNormals(mesh.view(), {}, smooth));
+    tspace_NormalOptions normals;
+    TSPACE_INIT(normals);
+    normals.crease_angle_deg = 0;
+    ASSERT_EQ(TSPACE_OK,
+              tspace_generateNormals(&c_mesh, &normals, {&hard_in_c[0].x, hard_in_c.size(), 0}, nullptr, nullptr));
+    EXPECT_TRUE(sameBits(hard, hard_in_c));
+    EXPECT_FALSE(sameBits(smooth, hard_in_c));
 }
 
 TEST(CApi, GivesTheNormalsOfTheCppApi) {
     const RandomMesh mesh(3, 60);
     std::vector<std::uint32_t> groups(mesh.sizes.size());
     for (std::size_t f = 0; f < groups.size(); ++f) groups[f] = 1u << (f % 3);
-    for (std::uint32_t weighting = TSPACE_NORMAL_WEIGHTING_DEFAULT; weighting <= TSPACE_NORMAL_WEIGHTING_BEST;
-         ++weighting) {
+    constexpr std::uint32_t kDefault = TSPACE_NORMAL_WEIGHTING_BEST + 1;
+    for (std::uint32_t weighting = TSPACE_NORMAL_WEIGHTING_FLAT; weighting <= kDefault; ++weighting) {
         std::vector<Vec3> cpp(mesh.cornerCount()), c(mesh.cornerCount());
         NormalOptions options;
         tspace_NormalOptions c_options;
         TSPACE_INIT(c_options);
-        if (weighting != TSPACE_NORMAL_WEIGHTING_DEFAULT) {
-            options = {static_cast<NormalWeighting>(weighting - 1), 50.0f, groups, true, false, conventions::unity, {}};
+        if (weighting != kDefault) {
+            options = {static_cast<NormalWeighting>(weighting), 50.0f, groups, true, false, conventions::unity, {}};
             c_options.weighting = weighting;
             c_options.crease_angle_deg = 50.0f;
             c_options.smoothing_groups = groups.data();
             c_options.smoothing_group_count = groups.size();
             c_options.smoothing_groups_are_masks = 1;
-            c_options.keep_positions_apart = 1;
+            c_options.weld_positions = 0;
             ASSERT_EQ(TSPACE_OK, tspace_findConvention("unity", &c_options.convention, nullptr));
         }
         const auto expected = generateNormals(mesh.view(), options, cpp);
@@ -171,15 +222,13 @@ TEST(CApi, GivesTheNormalsOfTheCppApi) {
 
 TEST(CApi, RefinesTangentsAsTheCppApi) {
     const RandomMesh mesh(5, 60);
-    constexpr std::pair<tspace_Refine, std::uint32_t> kSame[] = {
-        {TSPACE_REFINE_DEFAULT, 1}, {TSPACE_REFINE_ONE, 1}, {TSPACE_REFINE_TWO, 2}, {TSPACE_REFINE_NONE, 0}};
-    for (const auto& [in_c, in_cpp] : kSame) {
+    for (const std::uint32_t refine : {0u, 1u, 2u}) {
         Outputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
-        ASSERT_TRUE(generateTangents(mesh.view(), {.method = Method::best, .refine = in_cpp}, cpp.view()));
-        tspace_TangentOptions options;
-        TSPACE_INIT(options);
+        ASSERT_TRUE(generateTangents(
+            mesh.view(), {.method = Method::best, .convention = conventions::opengl, .refine = refine}, cpp.view()));
+        tspace_TangentOptions options = tangentOptions();
         options.method = TSPACE_METHOD_BEST;
-        options.refine = in_c;
+        options.refine = refine;
         const tspace_Mesh c_mesh = mesh.c();
         const tspace_TangentOutput out = c.c();
         ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr));
@@ -189,7 +238,7 @@ TEST(CApi, RefinesTangentsAsTheCppApi) {
 
 TEST(CApi, RefinesNormalsAsTheCppApi) {
     const RandomMesh mesh(3, 60);
-    const auto normalsWith = [&](tspace_Refine refine) {
+    const auto normalsWith = [&](std::uint32_t refine) {
         std::vector<Vec3> out(mesh.cornerCount());
         tspace_NormalOptions options;
         TSPACE_INIT(options);
@@ -199,14 +248,12 @@ TEST(CApi, RefinesNormalsAsTheCppApi) {
         EXPECT_EQ(TSPACE_OK, tspace_generateNormals(&c_mesh, &options, {&out[0].x, out.size(), 0}, nullptr, nullptr));
         return out;
     };
-    constexpr std::pair<tspace_Refine, std::uint32_t> kSame[] = {
-        {TSPACE_REFINE_DEFAULT, 1}, {TSPACE_REFINE_ONE, 1}, {TSPACE_REFINE_TWO, 2}, {TSPACE_REFINE_NONE, 0}};
-    for (const auto& [in_c, in_cpp] : kSame) {
+    for (const std::uint32_t refine : {0u, 1u, 2u}) {
         std::vector<Vec3> cpp(mesh.cornerCount());
-        ASSERT_TRUE(generateNormals(mesh.view(), {.weighting = NormalWeighting::best, .refine = in_cpp}, cpp));
-        EXPECT_TRUE(sameBits(cpp, normalsWith(in_c))) << in_c;
+        ASSERT_TRUE(generateNormals(mesh.view(), {.weighting = NormalWeighting::best, .refine = refine}, cpp));
+        EXPECT_TRUE(sameBits(cpp, normalsWith(refine))) << refine;
     }
-    EXPECT_FALSE(sameBits(normalsWith(TSPACE_REFINE_NONE), normalsWith(TSPACE_REFINE_ONE)));
+    EXPECT_FALSE(sameBits(normalsWith(0), normalsWith(1)));
 }
 
 TEST(CApi, MendsAsTheCppApi) {
@@ -242,7 +289,7 @@ TEST(CApi, MendsAsTheCppApi) {
 TEST(CApi, SplitsAndTriangulatesAsTheCppApi) {
     const RandomMesh mesh(5, 60);
     Outputs outputs(mesh.cornerCount());
-    ASSERT_TRUE(generateTangents(mesh.view(), {}, outputs.view()));
+    ASSERT_TRUE(generateTangents(mesh.view(), {.convention = conventions::opengl}, outputs.view()));
     const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec4>(outputs.tangents), 1e-5f);
     const auto expected =
         splitVertices(mesh.view().indices, mesh.positions.size(), mesh.cornerCount(), {&attribute, 1});
@@ -267,6 +314,46 @@ TEST(CApi, SplitsAndTriangulatesAsTheCppApi) {
     EXPECT_EQ(triangles->corners, std::vector(cut->corners, cut->corners + 3 * cut->triangle_count));
     EXPECT_EQ(triangles->faces, std::vector(cut->faces, cut->faces + cut->triangle_count));
     tspace_destroyTriangulation(cut);
+}
+
+TEST(CApi, MakesIndexedFramesAsTheCppApi) {
+    const RandomMesh mesh(8, 60);
+    std::vector<std::uint16_t> uv_indices(mesh.cornerCount());
+    for (std::size_t c = 0; c < uv_indices.size(); ++c)
+        uv_indices[c] = static_cast<std::uint16_t>((mesh.indices[c] + c % 2) % mesh.uvs.size());
+    MeshView view = mesh.view();
+    view.uv_indices = std::span<const std::uint16_t>(uv_indices);
+    tspace_Mesh c_mesh = mesh.c();
+    c_mesh.uv_indices = {uv_indices.data(), uv_indices.size(), TSPACE_INDEX_U16};
+    for (const std::uint32_t make_normals : {0u, 1u}) {
+        const auto expected = makeIndexedFrames(
+            view, {.tangents = {.convention = conventions::opengl}, .make_normals = make_normals != 0});
+        ASSERT_TRUE(expected) << expected.error().message;
+        const tspace_TangentOptions tangents = tangentOptions();
+        tspace_IndexedFramesOptions options;
+        TSPACE_INIT(options);
+        options.tangents = &tangents;
+        options.make_normals = make_normals;
+        tspace_IndexedFrames* frames = nullptr;
+        tspace_Error error;
+        ASSERT_EQ(TSPACE_OK, tspace_makeIndexedFrames(&c_mesh, &options, &frames, &error)) << error.message;
+        ASSERT_EQ(frames->vertex_count, expected->vertexCount());
+        ASSERT_EQ(frames->corner_count, expected->indices.size());
+        EXPECT_TRUE(std::equal(expected->indices.begin(), expected->indices.end(), frames->indices));
+        EXPECT_TRUE(std::equal(expected->source_vertex.begin(), expected->source_vertex.end(), frames->source_vertex));
+        EXPECT_TRUE(std::equal(expected->source_corner.begin(), expected->source_corner.end(), frames->source_corner));
+        EXPECT_EQ(0, std::memcmp(expected->normals.data(), frames->normals, sizeof(Vec3) * frames->vertex_count));
+        EXPECT_EQ(0, std::memcmp(expected->tangents.data(), frames->tangents, sizeof(Vec4) * frames->vertex_count));
+        EXPECT_EQ(make_normals != 0, frames->normal_report != nullptr);
+        expectSame(expected->report.tangents, *frames->tangent_report);
+        EXPECT_EQ(expected->report.sanitize.mendedCount(), frames->sanitize_report->mended_count);
+        tspace_destroyIndexedFrames(frames);
+        EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_makeIndexedFrames(&c_mesh, nullptr, &frames, nullptr));
+        EXPECT_EQ(frames, nullptr);
+        options.tangents = nullptr;  // no convention
+        EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_makeIndexedFrames(&c_mesh, &options, &frames, nullptr));
+    }
+    tspace_destroyIndexedFrames(nullptr);
 }
 
 TEST(CApi, SplitsWithoutIndices) {
@@ -324,13 +411,12 @@ void runInReverse(void* user, std::size_t count, void (*task)(void*, std::size_t
 TEST(CApi, UsesTheCallersExecutorAndAllocator) {
     const RandomMesh mesh(6, 6000);
     Outputs expected(mesh.cornerCount()), c(mesh.cornerCount());
-    ASSERT_TRUE(generateTangents(mesh.view(), {}, expected.view()));
+    ASSERT_TRUE(generateTangents(mesh.view(), {.convention = conventions::opengl}, expected.view()));
     int run_count = 0;
     CountingMemory memory;
     const tspace_Executor executor = {runInReverse, &run_count, 4};
     const tspace_Allocator allocator = memory.hooks();
-    tspace_TangentOptions options;
-    TSPACE_INIT(options);
+    tspace_TangentOptions options = tangentOptions();
     options.execution.executor = &executor;
     options.execution.allocator = &allocator;
     const tspace_Mesh c_mesh = mesh.c();
@@ -345,12 +431,11 @@ TEST(CApi, UsesTheCallersExecutorAndAllocator) {
 TEST(CApi, AnArenaServesASecondCallFromWhatItHolds) {
     const RandomMesh mesh(8, 600);
     Outputs expected(mesh.cornerCount()), c(mesh.cornerCount());
-    ASSERT_TRUE(generateTangents(mesh.view(), {}, expected.view()));
+    ASSERT_TRUE(generateTangents(mesh.view(), {.convention = conventions::opengl}, expected.view()));
     tspace_Arena* arena = nullptr;
     ASSERT_EQ(TSPACE_OK, tspace_createArena(&arena, nullptr));
     EXPECT_EQ(tspace_arenaHeldBytes(arena), 0u);
-    tspace_TangentOptions options;
-    TSPACE_INIT(options);
+    tspace_TangentOptions options = tangentOptions();
     options.execution.allocator = tspace_arenaAllocator(arena);
     const tspace_Mesh c_mesh = mesh.c();
     const tspace_TangentOutput out = c.c();
@@ -371,15 +456,14 @@ TEST(CApi, AnArenaServesASecondCallFromWhatItHolds) {
 TEST(CApi, APlanOutlivesTheStructsItWasMadeWith) {
     const RandomMesh mesh(7, 60);
     Outputs expected(mesh.cornerCount()), c(mesh.cornerCount());
-    ASSERT_TRUE(generateTangents(mesh.view(), {}, expected.view()));
+    ASSERT_TRUE(generateTangents(mesh.view(), {.convention = conventions::opengl}, expected.view()));
     CountingMemory memory;
     tspace_TangentPlan* plan = nullptr;
     {
         // On the heap and freed, so that an address sanitizer sees a plan that still looks at it.
         const auto allocator = std::make_unique<tspace_Allocator>(memory.hooks());
         const auto c_mesh = std::make_unique<tspace_Mesh>(mesh.c());
-        tspace_TangentOptions options;
-        TSPACE_INIT(options);
+        tspace_TangentOptions options = tangentOptions();
         options.execution.allocator = allocator.get();
         ASSERT_EQ(TSPACE_OK, tspace_planTangents(c_mesh.get(), &options, &plan, nullptr));
     }
@@ -410,8 +494,7 @@ TEST(CApi, EveryAllocationThatFailsGivesOutOfMemoryAndLeaksNothing) {
         CountingMemory memory;
         memory.allowed = allowed;
         const tspace_Allocator allocator = memory.hooks();
-        tspace_TangentOptions options;
-        TSPACE_INIT(options);
+        tspace_TangentOptions options = tangentOptions();
         options.execution.allocator = &allocator;
         code = tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr);
         EXPECT_TRUE(code == TSPACE_OK || code == TSPACE_ERROR_OUT_OF_MEMORY) << code;

@@ -2,6 +2,10 @@
 // What the C API says to callers who make a mistake.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -77,8 +81,7 @@ void expectSizeChecked(const char* what, Struct& sized, Call call) {
 }
 
 TEST_F(CErrors, RefuseSizesOfStructsThatThisVersionDoesNotKnow) {
-    tspace_TangentOptions tangent_options;
-    TSPACE_INIT(tangent_options);
+    tspace_TangentOptions tangent_options = tangentOptions();
     tspace_TangentReport tangent_report;
     TSPACE_INIT(tangent_report);
     const auto generate_all = [&] {
@@ -113,13 +116,58 @@ TEST_F(CErrors, RefuseSizesOfStructsThatThisVersionDoesNotKnow) {
     expectSizeChecked("sanitize report", sanitize_report, sanitize_all);
 
     tspace_TangentPlan* plan = nullptr;
-    ASSERT_EQ(TSPACE_OK, tspace_planTangents(&c_mesh, nullptr, &plan, nullptr));
+    ASSERT_EQ(TSPACE_OK, tspace_planTangents(&c_mesh, &tangent_options, &plan, nullptr));
     expectSizeChecked("pose", pose,
                       [&] { return tspace_evaluateTangents(plan, &pose, &out, nullptr, &tangent_report, nullptr); });
     tspace_TangentPlanInfo info;
     TSPACE_INIT(info);
     expectSizeChecked("info", info, [&] { return tspace_describeTangentPlan(plan, &info, nullptr); });
     tspace_destroyTangentPlan(plan);
+}
+
+/// The struct as a header had it that ended before `first_new`: what comes behind is not the callee's to read or write.
+template <class Struct>
+struct AsOldCaller {
+    AsOldCaller(const Struct& now, std::size_t first_new) : size(first_new) {
+        bytes.fill(std::byte{0xee});
+        std::memcpy(bytes.data(), &now, size);
+        get().struct_size = static_cast<std::uint32_t>(size);
+    }
+    Struct& get() { return *reinterpret_cast<Struct*>(bytes.data()); }
+    [[nodiscard]] bool isRestUntouched() const {
+        return std::all_of(bytes.begin() + static_cast<std::ptrdiff_t>(size), bytes.end(),
+                           [](std::byte b) { return b == std::byte{0xee}; });
+    }
+
+    std::size_t size;
+    alignas(Struct) std::array<std::byte, sizeof(Struct)> bytes;
+};
+
+TEST_F(CErrors, ServeCallersThatWereCompiledWithAnOlderHeader) {
+    const tspace_TangentOptions now = tangentOptions();
+    ASSERT_EQ(TSPACE_OK, generate(&now));
+    const std::vector<float> expected = tangents;
+    AsOldCaller<tspace_Mesh> old_mesh(c_mesh, offsetof(tspace_Mesh, normal_indices));
+    AsOldCaller<tspace_TangentOptions> old_options(now, offsetof(tspace_TangentOptions, frame));
+    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&old_mesh.get(), &old_options.get(), &out, nullptr, &error))
+        << error.message;
+    EXPECT_EQ(tangents, expected);
+    EXPECT_EQ(tspace_cornerCount(&old_mesh.get()), mesh.cornerCount());
+
+    tspace_SanitizeReport report;
+    TSPACE_INIT(report);
+    AsOldCaller<tspace_SanitizeReport> old_report(report, offsetof(tspace_SanitizeReport, placeholder_count));
+    tangents[0] = NAN;
+    ASSERT_EQ(TSPACE_OK, tspace_sanitizeTangents(&old_mesh.get(), nullptr, out.tangents, &old_report.get(), &error));
+    EXPECT_EQ(old_report.get().not_finite_count, 1u);
+    EXPECT_EQ(old_report.get().struct_size, offsetof(tspace_SanitizeReport, placeholder_count));
+    EXPECT_TRUE(old_report.isRestUntouched());
+
+    tspace_NormalOptions normals;
+    TSPACE_INIT(normals);
+    AsOldCaller<tspace_NormalOptions> old_normals(normals, offsetof(tspace_NormalOptions, refine));
+    EXPECT_EQ(TSPACE_OK, tspace_generateNormals(&old_mesh.get(), &old_normals.get(),
+                                                {tangents.data(), mesh.cornerCount(), 0}, nullptr, &error));
 }
 
 TEST_F(CErrors, RefuseNullWhereSomethingIsNeeded) {
@@ -148,9 +196,10 @@ TEST_F(CErrors, RefuseNullWhereSomethingIsNeeded) {
 }
 
 TEST_F(CErrors, SetResultsToNull) {
+    const tspace_TangentOptions options = tangentOptions();
     c_mesh.positions.data = nullptr;
     auto* plan = reinterpret_cast<tspace_TangentPlan*>(&c_mesh);
-    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_planTangents(&c_mesh, nullptr, &plan, nullptr));
+    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_planTangents(&c_mesh, &options, &plan, nullptr));
     EXPECT_EQ(nullptr, plan);
     auto* cut = reinterpret_cast<tspace_Triangulation*>(&c_mesh);
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_triangulate(&c_mesh, &cut, nullptr));
@@ -162,8 +211,7 @@ TEST_F(CErrors, SetResultsToNull) {
 
 TEST_F(CErrors, RefuseChoicesThatDoNotExist) {
     const auto expectRefused = [&](auto change) {
-        tspace_TangentOptions options;
-        TSPACE_INIT(options);
+        tspace_TangentOptions options = tangentOptions();
         change(options);
         EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, generate(&options)) << error.message;
     };
@@ -173,13 +221,15 @@ TEST_F(CErrors, RefuseChoicesThatDoNotExist) {
     expectRefused([](auto& o) { o.domain = 2; });
     expectRefused([](auto& o) { o.frame = 2; });
     expectRefused([](auto& o) { o.domain = TSPACE_DOMAIN_VERTEX; });  // not with mikktspace
-    expectRefused([](auto& o) { o.convention.v_axis = 2; });
+    expectRefused([](auto& o) { o.convention.v_axis = 3; });
     expectRefused([](auto& o) { o.convention.green = 2; });
     expectRefused([](auto& o) { o.convention.stored_sign = 2; });
     expectRefused([](auto& o) { o.convention.handedness = 2; });
     expectRefused([](auto& o) { o.convention.winding = 2; });
     c_mesh.indices.type = 3;
-    EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, generate(nullptr));
+    const tspace_TangentOptions sound = tangentOptions();
+    EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, generate(&sound));
+    EXPECT_NE(nullptr, std::strstr(error.message, "index type")) << error.message;
 
     tspace_NormalOptions options;
     TSPACE_INIT(options);
@@ -188,7 +238,7 @@ TEST_F(CErrors, RefuseChoicesThatDoNotExist) {
     EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_generateNormals(&c_mesh, &options, span(3), nullptr, &error));
     EXPECT_NE(nullptr, std::strstr(error.message, "weighting")) << error.message;
     options.weighting = TSPACE_NORMAL_WEIGHTING_BEST;
-    options.refine = TSPACE_REFINE_NONE + 1;
+    options.refine = 3;
     EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_generateNormals(&c_mesh, &options, span(3), nullptr, &error));
     EXPECT_NE(nullptr, std::strstr(error.message, "refine")) << error.message;
 }
@@ -196,8 +246,7 @@ TEST_F(CErrors, RefuseChoicesThatDoNotExist) {
 TEST_F(CErrors, RefuseHooksWithoutFunctions) {
     const tspace_Executor executor = {nullptr, nullptr, 1};
     const tspace_Allocator allocator = {nullptr, nullptr, nullptr};
-    tspace_TangentOptions options;
-    TSPACE_INIT(options);
+    tspace_TangentOptions options = tangentOptions();
     options.execution.executor = &executor;
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, generate(&options));
     options.execution = {nullptr, &allocator, 0, TSPACE_SIMD_BEST};
@@ -205,19 +254,20 @@ TEST_F(CErrors, RefuseHooksWithoutFunctions) {
 }
 
 TEST_F(CErrors, PassOnWhatTheLibraryFinds) {
+    const tspace_TangentOptions options = tangentOptions();
     tspace_Mesh bad = c_mesh;
     bad.normals = {};
-    EXPECT_EQ(TSPACE_ERROR_MISSING_ATTRIBUTE, tspace_generateTangents(&bad, nullptr, &out, nullptr, nullptr));
+    EXPECT_EQ(TSPACE_ERROR_MISSING_ATTRIBUTE, tspace_generateTangents(&bad, &options, &out, nullptr, nullptr));
     bad = c_mesh;
     bad.uvs.count -= 1;
-    EXPECT_EQ(TSPACE_ERROR_COUNT_MISMATCH, tspace_generateTangents(&bad, nullptr, &out, nullptr, nullptr));
+    EXPECT_EQ(TSPACE_ERROR_COUNT_MISMATCH, tspace_generateTangents(&bad, &options, &out, nullptr, nullptr));
     bad = c_mesh;
     bad.positions.stride_bytes = 8;
     EXPECT_EQ(TSPACE_ERROR_STRIDE_TOO_SMALL, tspace_validate(&bad, nullptr));
     bad.positions.stride_bytes = 14;
     EXPECT_EQ(TSPACE_ERROR_MISALIGNED, tspace_validate(&bad, nullptr));
     out.tangents.count -= 1;
-    EXPECT_EQ(TSPACE_ERROR_COUNT_MISMATCH, generate(nullptr));
+    EXPECT_EQ(TSPACE_ERROR_COUNT_MISMATCH, generate(&options));
 }
 
 TEST_F(CErrors, HaveANameForEveryCode) {

@@ -79,7 +79,12 @@ static void checkTangents(float tangents[8][4]) {
     out.tangents.count = 8;
     tspace_TangentReport report;
     TSPACE_INIT(report);
-    CHECK(tspace_generateTangents(&mesh, NULL, &out, &report, NULL) == TSPACE_OK);
+    tspace_TangentOptions options;
+    TSPACE_INIT(options);
+    CHECK(options.angular_threshold_deg == 180.0f && options.refine == 1);
+    CHECK(tspace_generateTangents(&mesh, &options, &out, &report, NULL) == TSPACE_ERROR_INVALID_OPTION);
+    CHECK(tspace_findConvention("opengl", &options.convention, NULL) == TSPACE_OK);
+    CHECK(tspace_generateTangents(&mesh, &options, &out, &report, NULL) == TSPACE_OK);
     CHECK(report.triangle_count == 4 && report.mirrored_count == 2);
     for (int c = 0; c < 8; ++c) {
         const float sign = c < 4 ? 1.0f : -1.0f;
@@ -87,7 +92,7 @@ static void checkTangents(float tangents[8][4]) {
     }
 
     tspace_TangentPlan* plan = NULL;
-    CHECK(tspace_planTangents(&mesh, NULL, &plan, NULL) == TSPACE_OK);
+    CHECK(tspace_planTangents(&mesh, &options, &plan, NULL) == TSPACE_OK);
     tspace_TangentPlanInfo info;
     TSPACE_INIT(info);
     CHECK(tspace_describeTangentPlan(plan, &info, NULL) == TSPACE_OK);

@@ -11,6 +11,14 @@
 
 namespace tspace::test {
 
+/// Defaults, and the convention that has none.
+inline tspace_TangentOptions tangentOptions() {
+    tspace_TangentOptions options;
+    TSPACE_INIT(options);
+    options.convention.v_axis = TSPACE_V_UP;
+    return options;
+}
+
 struct RandomMesh {
     std::vector<Vec3> positions, normals;
     std::vector<Vec2> uvs;

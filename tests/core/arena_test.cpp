@@ -182,7 +182,9 @@ void computeAll(const Torus& torus, Method method, const Allocator* allocator) {
     std::vector<Vec3> normals(torus.indices.size());
     ASSERT_TRUE(generateNormals(torus.view(), {.crease_angle_deg = 30, .execution = execution}, normals));
     std::vector<Vec4> tangents(torus.indices.size());
-    ASSERT_TRUE(generateTangents(torus.view(), {.method = method, .execution = execution}, {.tangents = tangents}));
+    ASSERT_TRUE(generateTangents(torus.view(),
+                                 {.method = method, .convention = conventions::opengl, .execution = execution},
+                                 {.tangents = tangents}));
     tangents[5] = {};
     ASSERT_TRUE(sanitizeTangents(torus.view(), tangents, {.execution = execution}));
 }
@@ -207,7 +209,8 @@ TEST(Arena, ServesEvaluationsBesideThePlanThatItHolds) {
     const Arena arena;
     const Execution execution{.thread_count = 1, .allocator = arena.allocator()};
     {
-        const Result<TangentPlan> plan = planTangents(torus.view(), {.execution = execution});
+        const Result<TangentPlan> plan =
+            planTangents(torus.view(), {.convention = conventions::opengl, .execution = execution});
         ASSERT_TRUE(plan);
         std::size_t held = 0;
         for (int frame = 0; frame < 3; ++frame) {

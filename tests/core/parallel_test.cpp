@@ -146,7 +146,9 @@ TEST(Parallel, IsNotUsedForAMeshOf200Triangles) {
     for (const Method method : {Method::mikktspace, Method::lengyel, Method::uniform, Method::angle, Method::area,
                                 Method::flat, Method::basis, Method::fast, Method::best}) {
         std::vector<Vec4> tangents(indices.size());
-        ASSERT_TRUE(generateTangents(mesh, {.method = method, .execution = execution}, {.tangents = tangents}));
+        ASSERT_TRUE(generateTangents(mesh,
+                                     {.method = method, .convention = conventions::opengl, .execution = execution},
+                                     {.tangents = tangents}));
         tangents[7] = {};
         ASSERT_TRUE(sanitizeTangents(mesh, tangents, {.execution = execution}));
         const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec4>(tangents));

@@ -37,8 +37,9 @@ TEST(Identify, FindsBestWithAnyNumberOfSteps) {
     ModelData data = trianglesOf(hills(10), kCuts[3]);
     data.tangents = {};
     for (const std::uint32_t refine : {0u, 1u, 2u}) {
-        const Identification result =
-            identityOf({withTangents(data, {.method = Method::best, .refine = refine})}, {.tolerance_deg = 0.01});
+        const Identification result = identityOf(
+            {withTangents(data, {.method = Method::best, .convention = conventions::opengl, .refine = refine})},
+            {.tolerance_deg = 0.01});
         EXPECT_EQ(result.explanations[0].method, Method::best) << result.verdict;
         EXPECT_EQ(result.explanations[0].near_count, result.explanations[0].corner_count) << refine;
     }

@@ -98,7 +98,8 @@ inline MeshView viewOf(const ModelData& data) {
 /// What an exporter writes that computes on the polygons: vertices with one tangent each, for glTF.
 inline ModelData withTangentsOnQuads(const PolygonMesh& mesh, const Cut& cut) {
     std::vector<Vec4> tangents(mesh.corners.size());
-    if (!generateTangents(mesh.view(), {}, {.tangents = std::span(tangents)})) throw std::exception();
+    if (!generateTangents(mesh.view(), {.convention = conventions::opengl}, {.tangents = std::span(tangents)}))
+        throw std::exception();
     ModelData data = unwelded(trianglesOf(mesh, cut));
     for (const std::uint32_t corner : cutQuads(mesh, cut)) {
         Vec4 tangent = tangents[corner];

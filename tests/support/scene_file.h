@@ -76,7 +76,7 @@ inline std::vector<Vec4> tangentsOf(const ModelData& data, const TangentOptions&
     return tangents;
 }
 inline std::vector<Vec4> tangentsOf(const ModelData& data, Method method) {
-    return tangentsOf(data, TangentOptions{.method = method});
+    return tangentsOf(data, TangentOptions{.method = method, .convention = conventions::opengl});
 }
 
 /// Unwelds (but for `lengyel`, which averages at vertex indices), and sets the tangents that a method gives;
@@ -90,7 +90,7 @@ inline ModelData withTangents(const ModelData& data, const TangentOptions& optio
     return result;
 }
 inline ModelData withTangents(const ModelData& data, Method method, float sign_factor = -1) {
-    return withTangents(data, TangentOptions{.method = method}, sign_factor);
+    return withTangents(data, TangentOptions{.method = method, .convention = conventions::opengl}, sign_factor);
 }
 
 template <class Vec>

@@ -20,7 +20,8 @@ constexpr std::array kEstimated{Method::fast, Method::best};
 
 Outputs generate(const Shape& shape, Method method, std::uint32_t refine = 1) {
     Outputs outputs(shape.cornerCount());
-    const auto report = generateTangents(shape.view(), {.method = method, .refine = refine}, outputs.view());
+    const auto report = generateTangents(
+        shape.view(), {.method = method, .convention = conventions::opengl, .refine = refine}, outputs.view());
     EXPECT_TRUE(report);
     if (report) outputs.report = *report;
     return outputs;

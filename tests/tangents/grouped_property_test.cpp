@@ -40,7 +40,7 @@ Shape randomShape() {
 }
 
 TangentOptions randomOptions() {
-    TangentOptions options;
+    TangentOptions options{.convention = conventions::opengl};
     options.method = *rc::gen::element(Method::mikktspace, Method::mikktspace, Method::uniform, Method::angle,
                                        Method::area, Method::fast, Method::best);
     options.angular_threshold_deg = *rc::gen::element(180.0f, 180.0f, 60.0f, 20.0f, 0.0f, 300.0f);
@@ -155,7 +155,7 @@ RC_GTEST_PROP(GroupedProperty, TheConventionChangesOnlySignAndBitangent, ()) {
     TangentOptions options = randomOptions();
     options.convention = conventions::gltf;
     Outputs flipped = generate(shape.view(), options);
-    options.convention = {};
+    options.convention = conventions::opengl;
     const Outputs plain = generate(shape.view(), options);
     for (Vec4& t : flipped.tangents) t.w = -t.w;
     for (Vec3& b : flipped.bitangents) b = {-b.x, -b.y, -b.z};
@@ -174,11 +174,12 @@ TEST(GroupedThreads, GiveTheSameBits) {
     shuffleTriangles(shapes.back(), 7);
     shapes.push_back(gridOf(40000));
     for (std::size_t v = 0; v < shapes.back().normals.size(); v += 3) shapes.back().normals[v].x = -0.0f;
-    const TangentOptions ways[] = {{},
-                                   {.angular_threshold_deg = 10.0f},
-                                   {.method = Method::fast},
-                                   {.method = Method::best},
-                                   {.method = Method::best, .refine = 2}};
+    const Convention convention = conventions::opengl;
+    const TangentOptions ways[] = {{.convention = convention},
+                                   {.angular_threshold_deg = 10.0f, .convention = convention},
+                                   {.method = Method::fast, .convention = convention},
+                                   {.method = Method::best, .convention = convention},
+                                   {.method = Method::best, .convention = convention, .refine = 2}};
     for (const Shape& shape : shapes) {
         for (TangentOptions options : ways) {
             options.execution = {.thread_count = 1};

@@ -20,7 +20,7 @@ TangentReport generate(const Shape& shape, const TangentOptions& options, Output
     return outputs.report;
 }
 
-Outputs generate(const Shape& shape, const TangentOptions& options = {}) {
+Outputs generate(const Shape& shape, const TangentOptions& options = {.convention = conventions::opengl}) {
     Outputs outputs(shape.cornerCount());
     generate(shape, options, outputs);
     return outputs;
@@ -38,7 +38,7 @@ double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y
 
 TEST(Grouped, ASquareWithItsPositionsAsUvsHasTheAxesAsFrame) {
     for (const Method method : kGrouping) {
-        const Outputs got = generate(square(), {.method = method});
+        const Outputs got = generate(square(), {.method = method, .convention = conventions::opengl});
         for (std::size_t c = 0; c < 4; ++c) {
             EXPECT_EQ(got.tangents[c], (Vec4{1, 0, 0, 1}));
             EXPECT_EQ(got.bitangents[c], (Vec3{0, 1, 0}));
@@ -92,8 +92,9 @@ TEST(Grouped, NgonsAreCutOrSkipped) {
     }
     shape.face(corners);
     for (const Method method : kGrouping) {
-        const Outputs cut = generate(shape, {.method = method});
-        const Outputs skipped = generate(shape, {.method = method, .ngons = Ngons::skip});
+        const Outputs cut = generate(shape, {.method = method, .convention = conventions::opengl});
+        const Outputs skipped =
+            generate(shape, {.method = method, .ngons = Ngons::skip, .convention = conventions::opengl});
         EXPECT_EQ(cut.report.triangle_count, 4u);
         EXPECT_EQ(skipped.report.skipped_face_count, 1u);
         for (std::size_t c = 0; c < 6; ++c) {
@@ -138,7 +139,7 @@ TEST(Grouped, WeightingsAreTheirFormulas) {
         shape.positions[i].z = 0.1f * static_cast<float>(i * i % 5);
     }
     for (const Method method : {Method::uniform, Method::angle, Method::area}) {
-        const Outputs got = generate(shape, {.method = method});
+        const Outputs got = generate(shape, {.method = method, .convention = conventions::opengl});
         Vec3 sum{};
         for (std::size_t t = 0; t < 7; ++t) {
             const auto at = [&](std::size_t k) { return shape.indices[3 * t + k]; };
@@ -170,7 +171,7 @@ TEST(Grouped, ASmallThresholdSplitsAGroup) {
     Shape bent = shape;
     for (std::size_t i = 33; i < bent.uvs.size(); ++i) bent.uvs[i].x = 0.5f + (bent.uvs[i].x - 0.5f) * 0.1f;
     const auto tangentsAtApex = [&](float threshold) {
-        const Outputs got = generate(bent, {.angular_threshold_deg = threshold});
+        const Outputs got = generate(bent, {.angular_threshold_deg = threshold, .convention = conventions::opengl});
         std::vector<Vec4> all;
         for (std::size_t t = 0; t < 64; ++t) {
             const Vec4& tangent = got.tangents[3 * t];
@@ -185,7 +186,8 @@ TEST(Grouped, ASmallThresholdSplitsAGroup) {
 TEST(TangentPlan, GivesTheBitsOfTheOneCallOnItsOwnPose) {
     for (const Method method : kGrouping) {
         for (const Shape& shape : {someDegenerate(800), checkerboard(800), someWithoutUvArea(800), notFinite(800)}) {
-            const TangentOptions options{.method = method, .angular_threshold_deg = 60};
+            const TangentOptions options{
+                .method = method, .angular_threshold_deg = 60, .convention = conventions::opengl};
             const Outputs direct = generate(shape, options);
             const Result<TangentPlan> plan = planTangents(shape.view(), options);
             ASSERT_TRUE(plan);
@@ -208,7 +210,8 @@ TEST(TangentPlan, FollowsEqualVerticesThatComeApart) {
         square.uvs.push_back(uv);
     }
     for (const Method method : {Method::mikktspace, Method::uniform, Method::angle, Method::area}) {
-        const Result<TangentPlan> plan = planTangents(square.view(), {.method = method});
+        const Result<TangentPlan> plan =
+            planTangents(square.view(), {.method = method, .convention = conventions::opengl});
         ASSERT_TRUE(plan);
         Shape apart = square;
         for (std::size_t v = 3; v < 6; ++v) apart.positions[v].x += 5;
@@ -220,7 +223,7 @@ TEST(TangentPlan, FollowsEqualVerticesThatComeApart) {
 
 TEST(TangentPlan, KeepsItsGroupsOnAnotherPose) {
     const Shape shape = checkerboard(800);
-    const Result<TangentPlan> plan = planTangents(shape.view(), {});
+    const Result<TangentPlan> plan = planTangents(shape.view(), {.convention = conventions::opengl});
     ASSERT_TRUE(plan);
     const Outputs at_rest = generate(shape);
     Shape moved = shape;
@@ -241,7 +244,7 @@ TEST(TangentPlan, KeepsItsGroupsOnAnotherPose) {
 
 TEST(TangentPlan, RefusesAPoseOfAnotherMesh) {
     const Shape shape = grid(4);
-    const Result<TangentPlan> plan = planTangents(shape.view(), {});
+    const Result<TangentPlan> plan = planTangents(shape.view(), {.convention = conventions::opengl});
     ASSERT_TRUE(plan);
     Outputs outputs(shape.cornerCount());
     const std::span<const Vec3> all(shape.positions);
@@ -264,25 +267,29 @@ TEST(TangentBorder, NamesWhatIsWrong) {
         return result ? ErrorCode::ok : result.error().code;
     };
     MeshView mesh = shape.view();
-    EXPECT_EQ(code(mesh, {}, outputs.view()), ErrorCode::ok);
-    EXPECT_EQ(code(mesh, {.method = static_cast<Method>(77)}, outputs.view()), ErrorCode::invalidOption);
-    EXPECT_EQ(code(mesh, {.pairing = static_cast<Pairing>(2)}, outputs.view()), ErrorCode::invalidOption);
-    EXPECT_EQ(code(mesh, {.ngons = static_cast<Ngons>(2)}, outputs.view()), ErrorCode::invalidOption);
+    EXPECT_EQ(code(mesh, {.convention = conventions::opengl}, outputs.view()), ErrorCode::ok);
+    EXPECT_EQ(code(mesh, {.method = static_cast<Method>(77), .convention = conventions::opengl}, outputs.view()),
+              ErrorCode::invalidOption);
+    EXPECT_EQ(code(mesh, {.pairing = static_cast<Pairing>(2), .convention = conventions::opengl}, outputs.view()),
+              ErrorCode::invalidOption);
+    EXPECT_EQ(code(mesh, {.ngons = static_cast<Ngons>(2), .convention = conventions::opengl}, outputs.view()),
+              ErrorCode::invalidOption);
     TangentOutput out = outputs.view();
     out.tangents.count -= 1;
-    EXPECT_EQ(code(mesh, {}, out), ErrorCode::countMismatch);
+    EXPECT_EQ(code(mesh, {.convention = conventions::opengl}, out), ErrorCode::countMismatch);
     out = outputs.view();
     out.magnitudes_t.count -= 1;
-    EXPECT_EQ(code(mesh, {}, out), ErrorCode::countMismatch);
+    EXPECT_EQ(code(mesh, {.convention = conventions::opengl}, out), ErrorCode::countMismatch);
     mesh.normals = {};
-    EXPECT_EQ(code(mesh, {}, outputs.view()), ErrorCode::missingAttribute);
+    EXPECT_EQ(code(mesh, {.convention = conventions::opengl}, outputs.view()), ErrorCode::missingAttribute);
     mesh = shape.view();
     mesh.uvs = {};
-    EXPECT_EQ(code(mesh, {}, outputs.view()), ErrorCode::missingAttribute);
+    EXPECT_EQ(code(mesh, {.convention = conventions::opengl}, outputs.view()), ErrorCode::missingAttribute);
 }
 
 TEST(TangentBorder, AnEmptyMeshIsFine) {
-    const Result<TangentReport> result = generateTangents(MeshView{}, {}, TangentOutput{});
+    const Result<TangentReport> result =
+        generateTangents(MeshView{}, {.convention = conventions::opengl}, TangentOutput{});
     ASSERT_TRUE(result);
     EXPECT_EQ(result->triangle_count, 0u);
 }
@@ -291,7 +298,7 @@ TEST(TangentBorder, OutputsThatAreNotWantedMayBeMissing) {
     const Shape shape = someDegenerate(200);
     const Outputs all = generate(shape);
     Outputs some(shape.cornerCount());
-    ASSERT_TRUE(generateTangents(shape.view(), {}, {.tangents = some.tangents}));
+    ASSERT_TRUE(generateTangents(shape.view(), {.convention = conventions::opengl}, {.tangents = some.tangents}));
     EXPECT_EQ(all.tangents, some.tangents);
 }
 
@@ -318,6 +325,7 @@ std::size_t letEachAllocationFail(const Shape& shape, float threshold, Method me
     CountingAllocator counting;
     const TangentOptions options{.method = method,
                                  .angular_threshold_deg = threshold,
+                                 .convention = conventions::opengl,
                                  .execution = {.thread_count = 1, .allocator = &counting.allocator}};
     const Outputs want = generate(shape, options);
     EXPECT_EQ(counting.live_bytes, 0u);
@@ -355,7 +363,9 @@ TEST(TangentMemory, UnindexedCornersTakeAtMost32BytesPerTriangle) {
     for (const unsigned threads : {1u, 2u}) {
         CountingAllocator counting;
         std::vector<Vec4> tangents(corners.positions.size());
-        ASSERT_TRUE(generateTangents(mesh, {.execution = {.thread_count = threads, .allocator = &counting.allocator}},
+        ASSERT_TRUE(generateTangents(mesh,
+                                     {.convention = conventions::opengl,
+                                      .execution = {.thread_count = threads, .allocator = &counting.allocator}},
                                      {.tangents = tangents}));
         EXPECT_LE(counting.peak_bytes, 32 * (tangents.size() / 3)) << threads << " threads";
     }

@@ -156,7 +156,8 @@ RC_GTEST_PROP(IndexedProperty, VertexDomainAndPlanGiveTheBitsOfTheOneCallPerCorn
             };
             Outputs one_call = outputs(corners), per_vertex = outputs(vertices), planned = outputs(corners),
                     planned_per_vertex = outputs(vertices);
-            TangentOptions options{.method = method, .execution = {.thread_count = 1}};
+            TangentOptions options{
+                .method = method, .convention = conventions::opengl, .execution = {.thread_count = 1}};
             const auto corner_report = generateTangents(view, options, spans(one_call));
             const auto corner_plan = planTangents(view, options);
             options.domain = OutputDomain::vertex;

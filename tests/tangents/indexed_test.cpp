@@ -68,7 +68,7 @@ SimpleMesh mirroredSquare() {
 
 TEST(Lengyel, GivesFrameSignAndMagnitudesOfAPlane) {
     for (const Method method : {Method::lengyel, Method::flat}) {
-        const Outputs out = tangentsOf(square().view(), {.method = method});
+        const Outputs out = tangentsOf(square().view(), {.method = method, .convention = conventions::opengl});
         for (std::size_t c = 0; c < 6; ++c) {
             EXPECT_EQ(out.tangents[c], (Vec4{1, 0, 0, 1}));
             EXPECT_EQ(out.bitangents[c], (Vec3{0, 1, 0}));
@@ -83,7 +83,7 @@ TEST(Lengyel, GivesFrameSignAndMagnitudesOfAPlane) {
 
 TEST(Lengyel, GivesMirroredFacesTheSignMinusOne) {
     for (const Method method : {Method::lengyel, Method::flat}) {
-        const Outputs out = tangentsOf(mirroredSquare().view(), {.method = method});
+        const Outputs out = tangentsOf(mirroredSquare().view(), {.method = method, .convention = conventions::opengl});
         for (std::size_t c = 0; c < 6; ++c) {
             EXPECT_EQ(out.tangents[c], (Vec4{-1, 0, 0, -1}));
             EXPECT_EQ(out.bitangents[c], (Vec3{0, 1, 0}));
@@ -99,7 +99,7 @@ TEST(Lengyel, GivesTheNumbersOfItsPage) {
     mesh.normals = {{0.6f, 0, 0.8f}, {0, 0, 1}, {0, 0, 1}};
     mesh.uvs = {{0, 0}, {0.5f, 0.25f}, {0, 0.5f}};
     mesh.addFace({0, 1, 2});
-    const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel});
+    const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel, .convention = conventions::opengl});
     expectNear(xyz(out.tangents[0]), {0.8f, 0, -0.6f}, 1e-7);
     EXPECT_EQ(out.tangents[0].w, 1);
     EXPECT_EQ(out.tangents[1], (Vec4{1, 0, 0, 1}));
@@ -108,7 +108,9 @@ TEST(Lengyel, GivesTheNumbersOfItsPage) {
     EXPECT_EQ(out.magnitudes_t[1], 4);
 
     mesh.uvs[1].x = -0.5f;
-    for (const Vec4& t : tangentsOf(mesh.view(), {.method = Method::lengyel}).tangents) EXPECT_EQ(t.w, -1);
+    for (const Vec4& t :
+         tangentsOf(mesh.view(), {.method = Method::lengyel, .convention = conventions::opengl}).tangents)
+        EXPECT_EQ(t.w, -1);
     const TangentOptions gltf{.method = Method::lengyel, .convention = conventions::gltf};
     for (const Vec4& t : tangentsOf(mesh.view(), gltf).tangents) EXPECT_EQ(t.w, 1);
 }
@@ -121,13 +123,13 @@ TEST(Lengyel, SumsUnnormalisedDerivatives) {
     mesh.uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 0}, {0, 1}};
     mesh.addFace({0, 1, 2});
     mesh.addFace({0, 3, 4});
-    const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel});
+    const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel, .convention = conventions::opengl});
     const float l = std::sqrt(10.0f);
     expectNear(xyz(out.tangents[0]), {1 / l, 3 / l, 0});
     EXPECT_EQ(out.tangents[0], out.tangents[3]);
     EXPECT_NEAR(out.magnitudes_s[0], l / 2, 1e-6);
     EXPECT_EQ(out.magnitudes_s[1], 1);
-    const Outputs flat = tangentsOf(mesh.view(), {.method = Method::flat});
+    const Outputs flat = tangentsOf(mesh.view(), {.method = Method::flat, .convention = conventions::opengl});
     EXPECT_EQ(flat.tangents[0], (Vec4{1, 0, 0, 1}));
     EXPECT_EQ(flat.tangents[3], (Vec4{0, 1, 0, 1}));
 }
@@ -137,7 +139,8 @@ TEST(Lengyel, SubtractsTheVectorAlongN) {
     const float k = std::sqrt(0.5f);
     mesh.normals.assign(4, {k, 0, k});
     for (const Method method : {Method::lengyel, Method::flat}) {
-        expectNear(xyz(tangentsOf(mesh.view(), {.method = method}).tangents[0]), {k, 0, -k});
+        expectNear(xyz(tangentsOf(mesh.view(), {.method = method, .convention = conventions::opengl}).tangents[0]),
+                   {k, 0, -k});
     }
 }
 
@@ -151,7 +154,7 @@ TEST(Lengyel, LeavesOutFacesWithoutUvAreaAndBrokenOnes) {
     mesh.uvs.push_back({1, 0});
     mesh.addFace({0, 1, 4});
     mesh.addFace({0, 1, 5});  // all on v = 0
-    const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel});
+    const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel, .convention = conventions::opengl});
     EXPECT_EQ(out.tangents[0], (Vec4{1, 0, 0, 1}));
     EXPECT_EQ(out.magnitudes_s[0], 0.5f);
     EXPECT_EQ(out.tangents[8], (Vec4{1, 0, 0, 1}));
@@ -178,7 +181,7 @@ TEST(Defaults, StandWhereNoFaceGivesATangent) {
 
 TEST(Conventions, MultiplySignAndBitangentOnly) {
     for (const Method method : {Method::lengyel, Method::flat, Method::basis}) {
-        const Outputs raw = tangentsOf(mirroredSquare().view(), {.method = method});
+        const Outputs raw = tangentsOf(mirroredSquare().view(), {.method = method, .convention = conventions::opengl});
         const Outputs gltf = tangentsOf(mirroredSquare().view(), {.method = method, .convention = conventions::gltf});
         for (std::size_t c = 0; c < 6; ++c) {
             EXPECT_EQ(xyz(gltf.tangents[c]), xyz(raw.tangents[c]));
@@ -197,7 +200,7 @@ TEST(Flat, DoesNotDependOnWhereAPolygonBegins) {
     for (const std::uint32_t start : {0u, 1u, 2u, 3u, 4u}) {
         mesh.addFace({start, (start + 1) % 5, (start + 2) % 5, (start + 3) % 5, (start + 4) % 5});
     }
-    const Outputs out = tangentsOf(mesh.view(), {.method = Method::flat});
+    const Outputs out = tangentsOf(mesh.view(), {.method = Method::flat, .convention = conventions::opengl});
     for (std::size_t c = 1; c < 25; ++c) expectNear(xyz(out.tangents[c]), xyz(out.tangents[0]));
     EXPECT_EQ(out.report.triangle_count, 15u);
     EXPECT_EQ(out.report.group_count, 5u);
@@ -209,7 +212,8 @@ TEST(Faces, ThatAreSkippedGetZeroInEveryOutput) {
     mesh.addFace({0});
     mesh.addFace({0, 1, 2, 3, 0});
     for (const Method method : {Method::lengyel, Method::flat, Method::basis}) {
-        const Outputs out = tangentsOf(mesh.view(), {.method = method, .ngons = Ngons::skip});
+        const Outputs out =
+            tangentsOf(mesh.view(), {.method = method, .ngons = Ngons::skip, .convention = conventions::opengl});
         for (std::size_t c = 6; c < 14; ++c) {
             EXPECT_EQ(out.tangents[c], Vec4{});
             EXPECT_EQ(out.bitangents[c], Vec3{});
@@ -218,16 +222,21 @@ TEST(Faces, ThatAreSkippedGetZeroInEveryOutput) {
         }
         EXPECT_EQ(out.report.skipped_face_count, 3u);
         EXPECT_EQ(out.report.triangle_count, 2u);
-        EXPECT_EQ(tangentsOf(mesh.view(), {.method = method}).report.triangle_count, 5u);
-        EXPECT_EQ(tangentsOf(mesh.view(), {.method = method}).tangents[9].w, 1);
+        EXPECT_EQ(tangentsOf(mesh.view(), {.method = method, .convention = conventions::opengl}).report.triangle_count,
+                  5u);
+        EXPECT_EQ(tangentsOf(mesh.view(), {.method = method, .convention = conventions::opengl}).tangents[9].w, 1);
     }
 }
 
 TEST(Reports, CountTrianglesWithTwoCornersAtOnePosition) {
     SimpleMesh mesh = square();
     mesh.positions[3] = mesh.positions[0];
-    EXPECT_EQ(tangentsOf(mesh.view(), {.method = Method::lengyel}).report.degenerate_triangle_count, 1u);
-    EXPECT_EQ(tangentsOf(square().view(), {.method = Method::lengyel}).report.degenerate_triangle_count, 0u);
+    EXPECT_EQ(tangentsOf(mesh.view(), {.method = Method::lengyel, .convention = conventions::opengl})
+                  .report.degenerate_triangle_count,
+              1u);
+    EXPECT_EQ(tangentsOf(square().view(), {.method = Method::lengyel, .convention = conventions::opengl})
+                  .report.degenerate_triangle_count,
+              0u);
 }
 
 TEST(Reports, CountGroupsAsFacesForFlatAndAsUsedVerticesElse) {
@@ -235,9 +244,12 @@ TEST(Reports, CountGroupsAsFacesForFlatAndAsUsedVerticesElse) {
     mesh.positions.push_back({});
     mesh.normals.push_back({});
     mesh.uvs.push_back({});
-    EXPECT_EQ(tangentsOf(mesh.view(), {.method = Method::lengyel}).report.group_count, 4u);
-    EXPECT_EQ(tangentsOf(mesh.view(), {.method = Method::basis}).report.group_count, 4u);
-    EXPECT_EQ(tangentsOf(mesh.view(), {.method = Method::flat}).report.group_count, 2u);
+    EXPECT_EQ(
+        tangentsOf(mesh.view(), {.method = Method::lengyel, .convention = conventions::opengl}).report.group_count, 4u);
+    EXPECT_EQ(tangentsOf(mesh.view(), {.method = Method::basis, .convention = conventions::opengl}).report.group_count,
+              4u);
+    EXPECT_EQ(tangentsOf(mesh.view(), {.method = Method::flat, .convention = conventions::opengl}).report.group_count,
+              2u);
 }
 
 TEST(VertexDomain, GivesUnusedVerticesZeroAndCountsOutputs) {
@@ -251,8 +263,9 @@ TEST(VertexDomain, GivesUnusedVerticesZeroAndCountsOutputs) {
     for (const Method method : {Method::lengyel, Method::basis}) {
         std::vector<Vec4> tangents(7, Vec4{9, 9, 9, 9});
         std::vector<Vec3> bitangents(7, Vec3{9, 9, 9});
-        const auto report = generateTangents(mesh.view(), {.method = method, .domain = OutputDomain::vertex},
-                                             {.tangents = tangents, .bitangents = bitangents});
+        const auto report = generateTangents(
+            mesh.view(), {.method = method, .domain = OutputDomain::vertex, .convention = conventions::opengl},
+            {.tangents = tangents, .bitangents = bitangents});
         ASSERT_TRUE(report);
         EXPECT_EQ(report->group_count, 5u);
         EXPECT_EQ(report->default_corner_count, method == Method::lengyel ? 1u : 0u);
@@ -270,7 +283,8 @@ TEST(VertexDomain, IsRefusedForMethodsThatMaySplitAVertex) {
     std::vector<Vec4> tangents(4);
     const auto codeOf = [&](Method method, OutputDomain domain, std::size_t count) {
         const StridedSpan<Vec4> out(tangents.data(), count);
-        const auto result = generateTangents(mesh.view(), {.method = method, .domain = domain}, {.tangents = out});
+        const auto result = generateTangents(
+            mesh.view(), {.method = method, .domain = domain, .convention = conventions::opengl}, {.tangents = out});
         return result ? ErrorCode::ok : result.error().code;
     };
     for (const Method method : {Method::mikktspace, Method::uniform, Method::angle, Method::area, Method::flat}) {
@@ -301,10 +315,12 @@ TEST(OneCall, CopiesNeitherIndicesNorUvs) {
     for (const OutputDomain domain : {OutputDomain::corner, OutputDomain::vertex}) {
         const StridedSpan<Vec4> out(tangents.data(), domain == OutputDomain::vertex ? 4 : 6);
         count.peak = 0;
-        ASSERT_TRUE(generateTangents(
-            mesh.view(),
-            {.method = Method::lengyel, .domain = domain, .execution = {.thread_count = 1, .allocator = &allocator}},
-            {.tangents = out}));
+        ASSERT_TRUE(generateTangents(mesh.view(),
+                                     {.method = Method::lengyel,
+                                      .domain = domain,
+                                      .convention = conventions::opengl,
+                                      .execution = {.thread_count = 1, .allocator = &allocator}},
+                                     {.tangents = out}));
         // A part of each vertex's sum; the other part is where the outputs come to later. Per corner also a mark.
         EXPECT_EQ(count.peak, 4 * (domain == OutputDomain::vertex ? 8u : 17u));
     }
@@ -319,7 +335,7 @@ TEST(Lengyel, LosesNoDigitsAtExtremeScales) {
             SimpleMesh mesh = plain;
             for (Vec3& p : mesh.positions) p = {space * p.x, space * p.y, 0};
             for (Vec2& uv : mesh.uvs) uv = {texture * uv.x, texture * uv.y};
-            const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel});
+            const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel, .convention = conventions::opengl});
             for (std::size_t c = 0; c < 6; ++c) {
                 const double expected = 0.5 * (double{space} / texture);
                 if (expected < 1e-37 || expected > 1e37) continue;  // outside of float
@@ -339,14 +355,17 @@ TEST(Lengyel, TellsSliversOfTheUvMapFromCollinearUvs) {
         const float height = std::ldexp(1.0f, -bits);
         // s = (1, 1 + height) turned by the diagonal; the determinant is exactly `height`.
         mesh.uvs = {{0, 0}, {1, 1}, {1, 1 + height}};
-        const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel});
+        const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel, .convention = conventions::opengl});
         // dP/du = ((1 + h) E1 - E2) / h, dP/dv = (E2 - E1) / h
         const double x = 1 + double{height}, l = std::sqrt(x * x + 1);
         expectNear(xyz(out.tangents[0]), {static_cast<float>(x / l), static_cast<float>(-1 / l), 0}, 2e-7);
         EXPECT_NEAR(out.magnitudes_s[0] * height / l, 1, 1e-5) << bits;
         EXPECT_EQ(out.report.mirrored_count, 0u);
         mesh.uvs[2] = {1 + height, 1 + height};
-        EXPECT_EQ(tangentsOf(mesh.view(), {.method = Method::lengyel}).report.degenerate_uv_count, 1u) << bits;
+        EXPECT_EQ(tangentsOf(mesh.view(), {.method = Method::lengyel, .convention = conventions::opengl})
+                      .report.degenerate_uv_count,
+                  1u)
+            << bits;
     }
 }
 
@@ -360,7 +379,7 @@ TEST(Plan, EvaluatesAnotherPoseWithItsOwnUvs) {
         const IndexedPlan plan = planIndexed(rest.view(), {.method = method}, parallel);
         std::vector<Vec4> tangents(6);
         evaluateIndexed(plan, {bent.view().positions, bent.view().normals}, {.tangents = tangents}, {}, parallel);
-        EXPECT_EQ(tangents, tangentsOf(bent.view(), {.method = method}).tangents);
+        EXPECT_EQ(tangents, tangentsOf(bent.view(), {.method = method, .convention = conventions::opengl}).tangents);
     }
 }
 
@@ -399,8 +418,10 @@ TEST(Threads, FindTheFirstBadIndexOfALargeMesh) {
     mesh.indices.assign(900'000, 1);
     std::vector<Vec4> tangents(mesh.indices.size());
     const auto run = [&](unsigned threads) {
-        return generateTangents(mesh.view(), {.method = Method::lengyel, .execution = {.thread_count = threads}},
-                                {.tangents = tangents});
+        return generateTangents(
+            mesh.view(),
+            {.method = Method::lengyel, .convention = conventions::opengl, .execution = {.thread_count = threads}},
+            {.tangents = tangents});
     };
     EXPECT_TRUE(run(3));
     mesh.indices[700'001] = mesh.indices[899'999] = 4;
@@ -431,10 +452,12 @@ TEST(Threads, DoNotChangeABit) {
             mesh.addFace({a, b, c});
     }
     for (const Method method : {Method::lengyel, Method::flat, Method::basis}) {
-        const Outputs one = tangentsOf(mesh.view(), {.method = method, .execution = {.thread_count = 1}});
+        const Outputs one = tangentsOf(
+            mesh.view(), {.method = method, .convention = conventions::opengl, .execution = {.thread_count = 1}});
         for (const unsigned threads : {2u, 3u, 8u}) {
-            const Outputs many =
-                tangentsOf(mesh.view(), {.method = method, .execution = {.executor = test::threadTeam(threads)}});
+            const Outputs many = tangentsOf(mesh.view(), {.method = method,
+                                                          .convention = conventions::opengl,
+                                                          .execution = {.executor = test::threadTeam(threads)}});
             EXPECT_EQ(std::memcmp(one.tangents.data(), many.tangents.data(), one.tangents.size() * sizeof(Vec4)), 0);
             EXPECT_EQ(std::memcmp(one.bitangents.data(), many.bitangents.data(), one.bitangents.size() * sizeof(Vec3)),
                       0);

@@ -32,7 +32,7 @@ std::vector<GoldenCase> goldenCases() {
 }
 
 TangentOptions goldenOptions(const GoldenMesh& golden, unsigned threads) {
-    TangentOptions options;
+    TangentOptions options{.convention = conventions::opengl};
     options.angular_threshold_deg = golden.angular_threshold_deg;
     options.ngons = Ngons::skip;
     options.execution.executor = test::threadTeam(threads);

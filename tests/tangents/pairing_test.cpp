@@ -51,7 +51,8 @@ struct Grid {
         mesh.uvs = uvs;
         mesh.indices = IndexView(std::span<const std::uint32_t>(indices));
         std::vector<Vec4> moved(indices.size()), result(indices.size());
-        EXPECT_TRUE(generateTangents(mesh, {.pairing = pairing}, {.tangents = moved}));
+        EXPECT_TRUE(
+            generateTangents(mesh, {.pairing = pairing, .convention = conventions::opengl}, {.tangents = moved}));
         for (std::size_t i = 0; i < order.size(); ++i) std::copy_n(&moved[3 * i], 3, &result[3 * order[i]]);
         return result;
     }

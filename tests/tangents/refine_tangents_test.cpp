@@ -22,7 +22,8 @@ using test::SmoothPatch;
 
 Outputs generate(const Shape& shape, std::uint32_t refine, Method method = Method::best) {
     Outputs outputs(shape.cornerCount());
-    const auto report = generateTangents(shape.view(), {.method = method, .refine = refine}, outputs.view());
+    const auto report = generateTangents(
+        shape.view(), {.method = method, .convention = conventions::opengl, .refine = refine}, outputs.view());
     EXPECT_TRUE(report.ok());
     if (report) outputs.report = *report;
     return outputs;
@@ -159,7 +160,8 @@ TEST(RefinedTangents, OfAPlanFollowThePose) {
     Shape moved = patch.shape;
     for (Vec3& p : moved.positions) p = {2 * p.x, 2 * p.y, 2 * p.z};
     for (const std::uint32_t refine : {0u, 1u, 2u}) {
-        const auto plan = planTangents(patch.shape.view(), {.method = Method::best, .refine = refine});
+        const auto plan = planTangents(patch.shape.view(),
+                                       {.method = Method::best, .convention = conventions::opengl, .refine = refine});
         ASSERT_TRUE(plan.ok());
         for (const Shape& shape : {patch.shape, moved}) {
             Outputs evaluated(shape.cornerCount());
@@ -211,7 +213,7 @@ TEST(RefinedTangents, OfOtherMethodsAreTheirs) {
 TEST(RefinedTangents, AreOfTwoStepsAtMost) {
     const SmoothPatch patch = patchOf(8);
     Outputs outputs(patch.shape.cornerCount());
-    const TangentOptions options{.method = Method::best, .refine = 3};
+    const TangentOptions options{.method = Method::best, .convention = conventions::opengl, .refine = 3};
     const auto result = generateTangents(patch.shape.view(), options, outputs.view());
     ASSERT_FALSE(result.ok());
     EXPECT_EQ(result.error().code, ErrorCode::invalidOption);

@@ -39,8 +39,9 @@ double seconds(const Shape& shape, Method method, int tries) {
     for (int i = 0; i < tries; ++i) {
         Outputs outputs(shape.cornerCount());
         const std::clock_t start = std::clock();
-        const auto result =
-            generateTangents(shape.view(), {.method = method, .execution = {.thread_count = 1}}, outputs.view());
+        const auto result = generateTangents(
+            shape.view(), {.method = method, .convention = conventions::opengl, .execution = {.thread_count = 1}},
+            outputs.view());
         best = std::min(best, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
         EXPECT_TRUE(result);
     }
@@ -74,7 +75,8 @@ TEST_P(Scaling, AStackOf64KilobytesIsEnough) {
         const Shape& mesh = *static_cast<const Shape*>(data);
         Outputs outputs(mesh.cornerCount());
         for (const Method method : {Method::mikktspace, Method::fast, Method::best}) {
-            const TangentOptions options{.method = method, .execution = {.thread_count = 1}};
+            const TangentOptions options{
+                .method = method, .convention = conventions::opengl, .execution = {.thread_count = 1}};
             EXPECT_TRUE(generateTangents(mesh.view(), options, outputs.view()));
         }
         return nullptr;
@@ -90,10 +92,11 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Scaling, testing::ValuesIn(kCases),
 TEST(SortBudget, AnOrderMadeAgainstTheReferencesSortFallsBackToCorrectedPairing) {
     const Shape shape = sortKiller(20000);
     Outputs reference(shape.cornerCount()), corrected(shape.cornerCount());
-    const auto report = generateTangents(shape.view(), {}, reference.view());
+    const auto report = generateTangents(shape.view(), {.convention = conventions::opengl}, reference.view());
     ASSERT_TRUE(report);
     EXPECT_TRUE(report->reference_order_abandoned);
-    ASSERT_TRUE(generateTangents(shape.view(), {.pairing = Pairing::corrected}, corrected.view()));
+    ASSERT_TRUE(generateTangents(shape.view(), {.pairing = Pairing::corrected, .convention = conventions::opengl},
+                                 corrected.view()));
     EXPECT_TRUE(sameBits(reference, corrected));
 }
 

@@ -122,7 +122,7 @@ Outputs generate(const Shape& shape, const TangentOptions& options) {
 TEST(Simd, EveryTargetGivesTheBitsOfPlainCode) {
     for (const Shape& shape : shapes()) {
         for (const Method method : kMethods) {
-            TangentOptions options;
+            TangentOptions options{.convention = conventions::opengl};
             options.method = method;
             options.refine = 2;
             options.execution.simd = SimdTarget::scalar;
@@ -162,7 +162,7 @@ void planAndEvaluate(const Shape& shape, const TangentOptions& options, Outputs&
 TEST(OnePass, GivesTheBitsOfPlanAndEvaluationForAnyNumberOfThreads) {
     for (const Shape& shape : shapes()) {
         for (const Method method : kMethods) {
-            TangentOptions options;
+            TangentOptions options{.convention = conventions::opengl};
             options.method = method;
             Outputs want(shape.cornerCount());
             ASSERT_NO_FATAL_FAILURE(planAndEvaluate(shape, options, want));
@@ -234,7 +234,7 @@ TEST(OnePass, AndALookAtEachNodeGiveTheSameBits) {
     std::size_t compared = 0;
     for (const Shape& shape : list) {
         for (const Method method : {Method::mikktspace, Method::angle}) {
-            TangentOptions options;
+            TangentOptions options{.convention = conventions::opengl};
             options.method = method;
             options.pairing = Pairing::corrected;
             options.execution.executor = nullptr;
@@ -269,7 +269,7 @@ TEST(OnePass, InRangesOfNodesGivesTheSameBits) {
     std::size_t compared = 0;
     for (const Shape& shape : list) {
         for (const Method method : {Method::mikktspace, Method::angle, Method::fast}) {
-            TangentOptions options;
+            TangentOptions options{.convention = conventions::opengl};
             options.method = method;
             options.pairing = Pairing::corrected;
             Outputs want(shape.cornerCount());
@@ -295,9 +295,9 @@ TEST(OnePass, InRangesOfNodesGivesTheSameBits) {
 
 TEST(OnePass, GivesTheSameTangentsWithoutTheOtherOutputs) {
     for (const Shape& shape : shapes()) {
-        const Outputs want = generate(shape, {});
+        const Outputs want = generate(shape, {.convention = conventions::opengl});
         std::vector<Vec4> tangents(shape.cornerCount());
-        const auto report = generateTangents(shape.view(), {}, {tangents});
+        const auto report = generateTangents(shape.view(), {.convention = conventions::opengl}, {tangents});
         ASSERT_TRUE(report.ok());
         for (std::size_t c = 0; c < tangents.size(); ++c) {
             ASSERT_EQ((std::bit_cast<std::array<std::uint32_t, 4>>(tangents[c])),
@@ -316,9 +316,9 @@ TEST(OnePass, WritesLargeOutputsAsItWritesOthers) {
     const std::size_t corners = shape.cornerCount();
     std::vector<Padded> padded(corners);
     const StridedSpan<Vec4> with_gaps(&padded[0].tangent, corners, sizeof(Padded));
-    ASSERT_TRUE(generateTangents(shape.view(), {}, {.tangents = with_gaps}).ok());
+    ASSERT_TRUE(generateTangents(shape.view(), {.convention = conventions::opengl}, {.tangents = with_gaps}).ok());
     for (const unsigned threads : {1u, 2u}) {
-        TangentOptions options;
+        TangentOptions options{.convention = conventions::opengl};
         options.execution.executor = test::threadTeam(threads);
         std::vector<Vec4> tangents(corners);
         ASSERT_TRUE(generateTangents(shape.view(), options, {.tangents = tangents}).ok());
@@ -345,7 +345,7 @@ TEST(OnePass, ReadsInterleavedVerticesUpToTheLastByteOnly) {
     mesh.uvs = vec2Span(exact.data() + 3, count, 32);
     mesh.normals = vec3Span(exact.data() + 5, count, 32);
     for (const Method method : {Method::mikktspace, Method::lengyel}) {
-        const TangentOptions options{.method = method};
+        const TangentOptions options{.method = method, .convention = conventions::opengl};
         Outputs got(shape.cornerCount());
         const auto report = generateTangents(mesh, options, got.view());
         ASSERT_TRUE(report.ok());

@@ -42,7 +42,8 @@ TEST(SymmetricFrame, TurnsTheTangentByHalfOfTheShear) {
             const Shape shape = leaningPlane(shear, mirrored);
             const double half = -shear / 2 * std::numbers::pi / 180, side = mirrored ? -1 : 1;
             for (const Method method : kMethods) {
-                const Outputs got = generate(shape, {.method = method, .frame = FrameShape::symmetric});
+                const Outputs got = generate(
+                    shape, {.method = method, .convention = conventions::opengl, .frame = FrameShape::symmetric});
                 for (const Vec4& t : got.tangents) {
                     EXPECT_NEAR(t.x, side * std::cos(half), 1e-5);
                     EXPECT_NEAR(t.y, side * std::sin(half), 1e-5);
@@ -56,7 +57,8 @@ TEST(SymmetricFrame, TurnsTheTangentByHalfOfTheShear) {
 TEST(SymmetricFrame, LeavesUvsAtARightAngleAlone) {
     const Shape shape = leaningPlane(0, false);
     for (const Method method : kMethods) {
-        const Outputs got = generate(shape, {.method = method, .frame = FrameShape::symmetric});
+        const Outputs got =
+            generate(shape, {.method = method, .convention = conventions::opengl, .frame = FrameShape::symmetric});
         for (const Vec4& t : got.tangents) EXPECT_NEAR(t.x, 1, 1e-6);
     }
 }
@@ -66,8 +68,9 @@ TEST(SymmetricFrame, KeepsSignsAndTheOtherOutputs) {
     for (std::size_t v = 0; v < shape.uvs.size(); ++v)
         shape.uvs[v].x = std::fabs(shape.uvs[v].x + 0.3f * shape.uvs[v].y - 0.5f);
     for (const Method method : kMethods) {
-        const Outputs plain = generate(shape, {.method = method});
-        Outputs got = generate(shape, {.method = method, .frame = FrameShape::symmetric});
+        const Outputs plain = generate(shape, {.method = method, .convention = conventions::opengl});
+        Outputs got =
+            generate(shape, {.method = method, .convention = conventions::opengl, .frame = FrameShape::symmetric});
         for (std::size_t c = 0; c < got.tangents.size(); ++c) EXPECT_EQ(got.tangents[c].w, plain.tangents[c].w);
         got.tangents = plain.tangents;
         EXPECT_TRUE(sameBits(plain, got));
@@ -77,7 +80,8 @@ TEST(SymmetricFrame, KeepsSignsAndTheOtherOutputs) {
 TEST(SymmetricFrame, PlanAndEvaluateEqualTheOneCallAndBitangentsNeedNotBeAskedFor) {
     const Shape shape = leaningPlane(50, false);
     for (const Method method : kMethods) {
-        const TangentOptions options{.method = method, .frame = FrameShape::symmetric};
+        const TangentOptions options{
+            .method = method, .convention = conventions::opengl, .frame = FrameShape::symmetric};
         const Outputs want = generate(shape, options);
         const auto plan = planTangents(shape.view(), options);
         ASSERT_TRUE(plan);
@@ -89,7 +93,8 @@ TEST(SymmetricFrame, PlanAndEvaluateEqualTheOneCallAndBitangentsNeedNotBeAskedFo
 
 TEST(SymmetricFrame, HasAnEntryPerVertexToo) {
     const Shape shape = leaningPlane(50, false);
-    const TangentOptions per_corner{.method = Method::lengyel, .frame = FrameShape::symmetric};
+    const TangentOptions per_corner{
+        .method = Method::lengyel, .convention = conventions::opengl, .frame = FrameShape::symmetric};
     TangentOptions per_vertex = per_corner;
     per_vertex.domain = OutputDomain::vertex;
     const Outputs want = generate(shape, per_corner);
@@ -109,7 +114,7 @@ TEST(SymmetricFrame, KeepsTangentsThatHaveNoBitangentOrNormal) {
     Shape shape = leaningPlane(30, false);
     const auto tangentsWith = [&](const Vec3& normal, FrameShape frame) {
         for (Vec3& n : shape.normals) n = normal;
-        return generate(shape, {.method = Method::angle, .frame = frame}).tangents;
+        return generate(shape, {.method = Method::angle, .convention = conventions::opengl, .frame = frame}).tangents;
     };
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (const Vec3& normal : {Vec3{0, 0, 0}, Vec3{nan, 0, 1}}) {

@@ -22,7 +22,7 @@ unsigned workerCount(const BatchArguments& batch, std::size_t job_count) {
 }
 
 unsigned threadsPerFile(unsigned asked, unsigned workers) {
-    if (asked != 0 || workers == 1) return asked;
+    if (asked != kAllThreads || workers == 1) return asked;
     return std::max(1U, std::thread::hardware_concurrency() / workers);
 }
 

@@ -81,6 +81,10 @@ Command identifyCommand(IdentifyArguments& arguments) {
 
 ToolTable toolTable(AllArguments& arguments) {
     ToolTable tool;
+    for (Execution* execution : {&arguments.generate.options.tangents.execution, &arguments.check.options.execution,
+                                 &arguments.identify.options.execution}) {
+        execution->thread_count = kAllThreads;
+    }
     tool.commands = {generateCommand(arguments.generate), diffCommand(arguments.diff),
                      identifyCommand(arguments.identify), inspectCommand(arguments.inspect),
                      checkCommand(arguments.check),       flipGreenCommand(arguments.flip_green)};

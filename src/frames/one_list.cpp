@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "frames/one_list.h"
+
+#include <span>
+
+#include "core/typed_indices.h"
+
+namespace tspace {
+
+namespace {
+
+/// What tells corners apart, for the split.
+class Attributes {
+  public:
+    Attributes(std::size_t corner_count, bool is_welded) : corner_count_(corner_count), is_welded_(is_welded) {}
+
+    template <class T>
+    void add(const StridedSpan<const T>& values, const IndexView& list) {
+        if (values.empty()) return;
+        if (list.type == IndexType::corners || (list.type == IndexType::none && is_welded_)) {
+            all_.push_back({&values.data->x, values.stride_bytes, sizeof(T) / sizeof(float)});
+        } else if (list.type != IndexType::none) {
+            addList(list);
+        }
+    }
+    void add(std::span<const CornerAttribute> further) { all_.insert(all_.end(), further.begin(), further.end()); }
+
+    [[nodiscard]] std::span<const CornerAttribute> all() const { return all_; }
+
+  private:
+    /// Its numbers as floats, which the split tells apart by their bits.
+    void addList(const IndexView& list) {
+        const auto* numbers = static_cast<const std::uint32_t*>(list.data);
+        if (list.type != IndexType::u32) {
+            memory_.emplace_back(corner_count_);
+            numbers = readIndices(list, 0, corner_count_, memory_.back().data());
+        }
+        all_.push_back({reinterpret_cast<const float*>(numbers), sizeof(float), 1});
+    }
+
+    std::size_t corner_count_;
+    bool is_welded_;
+    std::vector<std::vector<std::uint32_t>> memory_;
+    std::vector<CornerAttribute> all_;
+};
+
+/// The entry of an attribute that each vertex has: that of its corner in the attribute's own list, or that of its vertex.
+std::vector<std::uint32_t> sourcesOf(const IndexView& list, const SplitResult& split) {
+    if (list.type == IndexType::none) return split.source_vertices;
+    std::vector<std::uint32_t> sources(split.vertexCount());
+    for (std::size_t v = 0; v < sources.size(); ++v) {
+        const std::uint32_t corner = split.source_corners[v];
+        sources[v] = corner == kNoCorner ? kNoCorner : list[corner];
+    }
+    return sources;
+}
+
+template <class T>
+std::vector<T> gather(const StridedSpan<const T>& values, const std::vector<std::uint32_t>& sources) {
+    std::vector<T> gathered(sources.size());
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        if (sources[i] != kNoCorner) gathered[i] = values[sources[i]];
+    }
+    return gathered;
+}
+
+}  // namespace
+
+Result<Done> useOneList(const MeshView& mesh, const Execution& execution, OneListMesh& made,
+                        std::span<const std::uint32_t> welded, std::span<const CornerAttribute> further) {
+    const std::size_t corner_count = mesh.cornerCount();
+    Attributes attributes(corner_count, !welded.empty());
+    attributes.add(mesh.normals, mesh.normal_indices);
+    attributes.add(mesh.uvs, mesh.uv_indices);
+    attributes.add(further);
+    Result<SplitResult> split = splitVertices(welded.empty() ? mesh.indices : IndexView(welded), mesh.vertexCount(),
+                                              corner_count, attributes.all(), execution);
+    if (!split) return std::move(split).error();
+    if (!welded.empty()) {
+        // Without indices a corner is a vertex: the one whose other attributes these are.
+        for (std::size_t v = 0; v < split->vertexCount(); ++v) {
+            if (split->source_corners[v] != kNoCorner) split->source_vertices[v] = split->source_corners[v];
+        }
+    }
+
+    made.positions = gather(mesh.positions, split->source_vertices);
+    if (!mesh.normals.empty()) {
+        made.source_normals = sourcesOf(mesh.normal_indices, *split);
+        made.normals = gather(mesh.normals, made.source_normals);
+    }
+    if (!mesh.uvs.empty()) made.uvs = gather(mesh.uvs, sourcesOf(mesh.uv_indices, *split));
+    made.indices = std::move(split->indices);
+    made.source_vertices = std::move(split->source_vertices);
+    made.view = mesh;
+    made.view.positions = made.positions;
+    made.view.normals = made.normals;
+    made.view.uvs = made.uvs;
+    made.view.indices = std::span<const std::uint32_t>(made.indices);
+    made.view.normal_indices = made.view.uv_indices = {};
+    return Done{};
+}
+
+}  // namespace tspace

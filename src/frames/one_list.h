@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// A mesh whose normals or UVs have index lists of their own, as one with a single list.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "tspace/execution.h"
+#include "tspace/mesh.h"
+#include "tspace/result.h"
+#include "tspace/split.h"
+
+namespace tspace {
+
+/// A mesh with a vertex for each combination of position, normal and UV that corners name. Corners and faces are those of
+/// the given mesh, which must outlive it.
+struct OneListMesh {
+    std::vector<std::uint32_t> indices = {};
+    std::vector<std::uint32_t> source_vertices = {};  ///< one per vertex here: the given mesh's
+    std::vector<std::uint32_t> source_normals = {};   ///< which of its normals; empty: it has none
+    std::vector<Vec3> positions = {};
+    std::vector<Vec3> normals = {};  ///< zero where no corner uses the vertex
+    std::vector<Vec2> uvs = {};
+    MeshView view = {};  ///< of what stands above, which must stay where it is
+
+    OneListMesh() = default;
+    OneListMesh(const OneListMesh&) = delete;
+    OneListMesh& operator=(const OneListMesh&) = delete;
+};
+
+/// Splits the vertices where the attributes' own lists tell corners apart, and where any of `further` does. The vertices
+/// of the mesh keep their places. `welded`: the vertices of a mesh without indices, of which some are one; then normals
+/// and UVs without a list tell corners apart as well. The mesh is a valid one. Errors: outOfMemory, and those of
+/// splitVertices for `further`. O(corners) expected.
+Result<Done> useOneList(const MeshView& mesh, const Execution& execution, OneListMesh& made,
+                        std::span<const std::uint32_t> welded = {}, std::span<const CornerAttribute> further = {});
+
+/// call(view) of the mesh with one list. For functions that give one result per corner: these stay where they are.
+template <class Call>
+auto withOneList(const MeshView& mesh, const Execution& execution, Call&& call) -> decltype(call(mesh)) {
+    if (Result<Done> valid = validate(mesh); !valid) return std::move(valid).error();
+    OneListMesh made;
+    if (Result<Done> done = useOneList(mesh, execution, made); !done) return std::move(done).error();
+    return call(made.view);
+}
+
+}  // namespace tspace

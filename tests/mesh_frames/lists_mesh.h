@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// A random mesh with an index list per attribute, and the same mesh with one list, as a caller would unroll it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "tspace/mesh.h"
+
+namespace tspace::test {
+
+template <class T>
+bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+struct ListsMesh {
+    std::vector<Vec3> positions, normals;
+    std::vector<Vec2> uvs;
+    std::vector<std::uint32_t> indices, uv_indices, sizes;
+    std::vector<std::uint16_t> normal_indices;
+
+    /// Triangles, quads and pentagons; few vertices, so that they meet.
+    ListsMesh(unsigned seed, std::uint32_t face_count) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<float> value(-1.0f, 1.0f);
+        const std::uint32_t vertex_count = face_count / 2 + 5, uv_count = face_count / 2 + 9;
+        for (std::uint32_t v = 0; v < vertex_count; ++v)
+            positions.push_back({value(random), value(random), value(random)});
+        for (int n = 0; n < 7; ++n) normals.push_back({value(random), value(random), 1.5f});
+        for (std::uint32_t u = 0; u < uv_count; ++u) uvs.push_back({value(random), value(random)});
+        for (std::uint32_t f = 0; f < face_count; ++f) {
+            sizes.push_back(3 + f % 3);
+            const auto first = static_cast<std::uint32_t>(random() % (vertex_count - 4));
+            const bool is_seam = random() % 3 == 0;
+            for (std::uint32_t k = 0; k < sizes.back(); ++k) {
+                indices.push_back(first + k);
+                normal_indices.push_back(static_cast<std::uint16_t>((first + k) % 6 + (random() % 5 == 0 ? 1 : 0)));
+                uv_indices.push_back(first + k + (is_seam ? 4 : 0));
+            }
+        }
+    }
+
+    [[nodiscard]] std::size_t cornerCount() const { return indices.size(); }
+
+    [[nodiscard]] MeshView view() const {
+        MeshView mesh;
+        mesh.positions = positions;
+        mesh.normals = normals;
+        mesh.uvs = uvs;
+        mesh.indices = std::span<const std::uint32_t>(indices);
+        mesh.face_sizes = sizes;
+        mesh.normal_indices = std::span<const std::uint16_t>(normal_indices);
+        mesh.uv_indices = std::span<const std::uint32_t>(uv_indices);
+        return mesh;
+    }
+};
+
+/// One vertex for each combination of indices.
+struct UnrolledMesh {
+    std::vector<Vec3> positions, normals;
+    std::vector<Vec2> uvs;
+    std::vector<std::uint32_t> indices, sizes;
+    std::vector<std::uint32_t> source_positions, source_normals;
+
+    explicit UnrolledMesh(const ListsMesh& mesh) : sizes(mesh.sizes) {
+        std::map<std::array<std::uint32_t, 3>, std::uint32_t> vertices;
+        for (std::size_t c = 0; c < mesh.cornerCount(); ++c) {
+            const std::array<std::uint32_t, 3> key{mesh.indices[c], mesh.normal_indices[c], mesh.uv_indices[c]};
+            const auto [found, is_new] = vertices.emplace(key, static_cast<std::uint32_t>(positions.size()));
+            if (is_new) {
+                positions.push_back(mesh.positions[key[0]]);
+                normals.push_back(mesh.normals[key[1]]);
+                uvs.push_back(mesh.uvs[key[2]]);
+                source_positions.push_back(key[0]);
+                source_normals.push_back(key[1]);
+            }
+            indices.push_back(found->second);
+        }
+    }
+
+    [[nodiscard]] MeshView view() const {
+        MeshView mesh;
+        mesh.positions = positions;
+        mesh.normals = normals;
+        mesh.uvs = uvs;
+        mesh.indices = std::span<const std::uint32_t>(indices);
+        mesh.face_sizes = sizes;
+        return mesh;
+    }
+};
+
+}  // namespace tspace::test
