@@ -163,7 +163,8 @@ Result<std::vector<Vec4>> tangentsOnFaces(const MeshView& triangles, const QuadF
     mesh.indices = IndexView(std::span<const std::uint32_t>(indices));
     mesh.face_sizes = faces.sizes;
     std::vector<Vec4> on_faces(indices.size());
-    const Result<TangentReport> made = generateTangents(mesh, {.execution = execution}, {.tangents = on_faces});
+    const Result<TangentReport> made =
+        generateTangents(mesh, {.convention = conventions::opengl, .execution = execution}, {.tangents = on_faces});
     if (!made) return made.error();
     std::vector<Vec4> tangents(faces.face_corners.size());
     for (std::size_t c = 0; c < tangents.size(); ++c) tangents[c] = on_faces[faces.face_corners[c]];
@@ -177,8 +178,8 @@ Result<QuadFit> fitQuads(const StoredTangents& stored, std::span<const Vec4> on_
     std::vector<Vec4> computed;
     if (on_triangles.empty()) {
         computed.resize(stored.triangles.cornerCount());
-        const Result<TangentReport> made =
-            generateTangents(stored.triangles, {.execution = execution}, {.tangents = computed});
+        const Result<TangentReport> made = generateTangents(
+            stored.triangles, {.convention = conventions::opengl, .execution = execution}, {.tangents = computed});
         if (!made) return made.error();
         on_triangles = computed;
     }

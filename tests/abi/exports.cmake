@@ -4,6 +4,7 @@ set(declared "")
 foreach(header ${HEADERS})
     file(READ "${header}" text)
     string(REGEX REPLACE "/\\*([^*]|\\*+[^*/])*\\*+/" "" text "${text}")
+    string(REGEX REPLACE "inline [^{;]*{[^}]*}" "" text "${text}")
     # A function's name stands before a bracket, and after its type: not in a macro, and not a pointer to a function.
     string(REGEX MATCHALL "[a-zA-Z_0-9*] \\*?(tspace_[a-zA-Z]+|genTangSpace[a-zA-Z]*)\\(" names "${text}")
     string(REGEX REPLACE "[^;]* \\*?([a-zA-Z_]+)\\(" "\\1" names "${names}")
