@@ -81,8 +81,8 @@ Command identifyCommand(IdentifyArguments& arguments) {
 
 ToolTable toolTable(AllArguments& arguments) {
     ToolTable tool;
-    for (Execution* execution : {&arguments.generate.options.tangents.execution, &arguments.check.options.execution,
-                                 &arguments.identify.options.execution}) {
+    for (Execution* execution : {&arguments.generate.options.tangents.execution,
+                                 &arguments.check.request.options.execution, &arguments.identify.options.execution}) {
         execution->thread_count = kAllThreads;
     }
     tool.commands = {generateCommand(arguments.generate), diffCommand(arguments.diff),
