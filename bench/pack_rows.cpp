@@ -2,6 +2,7 @@
 // Packing and unpacking frames, beside copying them.
 #include <cstring>
 
+#include "pack/format_names.h"
 #include "pack/random_frames.h"
 #include "race.h"
 #include "rows.h"
@@ -50,12 +51,10 @@ RowResult runPacking(const std::string& title, FrameFormat format, bool unpack, 
 }  // namespace
 
 std::vector<Row> packRows() {
-    constexpr const char* kNames[] = {"frame32",     "frame48",      "frame64",     "oct32",       "qtangent64",
-                                      "snorm8_pair", "snorm16_pair", "gltf_snorm8", "gltf_snorm16"};
     std::vector<Row> rows;
     for (const bool unpack : {false, true}) {
-        for (std::uint32_t f = 0; f < std::size(kNames); ++f) {
-            const std::string title = std::string(unpack ? "unpack `" : "pack `") + kNames[f] + "`";
+        for (std::uint32_t f = 0; f < std::size(test::kFormatNames); ++f) {
+            const std::string title = std::string(unpack ? "unpack `" : "pack `") + test::kFormatNames[f] + "`";
             rows.push_back({title, [=](Lab& lab) { return runPacking(title, FrameFormat{f}, unpack, lab); }});
         }
     }

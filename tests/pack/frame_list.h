@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "pack/format_names.h"
 #include "pack/random_frames.h"
 #include "tspace/pack.h"
 
@@ -22,11 +23,7 @@ inline constexpr FrameFormat kAllFormats[] = {
 inline constexpr FrameFormat kExactFormats[] = {FrameFormat::frame32, FrameFormat::frame48, FrameFormat::frame64,
                                                 FrameFormat::oct32};
 
-inline std::string nameOf(FrameFormat format) {
-    static const char* const kNames[] = {"frame32",     "frame48",      "frame64",     "oct32",       "qtangent64",
-                                         "snorm8_pair", "snorm16_pair", "gltf_snorm8", "gltf_snorm16"};
-    return kNames[static_cast<std::size_t>(format)];
-}
+inline std::string nameOf(FrameFormat format) { return kFormatNames[static_cast<std::size_t>(format)]; }
 
 /// How many frames a test looks at: `otherwise`, unless the environment says.
 inline long frameCount(long otherwise) {
@@ -45,13 +42,6 @@ inline FrameList unpacked(FrameFormat format, const std::vector<std::byte>& byte
     frames.resize(bytes.size() / frameBytes(format));
     EXPECT_TRUE(unpackFrames(format, bytes, frames.normals, frames.tangents));
     return frames;
-}
-
-/// Exact for angles of any size, unlike the arc cosine.
-inline double angleDeg(const Vec3& a, const Vec3& b) {
-    const double ax = a.x, ay = a.y, az = a.z, bx = b.x, by = b.y, bz = b.z;
-    const double x = ay * bz - az * by, y = az * bx - ax * bz, z = ax * by - ay * bx;
-    return std::atan2(std::sqrt(x * x + y * y + z * z), ax * bx + ay * by + az * bz) * 57.295779513082321;
 }
 
 struct PackErrors {

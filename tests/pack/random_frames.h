@@ -80,4 +80,11 @@ inline FrameList randomFrames(RandomBits& random, std::size_t count) {
     return frames;
 }
 
+/// Exact for angles of any size, unlike the arc cosine.
+inline double angleDeg(const Vec3& a, const Vec3& b) {
+    const double ax = a.x, ay = a.y, az = a.z, bx = b.x, by = b.y, bz = b.z;
+    const double x = ay * bz - az * by, y = az * bx - ax * bz, z = ax * by - ay * bx;
+    return std::atan2(std::sqrt(x * x + y * y + z * z), ax * bx + ay * by + az * bz) * 57.295779513082321;
+}
+
 }  // namespace tspace::test

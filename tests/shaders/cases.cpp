@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "core/vec_math.h"
+#include "pack/format_names.h"
 #include "pack/random_frames.h"
 #include "tspace/pack.h"
 
@@ -63,9 +64,6 @@ DFrame frameOf(RandomBits& random) {
 }
 
 // ---- the formats
-
-constexpr const char* kFormats[] = {"frame32",     "frame48",      "frame64",     "oct32",       "qtangent64",
-                                    "snorm8_pair", "snorm16_pair", "gltf_snorm8", "gltf_snorm16"};
 
 /// Packed frames, then words of all kinds: random ones, and with few bits set or clear.
 std::vector<std::byte> someWords(FrameFormat format, std::size_t count) {
@@ -384,7 +382,7 @@ Case itemCase(std::uint32_t number, const ItemCase& from, std::size_t count) {
 std::size_t caseCount() { return kFirstItemCase + std::size(kItemCases); }
 
 Case makeCase(std::uint32_t number, std::size_t count) {
-    if (number < kFirstItemCase) return formatCase(kFormats[number], number, FrameFormat{number}, count, 4);
+    if (number < kFirstItemCase) return formatCase(test::kFormatNames[number], number, FrameFormat{number}, count, 4);
     // The helpers for attributes: a word for each byte or short.
     if (number == kBytesCase) return formatCase("word", number, FrameFormat::frame32, count / 10, 1);
     if (number == kShortsCase) return formatCase("words", number, FrameFormat::frame64, count / 10, 2);

@@ -36,13 +36,9 @@ enum Op : std::uint32_t {
 enum Extended : std::uint32_t {
     kInverseSqrt = 32,
     kSqrt = 31,
-    kFAbs = 4,
     kSin = 13,
     kCos = 14,
-    kFMin = 37,
-    kSClamp = 45,
     kFMix = 46,
-    kLength = 66,
     kCross = 68,
     kNormalize = 69,
 };
@@ -134,6 +130,10 @@ class Counter {
             case kSqrt:
                 to.roots += size;
                 return;
+            case kSin:
+            case kCos:
+                to.sines += size;
+                return;
             case kFMix:
                 to.operations += 3 * size;
                 return;
@@ -146,7 +146,7 @@ class Counter {
                 return;
             default:
                 to.operations += size;
-                return;  // absolute values, smaller and larger ones, sines
+                return;  // absolute values, smaller and larger ones
         }
     }
 
@@ -165,6 +165,7 @@ class Counter {
             sum.operations += more.operations;
             sum.roots += more.roots;
             sum.divisions += more.divisions;
+            sum.sines += more.sines;
         }
         return sum;
     }
@@ -183,6 +184,7 @@ std::string OperationCount::text() const {
     std::string all = std::to_string(operations) + " operations";
     if (roots != 0) all += ", " + std::to_string(roots) + (roots == 1 ? " root" : " roots");
     if (divisions != 0) all += ", " + std::to_string(divisions) + (divisions == 1 ? " division" : " divisions");
+    if (sines != 0) all += ", " + std::to_string(sines) + " sines and cosines";
     return all;
 }
 

@@ -15,11 +15,12 @@ try {
     const cases = await (await fetch("/list")).json();
     const bufferOf = async (number) => new Uint32Array(await (await fetch(`/cases/${number}`)).arrayBuffer());
 
-    const wgsl = (await text("/shaders/tspace.wgsl")) + (await text("/tests/cases.wgsl"));
+    const tspace = await text("/shaders/tspace.wgsl"), wgsl_cases = await text("/tests/cases.wgsl");
+    const snippets = await (await fetch("/snippets")).json();
     const glsl = { shader: await text("/shaders/tspace.glsl"), cases: await text("/tests/cases.glsl") };
     const runners = {};
     try {
-        runners.wgsl = await openWebGpu(wgsl);
+        runners.wgsl = await openWebGpu(tspace + wgsl_cases, snippets.map((code) => tspace + code));
     } catch (error) {
         if (error.is_wrong_shader) throw error;
         await send("/without/wgsl", String(error));

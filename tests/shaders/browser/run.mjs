@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// run.mjs CHROMIUM SHADERS DATA: runs the shaders in headless Chromium on the cases in DATA (N.case), and writes what they
-// give to DATA/LANGUAGE.N.results. Prints which languages ran, and why WebGPU did not where it did not.
-import { readdirSync, writeFileSync } from "node:fs";
+// run.mjs CHROMIUM SHADERS DATA DOCS: runs the shaders in headless Chromium on the cases in DATA (N.case), and writes what
+// they give to DATA/LANGUAGE.N.results. WGSL in the file DOCS must compile. Prints which languages ran, and why WebGPU did
+// not where it did not.
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import { openPage } from "../../client/browser/open_page.mjs";
 
-const [chromium, shaders, data] = process.argv.slice(2);
+const [chromium, shaders, data, docs] = process.argv.slice(2);
+const snippets = [...readFileSync(docs, "utf8").matchAll(/^```wgsl\n(.*?)^```$/gms)].map(([, code]) => code);
+if (snippets.length === 0) throw new Error(`there is no WGSL in ${docs}`);
 const here = path.dirname(fileURLToPath(import.meta.url));
 const folders = { page: here, tests: path.dirname(here), shaders };
 const cases = readdirSync(data).filter((name) => name.endsWith(".case")).map((name) => parseInt(name));
@@ -17,6 +20,7 @@ const by = await openPage({
     page: "/page/page.html",
     answer: ([area, ...rest]) => {
         if (area === "list") return { json: cases };
+        if (area === "snippets") return { json: snippets };
         if (area === "cases") return { file: path.join(data, `${rest[0]}.case`) };
         return folders[area] && { file: path.join(folders[area], ...rest) };
     },

@@ -2,17 +2,23 @@
 // Runs cases by WebGPU: see ../cases.wgsl.
 const RESULT_BYTES = 32;
 
-export async function openWebGpu(source) {
+async function compile(device, source) {
+    const module = device.createShaderModule({ code: source });
+    const errors = (await module.getCompilationInfo()).messages.filter(({ type }) => type === "error");
+    if (errors.length === 0) return module;
+    const { lineNum, message } = errors[0];
+    const line = source.split("\n")[lineNum - 1];
+    throw Object.assign(new Error(`WGSL does not compile: ${message}: ${line}`), { is_wrong_shader: true });
+}
+
+/// `source` runs the cases; the others need only compile.
+export async function openWebGpu(source, others) {
     if (!navigator.gpu) throw new Error("this Chromium has no WebGPU");
     const adapter = await navigator.gpu.requestAdapter();
     if (!adapter) throw new Error("WebGPU has no adapter");
     const device = await adapter.requestDevice();
-    const module = device.createShaderModule({ code: source });
-    const errors = (await module.getCompilationInfo()).messages.filter(({ type }) => type === "error");
-    if (errors.length > 0) {
-        const { lineNum, message } = errors[0];
-        throw Object.assign(new Error(`tspace.wgsl and cases.wgsl, line ${lineNum}: ${message}`), { is_wrong_shader: true });
-    }
+    for (const other of others) await compile(device, other);
+    const module = await compile(device, source);
     const pipeline = await device.createComputePipelineAsync({ layout: "auto", compute: { module, entryPoint: "main" } });
 
     async function run(words) {

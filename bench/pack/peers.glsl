@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// How engines and public code decode frames, written anew from their published formulas, to measure tspace's formats
+// against. GLSL, and C++ by way of tests/shaders/metal_shim: so what is counted is what is measured.
+// Based on: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 3(2), 2014 (oct);
+// Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017; Frey and Herzeg, "Spherical Skinning with
+// Dual Quaternions and QTangents", SIGGRAPH 2011 talks.
+
+struct peer_Frame {
+    vec3 normal;
+    vec4 tangent;
+};
+peer_Frame peer_frame(vec3 normal, vec3 tangent, float mirrored) {
+    peer_Frame frame;
+    frame.normal = normal;
+    frame.tangent = vec4(tangent, mirrored < 0.0 ? -1.0 : 1.0);
+    return frame;
+}
+
+// A point of the unfolded octahedron, [-1, 1] both ways.
+vec3 peer_octahedron(float x, float y) {
+    float z = 1.0 - abs(x) - abs(y);
+    float fold = max(-z, 0.0);
+    return normalize(vec3(x >= 0.0 ? x - fold : x + fold, y >= 0.0 ? y - fold : y + fold, z));
+}
+
+// T at this angle in the basis of Duff et al., whose side comes from the rounded N.z.
+vec3 peer_atAngle(vec3 n, float angle) {
+    float s = n.z >= 0.0 ? 1.0 : -1.0;
+    float h = -1.0 / (s + n.z);
+    float d = n.x * n.y * h;
+    vec3 p = vec3(1.0 + s * n.x * n.x * h, s * d, -s * n.x);
+    vec3 q = vec3(d, s + n.y * n.y * h, -n.y);
+    return p * cos(angle) + q * sin(angle);
+}
+
+// N as octahedron 10 + 10, angle 11, sign 1.
+peer_Frame peer_oct10_10_11(uvec2 words) {
+    uint word = words.x;
+    vec3 n = peer_octahedron(float(word >> 22u) * (1.0 / 511.0) - 1.0, float(word >> 12u & 1023u) * (1.0 / 511.0) - 1.0);
+    vec3 t = peer_atAngle(n, float(word >> 1u & 2047u) * 0.0030679616);
+    return peer_frame(n, t, (word & 1u) != 0u ? -1.0 : 1.0);
+}
+
+// N as octahedron 11 + 11, angle 9, sign 1.
+peer_Frame peer_oct11_11_9(uvec2 words) {
+    uint word = words.x;
+    vec3 n = peer_octahedron(float(word >> 21u) * (1.0 / 1023.0) - 1.0, float(word >> 10u & 2047u) * (1.0 / 1023.0) - 1.0);
+    vec3 t = peer_atAngle(n, float(word >> 1u & 511u) * 0.012271846);
+    return peer_frame(n, t, (word & 1u) != 0u ? -1.0 : 1.0);
+}
+
+// Columns x and z of the matrix of a unit quaternion.
+peer_Frame peer_unitQuaternion(float x, float y, float z, float w, float mirrored) {
+    vec3 n = vec3(2.0 * (z * x + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y));
+    vec3 t = vec3(1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (z * x - w * y));
+    return peer_frame(n, t, mirrored);
+}
+
+// The three smaller components of the quaternion, 10 + 10 + 9, which is left out, and the sign.
+peer_Frame peer_smallestThree(uvec2 words) {
+    uint word = words.x;
+    float a = (float(word >> 22u) * (1.0 / 1023.0) * 2.0 - 1.0) * 0.70710678;
+    float b = (float(word >> 12u & 1023u) * (1.0 / 1023.0) * 2.0 - 1.0) * 0.70710678;
+    float c = (float(word >> 3u & 511u) * (1.0 / 511.0) * 2.0 - 1.0) * 0.70710678;
+    float d = sqrt(max(0.0, 1.0 - a * a - b * b - c * c));
+    uint largest = word >> 1u & 3u;
+    float x = largest == 0u ? d : a;
+    float y = largest == 0u ? a : (largest == 1u ? d : b);
+    float z = largest < 2u ? b : (largest == 2u ? d : c);
+    float w = largest == 3u ? d : c;
+    return peer_unitQuaternion(x, y, z, w, (word & 1u) != 0u ? -1.0 : 1.0);
+}
+
+float peer_short(uint bits) { return max(float(int(bits << 16u) >> 16u) * (1.0 / 32767.0), -1.0); }
+
+// The quaternion as four shorts, made neither unit nor nearest; its sign is that of w, which has a bias.
+peer_Frame peer_qtangent16(uvec2 words) {
+    float w = peer_short(words.y >> 16u);
+    return peer_unitQuaternion(peer_short(words.x), peer_short(words.x >> 16u), peer_short(words.y), w, w);
+}
+
+// N and T as octahedra of 16 + 16 bits each; the sign is in which half of its range T's second number lies.
+peer_Frame peer_twoOct16(uvec2 words) {
+    vec3 n = peer_octahedron(float(words.x & 65535u) * (1.0 / 65535.0) * 2.0 - 1.0, float(words.x >> 16u) * (1.0 / 65535.0) * 2.0 - 1.0);
+    float half_y = float(words.y >> 16u) * (1.0 / 65535.0) * 2.0 - 1.0;
+    vec3 t = peer_octahedron(float(words.y & 65535u) * (1.0 / 65535.0) * 2.0 - 1.0, abs(half_y) * 2.0 - 1.0);
+    return peer_frame(n, t, half_y);
+}
