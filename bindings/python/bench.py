@@ -26,9 +26,7 @@ def c_call(shape):
     """A function that does nothing but the C call, and the array that it writes."""
     mesh, options, error = Mesh(*shape, None), tangent_options(*OPTIONS), _abi.Error()
     out = numpy.zeros((mesh.corner_count, 4), numpy.float32)
-    output = _abi.TangentOutput(
-        ctypes.sizeof(_abi.TangentOutput), 0, _abi.Span(out.ctypes.data, mesh.corner_count, 16)
-    )
+    output = _abi.TangentOutput(ctypes.sizeof(_abi.TangentOutput), 0, _abi.Span(out.ctypes.data, mesh.corner_count, 16))
     arguments = [ctypes.byref(struct) for struct in (mesh.struct, options, output)]
     function, place = _abi.library.tspace_generateTangents, ctypes.byref(error)
 

@@ -5,22 +5,25 @@ A *corner* is one (face, local vertex) pair; corners are numbered face after fac
 vertex can need several tangents (at UV seams, where the UV map is mirrored), so results come per corner. The *sign* is the
 fourth number of a tangent: B = sign * cross(N, T). A *convention* says what a format means by it, so it must be named.
 
-Tangents per corner, mended, then an indexed mesh:
+An indexed mesh with tangents, in one call:
 
 >>> import numpy, tspace
 >>> positions = numpy.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], numpy.float32)
 >>> uvs = numpy.array([[0, 1], [1, 1], [1, 0], [0, 0]], numpy.float32)
 >>> indices = numpy.array([[0, 1, 2], [0, 2, 3]], numpy.uint32)
+>>> mesh = tspace.make_indexed_frames(positions, None, uvs, indices, convention="gltf")
+>>> mesh.indices.tolist(), mesh.normals[0].tolist(), mesh.tangents[0].tolist()
+([0, 1, 2, 0, 2, 3], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0])
+>>> new_positions, new_uvs = positions[mesh.source_vertex], uvs[mesh.source_vertex]
+
+The same in steps: tangents per corner, mended, then split:
+
 >>> normals = numpy.broadcast_to(numpy.float32([0, 0, 1]), positions.shape)
 >>> tangents = tspace.tangents(positions, normals, uvs, indices, convention="gltf")
 >>> tangents.shape
 (6, 4)
->>> tangents[0].tolist()
-[1.0, 0.0, 0.0, 1.0]
 >>> mended = tspace.sanitize(tangents, positions, normals, indices)
 >>> mesh = tspace.split(indices, len(positions), [mended])
->>> mesh.indices.tolist()
-[0, 1, 2, 0, 2, 3]
 >>> positions[mesh.source_vertex].shape, mended[mesh.source_corner].shape
 ((4, 3), (4, 4))
 
@@ -31,6 +34,7 @@ A mesh that deforms:
 True
 
 Functions
+    make_indexed_frames   normals where missing, tangents, mended and split: an indexed mesh
     tangents        one tangent per corner, by nine methods; "mikktspace" gives every bit of the reference
     normals         one normal per corner; crease angles, smoothing groups
     Plan            groups once, tangents for every pose
@@ -57,21 +61,14 @@ Threads
 """
 
 from ._abi import library as _library
-from ._after import (
-    PackResult,
-    SanitizeResult,
-    Split,
-    Triangles,
-    pack_frames,
-    sanitize,
-    split,
-    triangulate,
-    unpack_frames,
-)
 from ._errors import Error, FileError, IndexRangeError, InputError
+from ._indexed import IndexedFrames, IndexedFramesReport, make_indexed_frames
 from ._normals import NormalResult, normals
 from ._options import Convention
+from ._pack import PackResult, pack_frames, unpack_frames
 from ._reports import NormalReport, PackReport, SanitizeReport, TangentReport
+from ._sanitize import SanitizeResult, sanitize
+from ._split import Split, Triangles, split, triangulate
 from ._tangents import Plan, TangentResult, tangents
 
 _number = _library.tspace_version()
@@ -82,6 +79,8 @@ __all__ = [
     "Error",
     "FileError",
     "IndexRangeError",
+    "IndexedFrames",
+    "IndexedFramesReport",
     "InputError",
     "NormalReport",
     "NormalResult",
@@ -94,6 +93,7 @@ __all__ = [
     "TangentReport",
     "TangentResult",
     "Triangles",
+    "make_indexed_frames",
     "normals",
     "pack_frames",
     "sanitize",

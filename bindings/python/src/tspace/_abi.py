@@ -23,7 +23,7 @@ PAIRINGS = {"reference": 0, "corrected": 1}
 NGONS = {"triangulate": 0, "skip": 1}
 DOMAINS = {"corner": 0, "vertex": 1}
 FRAME_SHAPES = {"gram_schmidt": 0, "symmetric": 1}
-WEIGHTINGS = {"flat": 1, "uniform": 2, "area": 3, "angle": 4, "angle_area": 5, "max": 6, "best": 7}
+WEIGHTINGS = {"flat": 0, "uniform": 1, "area": 2, "angle": 3, "angle_area": 4, "max": 5, "best": 6}
 FRAME_FORMATS = {
     "frame32": 0,
     "frame48": 1,
@@ -35,12 +35,14 @@ FRAME_FORMATS = {
     "gltf_snorm8": 7,
     "gltf_snorm16": 8,
 }
-V_AXES = {"up": 0, "down": 1}
+V_AXES = {"up": 1, "down": 2}
 GREENS = {"up": 0, "down": 1}
 STORED_SIGNS = {"as_is": 0, "negated": 1}
 HANDEDNESSES = {"right": 0, "left": 1}
 WINDINGS = {"counter_clockwise": 0, "clockwise": 1}
 
+INDEX_CORNERS = 8  # corner c uses entry c
+ALL_THREADS = 2**32 - 1
 NO_ELEMENT = 2**64 - 1
 NO_CORNER = 2**32 - 1
 MAX_COUNT = 2**31 - 1  # of corners, and of vertices: the library says TOO_LARGE for more
@@ -70,6 +72,8 @@ class Mesh(Structure):
         ("indices", Indices),
         ("face_sizes", c_void_p),
         ("face_count", c_size_t),
+        ("normal_indices", Indices),
+        ("uv_indices", Indices),
     ]
 
 
@@ -95,7 +99,7 @@ class NormalOptions(Structure):
         ("smoothing_groups_are_masks", c_uint32),
         ("smoothing_groups", c_void_p),
         ("smoothing_group_count", c_size_t),
-        ("keep_positions_apart", c_uint32),
+        ("weld_positions", c_uint32),
         ("convention", Convention),
         ("execution", Execution),
         ("refine", c_uint32),
@@ -206,6 +210,34 @@ class SplitResult(Structure):
     ]
 
 
+class IndexedFramesOptions(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("make_normals", c_uint32),
+        ("sanitize", c_uint32),
+        ("orthogonalize_all", c_uint32),
+        ("tangents", POINTER(TangentOptions)),
+        ("normals", POINTER(NormalOptions)),
+        ("keep_apart", POINTER(CornerAttribute)),
+        ("keep_apart_count", c_size_t),
+    ]
+
+
+class IndexedFrames(Structure):
+    _fields_ = [
+        ("indices", c_void_p),
+        ("corner_count", c_size_t),
+        ("source_vertex", c_void_p),
+        ("source_corner", c_void_p),
+        ("normals", c_void_p),
+        ("tangents", c_void_p),
+        ("vertex_count", c_size_t),
+        ("normal_report", POINTER(NormalReport)),
+        ("tangent_report", POINTER(TangentReport)),
+        ("sanitize_report", POINTER(SanitizeReport)),
+    ]
+
+
 class Triangulation(Structure):
     _fields_ = [("corners", c_void_p), ("faces", c_void_p), ("triangle_count", c_size_t)]
 
@@ -302,6 +334,14 @@ declare(
             POINTER(Error),
         ),
         "tspace_destroySplitResult": (None, POINTER(SplitResult)),
+        "tspace_makeIndexedFrames": (
+            c_uint32,
+            POINTER(Mesh),
+            POINTER(IndexedFramesOptions),
+            POINTER(POINTER(IndexedFrames)),
+            POINTER(Error),
+        ),
+        "tspace_destroyIndexedFrames": (None, POINTER(IndexedFrames)),
         "tspace_triangulate": (c_uint32, POINTER(Mesh), POINTER(POINTER(Triangulation)), POINTER(Error)),
         "tspace_destroyTriangulation": (None, POINTER(Triangulation)),
         "tspace_frameBytes": (c_size_t, c_uint32),

@@ -5,12 +5,14 @@ Arrays that have the right type and a layout that the C API takes are used where
 arrays; what has no sensible conversion is refused.
 """
 
+import ctypes
+import math
 from typing import Any, Optional, Sequence, Tuple
 
 import numpy
 
 from . import _abi
-from ._errors import IndexRangeError, InputError
+from ._errors import IndexRangeError, InputError, raise_error
 from ._memory import new_array
 
 FLOAT32 = numpy.dtype(numpy.float32)
@@ -24,6 +26,7 @@ _INDEX_TYPES = {
     UINT32: 4,
     INT32: 4,
 }
+_INDEX_OUT_OF_RANGE = 3
 EMPTY_SPAN = _abi.Span()
 NO_INDICES = _abi.Indices()
 
@@ -50,7 +53,9 @@ def _converted_to_float32(name: str, value: numpy.ndarray) -> numpy.ndarray:
             bad = numpy.isinf(value.astype(FLOAT32)) & ~numpy.isinf(value)
         where = tuple(int(i[0]) for i in numpy.nonzero(bad))
         place = "[" + ", ".join(str(i) for i in where) + "]"
-        raise InputError(f"{name}{place} is {value[where]}, which does not fit into float32", element=where[0]) from None
+        raise InputError(
+            f"{name}{place} is {value[where]}, which does not fit into float32", element=where[0]
+        ) from None
 
 
 def float_array(name: str, value: Any, components: int) -> numpy.ndarray:
@@ -154,6 +159,14 @@ def index_error(name: str, array: numpy.ndarray, place: int, entry_count: int) -
     return IndexRangeError(text, "indexOutOfRange", place)
 
 
+def fail_at_index(error: _abi.Error, name: str, array: Optional[numpy.ndarray], entry_count: int) -> None:
+    """Raises what the C API said, with a negative index of this list as the caller wrote it."""
+    if error.code == _INDEX_OUT_OF_RANGE and array is not None and array.dtype == INT32:
+        if error.element < array.size and array.flat[error.element] < 0:
+            raise index_error(name, array, error.element, entry_count)
+    raise_error(error)
+
+
 def read_indices(name: str, array: numpy.ndarray, entry_count: int) -> Tuple[_abi.Indices, numpy.ndarray]:
     """Indices over the result of index_array, or over a copy, and the array that has to live as long.
     entry_count: of the attribute that the indices name."""
@@ -166,3 +179,11 @@ def read_indices(name: str, array: numpy.ndarray, entry_count: int) -> Tuple[_ab
     if not (array.flags.c_contiguous and array.flags.aligned):
         array = array.copy(order="C")
     return _abi.Indices(array.ctypes.data, array.size, kind), array
+
+
+def copied(address: Optional[int], shape: Tuple[int, ...], dtype: numpy.dtype) -> numpy.ndarray:
+    """Numbers of 4 bytes that the library will free, as an array."""
+    size = 4 * math.prod(shape)
+    if size == 0 or address is None:
+        return numpy.empty(shape, dtype)
+    return numpy.frombuffer((ctypes.c_char * size).from_address(address), dtype).reshape(shape).copy()

@@ -3,15 +3,25 @@
 
 import ctypes
 import numbers
-from typing import Any, List, Optional
+from typing import Any, List, Optional, Tuple
 
 import numpy
 
 from . import _abi
-from ._arrays import EMPTY_SPAN, INT32, NO_INDICES, float_array, index_array, index_error, read_indices, read_span, uint32_array
+from ._arrays import (
+    EMPTY_SPAN,
+    NO_INDICES,
+    fail_at_index,
+    float_array,
+    index_array,
+    read_indices,
+    read_span,
+    uint32_array,
+)
 from ._errors import InputError, raise_error
 
-_INDEX_OUT_OF_RANGE = 3
+# How messages of the C API about an index begin.
+_INDEX_WORDS = {"indices": b"index ", "normal_indices": b"normal_indices ", "uv_indices": b"uv_indices "}
 _SIZE = ctypes.sizeof(_abi.Mesh)
 
 
@@ -21,11 +31,21 @@ class Mesh:
     positions  (vertices, 3); normals (vertices, 3) or None; uvs (vertices, 2) or None
     indices    None: corner c is vertex c. (corners,), or (faces, k): faces of k corners
     face_sizes None: triangles, or what the shape of `indices` says. A number: corners of every face. (faces,): of each
+    normal_indices, uv_indices  None: normals, uvs have one entry per vertex. "corners": one per corner. Else as `indices`
     """
 
-    __slots__ = ("arrays", "corner_count", "struct", "vertex_count")
+    __slots__ = ("_lists", "arrays", "corner_count", "struct", "vertex_count")
 
-    def __init__(self, positions: Any, normals: Any, uvs: Any, indices: Any, face_sizes: Any):
+    def __init__(
+        self,
+        positions: Any,
+        normals: Any,
+        uvs: Any,
+        indices: Any,
+        face_sizes: Any,
+        normal_indices: Any = None,
+        uv_indices: Any = None,
+    ):
         # All shapes first, so that nothing large is copied for a call that fails.
         positions = float_array("positions", positions, 3)
         if normals is not None:
@@ -35,46 +55,42 @@ class Mesh:
         if indices is not None:
             indices = index_array("indices", indices)
         self.vertex_count = len(positions)
-        self.check_count("normals", normals)
-        self.check_count("uvs", uvs)
+        self.corner_count = self.vertex_count if indices is None else indices.size
+        self._check_count("normals", normals, normal_indices)
+        self._check_count("uvs", uvs, uv_indices)
+        face_size = _face_size(indices, face_sizes)
 
-        face_size = self._face_size(indices, face_sizes)
-        positions_span, positions = read_span("positions", positions)
-        self.arrays: List[numpy.ndarray] = [positions]
-        normals_span = self._span("normals", normals)
-        uvs_span = self._span("uvs", uvs)
-        if indices is None:
-            indices_struct = NO_INDICES
-            self.corner_count = self.vertex_count
-        else:
-            indices_struct, indices = read_indices("indices", indices, self.vertex_count)
-            self.arrays.append(indices)
-            self.corner_count = indices.size
-        sizes_address, face_count = None, 0
+        self.arrays: List[numpy.ndarray] = []
+        self._lists: List[Tuple[str, numpy.ndarray, int]] = []
+        self.struct = _abi.Mesh(
+            _SIZE,
+            face_size or 0,
+            self._span("positions", positions),
+            self._span("normals", normals),
+            self._span("uvs", uvs),
+            self._indices("indices", indices, self.vertex_count),
+        )
         if face_size is None:
             face_sizes = uint32_array("face_sizes", face_sizes)
             self.arrays.append(face_sizes)
-            face_size, sizes_address, face_count = 0, face_sizes.ctypes.data, face_sizes.size
-        self.struct = _abi.Mesh(
-            _SIZE,
-            face_size,
-            positions_span,
-            normals_span,
-            uvs_span,
-            indices_struct,
-            sizes_address,
-            face_count,
-        )
+            self.struct.face_sizes, self.struct.face_count = face_sizes.ctypes.data, face_sizes.size
+        if normal_indices is not None:
+            self.struct.normal_indices = self._attribute_indices("normal_indices", normal_indices, normals)
+        if uv_indices is not None:
+            self.struct.uv_indices = self._attribute_indices("uv_indices", uv_indices, uvs)
 
-    def check_count(self, name: str, array: Optional[numpy.ndarray]) -> None:
-        if array is not None and len(array) != self.vertex_count:
-            raise InputError(f"{name} has {len(array)} entries, positions has {self.vertex_count}", "countMismatch")
+    def _check_count(self, name: str, array: Optional[numpy.ndarray], indices: Any) -> None:
+        if array is None or not (indices is None or isinstance(indices, str)):
+            return
+        count, what = (self.vertex_count, "positions has") if indices is None else (self.corner_count, "corners are")
+        if len(array) != count:
+            raise InputError(f"{name} has {len(array)} entries, {what} {count}", "countMismatch")
 
     def fail(self, error: _abi.Error) -> None:
         """Raises what the C API said, with a negative index as the caller wrote it."""
-        for array in self.arrays:
-            if error.code == _INDEX_OUT_OF_RANGE and array.dtype == INT32:
-                raise index_error("indices", array, error.element, self.vertex_count)
+        for name, array, count in self._lists:
+            if error.message.startswith(_INDEX_WORDS[name]):
+                fail_at_index(error, name, array, count)
         raise_error(error)
 
     def _span(self, name: str, array: Optional[numpy.ndarray]) -> _abi.Span:
@@ -84,21 +100,39 @@ class Mesh:
         self.arrays.append(array)
         return span
 
-    @staticmethod
-    def _face_size(indices: Optional[numpy.ndarray], face_sizes: Any) -> Optional[int]:
-        """Corners of every face; None where `face_sizes` is an array."""
-        if indices is not None and indices.ndim == 2:
-            if face_sizes is not None:
-                raise InputError("indices of shape (faces, k) say how many corners faces have: leave face_sizes out")
-            if indices.shape[1] == 0:
-                raise InputError("indices has shape (n, 0): faces without corners")
-            return indices.shape[1]
-        if indices is not None and indices.ndim != 1:
-            raise InputError(f"indices must have shape (corners,) or (faces, k), not {indices.shape}", "countMismatch")
-        if face_sizes is None:
-            return 3
-        if isinstance(face_sizes, numbers.Integral):
-            if isinstance(face_sizes, bool) or not 1 <= face_sizes <= _abi.MAX_COUNT:
-                raise InputError(f"face_sizes is {face_sizes}; faces must have 1 corner or more", "invalidOption")
-            return int(face_sizes)
-        return None
+    def _indices(self, name: str, array: Optional[numpy.ndarray], count: int) -> _abi.Indices:
+        if array is None:
+            return NO_INDICES
+        struct, array = read_indices(name, array, count)
+        self.arrays.append(array)
+        self._lists.append((name, array, count))
+        return struct
+
+    def _attribute_indices(self, name: str, value: Any, attribute: Optional[numpy.ndarray]) -> _abi.Indices:
+        if isinstance(value, str):
+            if value != "corners":
+                raise InputError(f'{name} is {value!r}; it must be an array, "corners" or None', "invalidOption")
+            return _abi.Indices(None, 0, _abi.INDEX_CORNERS)
+        array = index_array(name, value)
+        if array.size != self.corner_count:
+            raise InputError(f"{name} has {array.size} entries, corners are {self.corner_count}", "countMismatch")
+        return self._indices(name, array, 0 if attribute is None else len(attribute))
+
+
+def _face_size(indices: Optional[numpy.ndarray], face_sizes: Any) -> Optional[int]:
+    """Corners of every face; None where `face_sizes` is an array."""
+    if indices is not None and indices.ndim == 2:
+        if face_sizes is not None:
+            raise InputError("indices of shape (faces, k) say how many corners faces have: leave face_sizes out")
+        if indices.shape[1] == 0:
+            raise InputError("indices has shape (n, 0): faces without corners")
+        return indices.shape[1]
+    if indices is not None and indices.ndim != 1:
+        raise InputError(f"indices must have shape (corners,) or (faces, k), not {indices.shape}", "countMismatch")
+    if face_sizes is None:
+        return 3
+    if isinstance(face_sizes, numbers.Integral):
+        if isinstance(face_sizes, bool) or not 1 <= face_sizes <= _abi.MAX_COUNT:
+            raise InputError(f"face_sizes is {face_sizes}; faces must have 1 corner or more", "invalidOption")
+        return int(face_sizes)
+    return None

@@ -21,6 +21,31 @@ class NormalResult(NamedTuple):
     report: NormalReport
 
 
+def normal_options(
+    weighting: Any,
+    crease: Any,
+    groups: Optional[numpy.ndarray],
+    smoothing_masks: Any,
+    weld_positions: Any,
+    convention: Any,
+    refine: Any,
+    execution: _abi.Execution,
+) -> _abi.NormalOptions:
+    """The struct of the C API, which points into `groups`."""
+    return _abi.NormalOptions(
+        ctypes.sizeof(_abi.NormalOptions),
+        named("weighting", weighting, _abi.WEIGHTINGS),
+        real("crease", crease),
+        bool(smoothing_masks),
+        None if groups is None else groups.ctypes.data,
+        0 if groups is None else groups.size,
+        bool(weld_positions),
+        _abi.Convention() if convention is None else convention_struct(convention),
+        execution,
+        small_number("refine", refine),
+    )
+
+
 def normals(
     positions: Any,
     indices: Any = None,
@@ -61,17 +86,8 @@ def normals(
     """
     mesh = Mesh(positions, None, None, indices, face_sizes)
     groups = None if smoothing_groups is None else uint32_array("smoothing_groups", smoothing_groups)
-    options = _abi.NormalOptions(
-        ctypes.sizeof(_abi.NormalOptions),
-        named("weighting", weighting, _abi.WEIGHTINGS),
-        real("crease", crease),
-        bool(smoothing_masks),
-        None if groups is None else groups.ctypes.data,
-        0 if groups is None else groups.size,
-        not weld_positions,
-        _abi.Convention() if convention is None else convention_struct(convention),
-        execution(threads),
-        small_number("refine", refine),
+    options = normal_options(
+        weighting, crease, groups, smoothing_masks, weld_positions, convention, refine, execution(threads)
     )
     result = output_array(out, mesh.corner_count, 3)
     check_apart(out, mesh.arrays if groups is None else [*mesh.arrays, groups])

@@ -11,8 +11,6 @@ from typing import Any, Dict, Union
 from . import _abi
 from ._errors import InputError, raise_error
 
-_ALL_THREADS = 2**32 - 1
-
 
 def named(option: str, name: Any, table: Dict[str, int]) -> int:
     """The number of a name."""
@@ -83,10 +81,10 @@ def thread_count(threads: Union[int, str]) -> int:
     if threads == 1:
         return 1
     if threads == "all":
-        return _ALL_THREADS
+        return _abi.ALL_THREADS
     if not isinstance(threads, numbers.Integral) or isinstance(threads, bool):
         raise TypeError(f'threads must be a number or "all", not {threads!r}')
-    if not 1 <= threads < _ALL_THREADS:
+    if not 1 <= threads < _abi.ALL_THREADS:
         raise InputError(f'threads is {threads}; it must be 1 or more, or "all"', "invalidOption")
     return int(threads)
 

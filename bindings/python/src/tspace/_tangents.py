@@ -77,7 +77,9 @@ def _tangent_options(
     )
 
 
-def _output(count: int, out: Optional[numpy.ndarray], full: bool) -> Tuple[_abi.TangentOutput, Tuple[numpy.ndarray, ...]]:
+def _output(
+    count: int, out: Optional[numpy.ndarray], full: bool
+) -> Tuple[_abi.TangentOutput, Tuple[numpy.ndarray, ...]]:
     """The struct, and the arrays that it points into: of tangents alone, or all four."""
     tangents = output_array(out, count, 4)
     if not full:
@@ -98,6 +100,8 @@ def tangents(
     indices: Any = None,
     *,
     face_sizes: Any = None,
+    normal_indices: Any = None,
+    uv_indices: Any = None,
     method: str = "mikktspace",
     convention: ConventionLike,
     threshold: float = 180.0,
@@ -121,6 +125,8 @@ def tangents(
     uvs:        (vertices, 2); None for method="basis", which needs none
     indices:    (corners,), the vertex of each corner, or (faces, k) for faces of k corners; None: corner c is vertex c
     face_sizes: None: triangles. A number: corners of every face. (faces,): corners of each face
+    normal_indices, uv_indices: None: normals and uvs have one row per vertex. An index list of their own, shaped as `indices`:
+                they have any number of rows. "corners": they have one row per corner
     method:     "mikktspace" (every bit of the MikkTSpace reference), "fast", "best", "lengyel", "uniform", "angle", "area",
                 "flat", or "basis"
     convention: decides the sign, so it has no default: "gltf", "opengl", "directx", "unreal", "unity", "blender", "godot",
@@ -139,7 +145,7 @@ def tangents(
     Raises TypeError, or InputError (a ValueError) that says which argument is wrong, and where; MemoryError.
     """
     options = tangent_options(method, convention, threshold, pairing, ngons, domain, frame, refine, threads)
-    mesh = Mesh(positions, normals, uvs, indices, face_sizes)
+    mesh = Mesh(positions, normals, uvs, indices, face_sizes, normal_indices, uv_indices)
     count = mesh.corner_count if options.domain == 0 else mesh.vertex_count
     output, arrays = _output(count, out, full)
     check_apart(out, mesh.arrays)
@@ -172,6 +178,8 @@ class Plan:
         indices: Any = None,
         *,
         face_sizes: Any = None,
+        normal_indices: Any = None,
+        uv_indices: Any = None,
         method: str = "mikktspace",
         convention: ConventionLike,
         threshold: float = 180.0,
@@ -184,7 +192,7 @@ class Plan:
     ):
         """Makes a plan; arguments as those of `tangents`."""
         options = tangent_options(method, convention, threshold, pairing, ngons, domain, frame, refine, threads)
-        mesh = Mesh(positions, normals, uvs, indices, face_sizes)
+        mesh = Mesh(positions, normals, uvs, indices, face_sizes, normal_indices, uv_indices)
         plan = ctypes.c_void_p()
         error = _abi.Error()
         if _library.tspace_planTangents(byref(mesh.struct), byref(options), byref(plan), byref(error)):
@@ -195,6 +203,7 @@ class Plan:
             raise_error(error)
         self._plan = plan
         self._info = info
+        self._normal_count = mesh.struct.normals.count
 
     def evaluate(
         self,
@@ -210,34 +219,32 @@ class Plan:
         On the pose that the plan was made from, the result is bit for bit that of `tangents`.
 
         positions: (vertices, 3), as many as the plan's
-        normals:   (vertices, 3), unit, of this pose; as many as the plan's
+        normals:   unit, of this pose; as many as the plan's
         threads, out, full: as for `tangents`
         """
         positions = float_array("positions", positions, 3)
         normals = float_array("normals", normals, 3)
-        for name, array in (("positions", positions), ("normals", normals)):
-            if len(array) != self._info.vertex_count:
-                raise InputError(
-                    f"{name} has {len(array)} entries, the plan's mesh has {self._info.vertex_count} vertices",
-                    "planMismatch",
-                )
+        counts = self._info.vertex_count, self._normal_count
+        for name, array, count in zip(("positions", "normals"), (positions, normals), counts):
+            if len(array) != count:
+                raise InputError(f"{name} has {len(array)} entries, the plan's mesh has {count}", "planMismatch")
         positions_span, positions = read_span("positions", positions)
         normals_span, normals = read_span("normals", normals)
         pose = _abi.Pose(ctypes.sizeof(_abi.Pose), 0, positions_span, normals_span)
         output, arrays = _output(self._info.output_count, out, full)
         check_apart(out, (positions, normals))
-        counts = _new_report() if full else None
+        met = _new_report() if full else None
         error = _abi.Error()
         if _library.tspace_evaluateTangents(
             self._plan,
             byref(pose),
             byref(output),
             byref(execution(threads)),
-            byref(counts) if counts is not None else None,
+            byref(met) if met is not None else None,
             byref(error),
         ):
             raise_error(error)
-        return TangentResult(*arrays, report(TangentReport, counts)) if full else arrays[0]
+        return TangentResult(*arrays, report(TangentReport, met)) if full else arrays[0]
 
     @property
     def method(self) -> str:

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: MIT
+"""The usual case in one call: an indexed mesh with normals and tangents."""
+
+import ctypes
+from ctypes import POINTER, byref, pointer
+from typing import Any, NamedTuple, Optional, Sequence, Union
+
+import numpy
+
+from . import _abi
+from ._arrays import FLOAT32, UINT32, copied, uint32_array
+from ._mesh import Mesh
+from ._normals import normal_options
+from ._options import ConventionLike, execution
+from ._reports import NormalReport, SanitizeReport, TangentReport, report
+from ._split import corner_attributes
+from ._tangents import tangent_options
+
+_library = _abi.library
+
+
+class IndexedFramesReport(NamedTuple):
+    """What each step met; None: the step was left out."""
+
+    normals: Optional[NormalReport]
+    tangents: TangentReport
+    sanitize: Optional[SanitizeReport]
+
+
+class IndexedFrames(NamedTuple):
+    """A mesh with the faces of the given one, whose corners share a vertex only where they agree."""
+
+    indices: numpy.ndarray  #: (corners,) uint32: the new vertex of each corner
+    source_vertex: numpy.ndarray  #: (new vertices,) uint32: the row of positions that each copies
+    source_corner: numpy.ndarray  #: (new vertices,) uint32: the first corner that uses each; 0xffffffff: none does
+    normals: numpy.ndarray  #: (new vertices, 3) float32: those of the mesh, bit for bit, or the ones made
+    tangents: numpy.ndarray  #: (new vertices, 4) float32: unit tangent, and the sign
+    report: IndexedFramesReport
+
+
+def make_indexed_frames(
+    positions: Any,
+    normals: Any,
+    uvs: Any,
+    indices: Any = None,
+    *,
+    face_sizes: Any = None,
+    normal_indices: Any = None,
+    uv_indices: Any = None,
+    method: str = "mikktspace",
+    convention: ConventionLike,
+    threshold: float = 180.0,
+    pairing: str = "reference",
+    ngons: str = "triangulate",
+    frame: str = "gram_schmidt",
+    refine: int = 1,
+    make_normals: bool = False,
+    weighting: str = "angle",
+    crease: float = 180.0,
+    smoothing_groups: Any = None,
+    smoothing_masks: bool = False,
+    weld_positions: bool = True,
+    sanitize: bool = True,
+    orthogonalize_all: bool = False,
+    keep_apart: Sequence[Any] = (),
+    threads: Union[int, str] = 1,
+) -> IndexedFrames:
+    """Makes an indexed mesh with normals and tangents: the usual case in one call.
+
+    Normals are made where they are missing, then tangents, those that are broken are mended, and vertices whose corners
+    disagree are split. Gather what hangs on vertices (UVs, skin weights, morph targets) by `source_vertex`, and what has an
+    index list of its own by the corner: `uvs[uv_indices[source_corner]]`.
+
+    positions:  (vertices, 3)
+    normals:    (vertices, 3), unit; None: they are made
+    uvs:        (vertices, 2); None for method="basis"
+    indices:    (corners,), or (faces, k) for faces of k corners; None: corner c is vertex c
+    face_sizes, normal_indices, uv_indices, method, convention, threshold, pairing, ngons, frame: as for `tangents`
+    refine:     steps that "best" takes after its fit, for tangents and normals: 0, 1 or 2
+    make_normals: True: normals are made although there are some
+    weighting, crease, smoothing_groups, smoothing_masks, weld_positions: how normals are made, as for `normals`
+    sanitize:   False: broken tangents stay
+    orthogonalize_all: True: also makes sound tangents unit and orthogonal to N
+    keep_apart: arrays of shape (corners, k), without indices only: what else must not be shared, colours for instance
+    threads:    1, another number, or "all". The bits are the same for any
+
+    A mesh with one index list keeps its vertices in their places, and copies come behind them; others get new vertices in
+    the order of their corners, one for all corners with the same bits.
+    """
+    steps = execution(threads)
+    tangents = tangent_options(method, convention, threshold, pairing, ngons, "corner", frame, refine, threads)
+    groups = None if smoothing_groups is None else uint32_array("smoothing_groups", smoothing_groups)
+    made_by = normal_options(weighting, crease, groups, smoothing_masks, weld_positions, convention, refine, steps)
+    mesh = Mesh(positions, normals, uvs, indices, face_sizes, normal_indices, uv_indices)
+    rows, keep = corner_attributes("keep_apart", keep_apart, mesh.corner_count, 0.0)
+    options = _abi.IndexedFramesOptions(
+        ctypes.sizeof(_abi.IndexedFramesOptions),
+        bool(make_normals),
+        bool(sanitize),
+        bool(orthogonalize_all),
+        pointer(tangents),
+        pointer(made_by),
+        rows,
+        len(rows),
+    )
+    result = POINTER(_abi.IndexedFrames)()
+    error = _abi.Error()
+    if _library.tspace_makeIndexedFrames(byref(mesh.struct), byref(options), byref(result), byref(error)):
+        mesh.fail(error)
+    del keep
+    try:
+        return _copied_frames(result.contents, bool(sanitize))
+    finally:
+        _library.tspace_destroyIndexedFrames(result)
+
+
+def _copied_frames(made: _abi.IndexedFrames, sanitized: bool) -> IndexedFrames:
+    count = made.vertex_count
+    return IndexedFrames(
+        copied(made.indices, (made.corner_count,), UINT32),
+        copied(made.source_vertex, (count,), UINT32),
+        copied(made.source_corner, (count,), UINT32),
+        copied(made.normals, (count, 3), FLOAT32),
+        copied(made.tangents, (count, 4), FLOAT32),
+        IndexedFramesReport(
+            report(NormalReport, made.normal_report.contents) if made.normal_report else None,
+            report(TangentReport, made.tangent_report.contents),
+            report(SanitizeReport, made.sanitize_report.contents) if sanitized else None,
+        ),
+    )

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: MIT
+"""Mending tangents."""
+
+import ctypes
+from ctypes import byref
+from typing import Any, NamedTuple, Optional, Union
+
+import numpy
+
+from . import _abi
+from ._arrays import check_apart, float_array, output_array, read_span, write_span
+from ._errors import InputError
+from ._mesh import Mesh
+from ._options import execution
+from ._reports import SanitizeReport, report
+
+_library = _abi.library
+
+
+class SanitizeResult(NamedTuple):
+    """Mended tangents, and what was mended."""
+
+    tangents: numpy.ndarray  #: (corners, 4) float32
+    report: SanitizeReport
+
+
+def sanitize(
+    tangents: Any,
+    positions: Any,
+    normals: Any,
+    indices: Any = None,
+    *,
+    face_sizes: Any = None,
+    normal_indices: Any = None,
+    orthogonalize_all: bool = False,
+    threads: Union[int, str] = 1,
+    out: Optional[numpy.ndarray] = None,
+    full: bool = False,
+) -> Union[numpy.ndarray, SanitizeResult]:
+    """Mends tangents that are not finite, zero, not unit, parallel to N, or of mixed sign in a face: (corners, 4) float32.
+
+    Sound tangents keep every bit. What is written is unit and orthogonal to the corner's N.
+
+    tangents:   (corners, 4), as `tangents` gives them; not changed, unless out=tangents
+    positions:  (vertices, 3)
+    normals:    (vertices, 3)
+    indices, face_sizes, normal_indices: as for `tangents`
+    orthogonalize_all: True: also makes sound tangents unit and orthogonal to N; they then no longer match a bake
+    threads:    1, another number, or "all"
+    out:        an array of float32 that takes the result; the same array as `tangents` mends in place
+    full:       True: returns a SanitizeResult, which has a report too
+    """
+    source = float_array("tangents", tangents, 4)
+    mesh = Mesh(positions, normals, None, indices, face_sizes, normal_indices)
+    if len(source) != mesh.corner_count:
+        raise InputError(f"tangents has {len(source)} rows, the mesh has {mesh.corner_count} corners", "countMismatch")
+    result = output_array(out, mesh.corner_count, 4)
+    check_apart(out, mesh.arrays)
+    if result is not source:
+        result[...] = read_span("tangents", source)[1]
+    options = _abi.SanitizeOptions(ctypes.sizeof(_abi.SanitizeOptions), bool(orthogonalize_all), execution(threads))
+    counts = _abi.SanitizeReport(ctypes.sizeof(_abi.SanitizeReport))
+    error = _abi.Error()
+    if _library.tspace_sanitizeTangents(
+        byref(mesh.struct), byref(options), write_span(result), byref(counts), byref(error)
+    ):
+        mesh.fail(error)
+    return SanitizeResult(result, report(SanitizeReport, counts)) if full else result

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: MIT
+"""From corners to an indexed mesh, and from polygons to triangles."""
+
+import ctypes
+from ctypes import POINTER, byref
+from typing import Any, Iterable, List, NamedTuple, Sequence, Tuple, Union
+
+import numpy
+
+from . import _abi
+from ._arrays import NO_INDICES, UINT32, copied, fail_at_index, float_array, index_array, read_indices, read_span
+from ._errors import InputError
+from ._mesh import Mesh
+from ._options import execution, real
+
+_library = _abi.library
+
+
+def corner_attributes(
+    name: str, attributes: Sequence[Any], corner_count: int, tolerance: Any
+) -> Tuple[Any, List[numpy.ndarray]]:
+    """The array of structs for arrays of shape (corners, k), and the arrays that have to live as long."""
+    if isinstance(attributes, (numpy.ndarray, str, bytes)) or not isinstance(attributes, Iterable):
+        raise TypeError(f"{name} must be a list of arrays: [tangents], not tangents")
+    tolerance = real("tolerance", tolerance)
+    arrays = []
+    for attribute in attributes:
+        place = f"{name}[{len(arrays)}]"
+        array = numpy.asarray(attribute)
+        array = float_array(place, array, array.shape[1] if array.ndim == 2 else 1)
+        if len(array) != corner_count:
+            raise InputError(f"{place} has {len(array)} rows, there are {corner_count} corners", "countMismatch")
+        arrays.append(array)
+    rows = (_abi.CornerAttribute * len(arrays))()
+    for number, array in enumerate(arrays):
+        span, arrays[number] = read_span(f"{name}[{number}]", array)
+        rows[number] = _abi.CornerAttribute(span.data, span.stride_bytes, array.shape[1], tolerance)
+    return rows, arrays
+
+
+class Split(NamedTuple):
+    """A new index list, and where each new vertex comes from. Old vertices keep their place, copies are appended."""
+
+    indices: numpy.ndarray  #: (corners,) uint32: the new vertex of each corner
+    source_vertex: numpy.ndarray  #: (new vertices,) uint32: the old vertex that each copies. Gather by it
+    source_corner: numpy.ndarray  #: (new vertices,) uint32: a corner whose values each has; 0xffffffff: no corner uses it
+
+
+def split(
+    indices: Any,
+    vertex_count: int,
+    attributes: Sequence[Any],
+    *,
+    tolerance: float = 0.0,
+    threads: Union[int, str] = 1,
+) -> Split:
+    """Splits vertices whose corners disagree in any attribute, which makes an indexed mesh of results per corner.
+
+    indices:      (corners,) or (faces, k), the old vertex of each corner; None: corner c is vertex c
+    vertex_count: number of old vertices
+    attributes:   arrays of shape (corners, k), k from 1 to 16: those of `tangents` and `normals`, for instance
+    tolerance:    0: corners are equal when all bits are; above: when every number differs by at most this
+    threads:      1, another number, or "all"
+
+    >>> s = tspace.split(indices, len(positions), [tangents])
+    >>> new_positions, new_tangents = positions[s.source_vertex], tangents[s.source_corner]
+    """
+    if not isinstance(vertex_count, (int, numpy.integer)) or isinstance(vertex_count, bool):
+        raise TypeError(f"vertex_count must be a number, not {vertex_count!r}")
+    if not 0 <= vertex_count <= _abi.MAX_COUNT:
+        raise InputError(f"vertex_count is {vertex_count}; it must be 0 to {_abi.MAX_COUNT}", "tooLarge")
+    struct, corner_count, index_list = NO_INDICES, int(vertex_count), None
+    if indices is not None:
+        struct, index_list = read_indices("indices", index_array("indices", indices).ravel(), int(vertex_count))
+        corner_count = index_list.size
+    rows, keep = corner_attributes("attributes", attributes, corner_count, tolerance)
+    result = POINTER(_abi.SplitResult)()
+    error = _abi.Error()
+    if _library.tspace_splitVertices(
+        byref(struct),
+        int(vertex_count),
+        corner_count,
+        rows,
+        len(rows),
+        byref(execution(threads)),
+        byref(result),
+        byref(error),
+    ):
+        fail_at_index(error, "indices", index_list, int(vertex_count))
+    del keep
+    try:
+        made = result.contents
+        return Split(
+            copied(made.indices, (made.corner_count,), UINT32),
+            copied(made.source_vertices, (made.vertex_count,), UINT32),
+            copied(made.source_corners, (made.vertex_count,), UINT32),
+        )
+    finally:
+        _library.tspace_destroySplitResult(result)
+
+
+class Triangles(NamedTuple):
+    """Triangles of a polygon mesh."""
+
+    corners: numpy.ndarray  #: (triangles, 3) uint32: corners of the mesh (not vertices), winding kept
+    faces: numpy.ndarray  #: (triangles,) uint32: the face that each was cut from
+
+
+def triangulate(positions: Any, indices: Any = None, *, face_sizes: Any = None, uvs: Any = None) -> Triangles:
+    """Cuts faces of 4 and more corners into triangles.
+
+    Quads are cut along the diagonal that MikkTSpace takes, for which it looks at `uvs` too, where they are given; n-gons by
+    clipping ears. Faces of fewer than 3 corners give nothing.
+
+    positions:  (vertices, 3)
+    indices:    (corners,), or (faces, k) for faces of k corners; None: corner c is vertex c
+    face_sizes: a number: corners of every face. (faces,): corners of each face
+    uvs:        (vertices, 2), or None
+
+    >>> triangles = tspace.triangulate(positions, indices, face_sizes=sizes)
+    >>> triangle_indices = indices[triangles.corners]
+    """
+    mesh = Mesh(positions, None, uvs, indices, face_sizes)
+    result = POINTER(_abi.Triangulation)()
+    error = _abi.Error()
+    if _library.tspace_triangulate(byref(mesh.struct), byref(result), byref(error)):
+        mesh.fail(error)
+    try:
+        made = result.contents
+        return Triangles(
+            copied(made.corners, (made.triangle_count, 3), UINT32), copied(made.faces, (made.triangle_count,), UINT32)
+        )
+    finally:
+        _library.tspace_destroyTriangulation(result)
