@@ -26,7 +26,11 @@ SOURCES = HERE.parent.parent if IN_REPOSITORY else HERE / "cpp"
 WORK = SOURCES / "build" / "python" if IN_REPOSITORY else HERE / "build"
 # What CMake needs for the libraries alone.
 SOURCE_NAMES = ["CMakeLists.txt", "LICENSE", "cmake", "include", "src"]
-LIBRARIES = {"tspace_shared": "libtspace.so.0"}
+LIBRARIES = {"tspace_shared": "libtspace.so.0", "tspace_files_shared": "libtspace-files.so.0"}
+# Linked into ours: headers, and static libraries.
+LINKED_PACKAGES = ["libdraco-dev", "nlohmann-json3-dev", "libtinyobjloader-dev", "libxxhash-dev"]
+# What every system that runs Python has; libraries beside these go into the wheel.
+SYSTEM = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+))\.so\.[0-9]+$")
 
 
 def version():
@@ -37,25 +41,54 @@ def version():
 def compile_libraries(folder):
     """Returns the files of the shared libraries."""
     generator = ["-G", "Ninja"] if shutil.which("ninja") else []
-    parts = [f"-DTSPACE_BUILD_{part}=OFF" for part in ("ASSET", "TOOL", "TESTS", "EXAMPLES")]
+    parts = [f"-DTSPACE_BUILD_{part}=OFF" for part in ("TOOL", "TESTS", "EXAMPLES")]
     configure = ["cmake", "-S", SOURCES, "-B", folder, *generator, *parts]
     configure += ["-DCMAKE_BUILD_TYPE=Release", "-DTSPACE_BUILD_SHARED=ON", "-DTSPACE_BATCHES=ON"]
-    # The C++ library goes inside: the wheel then needs the C library alone.
-    configure += ["-DCMAKE_SHARED_LINKER_FLAGS=-static-libstdc++ -static-libgcc -Wl,--strip-debug"]
+    # RPATH, not RUNPATH: it serves libraries that libraries need, too.
+    flags = "-static-libstdc++ -static-libgcc -Wl,--strip-debug -Wl,--disable-new-dtags"
+    configure += [f"-DCMAKE_SHARED_LINKER_FLAGS={flags}", "-DCMAKE_INSTALL_RPATH=$ORIGIN"]
+    configure += ["-DCMAKE_BUILD_WITH_INSTALL_RPATH=ON"]
     jobs = str(os.cpu_count() or 1)
     subprocess.run(configure, check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["cmake", "--build", folder, "-j", jobs, "--target", *LIBRARIES], check=True)
     return [folder / name for name in LIBRARIES.values()]
 
 
+def bundled(library):
+    """The libraries beside the system's that this one needs, and what they need."""
+    printed = subprocess.run(["ldd", library], check=True, capture_output=True, text=True).stdout
+    found = re.findall(r"^\s*(\S+) => (/\S+)", printed, re.M)
+    return [Path(path) for name, path in found if not SYSTEM.match(name) and name not in LIBRARIES.values()]
+
+
+def copy_notices(libraries, folder):
+    """The licences of what is inside, as Debian's packages have them. Elsewhere there are none to copy."""
+    if not shutil.which("dpkg-query"):
+        return
+    # Old packages say /lib for what lies in /usr/lib.
+    names = [str(library) for library in libraries] + [str(library).replace("/usr", "", 1) for library in libraries]
+    owners = subprocess.run(["dpkg-query", "-S", *names], capture_output=True, text=True).stdout
+    packages = set(re.findall(r"^([^:\s]+):", owners, re.M)) | set(LINKED_PACKAGES)
+    folder.mkdir(exist_ok=True)
+    for package in packages:
+        notice = Path("/usr/share/doc") / package / "copyright"
+        if notice.exists():
+            shutil.copyfile(notice, folder / f"{package}.txt")
+
+
 class BuildWithLibraries(build_py):
     def run(self):
         super().run()
         package = Path(self.build_lib) / "tspace"
-        (package / "_lib").mkdir(parents=True, exist_ok=True)
+        target = package / "_lib"
+        shutil.rmtree(target, ignore_errors=True)
+        target.mkdir(parents=True)
         folder = Path(os.environ.get("TSPACE_CMAKE_FOLDER") or WORK / "cmake").resolve()
-        for library in compile_libraries(folder):
-            shutil.copyfile(library, package / "_lib" / library.name)
+        libraries = compile_libraries(folder)
+        others = {path.name: path.resolve() for library in libraries for path in bundled(library)}
+        for name, path in {**{library.name: library for library in libraries}, **others}.items():
+            shutil.copyfile(path, target / name)
+        copy_notices(list(others.values()), target / "notices")
         shutil.copyfile(SOURCES / "LICENSE", package / "LICENSE")
 
 
@@ -84,6 +117,7 @@ class Compiled(Distribution):
 
 
 WORK.mkdir(parents=True, exist_ok=True)
+shutil.rmtree(WORK / "setuptools", ignore_errors=True)  # it would keep files that are gone
 setup(
     version=version(),
     package_dir={"": "src"},

@@ -9,10 +9,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from tspace import _abi
+from tspace import _abi, _files_abi
 
 INCLUDE = Path(__file__).resolve().parents[3] / "include"
-HEADERS = ("tspace.h", "tspace_frame.h", "tspace_pack.h")
+HEADERS = ("tspace.h", "tspace_frame.h", "tspace_pack.h", "tspace_files.h")
 ENUMERATIONS = {
     "METHOD": _abi.METHODS,
     "PAIRING": _abi.PAIRINGS,
@@ -30,13 +30,16 @@ ENUMERATIONS = {
 
 
 def structs():
-    kinds = [kind for kind in vars(_abi).values() if isinstance(kind, type) and issubclass(kind, ctypes.Structure)]
+    names = {**vars(_abi), **vars(_files_abi)}
+    kinds = [kind for kind in names.values() if isinstance(kind, type) and issubclass(kind, ctypes.Structure)]
     return [kind for kind in kinds if kind is not ctypes.Structure]
 
 
 def expected():
     """C expression -> what Python says."""
     values = {"TSPACE_NO_ELEMENT": _abi.NO_ELEMENT, "TSPACE_NO_CORNER": _abi.NO_CORNER}
+    values["TSPACE_ALL_THREADS"] = _abi.ALL_THREADS
+    values["TSPACE_INDEX_CORNERS"] = _abi.INDEX_CORNERS
     for kind in structs():
         for name in [kind.__name__] + (["ConstSpan"] if kind.__name__ == "Span" else []):
             values[f"sizeof(tspace_{name})"] = ctypes.sizeof(kind)
@@ -55,7 +58,9 @@ class Abi(unittest.TestCase):
         values = expected()
         self.assertGreater(len(values), 150)
         lines = [f'printf("%llu\\n", (unsigned long long)({expression}));' for expression in values]
-        program = "#include <stdio.h>\n#include <tspace/tspace.h>\nint main(void) {\n" + "\n".join(lines) + "\n}\n"
+        program = (
+            "#include <stdio.h>\n#include <tspace/tspace_files.h>\nint main(void) {\n" + "\n".join(lines) + "\n}\n"
+        )
         with tempfile.TemporaryDirectory() as folder:
             # CMake makes this header; nothing here depends on what it says.
             (Path(folder) / "tspace").mkdir()
@@ -82,12 +87,13 @@ class Abi(unittest.TestCase):
         declared = dict(re.findall(r"(tspace_\w+)\(([^()]*)\) TSPACE_NOEXCEPT;", text))
         checked = 0
         for name, parameters in declared.items():
-            arguments = getattr(_abi.library, name).argtypes
+            library = _files_abi.library() if name in _files_abi.SIGNATURES else _abi.library
+            arguments = getattr(library, name).argtypes
             if arguments is not None:
                 count = 0 if parameters == "void" else parameters.count(",") + 1
                 self.assertEqual(len(arguments), count, name)
                 checked += 1
-        self.assertGreater(checked, 15)
+        self.assertGreater(checked, 30)
 
 
 if __name__ == "__main__":

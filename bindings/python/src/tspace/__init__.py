@@ -43,6 +43,14 @@ Functions
     triangulate     quads and n-gons into triangles
     pack_frames, unpack_frames   N, T and the sign in 4 to 16 bytes
 
+Model files (glTF, GLB, OBJ), on disk or in memory
+    generate_file, generate_bytes   adds normals and tangents where materials need them
+    check           what is wrong with a model's frames, as findings
+    identify        which method made its tangents
+    diff            the angles between the frames of two models
+    inspect         what is in a file
+    flip_green_file, flip_green_bytes   inverts the green channel of a normal map
+
 Arrays
     Positions and normals have shape (vertices, 3), UVs (vertices, 2), indices (corners,) or (faces, k); units are yours, angles
     are degrees. Arrays of float32 are read where they lie, with any stride, and so are indices of uint8, uint16, uint32 and
@@ -52,7 +60,8 @@ Arrays
 
 Errors
     TypeError for what is no array of numbers, InputError (a ValueError) for wrong shapes and options, IndexRangeError (an
-    IndexError too) for indices: they say which argument, and where. Broken geometry is no error: it is counted in the reports
+    IndexError too) for indices: they say which argument, and where. FileError for broken models, ReadWriteError (an OSError) for
+    files that cannot be read or written. Broken geometry is no error: it is counted in the reports
     that `full=True` gives.
 
 Threads
@@ -61,7 +70,21 @@ Threads
 """
 
 from ._abi import library as _library
-from ._errors import Error, FileError, IndexRangeError, InputError
+from ._errors import Error, FileError, IndexRangeError, InputError, ReadWriteError
+from ._files import (
+    CheckReport,
+    Finding,
+    Generated,
+    Report,
+    check,
+    diff,
+    flip_green_bytes,
+    flip_green_file,
+    generate_bytes,
+    generate_file,
+    identify,
+    inspect,
+)
 from ._indexed import IndexedFrames, IndexedFramesReport, make_indexed_frames
 from ._normals import NormalResult, normals
 from ._options import Convention
@@ -75,9 +98,12 @@ _number = _library.tspace_version()
 __version__ = f"{_number // 10000}.{_number // 100 % 100}.{_number % 100}"
 
 __all__ = [
+    "CheckReport",
     "Convention",
     "Error",
     "FileError",
+    "Finding",
+    "Generated",
     "IndexRangeError",
     "IndexedFrames",
     "IndexedFramesReport",
@@ -87,12 +113,22 @@ __all__ = [
     "PackReport",
     "PackResult",
     "Plan",
+    "ReadWriteError",
+    "Report",
     "SanitizeReport",
     "SanitizeResult",
     "Split",
     "TangentReport",
     "TangentResult",
     "Triangles",
+    "check",
+    "diff",
+    "flip_green_bytes",
+    "flip_green_file",
+    "generate_bytes",
+    "generate_file",
+    "identify",
+    "inspect",
     "make_indexed_frames",
     "normals",
     "pack_frames",

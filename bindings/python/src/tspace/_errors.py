@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Exceptions, and turning the errors of the C API into them."""
 
-from typing import Optional
+from typing import Optional, Type
 
 from . import _abi
 
 _OUT_OF_MEMORY = 9
 _FIRST_FILE_CODE = 100
+_READ_WRITE_CODES = (103, 104)
 
 
 class Error(Exception):
@@ -34,7 +35,11 @@ class IndexRangeError(InputError, IndexError):
 
 
 class FileError(Error):
-    """A model file that is broken, has what tspace does not read, or cannot be read or written."""
+    """A model file that is broken, or has what tspace does not read."""
+
+
+class ReadWriteError(FileError, OSError):
+    """A file that cannot be read or written."""
 
 
 def raise_error(error: _abi.Error) -> None:
@@ -44,8 +49,9 @@ def raise_error(error: _abi.Error) -> None:
         raise MemoryError(message)
     code = _abi.library.tspace_errorName(error.code).decode()
     element = None if error.element == _abi.NO_ELEMENT else error.element
+    kind: Type[Error]
     if error.code >= _FIRST_FILE_CODE:
-        kind = FileError
+        kind = ReadWriteError if error.code in _READ_WRITE_CODES else FileError
     elif code == "indexOutOfRange":
         kind = IndexRangeError
     elif code == "internal":

@@ -1,0 +1,354 @@
+# SPDX-License-Identifier: MIT
+"""Model files: generate, check, identify, diff, inspect, flip green. Each is one function of the C API."""
+
+import ctypes
+import json
+import os
+import re
+from ctypes import byref
+from dataclasses import dataclass
+from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Tuple, Union
+
+import numpy
+
+from . import _abi, _files_abi
+from ._errors import InputError, raise_error
+
+PathLike = Union[str, "os.PathLike[str]"]
+BytesLike = Union[bytes, bytearray, memoryview]
+FindFile = Union[Callable[[str], Optional[bytes]], Mapping[str, bytes]]
+
+_INTERNAL, _CANNOT_READ = 11, 103
+
+
+class Report:
+    """A JSON object of the tool (docs/json.md says what is in it): its members are attributes, in snake_case.
+
+    json: the object as a dict, with the names of the JSON
+    """
+
+    def __init__(self, data: Dict[str, Any]):
+        self.json = data
+
+    def __getattr__(self, name: str) -> Any:
+        first, *rest = name.split("_")
+        member = first + "".join(word.capitalize() for word in rest)
+        if name.startswith("_") or member not in self.json:
+            raise AttributeError(f"the report has no {name}; it has {', '.join(dir(self))}")
+        return _wrapped(self.json[member])
+
+    def __dir__(self) -> List[str]:
+        return ["json"] + [_snake_case(member) for member in self.json]
+
+    def __eq__(self, other: Any) -> bool:
+        return isinstance(other, Report) and self.json == other.json
+
+    def __repr__(self) -> str:
+        return f"Report({self.json!r})"
+
+
+def _snake_case(member: str) -> str:
+    return re.sub("([A-Z])", lambda match: "_" + match[1].lower(), member)
+
+
+def _wrapped(value: Any) -> Any:
+    if isinstance(value, dict):
+        return Report(value)
+    return [_wrapped(entry) for entry in value] if isinstance(value, list) else value
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something that is wrong with the frames of a model. docs/check.md explains every code."""
+
+    code: str  #: stable name, such as "signsWrong"
+    severity: str  #: "error", "warning" or "note"
+    place: str  #: JSON pointer of the primitive, attribute or texture; empty: the whole file
+    mesh: int  #: index of the mesh
+    primitive: int  #: index of the primitive in its mesh
+    mesh_name: str
+    material_name: str
+    unit: str  #: what is counted: "vertices", "triangles", "images", ...
+    count: int  #: how many have it
+    total: int  #: of how many that could have it
+    surface_share: float  #: their part of the primitive's surface, 0 to 1
+    worst_degrees: float  #: the largest angle, for findings about angles
+    confidence: float  #: 0 to 1
+    vertices: Tuple[int, ...]  #: the first of them, at most 8
+    message: str  #: one sentence for a person
+    remedy: str  #: how to mend it
+
+
+class CheckReport(Report):
+    """What `check` found. True in an `if` when there is nothing to mend: `if tspace.check(path): ...`."""
+
+    @property
+    def findings(self) -> List[Finding]:
+        """What is wrong, errors first."""
+        fields = Finding.__dataclass_fields__
+        found = []
+        for entry in self.json["findings"]:
+            values = {_snake_case(member): value for member, value in entry.items()}
+            values = {name: value for name, value in values.items() if name in fields}
+            found.append(Finding(**{**values, "vertices": tuple(values["vertices"])}))
+        return found
+
+    def __bool__(self) -> bool:
+        return not any(finding.severity != "note" for finding in self.findings)
+
+
+class Generated(NamedTuple):
+    """A file in memory, and what was done."""
+
+    data: bytes  #: a GLB with everything in it
+    report: Report
+
+
+class _Call:
+    """One call: keeps what it points to, and takes what comes back."""
+
+    def __init__(self) -> None:
+        self.library = _files_abi.library()
+        self.keep: List[Any] = []
+        self.raised: Optional[BaseException] = None
+
+    def path(self, name: str, value: Any) -> bytes:
+        try:
+            path = os.fsencode(value)
+        except TypeError:
+            raise TypeError(f"{name} must be a path, not {type(value).__name__}") from None
+        if b"\0" in path:
+            raise InputError(f"{name} has a 0 in it")
+        return path
+
+    def buffer(self, name: str, value: Any) -> numpy.ndarray:
+        """Bytes where they lie: a bytearray cannot be resized meanwhile."""
+        try:
+            view = numpy.frombuffer(value, numpy.uint8)
+        except (TypeError, ValueError, AttributeError, BufferError) as error:
+            # numpy has no array over nothing.
+            if isinstance(value, (bytes, bytearray, memoryview)) and len(value) == 0:
+                return numpy.empty(0, numpy.uint8)
+            raise TypeError(f"{name} must be bytes, not {type(value).__name__}: {error}") from None
+        self.keep.append(view)
+        return view
+
+    def model(self, name: str, value: Any, file_name: Optional[str], find_file: Optional[FindFile]) -> _files_abi.Model:
+        data = self.buffer(name, value)
+        if file_name is not None and (not isinstance(file_name, str) or "\0" in file_name):
+            raise TypeError(f"name must be text, not {file_name!r}")
+        encoded = None if file_name is None else os.fsencode(file_name)
+        callback = _files_abi.FindFile() if find_file is None else self.callback(find_file)
+        self.keep += [encoded, callback]
+        return _files_abi.Model(
+            ctypes.sizeof(_files_abi.Model), 0, data.ctypes.data, data.size, encoded, callback, None
+        )
+
+    def callback(self, find_file: FindFile) -> Any:
+        """The C function that asks `find_file`. What it raises is raised when the call is over."""
+        find = find_file.get if isinstance(find_file, Mapping) else find_file
+        if not callable(find):
+            raise TypeError(f"find_file must be a function or a dict, not {type(find_file).__name__}")
+
+        def found(_: Any, path: bytes, data: Any, size: Any) -> int:
+            try:
+                content = find(os.fsdecode(path))
+                if content is None:
+                    return _CANNOT_READ
+                view = self.buffer(f"what find_file gives for {os.fsdecode(path)!r}", content)
+            except (FileNotFoundError, KeyError):
+                return _CANNOT_READ
+            except BaseException as error:  # pylint: disable=broad-except
+                self.raised = error
+                return _INTERNAL
+            data[0], size[0] = view.ctypes.data, view.size
+            return 0
+
+        return _files_abi.FindFile(found)
+
+    def run(self, function: str, *arguments: Any, options: Mapping[str, Any], has_output: bool = False) -> Any:
+        """The document of the report, and the output where there is one."""
+        text = json.dumps({name.replace("_", "-"): value for name, value in options.items()}, default=_plain)
+        backs = [_files_abi.Bytes() for _ in range(2 if has_output else 1)]
+        error = _abi.Error()
+        failed = getattr(self.library, function)(*arguments, text.encode(), *map(byref, backs), byref(error))
+        try:
+            if self.raised is not None:
+                raise self.raised
+            if failed:
+                raise_error(error)
+            values = [ctypes.string_at(back.data, back.size) if back.size else b"" for back in backs]
+        finally:
+            for back in backs:
+                self.library.tspace_destroyBytes(byref(back))
+            self.keep.clear()  # the callback refers to this object: without it, buffers stay locked
+        document = json.loads(values[-1])
+        return (values[0], document) if has_output else document
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, numpy.generic):
+        return value.item()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    raise TypeError(f"options are numbers, text, True and False, not {type(value).__name__}")
+
+
+def _is_path(value: Any) -> bool:
+    return isinstance(value, (str, os.PathLike))
+
+
+def _ask(
+    verb: str, model: Any, name: Optional[str], find_file: Optional[FindFile], options: Mapping[str, Any]
+) -> Dict[str, Any]:
+    """The report about one model, a path or bytes."""
+    call = _Call()
+    if _is_path(model):
+        if find_file is not None or name is not None:
+            raise TypeError("name and find_file are for models in memory")
+        document = call.run(f"tspace_{verb}File", call.path("model", model), options=options)
+    else:
+        struct = call.model("model", model, name, find_file)
+        document = call.run(f"tspace_{verb}Bytes", byref(struct), options=options)
+    return _of_file(document)
+
+
+def _of_file(document: Dict[str, Any]) -> Dict[str, Any]:
+    """The entry of the one file, with the run's exit code."""
+    return {**document["files"][0], "exitCode": document["exitCode"]}
+
+
+def generate_file(input: PathLike, output: PathLike, **options: Any) -> Report:
+    """Adds normals and tangents to a model where its materials need them, and writes a .glb or .gltf.
+
+    input:   path of a GLB, glTF or OBJ
+    output:  path of the result; may be the input. It appears at once or not at all
+    options: those of `tspace generate` (docs/tool.md), with underscores: method="best", crease=60, all=True, overwrite=True,
+             only_missing=True, repair=True, no_sanitize=True, dry_run=True, pack="frame32", threads=4 (1 unless said)
+
+    Everything else in the file stays as it was. Returns what was done, primitive by primitive (docs/json.md).
+    Raises FileError for a broken model; ReadWriteError, which is an OSError too, where a file cannot be read or written;
+    InputError for options.
+    """
+    call = _Call()
+    paths = call.path("input", input), call.path("output", output)
+    return Report(_of_file(call.run("tspace_generateFile", *paths, options=options)))
+
+
+def generate_bytes(
+    data: BytesLike, *, name: Optional[str] = None, find_file: Optional[FindFile] = None, **options: Any
+) -> Generated:
+    """The same as `generate_file` in memory: bytes of a model in, bytes of a GLB out.
+
+    data:      bytes of a GLB, glTF or OBJ
+    name:      what reports call it; an OBJ is told by its ending: name="chair.obj"
+    find_file: gives the files that the model names: a dict from path to bytes, or a function from a path to bytes or None.
+               Paths are relative to the model; such that lead out of its folder are never asked for
+    options:   as for `generate_file`
+    """
+    call = _Call()
+    struct = call.model("data", data, name, find_file)
+    output, document = call.run("tspace_generateBytes", byref(struct), options=options, has_output=True)
+    return Generated(output, Report(_of_file(document)))
+
+
+def check(
+    model: Union[PathLike, BytesLike],
+    *,
+    name: Optional[str] = None,
+    find_file: Optional[FindFile] = None,
+    **options: Any,
+) -> CheckReport:
+    """Says what is wrong with the frames of a model: inverted signs, averaged seams, the wrong UV set, and more.
+
+    model:     a path, or bytes of a GLB, glTF or OBJ
+    name, find_file: for bytes, as for `generate_bytes`
+    options:   those of `tspace check` (docs/check.md), with underscores: fail_on="error", ignore=["tangentsUnused"]
+
+    >>> for finding in tspace.check("chair.glb").findings:
+    ...     print(finding.severity, finding.code, finding.place, finding.message, finding.remedy)
+    """
+    return CheckReport(_ask("check", model, name, find_file, options))
+
+
+def identify(
+    model: Union[PathLike, BytesLike],
+    *,
+    name: Optional[str] = None,
+    find_file: Optional[FindFile] = None,
+    **options: Any,
+) -> Report:
+    """Says which method and convention made the tangents of a model.
+
+    model:     a path, or bytes of a GLB, glTF or OBJ
+    name, find_file: for bytes, as for `generate_bytes`
+    options:   those of `tspace identify` (docs/identify.md), with underscores
+
+    `verdict` is a sentence or two; `explanations[0].method` the method that fits best.
+    """
+    return Report(_ask("identify", model, name, find_file, options))
+
+
+def inspect(
+    model: Union[PathLike, BytesLike],
+    *,
+    name: Optional[str] = None,
+    find_file: Optional[FindFile] = None,
+    **options: Any,
+) -> Report:
+    """Says what is in a model: meshes, attributes, materials that need tangents.
+
+    model:     a path, or bytes of a GLB, glTF or OBJ
+    name, find_file: for bytes, as for `generate_bytes`
+    options:   those of `tspace inspect`, with underscores
+    """
+    return Report(_ask("inspect", model, name, find_file, options))
+
+
+def diff(
+    a: Union[PathLike, BytesLike],
+    b: Union[PathLike, BytesLike],
+    *,
+    find_file: Optional[FindFile] = None,
+    **options: Any,
+) -> Report:
+    """Compares the frames of two models that show the same surface.
+
+    a, b:      two paths, or bytes of two models (GLB or glTF)
+    find_file: for bytes, as for `generate_bytes`
+    options:   those of `tspace diff` (docs/diff.md), with underscores: tolerance=0.1
+
+    `tangents.max_deg` is the largest angle, `sign_changes` counts signs, `is_within_tolerance` says the rest.
+    """
+    call = _Call()
+    if _is_path(a) != _is_path(b):
+        raise TypeError("a and b must both be paths, or both bytes")
+    if _is_path(a):
+        if find_file is not None:
+            raise TypeError("find_file is for models in memory")
+        return Report(call.run("tspace_diffFiles", call.path("a", a), call.path("b", b), options=options))
+    models = call.model("a", a, "a", find_file), call.model("b", b, "b", find_file)
+    return Report(call.run("tspace_diffBytes", *map(byref, models), options=options))
+
+
+def flip_green_file(input: PathLike, output: PathLike, **options: Any) -> Report:
+    """Inverts the green channel of a normal map: PNG, JPEG or WebP.
+
+    input, output: paths, which may be the same; the ending of `output` says its format
+    options: those of `tspace flip-green` (docs/flip-green.md), with underscores
+    """
+    call = _Call()
+    paths = call.path("input", input), call.path("output", output)
+    return Report(call.run("tspace_flipGreenFile", *paths, options=options))
+
+
+def flip_green_bytes(data: BytesLike, **options: Any) -> Generated:
+    """The same as `flip_green_file` in memory.
+
+    data:    bytes of a PNG, JPEG or WebP; the result has the same format
+    options: as for `flip_green_file`
+    """
+    call = _Call()
+    view = call.buffer("data", data)
+    output, document = call.run("tspace_flipGreenBytes", view.ctypes.data, view.size, options=options, has_output=True)
+    return Generated(output, Report(document))

@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: MIT
+"""Model files, on disk and in memory: results, reports as objects, and what is refused."""
+
+import gc
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy
+import tspace
+from glb import make_glb, read_glb
+from support import needs_shared, same_bits, torus
+
+
+def by_library(shape):
+    return tspace.make_indexed_frames(*shape, convention="gltf")
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.shape = torus(10, 12)
+        self.plain = make_glb(self.shape)
+        self.framed = tspace.generate_bytes(self.plain).data
+
+
+class Generate(Files):
+    def test_a_file_gets_the_tangents_of_the_library(self):
+        source, target = self.folder / "plain.glb", self.folder / "framed.glb"
+        source.write_bytes(self.plain)
+        report = tspace.generate_file(source, str(target))
+        self.assertTrue(report.ok and report.changed and report.exit_code == 0)
+        self.assertEqual(report.totals.actions.generated, 1)
+        self.assertEqual(report.primitives[0].triangles, 240)
+        self.assertEqual(report.json["primitives"][0]["triangles"], 240)
+        gltf, read = read_glb(target.read_bytes())
+        primitive = gltf["meshes"][0]["primitives"][0]
+        tangents = read(primitive["attributes"]["TANGENT"])[read(primitive["indices"])[:, 0]]
+        made = by_library(self.shape)
+        self.assertTrue(same_bits(tangents, made.tangents[made.indices]))
+
+    def test_bytes_give_what_files_give(self):
+        source, target = self.folder / "plain.glb", self.folder / "framed.glb"
+        source.write_bytes(self.plain)
+        tspace.generate_file(source, target, method="best", threads=2)
+        for data in (
+            self.plain,
+            bytearray(self.plain),
+            memoryview(self.plain),
+            numpy.frombuffer(self.plain, numpy.uint8),
+        ):
+            made = tspace.generate_bytes(data, method="best")
+            self.assertEqual(made.data, target.read_bytes())
+            self.assertEqual(made.report.primitives[0].tangents.triangles, 240)
+        dry = tspace.generate_bytes(self.plain, dry_run=True)
+        self.assertEqual(dry.data, b"")
+        self.assertTrue(dry.report.changed)
+
+    def test_files_that_a_model_names_are_asked_for(self):
+        text, data = make_glb(self.shape, uri="parts/a%20b.bin")
+        asked = []
+
+        def find(path):
+            asked.append(path)
+            return data
+
+        by_function = tspace.generate_bytes(text, name="m.gltf", find_file=find)
+        self.assertEqual(set(asked), {"parts/a b.bin"})
+        by_dict = tspace.generate_bytes(text, name="m.gltf", find_file={"parts/a b.bin": bytearray(data)})
+        self.assertEqual(by_dict.data, by_function.data)
+        for missing in (None, {}, lambda path: None):
+            with self.assertRaises(tspace.FileError) as caught:
+                tspace.generate_bytes(text, name="m.gltf", find_file=missing)
+            self.assertEqual(caught.exception.code, "invalidFile")
+
+    def test_what_find_file_raises_comes_out(self):
+        text, _ = make_glb(self.shape, uri="a.bin")
+
+        class Mine(Exception):
+            pass
+
+        def find(path):
+            raise Mine(path)
+
+        with self.assertRaisesRegex(Mine, "a.bin"):
+            tspace.check(text, find_file=find)
+        with self.assertRaisesRegex(TypeError, "a.bin.*must be bytes"):
+            tspace.check(text, find_file=lambda path: 7)
+        with self.assertRaisesRegex(TypeError, "find_file"):
+            tspace.check(text, find_file=7)
+
+    def test_green_is_inverted_and_comes_back(self):
+        needs_shared("models")
+        image = next(path for path in sorted(needs_shared("models").rglob("*.png")) if path.stat().st_size < 300000)
+        once = tspace.flip_green_bytes(image.read_bytes())
+        self.assertNotEqual(once.data, image.read_bytes())
+        tspace.flip_green_file(image, self.folder / "once.png")
+        self.assertEqual((self.folder / "once.png").read_bytes(), once.data)
+        twice = tspace.flip_green_bytes(once.data)
+        self.assertEqual(tspace.flip_green_bytes(twice.data).data, once.data)
+
+
+class Look(Files):
+    def test_check_finds_nothing_in_what_generate_made(self):
+        report = tspace.check(self.framed)
+        self.assertTrue(report)
+        self.assertEqual([finding for finding in report.findings if finding.severity == "error"], [])
+
+    def test_check_gives_findings_as_objects(self):
+        made = by_library(self.shape)
+        arrays = [array[made.source_vertex] for array in (self.shape.positions, self.shape.normals, self.shape.uvs)]
+        shape = type(self.shape)(*arrays, made.indices)
+        half = numpy.where(arrays[0][:, :1] > 0, numpy.float32([[1, 1, 1, -1]]), numpy.float32(1))
+        broken = make_glb(shape, made.tangents * half)
+        report = tspace.check(broken)
+        self.assertFalse(report)
+        finding = report.findings[0]
+        self.assertEqual((finding.code, finding.severity), ("signsWrong", "error"))
+        self.assertEqual((finding.mesh, finding.primitive, finding.unit), (0, 0, "vertices"))
+        self.assertTrue(0 < finding.count < finding.total == len(made.tangents))
+        self.assertTrue(finding.message and finding.remedy and isinstance(finding.vertices, tuple))
+        self.assertEqual(report.counts.error, len([f for f in report.findings if f.severity == "error"]))
+        self.assertEqual(report.exit_code, 1)
+        quiet = tspace.check(broken, ignore=["signsWrong"])
+        self.assertNotIn("signsWrong", [f.code for f in quiet.findings])
+
+    def test_identify_names_the_method(self):
+        report = tspace.identify(self.framed)
+        self.assertEqual((report.explanations[0].method, report.explanations[0].signs), ("mikktspace", "gltf"))
+        self.assertIn("mikktspace", report.verdict.lower())
+
+    def test_diff_measures_angles(self):
+        self.assertTrue(tspace.diff(self.framed, self.framed).is_within_tolerance)
+        (self.folder / "a.glb").write_bytes(self.framed)
+        (self.folder / "b.glb").write_bytes(tspace.generate_bytes(self.plain, method="best").data)
+        report = tspace.diff(self.folder / "a.glb", self.folder / "b.glb", tolerance=1e-3)
+        self.assertFalse(report.is_within_tolerance)
+        self.assertGreater(report.tangents.max_deg, 0.01)
+        self.assertEqual(report.sign_changes, 0)
+        self.assertEqual(report, tspace.diff(self.folder / "a.glb", self.folder / "b.glb", tolerance=1e-3))
+
+    def test_inspect_says_what_is_there(self):
+        report = tspace.inspect(self.plain, name="plain.glb")
+        self.assertEqual(report.input, "plain.glb")
+        self.assertIn("meshes", dir(report))
+
+    def test_reports_say_what_they_have(self):
+        with self.assertRaisesRegex(AttributeError, "no colour.*verdict"):
+            tspace.identify(self.framed).colour
+
+
+class Refused(Files):
+    def refuses(self, kind, words, call, *arguments, **options):
+        with self.assertRaisesRegex(kind, words) as caught:
+            call(*arguments, **options)
+        self.assertTrue(tspace.check(self.framed))
+        return caught.exception
+
+    def test_files_that_are_not_there_or_cannot_be_written(self):
+        missing = self.folder / "missing.glb"
+        error = self.refuses(OSError, "missing.glb", tspace.generate_file, missing, self.folder / "out.glb")
+        self.assertIsInstance(error, tspace.FileError)
+        self.assertEqual(error.code, "cannotRead")
+        self.assertFalse((self.folder / "out.glb").exists())
+        (self.folder / "a.glb").write_bytes(self.plain)
+        target = self.folder / "no" / "such" / "out.txt"
+        self.refuses(tspace.Error, "", tspace.generate_file, self.folder / "a.glb", target)
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["a.glb"])
+
+    def test_arguments_of_wrong_types(self):
+        for value in (None, 7, 1.5, object(), [1]):
+            self.refuses(TypeError, "model must be bytes", tspace.check, value)
+            self.refuses(TypeError, "input must be a path", tspace.generate_file, value, "out.glb")
+            self.refuses(TypeError, "data must be bytes", tspace.generate_bytes, value)
+        self.refuses(TypeError, "data must be bytes", tspace.generate_bytes, "chair.glb")
+        self.refuses(TypeError, "both", tspace.diff, "a.glb", self.plain)
+        self.refuses(TypeError, "in memory", tspace.check, "a.glb", name="b.glb")
+        self.refuses(ValueError, "input", tspace.generate_file, "a\0b.glb", "out.glb")
+        self.refuses(TypeError, "name", tspace.check, self.plain, name=b"a")
+
+    def test_options(self):
+        for options in (dict(method="mikk"), dict(colour=1), dict(crease="sharp"), dict(crease=-1), dict(all="yes")):
+            with self.subTest(options):
+                error = self.refuses(ValueError, "", tspace.generate_bytes, self.plain, **options)
+                self.assertEqual(error.code, "invalidOption")
+        self.refuses(TypeError, "options are", tspace.generate_bytes, self.plain, method=object())
+
+    def test_broken_bytes(self):
+        error = self.refuses(tspace.FileError, "", tspace.check, b"no model")
+        self.assertIn(error.code, ("invalidFile", "unsupportedFile"))
+        self.refuses(tspace.FileError, "", tspace.check, b"")
+        for length in (1, 11, 20, 100, len(self.framed) // 2, len(self.framed) - 1):
+            self.refuses(tspace.FileError, "", tspace.generate_bytes, self.framed[:length])
+
+    def test_a_buffer_cannot_be_resized_during_a_call(self):
+        text, data = make_glb(self.shape, uri="a.bin")
+        model = bytearray(text)
+
+        def find(path):
+            with self.assertRaises(BufferError):
+                model.clear()
+            return data
+
+        self.assertTrue(tspace.generate_bytes(model, name="m.gltf", find_file=find).data)
+        model.clear()
+
+    def test_the_collection_of_broken_files_raises_or_is_read(self):
+        paths = [path for path in sorted(needs_shared("bad").rglob("*")) if path.suffix in (".glb", ".gltf", ".obj")]
+        small = [path for path in paths if path.stat().st_size < 100000][::3]
+        self.assertGreater(len(small), 50)
+        refused = 0
+        for path in small:
+            try:
+                tspace.generate_bytes(path.read_bytes(), name=path.name, all=True)
+            except tspace.FileError as error:
+                refused += 1
+                self.assertTrue(str(error))
+            except MemoryError:
+                refused += 1
+        self.assertGreater(refused, 20)
+
+    @unittest.skipUnless(Path("/proc/self/statm").exists(), "memory is read from /proc")
+    def test_nothing_is_left_behind(self):
+        def work():
+            for _ in range(25):
+                tspace.check(tspace.generate_bytes(self.plain).data)
+                for broken in (self.framed[:-2000], b"no model"):
+                    try:
+                        tspace.generate_bytes(broken)
+                    except tspace.FileError:
+                        pass
+            gc.collect()
+            return int(Path("/proc/self/statm").read_text().split()[1]) * 4096
+
+        work()
+        before = work()
+        self.assertLess(work() - before, 1e6)
+
+
+if __name__ == "__main__":
+    unittest.main()
