@@ -130,8 +130,8 @@ tspace_Frame tspace_decodeFrame64(uvec2 words) {
 }
 
 // Of a quaternion of any length, as a normalised attribute has it: qtangent64 in glTF (_QTANGENT64), Filament and
-// CryEngine. The sign is that of w, which encoders never leave 0, not even at half turns: there it is 1/32767. So
-// compare with zero, as here: sign() is as good, but half precision may flush 1/32767 to zero, and the sign with it.
+// CryEngine. The sign is that of w, which encoders never leave 0, not even at half turns: there it is 1/32767 or
+// -1/32767. Half precision may flush these to zero, and the sign with them.
 // Cost: 39 operations, 1 division.
 tspace_Frame tspace_frameOfQuaternion(vec4 q) {
     float square = dot(q, q), w = square > 0.0 ? q.w : 1.0, k = square > 0.0 ? 2.0 / square : 2.0;

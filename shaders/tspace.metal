@@ -130,8 +130,8 @@ inline tspace_Frame tspace_decodeFrame64(uint2 words) {
 }
 
 // Of a quaternion of any length, as a normalised attribute has it: qtangent64 in glTF (_QTANGENT64), Filament and
-// CryEngine. The sign is that of w, which encoders never leave 0, not even at half turns: there it is 1/32767. So
-// compare with zero, as here: sign() is as good, but half precision may flush 1/32767 to zero, and the sign with it.
+// CryEngine. The sign is that of w, which encoders never leave 0, not even at half turns: there it is 1/32767 or
+// -1/32767. Half precision may flush these to zero, and the sign with them.
 // Cost: 39 operations, 1 division.
 inline tspace_Frame tspace_frameOfQuaternion(float4 q) {
     float square = metal::dot(q, q), w = square > 0.0f ? q.w : 1.0f, k = square > 0.0f ? 2.0f / square : 2.0f;

@@ -134,8 +134,8 @@ fn tspace_decodeFrame64(words: vec2u) -> tspace_Frame {
 }
 
 // Of a quaternion of any length, as a normalised attribute has it: qtangent64 in glTF (_QTANGENT64), Filament and
-// CryEngine. The sign is that of w, which encoders never leave 0, not even at half turns: there it is 1/32767. So
-// compare with zero, as here: sign() is as good, but half precision may flush 1/32767 to zero, and the sign with it.
+// CryEngine. The sign is that of w, which encoders never leave 0, not even at half turns: there it is 1/32767 or
+// -1/32767. Half precision may flush these to zero, and the sign with them.
 // Cost: 39 operations, 1 division.
 fn tspace_frameOfQuaternion(q: vec4f) -> tspace_Frame {
     let square = dot(q, q);
