@@ -186,4 +186,4 @@ def copied(address: Optional[int], shape: Tuple[int, ...], dtype: numpy.dtype) -
     size = 4 * math.prod(shape)
     if size == 0 or address is None:
         return numpy.empty(shape, dtype)
-    return numpy.frombuffer((ctypes.c_char * size).from_address(address), dtype).reshape(shape).copy()
+    return numpy.frombuffer(memoryview((ctypes.c_char * size).from_address(address)), dtype).reshape(shape).copy()

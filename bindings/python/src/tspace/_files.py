@@ -88,9 +88,10 @@ class CheckReport(Report):
         fields = Finding.__dataclass_fields__
         found = []
         for entry in self.json["findings"]:
-            values = {_snake_case(member): value for member, value in entry.items()}
+            values: Dict[str, Any] = {_snake_case(member): value for member, value in entry.items()}
             values = {name: value for name, value in values.items() if name in fields}
-            found.append(Finding(**{**values, "vertices": tuple(values["vertices"])}))
+            values["vertices"] = tuple(values["vertices"])
+            found.append(Finding(**values))
         return found
 
     def __bool__(self) -> bool:
@@ -138,7 +139,7 @@ class _Call:
         if file_name is not None and (not isinstance(file_name, str) or "\0" in file_name):
             raise TypeError(f"name must be text, not {file_name!r}")
         encoded = None if file_name is None else os.fsencode(file_name)
-        callback = _files_abi.FindFile() if find_file is None else self.callback(find_file)
+        callback = _files_abi.FindFile(0) if find_file is None else self.callback(find_file)
         self.keep += [encoded, callback]
         return _files_abi.Model(
             ctypes.sizeof(_files_abi.Model), 0, data.ctypes.data, data.size, encoded, callback, None

@@ -132,7 +132,7 @@ def _face_size(indices: Optional[numpy.ndarray], face_sizes: Any) -> Optional[in
     if face_sizes is None:
         return 3
     if isinstance(face_sizes, numbers.Integral):
-        if isinstance(face_sizes, bool) or not 1 <= face_sizes <= _abi.MAX_COUNT:
+        if isinstance(face_sizes, bool) or not 1 <= int(face_sizes) <= _abi.MAX_COUNT:
             raise InputError(f"face_sizes is {face_sizes}; faces must have 1 corner or more", "invalidOption")
         return int(face_sizes)
     return None

@@ -3,7 +3,7 @@
 
 import ctypes
 from ctypes import byref
-from typing import Any, NamedTuple, Optional, Union
+from typing import Any, Literal, NamedTuple, Optional, Union, overload
 
 import numpy
 
@@ -44,6 +44,46 @@ def normal_options(
         execution,
         small_number("refine", refine),
     )
+
+
+@overload
+def normals(
+    positions: Any,
+    indices: Any = ...,
+    *,
+    face_sizes: Any = ...,
+    weighting: str = ...,
+    crease: float = ...,
+    smoothing_groups: Any = ...,
+    smoothing_masks: bool = ...,
+    weld_positions: bool = ...,
+    convention: Optional[ConventionLike] = ...,
+    refine: int = ...,
+    threads: Union[int, str] = ...,
+    out: Optional[numpy.ndarray] = ...,
+    full: Literal[False] = ...,
+) -> numpy.ndarray:
+    ...
+
+
+@overload
+def normals(
+    positions: Any,
+    indices: Any = ...,
+    *,
+    face_sizes: Any = ...,
+    weighting: str = ...,
+    crease: float = ...,
+    smoothing_groups: Any = ...,
+    smoothing_masks: bool = ...,
+    weld_positions: bool = ...,
+    convention: Optional[ConventionLike] = ...,
+    refine: int = ...,
+    threads: Union[int, str] = ...,
+    out: Optional[numpy.ndarray] = ...,
+    full: Literal[True],
+) -> NormalResult:
+    ...
 
 
 def normals(

@@ -82,11 +82,10 @@ def thread_count(threads: Union[int, str]) -> int:
         return 1
     if threads == "all":
         return _abi.ALL_THREADS
-    if not isinstance(threads, numbers.Integral) or isinstance(threads, bool):
-        raise TypeError(f'threads must be a number or "all", not {threads!r}')
-    if not 1 <= threads < _abi.ALL_THREADS:
+    count = small_number("threads", threads)
+    if not 1 <= count < _abi.ALL_THREADS:
         raise InputError(f'threads is {threads}; it must be 1 or more, or "all"', "invalidOption")
-    return int(threads)
+    return count
 
 
 def execution(threads: Union[int, str]) -> _abi.Execution:
@@ -106,6 +105,7 @@ def small_number(option: str, value: Any) -> int:
     """A whole number that a uint32 holds; the library says which it takes."""
     if not isinstance(value, numbers.Integral) or isinstance(value, bool):
         raise TypeError(f"{option} must be a whole number, not {value!r}")
-    if not 0 <= value < 2**32:
+    number = int(value)
+    if not 0 <= number < 2**32:
         raise InputError(f"{option} is {value}, which is out of range", "invalidOption")
-    return int(value)
+    return number

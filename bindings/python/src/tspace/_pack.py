@@ -3,7 +3,7 @@
 
 import ctypes
 from ctypes import byref
-from typing import Any, NamedTuple, Tuple, Union
+from typing import Any, Literal, NamedTuple, Tuple, Union, overload
 
 import numpy
 
@@ -21,6 +21,16 @@ class PackResult(NamedTuple):
 
     frames: numpy.ndarray  #: (frames, bytes) uint8
     report: PackReport
+
+
+@overload
+def pack_frames(normals: Any, tangents: Any, format: str = ..., *, full: Literal[False] = ...) -> numpy.ndarray:
+    ...
+
+
+@overload
+def pack_frames(normals: Any, tangents: Any, format: str = ..., *, full: Literal[True]) -> PackResult:
+    ...
 
 
 def pack_frames(

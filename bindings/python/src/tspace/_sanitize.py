@@ -3,7 +3,7 @@
 
 import ctypes
 from ctypes import byref
-from typing import Any, NamedTuple, Optional, Union
+from typing import Any, Literal, NamedTuple, Optional, Union, overload
 
 import numpy
 
@@ -22,6 +22,40 @@ class SanitizeResult(NamedTuple):
 
     tangents: numpy.ndarray  #: (corners, 4) float32
     report: SanitizeReport
+
+
+@overload
+def sanitize(
+    tangents: Any,
+    positions: Any,
+    normals: Any,
+    indices: Any = ...,
+    *,
+    face_sizes: Any = ...,
+    normal_indices: Any = ...,
+    orthogonalize_all: bool = ...,
+    threads: Union[int, str] = ...,
+    out: Optional[numpy.ndarray] = ...,
+    full: Literal[False] = ...,
+) -> numpy.ndarray:
+    ...
+
+
+@overload
+def sanitize(
+    tangents: Any,
+    positions: Any,
+    normals: Any,
+    indices: Any = ...,
+    *,
+    face_sizes: Any = ...,
+    normal_indices: Any = ...,
+    orthogonalize_all: bool = ...,
+    threads: Union[int, str] = ...,
+    out: Optional[numpy.ndarray] = ...,
+    full: Literal[True],
+) -> SanitizeResult:
+    ...
 
 
 def sanitize(

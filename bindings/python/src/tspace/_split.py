@@ -23,7 +23,7 @@ def corner_attributes(
     if isinstance(attributes, (numpy.ndarray, str, bytes)) or not isinstance(attributes, Iterable):
         raise TypeError(f"{name} must be a list of arrays: [tangents], not tangents")
     tolerance = real("tolerance", tolerance)
-    arrays = []
+    arrays: List[numpy.ndarray] = []
     for attribute in attributes:
         place = f"{name}[{len(arrays)}]"
         array = numpy.asarray(attribute)

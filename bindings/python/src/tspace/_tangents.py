@@ -5,7 +5,7 @@ import ctypes
 import functools
 import weakref
 from ctypes import byref
-from typing import Any, NamedTuple, Optional, Tuple, Union
+from typing import Any, Literal, NamedTuple, Optional, Tuple, Union, overload
 
 import numpy
 
@@ -93,6 +93,61 @@ def _new_report() -> _abi.TangentReport:
     return _abi.TangentReport(ctypes.sizeof(_abi.TangentReport))
 
 
+def _full(arrays: Tuple[numpy.ndarray, ...], counts: _abi.TangentReport) -> TangentResult:
+    tangents, bitangents, magnitudes_s, magnitudes_t = arrays
+    return TangentResult(tangents, bitangents, magnitudes_s, magnitudes_t, report(TangentReport, counts))
+
+
+@overload
+def tangents(
+    positions: Any,
+    normals: Any,
+    uvs: Any,
+    indices: Any = ...,
+    *,
+    face_sizes: Any = ...,
+    normal_indices: Any = ...,
+    uv_indices: Any = ...,
+    method: str = ...,
+    convention: ConventionLike,
+    threshold: float = ...,
+    pairing: str = ...,
+    ngons: str = ...,
+    domain: str = ...,
+    frame: str = ...,
+    refine: int = ...,
+    threads: Union[int, str] = ...,
+    out: Optional[numpy.ndarray] = ...,
+    full: Literal[False] = ...,
+) -> numpy.ndarray:
+    ...
+
+
+@overload
+def tangents(
+    positions: Any,
+    normals: Any,
+    uvs: Any,
+    indices: Any = ...,
+    *,
+    face_sizes: Any = ...,
+    normal_indices: Any = ...,
+    uv_indices: Any = ...,
+    method: str = ...,
+    convention: ConventionLike,
+    threshold: float = ...,
+    pairing: str = ...,
+    ngons: str = ...,
+    domain: str = ...,
+    frame: str = ...,
+    refine: int = ...,
+    threads: Union[int, str] = ...,
+    out: Optional[numpy.ndarray] = ...,
+    full: Literal[True],
+) -> TangentResult:
+    ...
+
+
 def tangents(
     positions: Any,
     normals: Any,
@@ -157,7 +212,7 @@ def tangents(
     counts = _new_report()
     if _library.tspace_generateTangents(byref(mesh.struct), byref(options), byref(output), byref(counts), byref(error)):
         mesh.fail(error)
-    return TangentResult(*arrays, report(TangentReport, counts))
+    return _full(arrays, counts)
 
 
 class Plan:
@@ -205,6 +260,30 @@ class Plan:
         self._info = info
         self._normal_count = mesh.struct.normals.count
 
+    @overload
+    def evaluate(
+        self,
+        positions: Any,
+        normals: Any,
+        *,
+        threads: Union[int, str] = ...,
+        out: Optional[numpy.ndarray] = ...,
+        full: Literal[False] = ...,
+    ) -> numpy.ndarray:
+        ...
+
+    @overload
+    def evaluate(
+        self,
+        positions: Any,
+        normals: Any,
+        *,
+        threads: Union[int, str] = ...,
+        out: Optional[numpy.ndarray] = ...,
+        full: Literal[True],
+    ) -> TangentResult:
+        ...
+
     def evaluate(
         self,
         positions: Any,
@@ -244,7 +323,7 @@ class Plan:
             byref(error),
         ):
             raise_error(error)
-        return TangentResult(*arrays, report(TangentReport, met)) if full else arrays[0]
+        return arrays[0] if met is None else _full(arrays, met)
 
     @property
     def method(self) -> str:
