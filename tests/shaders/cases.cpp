@@ -172,12 +172,26 @@ void expectMoved(Item& item, const DFrame& f, const Matrix& m) {
     item.expect(n, t, dot(m * b, cross(n, t)) < 0 ? -1 : 1);
 }
 
+/// Flat to float rounding, which alone decides the sign of such a determinant.
+Matrix someFlatMatrix(RandomBits& random) {
+    const DVec3 a = vectorIn(random, 1.5), b = vectorIn(random, 1.5);
+    const double x = random.number(), y = random.number();
+    return {{a, b, rounded(x * a + y * b)}};
+}
+
 void transformItem(RandomBits& random, Item& item) {
-    const DFrame f = frameOf(random);
-    const Matrix m = someMatrix(random);
-    addFrame(item, f);
-    addMatrix(item, m);
-    expectMoved(item, f, m);
+    for (;;) {
+        const DFrame f = frameOf(random);
+        const bool is_flat = random.next() % 8 == 0;
+        const Matrix m = is_flat ? someFlatMatrix(random) : someMatrix(random);
+        const DVec3 across = cross(m * f.tangent, m * cross(f.normal, f.tangent));
+        if (is_flat && (length(across) < 0.3 || length(m * f.tangent) < 0.3)) continue;
+        addFrame(item, f);
+        addMatrix(item, m);
+        if (!is_flat) return expectMoved(item, f, m);
+        // N goes to the side of the plane to which the surface turns, as if the plane had a little thickness.
+        return item.expect(unitOf(across), unitOf(m * f.tangent), f.sign);
+    }
 }
 
 void skinItem(RandomBits& random, Item& item) {
