@@ -19,7 +19,8 @@ reveal_type(tspace.normals(a, full=True).report.face_count)
 reveal_type(tspace.Plan(a, a, a, convention="gltf").evaluate(a, a))
 reveal_type(tspace.make_indexed_frames(a, None, a, convention="gltf").source_vertex)
 reveal_type(tspace.check("a.glb").findings[0].code)
-reveal_type(tspace.generate_bytes(b"").data)
+reveal_type(tspace.generate_bytes(b"").report.json)
+open("a.glb", "wb").write(tspace.generate_bytes(b""))
 tspace.tangents(a, a, a)
 tspace.tangents(a, a, a, convention="gltf", colour=1)
 """
@@ -30,7 +31,7 @@ REVEALED = [
     "numpy.ndarray[Any, Any]",
     "numpy.ndarray[Any, Any]",
     "builtins.str",
-    "builtins.bytes",
+    "builtins.dict[builtins.str, Any]",
 ]
 
 

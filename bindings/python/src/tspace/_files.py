@@ -7,7 +7,7 @@ import os
 import re
 from ctypes import byref
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Tuple, Union
+from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Tuple, Union
 
 import numpy
 
@@ -80,7 +80,7 @@ class Finding:
 
 
 class CheckReport(Report):
-    """What `check` found. True in an `if` when there is nothing to mend: `if tspace.check(path): ...`."""
+    """What `check` found: `for finding in tspace.check(path): ...`; `len` counts findings, so none is False."""
 
     @property
     def findings(self) -> List[Finding]:
@@ -94,15 +94,34 @@ class CheckReport(Report):
             found.append(Finding(**values))
         return found
 
-    def __bool__(self) -> bool:
-        return not any(finding.severity != "note" for finding in self.findings)
+    def __iter__(self) -> Iterator[Finding]:
+        return iter(self.findings)
+
+    def __len__(self) -> int:
+        return len(self.json["findings"])
 
 
-class Generated(NamedTuple):
-    """A file in memory, and what was done."""
+class IdentifyReport(Report):
+    """What `identify` found."""
 
-    data: bytes  #: a GLB with everything in it
+    @property
+    def method(self) -> Optional[str]:
+        """The name of the method that explains the tangents best; None: there are none to explain."""
+        explanations = self.json["explanations"]
+        return explanations[0]["method"] if explanations else None
+
+
+class Generated(bytes):
+    """A file in memory: bytes, with a report of what was done."""
+
     report: Report
+
+    @classmethod
+    def of(cls, content: bytes, report: Report) -> "Generated":
+        """The bytes of a file with its report."""
+        made = cls(content)
+        made.report = report
+        return made
 
 
 class _Call:
@@ -239,7 +258,9 @@ def generate_file(input: PathLike, output: PathLike, **options: Any) -> Report:
 def generate_bytes(
     data: BytesLike, *, name: Optional[str] = None, find_file: Optional[FindFile] = None, **options: Any
 ) -> Generated:
-    """The same as `generate_file` in memory: bytes of a model in, bytes of a GLB out.
+    """The same as `generate_file` in memory: bytes of a model in, bytes of a GLB out, with everything in it.
+
+    What comes back are bytes that have a `report` of what was done.
 
     data:      bytes of a GLB, glTF or OBJ
     name:      what reports call it; an OBJ is told by its ending: name="chair.obj"
@@ -250,7 +271,7 @@ def generate_bytes(
     call = _Call()
     struct = call.model("data", data, name, find_file)
     output, document = call.run("tspace_generateBytes", byref(struct), options=options, has_output=True)
-    return Generated(output, Report(_of_file(document)))
+    return Generated.of(output, Report(_of_file(document)))
 
 
 def check(
@@ -266,7 +287,7 @@ def check(
     name, find_file: for bytes, as for `generate_bytes`
     options:   those of `tspace check` (docs/check.md), with underscores: fail_on="error", ignore=["tangentsUnused"]
 
-    >>> for finding in tspace.check("chair.glb").findings:
+    >>> for finding in tspace.check("chair.glb"):
     ...     print(finding.severity, finding.code, finding.place, finding.message, finding.remedy)
     """
     return CheckReport(_ask("check", model, name, find_file, options))
@@ -278,16 +299,16 @@ def identify(
     name: Optional[str] = None,
     find_file: Optional[FindFile] = None,
     **options: Any,
-) -> Report:
+) -> IdentifyReport:
     """Says which method and convention made the tangents of a model.
 
     model:     a path, or bytes of a GLB, glTF or OBJ
     name, find_file: for bytes, as for `generate_bytes`
     options:   those of `tspace identify` (docs/identify.md), with underscores
 
-    `verdict` is a sentence or two; `explanations[0].method` the method that fits best.
+    `verdict` is a sentence or two; `method` the method that fits best, `explanations` all of them.
     """
-    return Report(_ask("identify", model, name, find_file, options))
+    return IdentifyReport(_ask("identify", model, name, find_file, options))
 
 
 def inspect(
@@ -352,4 +373,4 @@ def flip_green_bytes(data: BytesLike, **options: Any) -> Generated:
     call = _Call()
     view = call.buffer("data", data)
     output, document = call.run("tspace_flipGreenBytes", view.ctypes.data, view.size, options=options, has_output=True)
-    return Generated(output, Report(document))
+    return Generated.of(output, Report(document))
