@@ -12,11 +12,11 @@ namespace tspace {
 namespace {
 
 /// The bits that any of some numbers has, and those that all of them have.
-struct Bits {
+struct RangeBits {
     std::uint32_t any, all;
     bool are_below;  ///< whether all are below a limit, which is at most 2^31
 };
-Bits bitsOf(const std::uint32_t* numbers, std::size_t count, std::uint32_t limit) {
+RangeBits bitsOf(const std::uint32_t* numbers, std::size_t count, std::uint32_t limit) {
     std::uint32_t any = 0, all = ~std::uint32_t{0}, below = ~std::uint32_t{0};
     for (std::size_t i = 0; i < count; ++i) {
         any |= numbers[i];
@@ -86,7 +86,7 @@ std::uint64_t VertexRanges::markOf(std::size_t block, unsigned shift) const {
     if (count == 0) return 0;
     const std::uint32_t* v = blockVertices(vertices_, block * kBlock, count / 3, buffer);
     askForLines(v, 3 * kBlock * sizeof *v);
-    Bits bits = bitsOf(v, count, limit_);
+    RangeBits bits = bitsOf(v, count, limit_);
     if (!bits.are_below) return 0;
     std::uint64_t mark = 0;
     if (points_ != nullptr && !areTheirOwn(points_, v, count)) {

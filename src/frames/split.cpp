@@ -26,7 +26,7 @@ constexpr std::size_t kCornersPerTask = 1 << 13;
 /// Fewer tasks are done sooner than threads are started.
 constexpr std::size_t kTasksForThreads = 16;
 /// Corners that are compared without a branch before those that differ are listed.
-constexpr std::size_t kBlock = 64;
+constexpr std::size_t kWordBits = 64;
 
 template <class Word>
 Word differingBits(const std::byte* a, const std::byte* b) {
@@ -173,9 +173,9 @@ class Splitter {
         std::uint32_t* const known_firsts = result_.source_corners.data();
         const std::size_t end = std::min((task + 1) * kCornersPerTask, result_.indices.size());
         std::uint32_t first = kNoCorner, last = kNoCorner;
-        for (std::size_t begin = task * kCornersPerTask; begin < end; begin += kBlock) {
-            const std::size_t count = std::min(kBlock, end - begin);
-            std::array<std::uint32_t, kBlock> different;
+        for (std::size_t begin = task * kCornersPerTask; begin < end; begin += kWordBits) {
+            const std::size_t count = std::min(kWordBits, end - begin);
+            std::array<std::uint32_t, kWordBits> different;
             std::size_t different_count = 0;
             for (std::size_t i = 0; i < count; ++i) {
                 const auto corner = static_cast<std::uint32_t>(begin + i);

@@ -156,7 +156,7 @@ inline void gather2(const std::byte* base, std::size_t stride, const std::uint32
     const auto at = [&](std::size_t i) {
         return _mm256_broadcast_sd(reinterpret_cast<const double*>(base + stride * index[3 * i]));
     };
-    const auto join = [](__m256d a, __m256d b, __m256d c, __m256d d) {
+    const auto join = [&](__m256d a, __m256d b, __m256d c, __m256d d) {
         return _mm256_castpd_ps(_mm256_blend_pd(_mm256_blend_pd(a, b, 2), _mm256_blend_pd(c, d, 8), 12));
     };
     const __m256 ab = join(at(0), at(1), at(4), at(5)), cd = join(at(2), at(3), at(6), at(7));

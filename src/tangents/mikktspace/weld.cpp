@@ -69,25 +69,25 @@ bool sameBits(const MeshView& mesh, std::size_t a, std::size_t b) {
 }
 
 /// Four floats or words at once, in the compiler's own vectors: scalar code where the target has none.
-using Floats = float __attribute__((vector_size(16)));
+using Fours = float __attribute__((vector_size(16)));
 using Words = std::uint32_t __attribute__((vector_size(16)));
 using Pairs = std::uint64_t __attribute__((vector_size(16)));
 
 /// Hashes of the vertices [begin, end). Vertices that compare equal have equal hashes: adding +0 turns -0
 /// into +0. Returns whether all of them are finite and not huge; large normals and UVs are taken for huge here.
 bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std::uint32_t* hashes) {
-    const Floats limit = Floats{} + kHugePosition;
+    const Fours limit = Fours{} + kHugePosition;
     const Words no_sign = Words{} + 0x7fffffffu;
     auto finite = limit == limit;
     const StridedSpan<const Vec3> positions = mesh.positions, normals = mesh.normals;
     const StridedSpan<const Vec2> uvs = mesh.uvs;
     for (std::size_t v = begin; v < end; ++v) {
         const Vec3 &p = positions[v], &n = normals[v];
-        const Floats z = {p.z, n.z, 0, 0};
-        const Floats a = std::bit_cast<Floats>(Pairs{pairAt(&p), pairAt(&n)}) + Floats{};
-        const Floats b = std::bit_cast<Floats>(Pairs{std::bit_cast<Pairs>(z)[0], pairAt(&uvs[v])}) + Floats{};
-        finite &= (std::bit_cast<Floats>(std::bit_cast<Words>(a) & no_sign) < limit) &
-                  (std::bit_cast<Floats>(std::bit_cast<Words>(b) & no_sign) < limit);
+        const Fours z = {p.z, n.z, 0, 0};
+        const Fours a = std::bit_cast<Fours>(Pairs{pairAt(&p), pairAt(&n)}) + Fours{};
+        const Fours b = std::bit_cast<Fours>(Pairs{std::bit_cast<Pairs>(z)[0], pairAt(&uvs[v])}) + Fours{};
+        finite &= (std::bit_cast<Fours>(std::bit_cast<Words>(a) & no_sign) < limit) &
+                  (std::bit_cast<Fours>(std::bit_cast<Words>(b) & no_sign) < limit);
         // Turned against each other, so that signs that change together (mirrored shapes) do not cancel.
         const Words turned = std::bit_cast<Words>(b) << 13 | std::bit_cast<Words>(b) >> 19;
         const Pairs both = std::bit_cast<Pairs>(std::bit_cast<Words>(a) ^ turned);
