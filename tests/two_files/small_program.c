@@ -8,7 +8,8 @@
 
 enum { SIDE = 24, VERTICES = SIDE * SIDE, CORNERS = 6 * (SIDE - 1) * (SIDE - 1) };
 
-static float positions[VERTICES][3], normals[VERTICES][3], uvs[VERTICES][2], tangents[CORNERS][4], made_normals[CORNERS][3];
+static float positions[VERTICES][3], normals[VERTICES][3], uvs[VERTICES][2], tangents[CORNERS][4],
+    made_normals[CORNERS][3];
 static uint16_t indices[CORNERS];
 static unsigned char words[4 * CORNERS];
 
@@ -38,9 +39,9 @@ static void makeMesh(tspace_Mesh* mesh) {
     mesh->indices = (tspace_Indices){indices, CORNERS, TSPACE_INDEX_U16};
 }
 
-#define CHECK(call)                                                                     \
-    do {                                                                                \
-        if ((call) != TSPACE_OK) return printf("%s: %s\n", #call, error.message), 1;    \
+#define CHECK(call)                                                                  \
+    do {                                                                             \
+        if ((call) != TSPACE_OK) return printf("%s: %s\n", #call, error.message), 1; \
     } while (0)
 
 int main(void) {
