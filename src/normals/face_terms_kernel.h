@@ -45,9 +45,6 @@ inline Doubles dot(DoubleVectors a, DoubleVectors b) { return a.x * b.x + a.y * 
 inline DoubleVectors cross(DoubleVectors a, DoubleVectors b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline DoubleVectors part(Vectors v, std::size_t which) {
-    return {part(v.x, which), part(v.y, which), part(v.z, which)};
-}
 
 /// Writes normals and gives cotangents, and the bits of those that have a normal. In double: differences of floats are
 /// exact or nearly so, and nothing overflows or vanishes.
