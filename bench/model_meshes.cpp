@@ -10,6 +10,7 @@
 #include "asset/file_error.h"
 #include "asset/gltf/primitive_reader.h"
 #include "asset/obj/obj_reader.h"
+#include "asset/read/load_document.h"
 #include "mesh.h"
 
 namespace tspace::bench {

@@ -104,17 +104,4 @@ struct Scene {
     std::shared_ptr<MemoryBudget> memory = {};    ///< what looking at it may still take
 };
 
-/// Reads a model. `with_images`: also the bytes of images that a TangentUse names; an image that cannot be read is no
-/// error. Fails as generateFile does, also with tooLarge where a small file makes arrays that are far larger than
-/// itself. Throws FileError.
-Scene readScene(const std::string& input, const FileOptions& options, bool with_images);
-
-// One function per format behind readScene.
-namespace gltf {
-Scene readGltfScene(const std::string& input, const FileOptions& options, bool with_images);
-}
-namespace obj {
-Scene readObjScene(const std::string& input, const FileOptions& options, bool with_images);
-}
-
 }  // namespace tspace

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "maps/texture_wrap.h"
+#include "asset/texture_wrap.h"
 
 namespace tspace {
 

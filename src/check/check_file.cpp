@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "asset/file_error.h"
-#include "asset/scene.h"
+#include "asset/read/read_scene.h"
 #include "check/check_images.h"
 #include "check/check_packed.h"
 #include "check/findings.h"

@@ -5,11 +5,11 @@
 #include <set>
 
 #include "check/direction_cones.h"
-#include "check/equal_vertices.h"
 #include "check/findings.h"
 #include "check/primitive_checks.h"
 #include "core/angle.h"
 #include "core/unit.h"
+#include "surface/equal_vertices.h"
 
 namespace tspace {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "check/equal_vertices.h"
 #include "core/angle.h"
 #include "core/basis.h"
 #include "core/unit.h"
+#include "surface/equal_vertices.h"
 
 namespace tspace {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "check/surface.h"
+#include "surface/surface.h"
 
 namespace tspace {
 

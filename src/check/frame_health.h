@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "check/direction_cones.h"
-#include "check/surface.h"
 #include "check/tally.h"
-#include "check/tangent_view.h"
+#include "surface/surface.h"
+#include "surface/tangent_view.h"
 #include "tspace/check.h"
 
 namespace tspace {

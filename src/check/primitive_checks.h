@@ -8,8 +8,8 @@
 #include "asset/scene.h"
 #include "check/frame_health.h"
 #include "check/quad_reading.h"
-#include "check/surface.h"
 #include "check/uv_reading.h"
+#include "surface/surface.h"
 #include "tspace/check.h"
 
 namespace tspace {

@@ -4,10 +4,10 @@
 #include <array>
 #include <bit>
 
-#include "asset/unique_index.h"
-#include "check/equal_vertices.h"
 #include "check/frame_health.h"
 #include "core/angle.h"
+#include "core/unique_index.h"
+#include "surface/equal_vertices.h"
 #include "tspace/tangents.h"
 
 namespace tspace {

@@ -2,11 +2,11 @@
 // Directions against the UVs, and the usual cause: one mean over a seam.
 #include <algorithm>
 
-#include "check/equal_vertices.h"
 #include "check/frame_health.h"
 #include "check/vertex_patches.h"
 #include "core/angle.h"
 #include "core/unit.h"
+#include "surface/equal_vertices.h"
 
 namespace tspace {
 

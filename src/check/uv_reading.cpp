@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "check/uv_reading.h"
 
-#include "generate/uv_matrix.h"
+#include "surface/uv_matrix.h"
 
 namespace tspace {
 

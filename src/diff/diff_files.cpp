@@ -4,6 +4,7 @@
 #include <set>
 
 #include "asset/file_error.h"
+#include "asset/read/read_scene.h"
 #include "core/vec_math.h"
 #include "diff/angle_samples.h"
 #include "diff/pair_primitives.h"

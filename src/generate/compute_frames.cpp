@@ -3,7 +3,6 @@
 #include <numeric>
 #include <utility>
 
-#include "check/uv_votes.h"
 #include "core/border.h"
 #include "core/memory.h"
 #include "generate/local_mesh.h"
@@ -14,6 +13,7 @@
 #include "generate/primitive.h"
 #include "generate/unit_lattice.h"
 #include "quads/choose_faces.h"
+#include "surface/uv_votes.h"
 #include "tspace/frame.h"
 #include "tspace/triangulate.h"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "check/surface.h"
 #include "core/unit.h"
+#include "surface/surface.h"
 
 namespace tspace {
 

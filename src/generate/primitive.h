@@ -9,7 +9,7 @@
 
 #include "generate/mends.h"
 #include "generate/morph_targets.h"
-#include "generate/uv_matrix.h"
+#include "surface/uv_matrix.h"
 #include "tspace/asset.h"
 #include "tspace/span.h"
 #include "tspace/split.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "generate/weld_classes.h"
 
-#include "asset/unique_index.h"
+#include "core/unique_index.h"
 
 namespace tspace {
 

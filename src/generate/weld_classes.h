@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "check/equal_vertices.h"
 #include "generate/local_mesh.h"
+#include "surface/equal_vertices.h"
 
 namespace tspace {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "check/uv_reading.h"
-#include "check/uv_votes.h"
 #include "core/angle.h"
 #include "core/unit.h"
 #include "quads/fit_quads.h"
+#include "surface/uv_votes.h"
 
 namespace tspace {
 

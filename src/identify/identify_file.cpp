@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "asset/file_error.h"
+#include "asset/read/read_scene.h"
 #include "identify/explain.h"
 #include "identify/verdict.h"
 #include "quads/fit_quads.h"

@@ -4,13 +4,13 @@
 
 #include "asset/file_error.h"
 #include "asset/gltf/accessor.h"
-#include "asset/gltf/compression/draco_primitives.h"
-#include "asset/gltf/compression/meshopt_views.h"
-#include "asset/gltf/document.h"
+#include "asset/gltf/draco_primitives.h"
 #include "asset/gltf/material_needs.h"
+#include "asset/gltf/meshopt_views.h"
 #include "asset/gltf/primitive_notes.h"
 #include "asset/gltf/primitive_reader.h"
 #include "asset/gltf/read_packed.h"
+#include "asset/read/load_document.h"
 #include "inspect/inspect.h"
 #include "inspect/uv_map.h"
 

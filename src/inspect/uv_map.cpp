@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "asset/unique_index.h"
+#include "core/unique_index.h"
 
 namespace tspace {
 namespace {

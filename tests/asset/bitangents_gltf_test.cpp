@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "asset/read/load_document.h"
 #include "core/vec_math.h"
 #include "generate_run.h"
 

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "asset/read/load_document.h"
 #include "gltf_builder.h"
 #include "model_compare.h"
 #include "support/temp_folder.h"

@@ -2,10 +2,10 @@
 // GLB chunks and the JSON in them: what is accepted, and that every defect has its own message.
 #include <gtest/gtest.h>
 
-#include "asset/gltf/compression/draco_primitives.h"
-#include "asset/gltf/compression/meshopt_views.h"
+#include "asset/gltf/draco_primitives.h"
 #include "asset/gltf/glb.h"
 #include "asset/gltf/json.h"
+#include "asset/gltf/meshopt_views.h"
 #include "gltf_builder.h"
 
 namespace tspace::gltf {

@@ -9,8 +9,9 @@
 #include <functional>
 
 #include "asset/gltf/accessor.h"
-#include "asset/gltf/compression/draco_primitives.h"
+#include "asset/gltf/draco_primitives.h"
 #include "asset/gltf/primitive_reader.h"
+#include "asset/read/load_document.h"
 #include "compressed_model.h"
 #include "gltf_builder.h"
 #include "model_files.h"

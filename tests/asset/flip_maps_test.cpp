@@ -7,6 +7,7 @@
 
 #include "asset/gltf/read_scene.h"
 #include "asset/gltf_builder.h"
+#include "asset/read/load_document.h"
 #include "maps/images.h"
 #include "support/temp_folder.h"
 #include "tspace/asset.h"

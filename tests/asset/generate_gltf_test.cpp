@@ -5,6 +5,7 @@
 
 #include "asset/gltf/accessor.h"
 #include "asset/gltf/primitive_reader.h"
+#include "asset/read/load_document.h"
 #include "generate_run.h"
 
 namespace tspace {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asset/gltf/primitive_reader.h"
+#include "asset/read/load_document.h"
 #include "gltf_builder.h"
 #include "model_compare.h"
 #include "support/temp_folder.h"

@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "asset/gltf/primitive_reader.h"
+#include "asset/read/load_document.h"
 #include "gltf_builder.h"
 #include "model_files.h"
 #include "support/temp_folder.h"

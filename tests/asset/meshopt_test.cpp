@@ -7,8 +7,9 @@
 #include <cmath>
 
 #include "asset/gltf/accessor.h"
-#include "asset/gltf/compression/meshopt_views.h"
+#include "asset/gltf/meshopt_views.h"
 #include "asset/gltf/primitive_reader.h"
+#include "asset/read/load_document.h"
 #include "compressed_model.h"
 #include "gltf_builder.h"
 

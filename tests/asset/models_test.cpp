@@ -3,6 +3,7 @@
 // no byte.
 #include <gtest/gtest.h>
 
+#include "asset/read/load_document.h"
 #include "gltf_builder.h"
 #include "model_compare.h"
 #include "model_files.h"

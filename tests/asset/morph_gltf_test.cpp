@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "asset/gltf/accessor.h"
+#include "asset/read/load_document.h"
 #include "generate_run.h"
 
 namespace tspace {

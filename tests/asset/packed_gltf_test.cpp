@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "asset/gltf/read_packed.h"
+#include "asset/read/load_document.h"
 #include "core/angle.h"
 #include "core/vec_math.h"
 #include "generate_run.h"

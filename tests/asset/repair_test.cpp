@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 
+#include "asset/read/load_document.h"
 #include "core/vec_math.h"
 #include "generate_run.h"
 #include "maps/images.h"

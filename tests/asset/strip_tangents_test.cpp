@@ -2,6 +2,7 @@
 // --strip: tangents that nobody needs go, with their data.
 #include <gtest/gtest.h>
 
+#include "asset/read/load_document.h"
 #include "generate_run.h"
 
 namespace tspace {

@@ -2,6 +2,7 @@
 // Which files a model may name, and decoding of data URIs.
 #include <gtest/gtest.h>
 
+#include "asset/read/load_document.h"
 #include "asset/uri.h"
 #include "gltf_builder.h"
 #include "support/temp_folder.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "generate/uv_matrix.h"
+#include "surface/uv_matrix.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -9,7 +9,7 @@
 
 #include "asset/gltf/primitive_reader.h"
 #include "asset/import/import_document.h"
-#include "asset/scene.h"
+#include "asset/read/read_scene.h"
 #include "support/scene_file.h"
 #include "support/shared_data.h"
 #include "tspace/diff.h"

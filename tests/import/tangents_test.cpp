@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "asset/scene.h"
+#include "asset/read/read_scene.h"
 #include "support/temp_folder.h"
 #include "tool/run_tool.h"
 #include "tspace/asset.h"

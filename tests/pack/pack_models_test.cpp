@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "asset/scene.h"
+#include "asset/read/read_scene.h"
 #include "pack/frame_list.h"
 #include "support/shared_data.h"
 #include "tspace/frame.h"

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "asset/file_error.h"
-#include "asset/gltf/compression/meshopt_views.h"
+#include "asset/gltf/meshopt_views.h"
 #include "tspace/mesh.h"
 
 namespace tspace::gltf {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "asset/gltf/component_type.h"
+#include "asset/gltf/codecs/component_type.h"
 #include "asset/gltf/document.h"
 #include "tspace/vec.h"
 

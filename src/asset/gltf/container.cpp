@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "asset/file_error.h"
-#include "asset/gltf/compression/meshopt_views.h"
+#include "asset/gltf/meshopt_views.h"
 #include "asset/uri.h"
 #include "maps/image.h"
 

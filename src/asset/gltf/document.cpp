@@ -8,9 +8,8 @@
 
 #include "asset/file_error.h"
 #include "asset/gltf/accessor.h"
-#include "asset/gltf/compression/draco_primitives.h"
-#include "asset/gltf/compression/meshopt_views.h"
-#include "asset/import/import_document.h"
+#include "asset/gltf/draco_primitives.h"
+#include "asset/gltf/meshopt_views.h"
 #include "asset/uri.h"
 
 namespace tspace::gltf {
@@ -238,14 +237,6 @@ Document parseDocument(Bytes file_bytes, const Path& path, const FileOptions& op
     decodeMeshoptViews(document);
     decodeDracoPrimitives(document);
     return document;
-}
-
-Document loadDocument(const Path& path, const FileOptions& options, const Execution& execution,
-                      const Progress& progress) {
-    if (options.content.data() != nullptr)
-        return parseDocument(Bytes(options.content.begin(), options.content.end()), path, options);
-    if (isImportedFormat(path)) return importDocument(path, options, progress);
-    return parseDocument(readFile(path, {}, execution), path, options);
 }
 
 std::string formatOf(const Document& document) {

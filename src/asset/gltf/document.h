@@ -12,7 +12,7 @@
 
 #include "asset/file_io.h"
 #include "asset/gltf/buffer_bytes.h"
-#include "asset/gltf/compression/draco.h"
+#include "asset/gltf/codecs/draco.h"
 #include "asset/gltf/glb.h"
 #include "asset/gltf/json.h"
 #include "asset/memory_budget.h"
@@ -77,13 +77,9 @@ struct Document {
     std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< what it may still take
 };
 
-/// Reads a .glb or .gltf (told apart by content) and its buffers. Checks asset.version, buffers, buffer views
-/// and accessors (types, ranges), and that no URI of a buffer or image leads out of the folder. Images are
-/// not read. `progress` is called while the importer reads a file of another format.
-Document loadDocument(const Path& path, const FileOptions& options, const Execution& execution = {.thread_count = 1},
-                      const Progress& progress = {});
-
-/// The same from bytes in memory; `path` says where relative URIs start.
+/// Reads a .glb or .gltf (told apart by content) from its bytes, and its buffers. Checks asset.version, buffers, buffer views
+/// and accessors (types, ranges), and that no URI of a buffer or image leads out of the folder, which is that of `path`.
+/// Images are not read.
 Document parseDocument(Bytes file_bytes, const Path& path, const FileOptions& options);
 
 /// Fails with unsupportedFile when a required extension hides the geometry and this build cannot decode it. Adds one

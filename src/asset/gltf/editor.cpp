@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "asset/gltf/compression/draco_primitives.h"
+#include "asset/gltf/draco_primitives.h"
 #include "asset/gltf/gather_elements.h"
 #include "asset/gltf/idle_buffers.h"
 #include "asset/uri.h"

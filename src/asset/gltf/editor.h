@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "asset/gltf/accessor.h"
-#include "asset/gltf/compression/meshopt_views.h"
 #include "asset/gltf/document.h"
+#include "asset/gltf/meshopt_views.h"
 #include "asset/gltf/references.h"
 
 namespace tspace::gltf {

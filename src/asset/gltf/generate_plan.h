@@ -10,7 +10,7 @@
 #include "asset/gltf/document.h"
 #include "asset/gltf/primitive_reader.h"
 #include "generate/mends.h"
-#include "generate/uv_matrix.h"
+#include "surface/uv_matrix.h"
 #include "tspace/asset.h"
 
 namespace tspace::gltf {

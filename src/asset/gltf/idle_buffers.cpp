@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "asset/gltf/compression/meshopt_views.h"
+#include "asset/gltf/meshopt_views.h"
 
 namespace tspace::gltf {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "asset/file_io.h"
-#include "asset/gltf/component_type.h"
+#include "asset/gltf/codecs/component_type.h"
 #include "tspace/pack.h"
 
 namespace tspace::gltf {

@@ -8,7 +8,7 @@
 
 #include "asset/gltf/document.h"
 #include "asset/tangent_use.h"
-#include "generate/uv_matrix.h"
+#include "surface/uv_matrix.h"
 #include "tspace/asset.h"
 
 namespace tspace::gltf {

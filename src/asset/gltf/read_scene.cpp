@@ -208,12 +208,4 @@ Scene sceneOf(const Document& document, std::span<const Primitive> primitives) {
     return scene;
 }
 
-Scene readGltfScene(const std::string& input, const FileOptions& options, bool with_images) {
-    Document document = loadDocument(input, options);
-    checkRequiredExtensions(document);
-    Scene scene = sceneOf(document, readPrimitives(document));
-    if (with_images) readImages(document, scene);
-    return scene;
-}
-
 }  // namespace tspace::gltf

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "asset/file_error.h"
-#include "asset/gltf/compression/meshopt_views.h"
+#include "asset/gltf/meshopt_views.h"
 
 namespace tspace::gltf {
 

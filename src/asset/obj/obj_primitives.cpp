@@ -6,7 +6,7 @@
 #include <array>
 #include <bit>
 
-#include "asset/unique_index.h"
+#include "core/unique_index.h"
 
 namespace tspace::obj {
 namespace {

@@ -96,9 +96,4 @@ Scene sceneOf(const Model& model, std::span<const ObjPrimitive> primitives, bool
     return scene;
 }
 
-Scene readObjScene(const std::string& input, const FileOptions& options, bool with_images) {
-    const Model model = readModel(input, options);
-    return sceneOf(model, collectPrimitives(model), with_images);
-}
-
 }  // namespace tspace::obj

@@ -7,6 +7,7 @@
 
 #include "asset/gltf/primitive_reader.h"
 #include "asset/obj/obj_lines.h"
+#include "asset/read/load_document.h"
 #include "support/shared_data.h"
 #include "support/temp_folder.h"
 #include "tspace/asset.h"

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <map>
 
-#include "asset/gltf/compression/draco_primitives.h"
+#include "asset/gltf/draco_primitives.h"
 #include "asset/gltf/extension_lists.h"
 #include "asset/gltf/gather_elements.h"
 #include "asset/gltf/primitive_reader.h"

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "asset/file_error.h"
-#include "asset/gltf/compression/draco_primitives.h"
 #include "asset/gltf/compression/pack_draco.h"
+#include "asset/gltf/draco_primitives.h"
 #include "asset/gltf/editor.h"
 #include "asset/gltf/extension_lists.h"
 #include "asset/gltf/gather_elements.h"

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "asset/gltf/accessor.h"
-#include "asset/gltf/compression/meshopt.h"
+#include "asset/gltf/codecs/meshopt.h"
 #include "asset/gltf/document.h"
 
 namespace tspace::gltf {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Calls of Draco. Its decoders are given limits, because their counts come from the file.
-#include "asset/gltf/compression/draco.h"
+#include "asset/gltf/codecs/draco.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The glTF pipeline: load, plan, compute pool by pool, put the frames in, write.
-#include "asset/gltf/generate_gltf.h"
+#include "generate_file/generate_gltf.h"
+#include "asset/read/load_document.h"
 
 #include <algorithm>
 
@@ -9,13 +10,13 @@
 #include "asset/gltf/compression/recompress.h"
 #include "asset/gltf/compute_pools.h"
 #include "asset/gltf/container.h"
-#include "asset/gltf/flip_maps.h"
 #include "asset/gltf/generate_plan.h"
 #include "asset/gltf/read_packed.h"
-#include "asset/gltf/repair_plan.h"
 #include "asset/gltf/strip_tangents.h"
 #include "asset/gltf/write_packed.h"
 #include "core/parallel.h"
+#include "generate_file/flip_maps.h"
+#include "generate_file/repair_plan.h"
 
 namespace tspace::gltf {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Meshopt extensions of buffer views: JSON, limits, decoding, encoding.
-#include "asset/gltf/compression/meshopt_views.h"
+#include "asset/gltf/meshopt_views.h"
 
 #include <array>
 #include <cstring>

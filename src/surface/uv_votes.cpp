@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "check/uv_votes.h"
+#include "surface/uv_votes.h"
 
-#include "check/surface.h"
+#include "surface/surface.h"
 
 namespace tspace {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "asset/file_io.h"
-#include "asset/gltf/component_type.h"
+#include "asset/gltf/codecs/component_type.h"
 
 namespace tspace::gltf {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From a texture transform to the matrix that its frames need.
-#include "generate/uv_matrix.h"
+#include "surface/uv_matrix.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Draco extensions of primitives: JSON, limits, decoding, encoding.
-#include "asset/gltf/compression/draco_primitives.h"
+#include "asset/gltf/draco_primitives.h"
 
 #include <algorithm>
 #include <cstring>

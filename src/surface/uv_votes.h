@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "check/tangent_view.h"
+#include "surface/tangent_view.h"
 
 namespace tspace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Based on: Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001 (dP/du of a triangle).
-#include "check/surface.h"
+#include "surface/surface.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "check/equal_vertices.h"
+#include "surface/equal_vertices.h"
 
 #include <array>
 
-#include "asset/unique_index.h"
+#include "core/unique_index.h"
 
 namespace tspace {
 

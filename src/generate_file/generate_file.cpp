@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // generateFile: finds out what the input is and hands it to its reader.
 #include "asset/file_io.h"
-#include "asset/gltf/generate_gltf.h"
-#include "asset/obj/obj.h"
+#include "generate_file/generate_gltf.h"
+#include "generate_file/generate_obj.h"
 #include "tspace/asset.h"
 
 namespace tspace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // By what `check` says of green and of signs.
-#include "generate/judge_maps.h"
+#include "check/judge_maps.h"
 
 #include <algorithm>
 

@@ -5,14 +5,14 @@
 #include "asset/atomic_output.h"
 #include "asset/file_error.h"
 #include "asset/gltf/packed_words.h"
-#include "asset/obj/obj.h"
 #include "asset/obj/obj_primitives.h"
 #include "asset/obj/obj_reader.h"
 #include "asset/obj/obj_writer.h"
 #include "asset/obj/read_scene.h"
-#include "generate/judge_maps.h"
+#include "check/judge_maps.h"
 #include "generate/local_mesh.h"
 #include "generate/unit_lattice.h"
+#include "generate_file/generate_obj.h"
 #include "tspace/triangulate.h"
 
 namespace tspace {

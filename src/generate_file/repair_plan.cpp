@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From the verdict of `check` to what is mended.
-#include "asset/gltf/repair_plan.h"
+#include "generate_file/repair_plan.h"
 
 #include <algorithm>
 #include <map>

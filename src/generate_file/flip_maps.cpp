@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From normal maps to images, and back to the textures that read them.
-#include "asset/gltf/flip_maps.h"
+#include "generate_file/flip_maps.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 #include "asset/gltf/read_scene.h"
 #include "asset/uri.h"
-#include "generate/judge_maps.h"
+#include "check/judge_maps.h"
 #include "maps/image.h"
 
 namespace tspace::gltf {

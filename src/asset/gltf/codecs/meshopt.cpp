@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Calls of meshoptimizer behind checks of everything that it takes for granted.
-#include "asset/gltf/compression/meshopt.h"
+#include "asset/gltf/codecs/meshopt.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Chooses the reader by the name of the file.
+#include "asset/read/read_scene.h"
+
+#include "asset/file_io.h"
+#include "asset/gltf/primitive_reader.h"
+#include "asset/gltf/read_scene.h"
+#include "asset/obj/obj_reader.h"
+#include "asset/obj/read_scene.h"
+#include "asset/read/load_document.h"
+
+namespace tspace {
+
+Scene readScene(const std::string& input, const FileOptions& options, bool with_images) {
+    // An OBJ file has no magic word, so only its name tells it.
+    if (lowerExtension(input) == ".obj") {
+        const obj::Model model = obj::readModel(input, options);
+        return obj::sceneOf(model, obj::collectPrimitives(model), with_images);
+    }
+    gltf::Document document = gltf::loadDocument(input, options);
+    gltf::checkRequiredExtensions(document);
+    Scene scene = gltf::sceneOf(document, gltf::readPrimitives(document));
+    if (with_images) gltf::readImages(document, scene);
+    return scene;
+}
+
+}  // namespace tspace
