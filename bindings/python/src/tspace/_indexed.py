@@ -40,8 +40,8 @@ class IndexedFrames(NamedTuple):
 
 def make_indexed_frames(
     positions: Any,
-    normals: Any,
-    uvs: Any,
+    normals: Any = None,
+    uvs: Any = None,
     indices: Any = None,
     *,
     face_sizes: Any = None,
