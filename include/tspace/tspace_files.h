@@ -49,7 +49,7 @@ typedef struct tspace_Model {
     uint32_t reserved;   /* 0 */
     const uint8_t* data; /* GLB, glTF, or OBJ; read during the call only */
     size_t size;
-    const char* name;          /* what reports call it, "helmet.glb"; OBJ is told by its ending. Null: "model" */
+    const char* name;          /* what reports call it, "helmet.glb"; OBJ is told by its ending. Null or "": "model" */
     tspace_FindFile find_file; /* null: a model that needs other files is INVALID_FILE */
     void* user;                /* for find_file */
 } tspace_Model;

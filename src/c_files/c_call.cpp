@@ -57,7 +57,9 @@ void readOptions(const options::OptionList& list, const char* text, options::Giv
     if (!wrong.empty()) failFile(ErrorCode::invalidOption, wrong);
 }
 
-std::string nameOf(const tspace_Model& model) { return model.name == nullptr ? "model" : model.name; }
+std::string nameOf(const tspace_Model& model) {
+    return model.name == nullptr || *model.name == '\0' ? "model" : model.name;
+}
 
 void openModel(const tspace_Model* model, FileOptions& options) {
     if (const Error error = c_api::checkNeeded(model, "tspace_Model"); error.code != ErrorCode::ok)

@@ -22,6 +22,12 @@ void giveReport(const std::string& json, tspace_Bytes* to) {
     if (to != nullptr) GrowingBytes(json).giveTo(to);
 }
 
+/// "a.b/helmet.gltf" without ".gltf".
+std::string withoutEnding(const std::string& name) {
+    const std::size_t dot = name.rfind('.'), slash = name.rfind('/');
+    return dot == std::string::npos || (slash != std::string::npos && dot < slash) ? name : name.substr(0, dot);
+}
+
 void readGenerateOptions(const char* text, GenerateOptions& options) {
     options::Given given;
     const options::OptionList list = options::generateOptions(options);
@@ -117,7 +123,7 @@ tspace_ErrorCode tspace_generateBytes(const tspace_Model* model, const char* opt
             return true;
         };
         const std::string name = nameOf(*model);
-        generate(name, name.substr(0, name.rfind('.')) + ".glb", chosen, report);
+        generate(name, withoutEnding(name) + ".glb", chosen, report);
         bytes.giveTo(output);
     });
 }

@@ -228,6 +228,18 @@ TEST(CFilesInMemory, PathsAreDecodedAndHaveSlashes) {
     EXPECT_NE(output.text().find("IHDR"), std::string::npos) << "the image goes into the GLB";
 }
 
+TEST(CFilesInMemory, AnOutputIsCalledLikeItsModel) {
+    for (const auto& [name, output] : {std::pair("a.b/c", "a.b/c.glb"), std::pair("c.gltf", "c.glb"),
+                                       std::pair("c", "c.glb"), std::pair("", "model.glb")}) {
+        MemoryModel model(name, triangleModel("b.bin"));
+        model.files = {{"b.bin", triangleBytes()}};
+        const tspace_Model view = model.view();
+        Made bytes, report;
+        ASSERT_EQ(tspace_generateBytes(&view, nullptr, &bytes.bytes, &report.bytes, nullptr), TSPACE_OK);
+        EXPECT_EQ(Json::parse(report.text()).at("files")[0].at("output").text(), output);
+    }
+}
+
 TEST(CFilesInMemory, ABufferThatIsNotGivenIsAnErrorWithItsPlace) {
     MemoryModel model("a.gltf", triangleModel("b.bin"));
     tspace_Error error;
