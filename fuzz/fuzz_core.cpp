@@ -7,6 +7,7 @@
 #include <cstring>
 #include <vector>
 
+#include "tspace/indexed_frames.h"
 #include "tspace/normals.h"
 #include "tspace/sanitize.h"
 #include "tspace/split.h"
@@ -78,6 +79,24 @@ struct Input {
     }
 };
 
+/// An index list for each attribute over the same faces: normals and UVs of other vertices.
+struct Lists {
+    std::vector<std::uint8_t> normals = {};
+    std::vector<std::uint16_t> uvs = {};
+
+    Lists(const Input& input, Reader& in) {
+        for (std::size_t c = 0; c < input.indices.size(); ++c) {
+            normals.push_back(static_cast<std::uint8_t>(in.byte() % input.normals.size()));
+            uvs.push_back(static_cast<std::uint16_t>(in.byte() % input.uvs.size()));
+        }
+    }
+    [[nodiscard]] MeshView in(MeshView mesh) const {
+        mesh.normal_indices = std::span<const std::uint8_t>(normals);
+        mesh.uv_indices = std::span<const std::uint16_t>(uvs);
+        return mesh;
+    }
+};
+
 /// All outputs of one call. A NaN equals any NaN: which one a sum of two gives is the processor's choice.
 struct Outputs {
     std::vector<Vec4> tangents;
@@ -133,6 +152,18 @@ void checkTangents(const MeshView& mesh, TangentOptions options) {
             "results can be split");
 }
 
+void checkIndexedFrames(const MeshView& mesh, const TangentOptions& tangents, const NormalOptions& normals,
+                        bool make_normals) {
+    const Result<IndexedFrames> frames =
+        makeIndexedFrames(mesh, {.tangents = tangents, .normals = normals, .make_normals = make_normals});
+    if (!frames) return require(!frames.error().message.empty(), "an error has a message");
+    require(frames->indices.size() == mesh.cornerCount(), "every corner has a vertex");
+    for (const std::uint32_t vertex : frames->indices)
+        require(vertex < frames->vertexCount(), "no index is out of range");
+    for (const std::uint32_t vertex : frames->source_vertex)
+        require(vertex < mesh.vertexCount(), "every vertex has a source");
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -152,5 +183,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<Vec3> result(mesh.cornerCount());
     (void)generateNormals(mesh, normals, std::span(result));
     (void)triangulate(mesh);
+    checkIndexedFrames(mesh, options, normals, size % 2 != 0);
+    const Lists lists(input, in);
+    checkTangents(lists.in(mesh), options);
+    checkIndexedFrames(lists.in(mesh), options, normals, size % 2 != 0);
     return 0;
 }

@@ -18,7 +18,7 @@ namespace tspace {
 struct OneListMesh {
     std::vector<std::uint32_t> indices = {};
     std::vector<std::uint32_t> source_vertices = {};  ///< one per vertex here: the given mesh's
-    std::vector<std::uint32_t> source_normals = {};   ///< which of its normals; empty: it has none
+    std::vector<std::uint32_t> source_normals = {};   ///< which of its normals, or kNoCorner where no corner says so
     std::vector<Vec3> positions = {};
     std::vector<Vec3> normals = {};  ///< zero where no corner uses the vertex
     std::vector<Vec2> uvs = {};

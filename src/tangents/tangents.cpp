@@ -138,7 +138,8 @@ Error checkPose(const Pose& pose, std::size_t vertex_count, std::size_t normal_c
 Buffer<Vec3> gather(const StridedSpan<const Vec3>& values, const std::vector<std::uint32_t>& sources,
                     const Allocator* allocator) {
     Buffer<Vec3> gathered(allocator, sources.size());
-    for (std::size_t i = 0; i < sources.size(); ++i) gathered[i] = values[sources[i]];
+    for (std::size_t i = 0; i < sources.size(); ++i)
+        gathered[i] = sources[i] == kNoCorner ? Vec3{} : values[sources[i]];
     return gathered;
 }
 

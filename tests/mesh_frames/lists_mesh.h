@@ -32,6 +32,7 @@ struct ListsMesh {
         const std::uint32_t vertex_count = face_count / 2 + 5, uv_count = face_count / 2 + 9;
         for (std::uint32_t v = 0; v < vertex_count; ++v)
             positions.push_back({value(random), value(random), value(random)});
+        positions.push_back({7, 7, 7});  // no corner names it
         for (int n = 0; n < 7; ++n) normals.push_back({value(random), value(random), 1.5f});
         for (std::uint32_t u = 0; u < uv_count; ++u) uvs.push_back({value(random), value(random)});
         for (std::uint32_t f = 0; f < face_count; ++f) {
