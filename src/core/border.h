@@ -12,7 +12,8 @@ namespace tspace {
 
 class Parallel;
 
-/// An error with a message as printf makes it. In one place: strings that are put together take 2 KB of code each.
+/// An error with a message as printf makes it, of %s, %u and %zu. In one place: strings that are put together take 2 KB of
+/// code each.
 [[gnu::format(printf, 3, 4)]] Error makeError(ErrorCode code, std::uint64_t element, const char* format, ...);
 
 /// What the exception means that is being handled.
@@ -21,15 +22,21 @@ Error caughtError();
 /// Runs `body`, which returns a Result, and turns running out of memory (and any defect of our own) into an Error.
 template <class Body>
 auto atBorder(Body&& body) -> std::invoke_result_t<Body> {
+#ifdef __cpp_exceptions
     try {
         return body();
     } catch (...) {
         return caughtError();
     }
+#else
+    return body();
+#endif
 }
 
-/// Checks pointer, stride, alignment and length of one span. `name` is how messages call it. With
-/// `count` == kNoElement any length is right. Returns an Error with code ok when all is well.
+/// For checkSpan: any length is right.
+inline constexpr std::size_t kAnyCount = ~std::size_t{0};
+
+/// Checks pointer, stride, alignment and length of one span. `name` is how messages call it. Returns an Error with code ok when all is well.
 Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, std::size_t element_bytes,
                 std::size_t expected_count, const char* name);
 

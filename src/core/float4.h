@@ -13,6 +13,8 @@
 #include <emmintrin.h>
 #elif defined(__aarch64__) && defined(__ARM_NEON)
 #include <arm_neon.h>
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
 #endif
 
 #include "tspace/vec.h"
@@ -39,6 +41,8 @@ inline unsigned laneBits(Mask4 mask) {
 #elif defined(__aarch64__) && defined(__ARM_NEON)
     constexpr Mask4 kBits = {1, 2, 4, 8};
     return vaddvq_u32(std::bit_cast<uint32x4_t>((mask >> 31) & kBits));
+#elif defined(__wasm_simd128__)
+    return static_cast<unsigned>(wasm_i32x4_bitmask(std::bit_cast<v128_t>(mask)));
 #else
     unsigned bits = 0;
     for (unsigned i = 0; i < 4; ++i) bits |= mask[i] < 0 ? 1u << i : 0;

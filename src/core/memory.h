@@ -21,10 +21,18 @@ namespace tspace {
 
 struct OutOfMemory {};
 
+/// Throws OutOfMemory. Where exceptions are compiled out it calls a function of the program, which must end the call.
+[[noreturn]] void throwOutOfMemory();
+
 inline constexpr std::size_t kMemoryAlignment = 64;  // a cache line, and the widest SIMD register
 
 inline constexpr std::size_t kHugePage = std::size_t{2} << 20;
-inline std::size_t defaultAlignment(std::size_t bytes) { return bytes < kHugePage ? kMemoryAlignment : kHugePage; }
+inline std::size_t defaultAlignment([[maybe_unused]] std::size_t bytes) {
+#ifdef __linux__
+    if (bytes >= kHugePage) return kHugePage;
+#endif
+    return kMemoryAlignment;
+}
 
 /// A hint only.
 inline void askForHugePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
@@ -47,16 +55,16 @@ inline void askForPages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 
 /// Never inlined, as releaseBytes: each use would take some hundred bytes of a program.
 [[gnu::noinline]] inline void* allocateArray(const Allocator* allocator, std::size_t count, std::size_t element_bytes) {
-    if (count > std::numeric_limits<std::size_t>::max() / element_bytes) throw OutOfMemory{};
+    if (count > std::numeric_limits<std::size_t>::max() / element_bytes) throwOutOfMemory();
     const std::size_t bytes = count * element_bytes;
     if (bytes == 0) return nullptr;
     if (allocator != nullptr) {
         void* memory = allocator->allocate(allocator->user, bytes, kMemoryAlignment);
-        if (memory == nullptr) throw OutOfMemory{};
+        if (memory == nullptr) throwOutOfMemory();
         return memory;
     }
     void* memory = ::operator new(bytes, std::align_val_t(defaultAlignment(bytes)), std::nothrow);
-    if (memory == nullptr) throw OutOfMemory{};
+    if (memory == nullptr) throwOutOfMemory();
     askForPages(memory, bytes);
     return memory;
 }

@@ -79,14 +79,15 @@ bool allBelow(const IndexView& indices, std::uint32_t limit, Parallel* parallel)
 bool allBelow(const IndexView& indices, std::size_t vertex_count, Parallel* parallel) {
     const auto limit = static_cast<std::uint32_t>(std::min<std::size_t>(vertex_count, 0x80000000u));
     switch (indices.type) {
+#ifndef TSPACE_SMALL
         case IndexType::u8:
             return allBelow<std::uint8_t>(indices, limit, parallel);
         case IndexType::u16:
             return allBelow<std::uint16_t>(indices, limit, parallel);
+#endif
         case IndexType::u32:
             return allBelow<std::uint32_t>(indices, limit, parallel);
-        case IndexType::none:
-        case IndexType::corners:
+        default:
             break;
     }
     return true;
@@ -114,7 +115,7 @@ Error checkIndexSpan(const IndexView& indices, const char* name) {
     if (bytes != 1 && bytes != 2 && bytes != 4) {  // IndexType::corners is for attributes only
         return makeError(ErrorCode::invalidOption, kNoElement, "unknown index type %zu", bytes);
     }
-    return checkSpan(indices.data, indices.count, bytes, bytes, kNoElement, name);
+    return checkSpan(indices.data, indices.count, bytes, bytes, kAnyCount, name);
 }
 
 /// One attribute: one entry per vertex, or any number with indices of its own.
@@ -126,7 +127,7 @@ Error checkAttribute(const StridedSpan<const T>& span, const IndexView& indices,
     }
     if (indices.type == IndexType::corners) return span.empty() ? fine() : checkSpan(span, corner_count, name);
     if (span.count > kMaxCorners) return makeError(ErrorCode::tooLarge, kNoElement, "more than 2^31-1 %s", name);
-    if (Error e = checkSpan(span, kNoElement, name); e.code != ErrorCode::ok) return e;
+    if (Error e = checkSpan(span, kAnyCount, name); e.code != ErrorCode::ok) return e;
     if (Error e = checkIndexSpan(indices, indices_name); e.code != ErrorCode::ok) return e;
     if (indices.count != corner_count) {
         return makeError(ErrorCode::countMismatch, kNoElement,
@@ -144,7 +145,7 @@ Error check(const MeshView& mesh, const CheckTheIndices& checkTheIndices) {
         return {ErrorCode::tooLarge, "more than 2^31-1 vertices or corners"};
     }
     const std::size_t vertices = mesh.positions.count;
-    if (Error e = checkSpan(mesh.positions, kNoElement, "positions"); e.code != ErrorCode::ok) return e;
+    if (Error e = checkSpan(mesh.positions, kAnyCount, "positions"); e.code != ErrorCode::ok) return e;
     if (Error e = checkTheIndices(mesh.indices); e.code != ErrorCode::ok) return e;
     const std::size_t corners = mesh.cornerCount();
     if (Error e = checkAttribute(mesh.normals, mesh.normal_indices, vertices, corners, "normals", "normal_indices");
@@ -160,7 +161,7 @@ Error check(const MeshView& mesh, const CheckTheIndices& checkTheIndices) {
 
 Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, std::size_t element_bytes,
                 std::size_t expected_count, const char* name) {
-    if (expected_count != kNoElement && count != expected_count) {
+    if (expected_count != kAnyCount && count != expected_count) {
         return makeError(ErrorCode::countMismatch, kNoElement, "%s has %zu entries, %zu are needed", name, count,
                          expected_count);
     }

@@ -23,13 +23,23 @@ class Parallel {
     /// `corners`: how large the work is, in corners of usual cost (about 20 ns); those of a method that takes n times as
     /// long count n times. A thread that has less than its share of them costs more than it brings, and is not started.
     /// An executor's threads are there already: work of any size is cut for them.
+    ///
+    /// With TSPACE_SERIAL there are no threads at all, and loops are compiled for one: a third less code.
+#ifdef TSPACE_SERIAL
+    explicit Parallel(const Execution&, std::uint64_t = 0) {}
+#else
     explicit Parallel(const Execution& execution, std::uint64_t corners = ~std::uint64_t{0});
     ~Parallel();
+#endif
     Parallel(const Parallel&) = delete;
     Parallel& operator=(const Parallel&) = delete;
 
     /// How many tasks can run at the same time; 1 means serial.
+#ifdef TSPACE_SERIAL
+    [[nodiscard]] static constexpr unsigned width() { return 1; }
+#else
     [[nodiscard]] unsigned width() const { return width_; }
+#endif
 
     /// body(begin, end) over disjoint ranges that cover [0, count). Ranges hold at least `grain` items (but for the
     /// last), so that small loops stay on the calling thread. The body must not throw.
@@ -37,13 +47,16 @@ class Parallel {
     void forRanges(std::size_t count, std::size_t grain, Body&& body) {
         if (count == 0) return;
         const std::size_t most = std::max<std::size_t>(1, count / std::max<std::size_t>(1, grain));
-        const std::size_t tasks = width_ == 1 ? 1 : std::min<std::size_t>(most, std::size_t{width_} * 8);
+        const std::size_t tasks = width() == 1 ? 1 : std::min<std::size_t>(most, std::size_t{width()} * 8);
         forTasks(tasks, [&](std::size_t task) { body(count * task / tasks, count * (task + 1) / tasks); });
     }
 
     /// body(task) once for each task in [0, count). The body must not throw.
     template <class Body>
     void forTasks(std::size_t count, Body&& body) {
+#ifdef TSPACE_SERIAL
+        for (std::size_t task = 0; task < count; ++task) body(task);
+#else
         if (count <= 1 || width_ == 1) {
             for (std::size_t task = 0; task < count; ++task) body(task);
             return;
@@ -52,8 +65,10 @@ class Parallel {
         run(
             count, [](void* context, std::size_t task) { (*static_cast<Type*>(context))(task); },
             const_cast<void*>(static_cast<const void*>(&body)));
+#endif
     }
 
+#ifndef TSPACE_SERIAL
   private:
     class Pool;
     void run(std::size_t count, void (*task)(void*, std::size_t), void* context);
@@ -61,6 +76,7 @@ class Parallel {
     unsigned width_ = 1;
     const Executor* executor_ = nullptr;
     Pool* pool_ = nullptr;
+#endif
 };
 
 }  // namespace tspace

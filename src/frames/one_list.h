@@ -29,6 +29,15 @@ struct OneListMesh {
     OneListMesh& operator=(const OneListMesh&) = delete;
 };
 
+/// Whether normals or UVs have an index list of their own; never with TSPACE_MIKKTSPACE_ONLY, whose caller refuses it.
+inline bool hasOwnLists([[maybe_unused]] const MeshView& mesh) {
+#ifdef TSPACE_MIKKTSPACE_ONLY
+    return false;
+#else
+    return mesh.hasOwnLists();
+#endif
+}
+
 /// Splits the vertices where the attributes' own lists tell corners apart, and where any of `further` does. The vertices
 /// of the mesh keep their places. `welded`: the vertices of a mesh without indices, of which some are one; then normals
 /// and UVs without a list tell corners apart as well. The mesh is a valid one. Errors: outOfMemory, and those of

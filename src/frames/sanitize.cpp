@@ -504,7 +504,7 @@ Error check(const MeshView& mesh, const StridedSpan<Vec4>& tangents) {
 Result<SanitizeReport> sanitizeTangents(const MeshView& mesh, StridedSpan<Vec4> tangents,
                                         const SanitizeOptions& options) {
     return atBorder([&]() -> Result<SanitizeReport> {
-        if (mesh.hasOwnLists()) {
+        if (hasOwnLists(mesh)) {
             return withOneList(mesh, options.execution, [&](const MeshView& with_one_list) {
                 return sanitizeTangents(with_one_list, tangents, options);
             });

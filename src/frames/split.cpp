@@ -7,7 +7,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <numeric>
 #include <utility>
@@ -115,12 +114,14 @@ class Splitter {
 
     SplitResult split(const IndexView& indices) {
         withIndices(indices, [&](auto vertexOf) {
+#ifndef TSPACE_SMALL
             using Tangents = ExactAttributes<4>;
             using Normals = ExactAttributes<3>;
             using Both = ExactAttributes<3, 4>;
             if (Tangents::fits(attributes_)) return splitAll(vertexOf, Tangents(attributes_));
             if (Normals::fits(attributes_)) return splitAll(vertexOf, Normals(attributes_));
             if (Both::fits(attributes_)) return splitAll(vertexOf, Both(attributes_));
+#endif
             splitAll(vertexOf, AnyAttributes(attributes_));
         });
         writeSources(indices);
@@ -233,10 +234,9 @@ Error checkAttributes(std::span<const CornerAttribute> attributes, std::size_t c
             return makeError(ErrorCode::invalidOption, i,
                              "attribute %zu has a tolerance that is negative or not finite", i);
         }
-        char name[32];
-        std::snprintf(name, sizeof name, "attribute %zu", i);
+        const Error name = makeError(ErrorCode::ok, i, "attribute %zu", i);
         Error e = checkSpan(attribute.data, corner_count, attribute.stride_bytes,
-                            attribute.component_count * sizeof(float), kNoElement, name);
+                            attribute.component_count * sizeof(float), kAnyCount, name.message.c_str());
         if (e.code != ErrorCode::ok) return e;
     }
     return {ErrorCode::ok, {}};

@@ -9,6 +9,7 @@
 
 #include "core/angle.h"
 #include "core/float4.h"
+#include "core/sort.h"
 
 namespace tspace {
 
@@ -224,8 +225,8 @@ class PointComponents {
     }
 
     static void sortLinks(Link* begin, Link* end) {
-        std::sort(begin, end,
-                  [](const Link& a, const Link& b) { return a.key != b.key ? a.key < b.key : a.slot < b.slot; });
+        sortList(begin, end,
+                 [](const Link& a, const Link& b) { return a.key != b.key ? a.key < b.key : a.slot < b.slot; });
     }
 
     void joinByGroup() {
@@ -322,7 +323,7 @@ class PointComponents {
         const std::uint32_t there = at_.next(run->slot) == run->key ? faces_.next(here) : faces_.previous(here);
         const Turn turn(toDouble(mesh_.positions[mesh_.indices[there]]) -
                         toDouble(mesh_.positions[mesh_.indices[here]]));
-        std::sort(run, past, [&](const Link& a, const Link& b) {
+        sortList(run, past, [&](const Link& a, const Link& b) {
             const std::uint32_t group_a = rule_.groups_are_masks ? 0 : group(a.slot);
             const std::uint32_t group_b = rule_.groups_are_masks ? 0 : group(b.slot);
             if (group_a != group_b) return group_a < group_b;

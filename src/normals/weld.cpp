@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/repeated_hashes.h"
+#include "core/sort.h"
 #include "tspace/vec.h"
 
 namespace tspace {
@@ -115,7 +116,7 @@ class WeldTable {
 void weldBySorting(StridedSpan<const Vec3> positions, const Allocator* allocator, std::uint32_t* lowest) {
     Buffer<std::uint32_t> order(allocator, positions.count);
     for (std::size_t v = 0; v < positions.count; ++v) order[v] = static_cast<std::uint32_t>(v);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    sortList(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
         const auto relation = keyOf(positions[a]) <=> keyOf(positions[b]);
         return relation != 0 ? relation < 0 : a < b;
     });

@@ -23,6 +23,9 @@
     }                              \
     namespace neon {               \
     __VA_ARGS__;                   \
+    }                              \
+    namespace wasm {               \
+    __VA_ARGS__;                   \
     }
 
 /// Those functions that this build has, for simd::choose.
@@ -32,6 +35,9 @@
 #elif defined(TSPACE_SIMD_ARM64)
 #define TSPACE_KERNEL_TABLE(function) \
     { scalar::function, neon::function }
+#elif defined(TSPACE_SIMD_WASM)
+#define TSPACE_KERNEL_TABLE(function) \
+    { wasm::function }
 #else
 #define TSPACE_KERNEL_TABLE(function) \
     { scalar::function }
@@ -46,6 +52,7 @@ SimdTarget resolve(SimdTarget wish);
 /// The function that runs for a wish.
 template <class Function, std::size_t kTargets>
 Function* choose(SimdTarget wish, Function* const (&table)[kTargets]) {
+    if constexpr (kTargets == 1) return table[0];
     const SimdTarget target = resolve(wish);
     return target == SimdTarget::neon ? table[kTargets - 1] : table[static_cast<std::size_t>(target) - 1];
 }

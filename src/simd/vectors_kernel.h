@@ -19,6 +19,13 @@ inline Vectors cross(Vectors a, Vectors b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// Whether nothing may be read behind an array. With TSPACE_SMALL arrays are copies, with room behind them.
+#ifdef TSPACE_SMALL
+inline constexpr bool kEndsMatter = false;
+#else
+inline constexpr bool kEndsMatter = true;
+#endif
+
 /// Rarely asked for, and long: so it is no part of the loops.
 [[gnu::noinline]] inline Vectors gatherExactly(const std::byte* base, std::size_t stride, const std::uint32_t* index) {
     Vectors v;
@@ -29,7 +36,7 @@ inline Vectors cross(Vectors a, Vectors b) {
 /// `exact`: no byte after a vector may be read.
 [[gnu::always_inline]] inline Vectors gatherVectors(const std::byte* base, std::size_t stride,
                                                     const std::uint32_t* index, bool exact) {
-    if (exact) [[unlikely]]
+    if (kEndsMatter && exact) [[unlikely]]
         return gatherExactly(base, stride, index);
     Vectors v;
     if (stride == 12) {  // addresses need no multiplication
@@ -42,6 +49,7 @@ inline Vectors cross(Vectors a, Vectors b) {
 
 /// Whether any vertex is the last one, which has nothing after it to be read along.
 inline bool namesLast(const std::uint32_t* vertices, std::uint32_t last) {
+    if (!kEndsMatter) return false;
     std::uint32_t named = 0;
     for (std::size_t i = 0; i < 3 * kWidth; ++i) named |= vertices[i] == last ? 1u : 0u;
     return named != 0;

@@ -12,6 +12,7 @@
 #include "frames/one_list.h"
 #include "tangents/estimators/group_estimates.h"
 #include "tangents/indexed_plan.h"
+#include "tangents/method_kind.h"
 #include "tangents/mikktspace/evaluation_plan.h"
 #include "tangents/symmetric_frame.h"
 
@@ -52,13 +53,8 @@ struct TangentPlan::State {
 
 namespace {
 
-bool isGrouped(Method method) {
-    return method == Method::mikktspace || method == Method::uniform || method == Method::angle ||
-           method == Method::area || method == Method::fast || method == Method::best;
-}
-
 Error checkOptions(const TangentOptions& options) {
-    if (options.method > Method::best) {
+    if (options.method > kLastMethod) {
         return makeError(ErrorCode::invalidOption, kNoElement, "unknown method %u",
                          static_cast<unsigned>(options.method));
     }
@@ -87,7 +83,7 @@ Error checkOptions(const TangentOptions& options) {
 /// For Parallel: estimators take several times as long as sums.
 std::uint64_t work(Method method, std::uint64_t corners) {
     constexpr std::uint64_t kSlow = 4;
-    return (estimators::isEstimated(method) ? kSlow : 1) * corners;
+    return (isEstimated(method) ? kSlow : 1) * corners;
 }
 
 Error checkInput(const MeshView& mesh, const TangentOptions& options, Parallel& parallel) {
@@ -172,7 +168,7 @@ std::size_t TangentPlan::memoryBytes() const {
 
 Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out) {
     return atBorder([&]() -> Result<TangentReport> {
-        if (mesh.hasOwnLists()) {
+        if (hasOwnLists(mesh)) {
             if (Error e = checkDomain(options); e.code != ErrorCode::ok) return e;
             return withOneList(mesh, options.execution, [&](const MeshView& with_one_list) {
                 return generateTangents(with_one_list, options, out);
@@ -235,7 +231,7 @@ Result<std::unique_ptr<TangentPlan::State>> planLists(const MeshView& mesh, cons
 Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& options) {
     return atBorder([&]() -> Result<TangentPlan> {
         Result<std::unique_ptr<TangentPlan::State>> state =
-            mesh.hasOwnLists() ? planLists(mesh, options) : makePlan(mesh, options);
+            hasOwnLists(mesh) ? planLists(mesh, options) : makePlan(mesh, options);
         if (!state) return std::move(state).error();
         return TangentPlan((*state).release());
     });

@@ -11,8 +11,6 @@
 
 namespace tspace::estimators {
 
-inline bool isEstimated(Method method) { return method == Method::fast || method == Method::best; }
-
 /// Where results of `count` groups go: for group g three floats at tangents + g * tangent_stride; with `rest` the bitangent and the
 /// length of dP/du at rest + g * rest_stride, and the length of dP/dv at lengths_t + g * length_stride. What no
 /// triangle gives is 0.

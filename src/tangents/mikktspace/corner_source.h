@@ -8,6 +8,9 @@
 namespace tspace::mikk {
 
 inline bool wantsTangentsOnly(const TangentOutput& out) {
+#ifdef TSPACE_MIKKTSPACE_ONLY
+    return true;
+#endif
     return out.bitangents.empty() && out.magnitudes_s.empty() && out.magnitudes_t.empty();
 }
 

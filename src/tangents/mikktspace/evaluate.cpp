@@ -10,6 +10,7 @@
 #include <atomic>
 
 #include "tangents/estimators/group_estimates.h"
+#include "tangents/method_kind.h"
 #include "tangents/mikktspace/corner_source.h"
 #include "tangents/mikktspace/group_sums.h"
 #include "tangents/mikktspace/results.h"
@@ -166,7 +167,7 @@ class Evaluation {
         if (plan_.vertex_count == 0) return report;
         if (estimates != nullptr) {
             sums_ = std::move(*estimates);
-        } else if (estimators::isEstimated(plan_.method)) {
+        } else if (isEstimated(plan_.method)) {
             estimate();
         } else {
             sums_ = sumGroups(plan_, source_, terms_, allocator_, parallel_);
@@ -198,7 +199,7 @@ class Evaluation {
     /// Turns sums into results, in place.
     void finishGroups() {
         std::atomic<bool> zero{false}, not_finite{false}, unequal{false};
-        const bool replaces = plan_.method != Method::mikktspace;
+        const bool replaces = !isMikktspace(plan_.method);
         if (replaces) replaced_ = Buffer<std::uint8_t>(allocator_, plan_.group_count, std::uint8_t{0});
         parallel_.forRanges(plan_.group_count, kGroupGrain, [&](std::size_t begin, std::size_t end) {
             bool any_zero = false, all_finite = true, any_unequal = false;
@@ -225,7 +226,7 @@ class Evaluation {
     }
 
     [[nodiscard]] Tangents meanOf(std::size_t g) const {
-        if (estimators::isEstimated(plan_.method)) return resultOf(g);
+        if (isEstimated(plan_.method)) return resultOf(g);
         const float* s = sums_.groups[g].s;
         Tangents r;
         r.s = unit(Vec3{s[0], s[1], s[2]});

@@ -9,6 +9,7 @@
 #include "core/face_walk.h"
 #include "core/polygon.h"
 #include "core/typed_indices.h"
+#include "tangents/method_kind.h"
 #include "tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
@@ -70,7 +71,7 @@ class Cutter {
             const bool along13 = cutsAlong13(corner);
             add(face, corner, 0, 1, along13 ? 3 : 2);
             add(face, corner, along13 ? 1 : 0, 2, 3);
-        } else {
+        } else if constexpr (kCutsNgons) {
             faces_.cut(corner, size, list_.corners.data() + 3 * written_);
             std::fill_n(list_.faces.data() + written_, size - 2, static_cast<std::uint32_t>(face));
             written_ += size - 2;

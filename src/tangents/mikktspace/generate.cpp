@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/scratch_block.h"
+#include "tangents/method_kind.h"
 #include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/faces.h"
 #include "tangents/mikktspace/last_bucket.h"
@@ -31,7 +32,7 @@ std::span<std::byte> unwritten(const TangentOutput& out) {
 /// Where it is asked for. What is not finite has no order there.
 LastBucket lastBucketOf(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
                         const Nodes& nodes, const Allocator* transient, Parallel& parallel) {
-    if (options.method != Method::mikktspace || options.pairing != Pairing::reference || !nodes.all_finite) return {};
+    if (!isMikktspace(options.method) || options.pairing != Pairing::reference || !nodes.all_finite) return {};
     return findLastBucket(mesh, triangles, nodes, transient, options.execution.allocator, parallel);
 }
 
@@ -50,6 +51,10 @@ TangentReport generateWith(const MeshView& mesh, const TangentOptions& options, 
 
 TangentReport generateGrouped(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
                               Parallel& parallel) {
+    if constexpr (!kHasOnePass) {
+        const EvaluationPlan plan = planGrouped(mesh, options, parallel);
+        return evaluateGroups(plan, {mesh.positions, mesh.normals}, mesh.uvs, out, options.execution, parallel);
+    }
     const std::size_t corners = mesh.cornerCount();
     if (corners > kSmallMesh) return generateWith(mesh, options, out, parallel);
     ScratchBlock scratch(options.execution.allocator, std::min(kLeastBlock + corners * kBytesPerCorner, kLargestBlock));

@@ -18,10 +18,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
 
+#include "core/sort.h"
 #include "core/vec_math.h"
 #include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/grid_order.h"
@@ -122,7 +124,7 @@ struct BucketEdge {
 
 /// By half-edges; those of each higher end together where `by_ends`.
 [[gnu::cold]] void sortEdges(BucketEdge* begin, BucketEdge* end, bool by_ends) {
-    std::sort(begin, end, [=](const BucketEdge& a, const BucketEdge& b) {
+    sortList(begin, end, [=](const BucketEdge& a, const BucketEdge& b) {
         return by_ends && a.high != b.high ? a.high < b.high : a.half_edge < b.half_edge;
     });
 }
@@ -407,7 +409,7 @@ class BucketFinder {
         }
         if (half_edges.empty()) return;
         nodes.push(low_node_);
-        std::sort(nodes.begin(), nodes.end());
+        sortList(nodes.begin(), nodes.end(), std::less<>());
         result.half_edges = half_edges.exact();
         result.partners = partners.exact();
         result.nodes = nodes.exact();

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/float4.h"
+#include "tangents/method_kind.h"
 #include "tangents/mikktspace/groups.h"
 #include "tangents/mikktspace/results.h"
 
@@ -23,7 +24,7 @@ struct NodeSetting {
     TangentOutput out;
 
     [[nodiscard]] bool hasPolygons() const { return !triangles.faces.empty(); }
-    [[nodiscard]] bool maySplit() const { return options.method == Method::mikktspace; }
+    [[nodiscard]] bool maySplit() const { return isMikktspace(options.method); }
 };
 
 class NodeResults {

@@ -12,6 +12,7 @@
 #include "core/float4.h"
 #include "core/streamed_rows.h"
 #include "core/typed_indices.h"
+#include "tangents/method_kind.h"
 #include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/corner_source.h"
 #include "tangents/mikktspace/group_sums.h"
@@ -47,7 +48,7 @@ class OnePass {
           transient_(transient),
           parallel_(parallel),
           allocator_(options_.execution.allocator),
-          estimates_(estimators::isEstimated(options_.method)),
+          estimates_(isEstimated(options_.method)),
           sign_factor_(signFactor(options_.convention) * normalFactor(options_.convention)) {}
 
     TangentReport run() {
@@ -309,7 +310,7 @@ class OnePass {
     }
 
     bool finishNode(std::size_t n) {
-        const bool empty = sums_.isEmpty(n), splits = options_.method == Method::mikktspace;
+        const bool empty = sums_.isEmpty(n), splits = isMikktspace(options_.method);
         if (!empty && !sums_.isOneGroup(n, mesh_.normals[nodes_.vertex(n)], splits)) return false;
         if (estimates_) return true;
         const Vec3 s = empty ? Vec3{1, 0, 0} : unit(tangentOf(n));

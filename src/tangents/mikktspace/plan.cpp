@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 
+#include "core/sort.h"
 #include "tangents/mikktspace/splits.h"
 
 namespace tspace::mikk {
@@ -203,7 +205,7 @@ class Planner {
         repeats_.drop(repeats_.size());
         for (std::uint32_t i = 0; i < groups.corners.size(); ++i)
             repeats_.push({groups.corners[i].slot, groups.count == 0 ? kNone : groups.of(i), i});
-        std::sort(repeats_.begin(), repeats_.end());
+        sortList(repeats_.begin(), repeats_.end(), std::less<>());
         const Repeat *r = repeats_.begin(), *all_end = repeats_.end();
         while (r != all_end) {
             const Repeat* end = std::find_if(r, all_end, [&](const Repeat& other) { return other.slot != r->slot; });

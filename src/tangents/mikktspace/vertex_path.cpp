@@ -4,6 +4,7 @@
 #include <atomic>
 #include <utility>
 
+#include "tangents/method_kind.h"
 #include "tangents/mikktspace/corner_source.h"
 #include "tangents/mikktspace/plan.h"
 #include "tangents/mikktspace/splits.h"
@@ -48,7 +49,7 @@ void planCopies(const Growing<Copy>& copies, Marks& is_default, const Allocator*
 }
 
 float cosineOf(const TangentOptions& options) {
-    return options.method == Method::mikktspace ? thresholdCosine(options.angular_threshold_deg) : -1.0f;
+    return isMikktspace(options.method) ? thresholdCosine(options.angular_threshold_deg) : -1.0f;
 }
 
 Marks cornerMarks(const VertexPath& path, const VertexCorners& corners) {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What methods have in common. With TSPACE_MIKKTSPACE_ONLY there is one method, and nothing is compiled that others need.
+#pragma once
+
+#include "tspace/tangents.h"
+
+namespace tspace {
+
+#ifdef TSPACE_MIKKTSPACE_ONLY
+
+inline constexpr Method kLastMethod = Method::mikktspace;
+inline constexpr bool kHasOnePass = false;  ///< a plan for each call: half the speed, and half the code
+inline constexpr bool kCutsNgons = false;   ///< Ngons::skip only
+constexpr bool isMikktspace(Method) { return true; }
+constexpr bool isEstimated(Method) { return false; }
+constexpr bool isGrouped(Method) { return true; }
+
+#else
+
+inline constexpr Method kLastMethod = Method::best;
+inline constexpr bool kHasOnePass = true;
+inline constexpr bool kCutsNgons = true;
+constexpr bool isMikktspace(Method method) { return method == Method::mikktspace; }
+/// By tangents/estimators, not by sums.
+constexpr bool isEstimated(Method method) { return method == Method::fast || method == Method::best; }
+/// By tangents/mikktspace; the others have one result per vertex or face.
+constexpr bool isGrouped(Method method) {
+    return isMikktspace(method) || isEstimated(method) || method == Method::uniform || method == Method::angle ||
+           method == Method::area;
+}
+
+#endif
+
+}  // namespace tspace
