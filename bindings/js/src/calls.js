@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// The calls that both entries have, for the module that they load.
+import { boolean, choice, count, fail, floats, integers, number, object } from "./check.js";
+import { conventionBits } from "./convention.js";
+
+export const tangentCounts = [
+  "triangleCount", "degenerateTriangleCount", "degenerateUvCount", "mirroredCount", "skippedFaceCount", "groupCount",
+  "defaultCornerCount", "notFiniteCount", "referenceOrderAbandoned",
+];
+export const sanitizeCounts = [
+  "notFiniteCount", "zeroCount", "notUnitCount", "parallelCount", "placeholderCount", "badSignCount", "mixedSignCount",
+  "orthogonalizedCount", "normalizedCount", "fromNeighborCount", "fromBasisCount", "badNormalCount", "mendedCount",
+];
+
+/** The mesh of a call, checked. */
+export function meshOf(mesh, needsNormals = false) {
+  object(mesh, "mesh");
+  const positions = floats(mesh.positions, "positions", 3, true);
+  const indices = integers(mesh.indices, "indices");
+  return {
+    positions,
+    normals: floats(mesh.normals, "normals", 3, needsNormals),
+    uvs: floats(mesh.uvs, "uvs", 2),
+    indices,
+    faceSizes: integers(mesh.faceSizes, "faceSizes"),
+    normalIndices: integers(mesh.normalIndices, "normalIndices"),
+    uvIndices: integers(mesh.uvIndices, "uvIndices"),
+    vertexCount: positions.length / 3,
+    cornerCount: indices ? indices.length : positions.length / 3,
+  };
+}
+
+export function setMesh(call, { positions, normals, uvs, ...lists }) {
+  const { indices, faceSizes, normalIndices, uvIndices } = lists;
+  const arrays = [
+    call.put(positions), positions.length / 3,
+    call.put(normals), (normals?.length ?? 0) / 3,
+    call.put(uvs), (uvs?.length ?? 0) / 2,
+    call.put(indices, Uint32Array), indices?.length ?? 0,
+    call.put(faceSizes, Uint32Array), faceSizes?.length ?? 0,
+    call.put(normalIndices, Uint32Array), normalIndices?.length ?? 0,
+    call.put(uvIndices, Uint32Array), uvIndices?.length ?? 0,
+  ];
+  call.wasm.setMesh(...arrays);
+}
+
+/** What the module takes for options of tangents. */
+export function tangentArguments(options, { methods, ngons }) {
+  object(options, "options");
+  return [
+    choice(options.method ?? "mikktspace", "method", methods),
+    number(options.threshold ?? 180, "threshold"),
+    choice(options.pairing ?? "reference", "pairing", ["reference", "corrected"]),
+    choice(options.ngons ?? ngons[0], "ngons", ngons),
+    conventionBits(options.convention),
+    choice(options.frame ?? "gramSchmidt", "frame", ["gramSchmidt", "symmetric"]),
+    count(options.refine ?? 1, "refine"),
+  ];
+}
+
+/** Fills in options.report, where there is one. */
+export function keepReport(call, options, names) {
+  if (options.report !== undefined) call.report(names, object(options.report, "report"));
+}
+
+/** Runs compute(exports, place), which writes four floats for each output. */
+export function writeTangents(wasm, mesh, outputCount, options, compute) {
+  return wasm.run((call) => {
+    setMesh(call, mesh);
+    const out = call.allocate(outputCount * 16);
+    call.check(compute(call.wasm, out));
+    keepReport(call, options, tangentCounts);
+    return call.get(Float32Array, out, outputCount * 4);
+  });
+}
+
+function attributeOf(attribute, i, cornerCount) {
+  const name = `attribute ${i}`;
+  const { size, tolerance = 0 } = object(attribute, name);
+  count(size, `size of ${name}`);
+  const data = floats(attribute.data, name, Math.max(size, 1), true);
+  if (size * cornerCount !== data.length) {
+    const needed = `${size} for each of the ${cornerCount} corners`;
+    fail("countMismatch", `${name} has ${data.length} numbers, ${size * cornerCount} are needed: ${needed}`, i);
+  }
+  return { data, size, tolerance: number(tolerance, `tolerance of ${name}`) };
+}
+
+/** The module's table of attributes, and after it room for six words. */
+function putAttributes(call, list) {
+  const places = list.map(({ data }) => call.put(data));
+  const table = call.allocate(12 * list.length + 24);
+  const view = new DataView(call.wasm.memory.buffer, table);
+  list.forEach(({ size, tolerance }, i) => {
+    view.setUint32(12 * i, places[i], true);
+    view.setUint32(12 * i + 4, size, true);
+    view.setFloat32(12 * i + 8, tolerance, true);
+  });
+  return table;
+}
+
+export function makeCalls(wasm, choices) {
+  return {
+    generateTangents(mesh, options = {}) {
+      const given = tangentArguments(options, choices);
+      const checked = meshOf(mesh);
+      return writeTangents(wasm, checked, checked.cornerCount, options, (module, out) =>
+        module.generateTangents(...given, out));
+    },
+
+    sanitizeTangents(mesh, tangents, options = {}) {
+      object(options, "options");
+      const all = boolean(options.orthogonalizeAll ?? false, "orthogonalizeAll");
+      const checked = meshOf(mesh, true);
+      floats(tangents, "tangents", 4, true);
+      return wasm.run((call) => {
+        setMesh(call, checked);
+        const place = call.put(tangents);
+        call.check(call.wasm.sanitizeTangents(place, tangents.length / 4, all));
+        keepReport(call, options, sanitizeCounts);
+        return call.get(Float32Array, place, tangents.length);
+      });
+    },
+
+    splitVertices(vertices, attributes) {
+      const { vertexCount } = object(vertices, "vertices");
+      const indices = integers(vertices.indices, "indices");
+      count(vertexCount, "vertexCount");
+      if (!Array.isArray(attributes)) fail("wrongType", "attributes is not an array of { data, size, tolerance }");
+      const cornerCount = indices ? indices.length : vertexCount;
+      const list = attributes.map((attribute, i) => attributeOf(attribute, i, cornerCount));
+      return wasm.run((call) => {
+        const at = call.put(indices, Uint32Array);
+        const table = putAttributes(call, list);
+        const result = table + 12 * list.length;
+        call.check(call.wasm.splitVertices(at, vertexCount, cornerCount, table, list.length, result));
+        const words = call.get(Uint32Array, result, 6);
+        const [newIndices, sourceVertices, sourceCorners] = [0, 2, 4].map((i) =>
+          call.take(Uint32Array, words[i], words[i + 1]));
+        return { indices: newIndices, sourceVertices, sourceCorners };
+      });
+    },
+  };
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// What the sign of a tangent means, as the modules take it: bits.
+import { choice, fail } from "./check.js";
+
+const directx = { vAxis: "down", green: "down", handedness: "left", winding: "clockwise" };
+
+/** Presets by the name of a format or an engine. */
+export const conventions = Object.freeze({
+  gltf: { vAxis: "down" },
+  opengl: { vAxis: "up" },
+  directx,
+  unreal: { ...directx, winding: "counterClockwise" },
+  unity: { vAxis: "up", handedness: "left", winding: "clockwise" },
+  blender: { vAxis: "up" },
+  godot: { vAxis: "down", winding: "clockwise" },
+});
+
+const names = Object.keys(conventions);
+const bit = (value, name, list) => (value === undefined ? 0 : choice(value, `convention.${name}`, list));
+
+/** Bits of a preset's name, or of an object that says each part. */
+export function conventionBits(value) {
+  if (value === undefined || value === null)
+    fail("invalidOption", `convention is missing: say what the tangents are for, "gltf" or one of ${names.slice(1).join(", ")}`);
+  const parts = typeof value === "object" ? value : conventions[names[choice(value, "convention", names)]];
+  return (
+    (choice(parts.vAxis, "convention.vAxis", ["up", "down"]) + 1) |
+    (bit(parts.green, "green", ["up", "down"]) << 2) |
+    (bit(parts.storedSign, "storedSign", ["asIs", "negated"]) << 3) |
+    (bit(parts.handedness, "handedness", ["right", "left"]) << 4) |
+    (bit(parts.winding, "winding", ["counterClockwise", "clockwise"]) << 5)
+  );
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+
+/** Why a call failed: `code` is stable, `message` is for people, `element` is the index of what is wrong, where there is one. */
+export class TspaceError extends Error {
+  constructor(code, message, element) {
+    super(message);
+    this.name = "TspaceError";
+    this.code = code;
+    this.element = element;
+  }
+}
+
+/** Names of the numbers in tspace/result.h. */
+const codes = {
+  1: "nullData", 2: "countMismatch", 3: "indexOutOfRange", 4: "strideTooSmall", 5: "misaligned", 6: "tooLarge",
+  7: "missingAttribute", 8: "invalidOption", 9: "outOfMemory", 10: "planMismatch", 11: "internal", 100: "invalidFile",
+  101: "unsupportedFile", 102: "forbiddenPath", 103: "cannotRead", 104: "cannotWrite",
+};
+
+export const codeName = (number) => codes[number] ?? "internal";

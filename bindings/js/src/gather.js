@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+
+/** The elements of `array`, `size` numbers each, that `sources` names; an array of the same type. */
+export function gather(array, size, sources) {
+  const result = new array.constructor(sources.length * size);
+  for (let i = 0; i < sources.length; ++i)
+    for (let k = 0; k < size; ++k) result[size * i + k] = array[size * sources[i] + k];
+  return result;
+}

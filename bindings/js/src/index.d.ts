@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+import type { Convention, ConventionName, Indices, Mesh, MikktspaceOptions, TangentReport } from "./types.js";
+
+export { conventions, ready, sanitizeTangents, splitVertices, TspaceError } from "./types.js";
+export type * from "./types.js";
+
+export interface TangentOptions extends Omit<MikktspaceOptions, "method"> {
+  /** How tangents are computed; `mikktspace`, bit for bit as the reference, unless given. */
+  method?: "mikktspace" | "lengyel" | "uniform" | "angle" | "area" | "flat" | "basis" | "fast" | "best";
+  /** `symmetric`: T lies between dP/du and the direction across dP/dv. Not for mikktspace and basis. */
+  frame?: "gramSchmidt" | "symmetric";
+  /** 0, 1 (the default) or 2 steps after the fit of `best`. */
+  refine?: 0 | 1 | 2;
+}
+
+/**
+ * Tangents of a mesh.
+ * @returns four numbers per corner: the tangent and its sign, `B = sign * cross(N, T)`
+ */
+export function generateTangents(mesh: Mesh, options: TangentOptions): Float32Array;
+
+export interface NormalReport {
+  faceCount: number;
+  /** Faces without a normal: zero area or not finite. */
+  degenerateFaceCount: number;
+  /** Corners whose mean vanished and that got a substitute. */
+  fallbackCornerCount: number;
+}
+
+export interface NormalOptions {
+  /** How much a face counts at a corner; `angle` unless given. */
+  weighting?: "flat" | "uniform" | "area" | "angle" | "angleArea" | "max" | "best";
+  /** Degrees, 0 to 180, 180 unless given: edges whose faces differ by more are hard. */
+  creaseAngle?: number;
+  /** One number per face: faces are smooth together only when their numbers are equal and not 0. */
+  smoothingGroups?: Indices | null;
+  /** Or, with true, when they have a bit in common. */
+  smoothingGroupsAreMasks?: boolean;
+  /** true (the default): vertices at one position are one point. false: only equal indices are. */
+  weldPositions?: boolean;
+  /** Handedness and winding say which side is out; counter-clockwise from outside, right-handed, unless given. */
+  convention?: ConventionName | Convention;
+  /** 0, 1 (the default) or 2 steps after the fit of `best`. */
+  refine?: 0 | 1 | 2;
+  report?: Partial<NormalReport>;
+}
+
+/** Normals of a mesh, of which positions, indices and face sizes are used: three numbers per corner, unit. */
+export function generateNormals(mesh: Mesh, options?: NormalOptions): Float32Array;
+
+export interface IndexedFramesOptions extends TangentOptions {
+  /** Make normals also where the mesh has them; where it has none they are made anyway. */
+  makeNormals?: boolean;
+  /** How normals are made. */
+  normals?: Omit<NormalOptions, "convention" | "report">;
+  /** Mend tangents that are broken; true unless given. */
+  sanitize?: boolean;
+  /** Also make every sound tangent unit and orthogonal to its normal. */
+  orthogonalizeAll?: boolean;
+}
+
+/** A mesh with the faces of the given one. */
+export interface IndexedFrames {
+  /** The new vertex of each corner. */
+  indices: Uint32Array;
+  /** The entry of `positions` that each new vertex copies. Gather every other attribute and morph target through it. */
+  sourceVertex: Uint32Array;
+  /** The first corner of each new vertex; 4294967295 for one that no corner uses. */
+  sourceCorner: Uint32Array;
+  /** Three numbers per new vertex. */
+  normals: Float32Array;
+  /** Four numbers per new vertex. */
+  tangents: Float32Array;
+  report: TangentReport;
+}
+
+/** The usual case in one call: normals where they are missing, tangents, mended and split into an indexed mesh. */
+export function makeIndexedFrames(mesh: Mesh, options: IndexedFramesOptions): IndexedFrames;
+
+/** What of a mesh stays while it deforms. It lies in the module's memory: destroy it, or leave that to the collector. */
+export class Plan {
+  constructor(mesh: Mesh, options: TangentOptions);
+  readonly vertexCount: number;
+  readonly cornerCount: number;
+  /** Memory that the plan holds. */
+  readonly memoryBytes: number;
+  /** The tangents of a pose, four numbers per corner: those that generateTangents gives for it, with the groups of the plan. */
+  evaluate(pose: { positions: Float32Array; normals: Float32Array }, options?: { report?: Partial<TangentReport> }): Float32Array;
+  destroy(): void;
+}
+
+/** Memory of the module, which grows to what the largest call needs, and plans. */
+export function memoryBytes(): number;

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// The entry "tspace/mikktspace": one method, mending and splitting, in half of the bytes.
+import { makeCalls } from "./calls.js";
+import { fail } from "./check.js";
+import { Wasm } from "./wasm.js";
+
+export { conventions } from "./convention.js";
+export { TspaceError } from "./error.js";
+
+const wasm = new Wasm(new URL("./mikktspace.wasm", import.meta.url));
+export const ready = wasm.ready;
+
+const calls = makeCalls(wasm, { methods: ["mikktspace"], ngons: ["skip"] });
+export const { splitVertices } = calls;
+
+function withoutLists(mesh) {
+  for (const name of ["normalIndices", "uvIndices"])
+    if (mesh?.[name]) fail("invalidOption", `${name}: this entry takes one index list, "tspace" one for each attribute`);
+  return mesh;
+}
+
+export const generateTangents = (mesh, options) => calls.generateTangents(withoutLists(mesh), options);
+export const sanitizeTangents = (mesh, tangents, options) =>
+  calls.sanitizeTangents(withoutLists(mesh), tangents, options);

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+import type { BufferGeometry } from "three";
+import type { IndexedFramesOptions } from "./index.js";
+
+export const ready: Promise<void>;
+
+/**
+ * A new geometry with an index and the attribute `tangent` (and `normal`, where it was missing). Corners keep their order, so
+ * groups and draw ranges stay. The convention is "gltf" for what GLTFLoader gives, "opengl" where textures have flipY.
+ */
+export function computeTangents(geometry: BufferGeometry, options: IndexedFramesOptions): BufferGeometry;

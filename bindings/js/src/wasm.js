@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// A WebAssembly module, its instance, and arrays on the way in and out. The modules have one import, which ends a call that
+// runs out of memory: it throws through the module's frames. What such a call leaves behind is unknown, so the next one
+// gets a new instance.
+import { load } from "#load";
+import { TspaceError, codeName } from "./error.js";
+
+/** A code that the module returned; its text is still there. */
+class Failure {
+  constructor(number) {
+    this.number = number;
+  }
+}
+
+export class Wasm {
+  #module;
+  #instance;
+
+  /** Starts loading. */
+  constructor(url) {
+    this.ready = load(url).then(WebAssembly.compile).then((module) => {
+      this.#module = module;
+    });
+    this.ready.catch(() => {}); // who awaits `ready` hears of it, and who calls without does below
+  }
+
+  get exports() {
+    if (!this.#module) throw new TspaceError("notReady", "tspace is not loaded: `await ready` first");
+    if (!this.#instance) {
+      const endCall = (number) => {
+        throw new TspaceError(codeName(number), number === 9 ? "out of memory" : "internal error of tspace");
+      };
+      this.#instance = new WebAssembly.Instance(this.#module, { env: { endCall } });
+      this.#instance.exports.__wasm_call_ctors();
+    }
+    return this.#instance.exports;
+  }
+
+  /** body(call), and the end of what it allocated. */
+  run(body) {
+    const call = new Call(this.exports);
+    let isClean = false;
+    try {
+      const result = body(call);
+      isClean = true;
+      return result;
+    } catch (error) {
+      isClean = error instanceof Failure;
+      if (isClean) throw call.errorOf(error.number);
+      if (error instanceof WebAssembly.RuntimeError)
+        throw new TspaceError("internal", `internal error of tspace: ${error.message}`);
+      throw error;
+    } finally {
+      if (isClean) call.end();
+      else this.#instance = undefined;
+    }
+  }
+}
+
+const utf8 = new TextDecoder();
+
+/** The arrays of one call in the module's memory. Views are made anew each time, since memory moves when it grows. */
+class Call {
+  #places = [];
+
+  constructor(exports) {
+    this.wasm = exports;
+  }
+
+  allocate(bytes) {
+    const place = bytes > 0xfff00000 ? 0 : this.wasm.allocate(bytes) >>> 0;
+    if (place === 0) throw new TspaceError("outOfMemory", `out of memory: ${bytes} bytes more are needed`);
+    this.#places.push(place);
+    return place;
+  }
+
+  /** Copies a typed array in; 0 for none. Vectors of three are read as four: behind the last one are bytes as well. */
+  put(array, Type = array?.constructor) {
+    if (!array) return 0;
+    const place = this.allocate(array.length * Type.BYTES_PER_ELEMENT + 16);
+    new Type(this.wasm.memory.buffer, place, array.length).set(array);
+    return place;
+  }
+
+  /** A copy of what lies at a place. */
+  get(Type, place, count) {
+    return new Type(this.wasm.memory.buffer, place >>> 0, count).slice();
+  }
+
+  /** The same for an array that the module allocated for its caller. */
+  take(Type, place, count) {
+    this.#places.push(place >>> 0);
+    return this.get(Type, place, count);
+  }
+
+  /** Throws the error of a function that returned one. */
+  check(number) {
+    if (number !== 0) throw new Failure(number);
+  }
+
+  errorOf(number) {
+    const bytes = new Uint8Array(this.wasm.memory.buffer, this.wasm.errorText() >>> 0);
+    const text = utf8.decode(bytes.slice(0, bytes.indexOf(0)));
+    const element = this.wasm.errorElement();
+    return new TspaceError(codeName(number), text, element < 0 ? undefined : element);
+  }
+
+  /** Fills in the last function's report. */
+  report(names, to) {
+    const numbers = new Float64Array(this.wasm.memory.buffer, this.wasm.report() >>> 0, names.length);
+    names.forEach((name, i) => (to[name] = numbers[i]));
+  }
+
+  end() {
+    while (this.#places.length) this.wasm.release(this.#places.pop());
+  }
+}

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// The package bundled by Vite, in headless Chromium: golden meshes, a worker, and a mistake.
+import assert from "node:assert/strict";
+import { createServer } from "node:http";
+import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { extname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { it } from "node:test";
+
+const project = fileURLToPath(new URL("..", import.meta.url));
+const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
+const [vite, playwright] = await Promise.all(["vite", "playwright-core"].map((name) => import(name).catch(() => null)));
+const golden = process.env.TSPACE_GOLDEN;
+const missing =
+  (!chromium && "no Chromium here: scripts/js --all") ||
+  (!(vite && playwright) && "Vite or playwright-core is not installed, or this node is too old for them") ||
+  (!(golden && existsSync(golden)) && "no golden meshes here");
+
+const page = `
+import { generateTangents, ready } from "tspace";
+import * as small from "tspace/mikktspace";
+import { differences, readGolden } from "./golden.mjs";
+await Promise.all([ready, small.ready]);
+const names = await (await fetch("/golden/")).json();
+let compared = 0;
+const wrong = [];
+for (const name of names) {
+  const one = readGolden(await (await fetch("/golden/" + name)).arrayBuffer());
+  if (!one.isPromised) continue;
+  const options = { convention: "opengl", threshold: one.threshold, ngons: "skip" };
+  for (const compute of [generateTangents, small.generateTangents])
+    if (differences(compute(one.mesh, options), one.wanted) !== 0) wrong.push(name);
+  compared += 1;
+}
+let code;
+try { generateTangents({ positions: new Float32Array(9) }, {}); } catch (error) { code = error.code; }
+window.result = { compared, wrong, code };
+`;
+
+it("gives the same bits in Chromium, bundled by Vite", { skip: missing, timeout: 300_000 }, async () => {
+  const folder = mkdtempSync(join(project, "page-"));
+  const home = mkdtempSync(join(tmpdir(), "tspace-home-"));
+  let server, browser;
+  try {
+    writeFileSync(join(folder, "index.html"), '<!doctype html><script type="module" src="./page.mjs"></script>');
+    writeFileSync(join(folder, "page.mjs"), page);
+    writeFileSync(join(folder, "golden.mjs"), readFileSync(new URL("./golden.mjs", import.meta.url)));
+    await vite.build({ root: folder, logLevel: "error", build: { target: "esnext", assetsInlineLimit: 0 } });
+    const types = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm" };
+    server = createServer((request, answer) => {
+      const path = new URL(request.url, "http://here").pathname;
+      try {
+        if (path === "/golden/") return answer.end(JSON.stringify(readdirSync(golden).filter((name) => name.endsWith(".tsg"))));
+        const file = path.startsWith("/golden/") ? join(golden, path.slice(8)) : join(folder, "dist", path === "/" ? "index.html" : path);
+        answer.setHeader("content-type", types[extname(file)] ?? "application/octet-stream");
+        answer.end(readFileSync(file));
+      } catch {
+        answer.writeHead(404).end();
+      }
+    });
+    await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+    browser = await playwright.chromium.launch({ executablePath: chromium, args: ["--no-sandbox", "--disable-gpu"], env: { ...process.env, HOME: home, XDG_RUNTIME_DIR: home } });
+    const tab = await browser.newPage();
+    const messages = [];
+    tab.on("pageerror", (error) => messages.push(String(error)));
+    await tab.goto(`http://127.0.0.1:${server.address().port}/`);
+    await tab.waitForFunction("window.result", undefined, { timeout: 120_000 }).catch((error) => assert.fail([...messages, error].join("\n")));
+    const { compared, wrong, code } = await tab.evaluate("window.result");
+    assert.ok(compared > 300);
+    assert.deepEqual(wrong, []);
+    assert.equal(code, "invalidOption");
+  } finally {
+    await browser?.close();
+    server?.close();
+    for (const gone of [folder, home]) rmSync(gone, { recursive: true, force: true });
+  }
+});

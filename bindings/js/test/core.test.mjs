@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+import assert from "node:assert/strict";
+import { existsSync, readdirSync, readFileSync } from "node:fs";
+import { describe, it } from "node:test";
+import * as small from "tspace/mikktspace";
+import * as whole from "tspace";
+import { differences, readGolden } from "./golden.mjs";
+import { grid } from "./meshes.mjs";
+
+await Promise.all([whole.ready, small.ready]);
+const { generateNormals, generateTangents, Plan, sanitizeTangents, splitVertices } = whole;
+
+const folder = process.env.TSPACE_GOLDEN ?? new URL("../../../shared/golden/mikktspace", import.meta.url).pathname;
+const golden = existsSync(folder)
+  ? readdirSync(folder)
+      .filter((name) => name.endsWith(".tsg"))
+      .map((name) => {
+        const bytes = readFileSync(`${folder}/${name}`);
+        return { name, ...readGolden(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length)) };
+      })
+      .filter((one) => one.isPromised)
+  : [];
+
+describe("the golden meshes of MikkTSpace", { skip: golden.length === 0 && `${folder} is not here` }, () => {
+  const check = (compute) => {
+    assert.ok(golden.length > 300);
+    for (const { name, mesh, threshold, wanted } of golden) {
+      const options = { convention: "opengl", threshold, ngons: "skip" };
+      assert.equal(differences(compute(mesh, options), wanted), 0, name);
+    }
+  };
+  it("get the same bits", () => check(whole.generateTangents));
+  it("get the same bits from the small module", () => check(small.generateTangents));
+  it("get the same bits from plans", () =>
+    check((mesh, options) => {
+      const plan = new Plan(mesh, options);
+      const tangents = plan.evaluate(mesh);
+      plan.destroy();
+      return tangents;
+    }));
+});
+
+describe("calls", () => {
+  const mesh = grid(12);
+
+  it("give four numbers per corner, unit and across the normal", () => {
+    for (const method of ["mikktspace", "lengyel", "uniform", "angle", "area", "flat", "basis", "fast", "best"]) {
+      const tangents = generateTangents(mesh, { method, convention: "gltf" });
+      assert.equal(tangents.length, 4 * mesh.indices.length);
+      for (let c = 0; c < mesh.indices.length; ++c) {
+        const [x, y, z, w] = tangents.subarray(4 * c, 4 * c + 4);
+        const n = mesh.normals.subarray(3 * mesh.indices[c], 3 * mesh.indices[c] + 3);
+        assert.ok(Math.abs(Math.hypot(x, y, z) - 1) < 1e-5 && Math.abs(w) === 1, method);
+        assert.ok(Math.abs(x * n[0] + y * n[1] + z * n[2]) < 1e-5, method);
+      }
+    }
+  });
+
+  it("turn the sign over where v runs the other way", () => {
+    const [a, b] = ["gltf", "opengl"].map((convention) => generateTangents(mesh, { convention }));
+    assert.ok(a.every((x, i) => x === (i % 4 === 3 ? -b[i] : b[i])));
+    assert.deepEqual(generateTangents(mesh, { convention: { vAxis: "down" } }), a);
+  });
+
+  it("take indices of each size, and meshes without", () => {
+    const options = { convention: "gltf" };
+    const wanted = generateTangents(mesh, options);
+    assert.deepEqual(generateTangents({ ...mesh, indices: Uint16Array.from(mesh.indices) }, options), wanted);
+    const unindexed = {};
+    for (const [name, size] of [["positions", 3], ["normals", 3], ["uvs", 2]])
+      unindexed[name] = Float32Array.from([...mesh.indices].flatMap((v) => [...mesh[name].subarray(size * v, size * v + size)]));
+    assert.deepEqual(generateTangents(unindexed, options), wanted);
+  });
+
+  it("cut quads and n-gons", () => {
+    const square = {
+      positions: Float32Array.of(0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0),
+      normals: Float32Array.of(0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1),
+      uvs: Float32Array.of(0, 0, 1, 0, 1, 1, 0, 1),
+      faceSizes: Uint8Array.of(4),
+    };
+    const report = {};
+    const tangents = generateTangents(square, { convention: "opengl", report });
+    assert.deepEqual([...tangents], [1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1]);
+    assert.equal(report.triangleCount, 2);
+    assert.equal(report.groupCount, 4);
+  });
+
+  it("mend what is broken, and nothing else", () => {
+    const sound = generateTangents(mesh, { convention: "gltf" });
+    const broken = sound.slice();
+    broken[0] = NaN;
+    broken[4 * 7 + 3] = 0;
+    const report = {};
+    const mended = sanitizeTangents(mesh, broken, { report });
+    assert.ok(Number.isNaN(broken[0]), "the input stays");
+    assert.ok(mended.every(Number.isFinite));
+    assert.equal(report.mendedCount, 2);
+    assert.equal(report.notFiniteCount, 1);
+    assert.deepEqual(mended.subarray(32), sound.subarray(32));
+    assert.deepEqual(small.sanitizeTangents(mesh, broken), mended);
+  });
+
+  it("split vertices whose corners disagree", () => {
+    const indices = Uint32Array.of(0, 1, 2, 0, 2, 3);
+    const data = Float32Array.of(1, 2, 3, 9, 3, 4);
+    for (const split of [splitVertices, small.splitVertices]) {
+      const { indices: to, sourceVertices, sourceCorners } = split({ indices, vertexCount: 4 }, [{ data, size: 1 }]);
+      assert.deepEqual([...to], [0, 1, 2, 4, 2, 3]);
+      assert.deepEqual([...sourceVertices], [0, 1, 2, 3, 0]);
+      assert.deepEqual([...sourceCorners], [0, 1, 2, 5, 3]);
+      to.forEach((v, c) => assert.equal(data[sourceCorners[v]], data[c]));
+    }
+  });
+
+  it("make normals", () => {
+    const report = {};
+    const normals = generateNormals(mesh, { report });
+    assert.equal(report.faceCount, mesh.indices.length / 3);
+    mesh.indices.forEach((v, c) => {
+      const [n, wanted] = [normals.subarray(3 * c, 3 * c + 3), mesh.normals.subarray(3 * v, 3 * v + 3)];
+      assert.ok(n[0] * wanted[0] + n[1] * wanted[1] + n[2] * wanted[2] > 0.9);
+    });
+    const flat = generateNormals(mesh, { weighting: "flat" });
+    assert.deepEqual(flat, generateNormals(mesh, { creaseAngle: 0 }).map((x, i) => (Math.abs(x - flat[i]) < 1e-5 ? flat[i] : x)));
+  });
+
+  it("evaluate a plan in another pose as a call of its own would", () => {
+    const plan = new Plan(mesh, { convention: "gltf", method: "angle" });
+    const pose = { positions: mesh.positions.map((x) => 2 * x), normals: mesh.normals };
+    assert.deepEqual(plan.evaluate(pose), generateTangents({ ...mesh, ...pose }, { convention: "gltf", method: "angle" }));
+    assert.ok(plan.memoryBytes > 0);
+    plan.destroy();
+    plan.destroy();
+    assert.throws(() => plan.evaluate(pose), { code: "planMismatch" });
+  });
+
+  it("keep their memory from call to call", () => {
+    const options = { convention: "gltf" };
+    const once = () => {
+      const tangents = generateTangents(mesh, options);
+      splitVertices({ indices: mesh.indices, vertexCount: mesh.positions.length / 3 }, [{ data: sanitizeTangents(mesh, tangents), size: 4 }]);
+      generateNormals(mesh, { weighting: "best" });
+      const plan = new Plan(mesh, { ...options, method: "best" });
+      plan.evaluate(mesh);
+      plan.destroy();
+    };
+    once();
+    const bytes = whole.memoryBytes();
+    for (let i = 0; i < 1000; ++i) once();
+    assert.equal(whole.memoryBytes(), bytes);
+  });
+});
+
+describe("indexed frames in one call", () => {
+  const { makeIndexedFrames } = whole;
+  const mesh = grid(8);
+
+  it("give each corner what the single calls give", () => {
+    const frames = makeIndexedFrames(mesh, { convention: "gltf" });
+    const wanted = sanitizeTangents(mesh, generateTangents(mesh, { convention: "gltf" }));
+    assert.equal(frames.indices.length, mesh.indices.length);
+    frames.indices.forEach((v, c) => {
+      assert.deepEqual(frames.tangents.subarray(4 * v, 4 * v + 4), wanted.subarray(4 * c, 4 * c + 4));
+      assert.equal(frames.sourceVertex[v], mesh.indices[c]);
+      assert.deepEqual(frames.normals.subarray(3 * v, 3 * v + 3), mesh.normals.subarray(3 * mesh.indices[c], 3 * mesh.indices[c] + 3));
+    });
+    assert.equal(frames.report.triangleCount, mesh.indices.length / 3);
+    assert.equal(frames.sourceCorner.length, frames.sourceVertex.length);
+  });
+
+  it("make normals where there are none, and take an index list per attribute", () => {
+    const { positions, uvs, indices } = mesh;
+    const frames = makeIndexedFrames({ positions, uvs, indices }, { convention: "gltf", normals: { weighting: "area" } });
+    assert.equal(frames.normals.length, 3 * frames.sourceVertex.length);
+    const lists = { ...mesh, normalIndices: indices, uvIndices: Uint16Array.from(indices) };
+    assert.deepEqual(generateTangents(lists, { convention: "gltf" }), generateTangents(mesh, { convention: "gltf" }));
+    assert.throws(() => makeIndexedFrames(mesh, {}), { code: "invalidOption" });
+  });
+});

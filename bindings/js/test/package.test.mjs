@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// The archive as users get it: installed into an empty project, where the README's lines run; its size and its types.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { describe, it } from "node:test";
+import { gzipSync } from "node:zlib";
+
+const archive = process.env.TSPACE_TGZ;
+const installed = fileURLToPath(new URL("../node_modules/tspace/src/", import.meta.url));
+const project = fileURLToPath(new URL("..", import.meta.url));
+
+function inEmptyProject(body) {
+  const folder = mkdtempSync(join(tmpdir(), "tspace-js-"));
+  try {
+    writeFileSync(join(folder, "package.json"), '{ "private": true, "type": "module" }\n');
+    execFileSync("npm", ["install", "--offline", "--no-audit", "--no-fund", "--omit=peer", "--loglevel=error", archive], { cwd: folder });
+    body(folder);
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+}
+
+describe("the archive", { skip: !archive && "run scripts/js" }, () => {
+  it("installs into an empty project, and the README's lines run", () => {
+    inEmptyProject((folder) => {
+      const readme = readFileSync(join(folder, "node_modules/tspace/README.md"), "utf8");
+      const blocks = [...readme.matchAll(/```js\n([\s\S]*?)```/g)].map((match) => match[1]);
+      assert.ok(blocks.length > 0);
+      blocks.forEach((code, i) => {
+        if (/from "(three|@gltf)/.test(code)) return; // those run in adapters.test.mjs, where the packages are
+        writeFileSync(join(folder, `readme${i}.mjs`), code);
+        assert.match(execFileSync("node", [`readme${i}.mjs`], { cwd: folder, encoding: "utf8" }), /Uint32Array|Float32Array/);
+      });
+      assert.ok(existsSync(join(folder, "node_modules/tspace/LICENSE")));
+    });
+  });
+
+  /** Bytes of an entry as a browser fetches it: its module and all that it imports, each compressed. */
+  function sizeOf(entry) {
+    const seen = new Set(), queue = [entry];
+    for (let file; (file = queue.pop()); ) {
+      if (seen.has(file)) continue;
+      seen.add(file);
+      if (file.endsWith(".wasm")) continue;
+      const text = readFileSync(join(installed, file), "utf8");
+      for (const [, name] of text.matchAll(/from "\.\/(.+?)"|new URL\("\.\/(.+?)"/g)) if (name) queue.push(name);
+      for (const [, name] of text.matchAll(/new URL\("\.\/(.+?)"/g)) queue.push(name);
+      if (text.includes('"#load"')) queue.push("load-web.js");
+    }
+    return [...seen].reduce((bytes, file) => bytes + gzipSync(readFileSync(join(installed, file)), { level: 9 }).length, 0);
+  }
+
+  it("is as small as the documentation says", () => {
+    const [whole, small] = ["index.js", "mikktspace.js"].map(sizeOf);
+    console.log(`tspace ${whole} bytes gzipped, tspace/mikktspace ${small}`);
+    assert.ok(whole < 110_000 && small < 50_000);
+  });
+
+  it("has types that fit its modules", async () => {
+    for (const entry of ["index", "mikktspace", "compat"]) {
+      const declared = readFileSync(join(installed, `${entry}.d.ts`), "utf8") + (entry === "compat" ? "" : readFileSync(join(installed, "types.d.ts"), "utf8"));
+      for (const name of Object.keys(await import(join(installed, `${entry}.js`))))
+        assert.match(declared, new RegExp(`(function|const|class) ${name}\\b`), `${entry}: ${name}`);
+    }
+  });
+
+  const tsc = join(project, "node_modules/typescript/bin/tsc");
+  it("has types that a program passes, and a wrong one does not", { skip: !existsSync(tsc) && "typescript is not installed" }, () => {
+    const check = (name, code) => {
+      writeFileSync(join(project, name), code);
+      execFileSync("node", [tsc, "--noEmit", "--strict", "--module", "nodenext", "--target", "es2022", "--lib", "es2022,dom", "--skipLibCheck", "false", "--types", "", name], { cwd: project, stdio: "pipe" });
+    };
+    const head = 'import { generateTangents, makeIndexedFrames, Plan, ready, TspaceError } from "tspace";\nimport * as small from "tspace/mikktspace";\nawait ready;\nconst mesh = { positions: new Float32Array(9), indices: new Uint16Array(3) };\n';
+    check("right.ts", `${head}const t: Float32Array = generateTangents(mesh, { convention: "gltf", method: "best" });
+const frames = makeIndexedFrames(mesh, { convention: { vAxis: "up" }, normals: { weighting: "area" } });
+const plan = new Plan(mesh, { convention: "unreal" });
+try { plan.evaluate({ positions: t, normals: frames.normals }); } catch (e) { if (e instanceof TspaceError) e.code.length; }
+small.generateTangents(mesh, { convention: "gltf", pairing: "corrected" });\n`);
+    for (const wrong of ["generateTangents(mesh, {});", 'generateTangents(mesh, { convention: "maya" });', 'small.generateTangents(mesh, { convention: "gltf", method: "best" });', "generateTangents({ positions: [0] }, { convention: 'gltf' });"])
+      assert.throws(() => check("wrong.ts", head + wrong), /./, wrong);
+  });
+});

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Compiles the core into WebAssembly modules: node build.mjs OUT. emscripten gives the compiler and the C++ library; its
+// JavaScript is not used, since the modules need nothing of it: no files, no threads, no exceptions, one import.
+import { execFile } from "node:child_process";
+import { existsSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
+import { availableParallelism, cpus } from "node:os";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { promisify } from "node:util";
+import { gzipSync } from "node:zlib";
+
+const run = promisify(execFile);
+const here = dirname(fileURLToPath(import.meta.url));
+const root = resolve(here, "../../..");
+const out = resolve(process.argv[2] ?? join(root, "build/js/wasm"));
+
+/// Rooms of src/ and their files; loops over meshes that are worth more code than -Oz gives.
+const rooms = ["core", "frames", "normals", "tangents", "tangents/mikktspace", "tangents/estimators", "mesh_frames"];
+const notHere = new Set(["core/parallel.cpp", "core/arena.cpp"]); // threads, and memory of an operating system
+const hot = /mikktspace\/corner_terms_kernel/;
+
+const modules = {
+  core: { source: "core.cpp", isFast: true, defines: [], kernels: ["normals", "tangents"] },
+  mikktspace: { source: "mikktspace.cpp", isFast: false, defines: ["TSPACE_MIKKTSPACE_ONLY"], kernels: ["tangents"] },
+};
+
+// -finline-functions: emscripten forbids inlining with -Oz, which makes more code, not less.
+const flags = [
+  "-std=c++20", "-Oz", "-flto", "-finline-functions", "-msimd128", "-mbulk-memory", "-msign-ext", "-mnontrapping-fptoint",
+  "-ffp-contract=off", "-fno-fast-math", "-fno-math-errno", "-fno-trapping-math", "-fno-exceptions", "-fno-rtti",
+  "-fno-c++-static-destructors", "-DNDEBUG", "-DTSPACE_SERIAL", "-DTSPACE_SMALL", "-DTSPACE_SIMD_WASM", "-Wall", "-Wextra", "-Werror",
+  `-I${root}/src`, `-I${root}/include`, `-I${here}`, "-include", join(here, "bit_cast.h"),
+];
+
+function write(path, text) {
+  mkdirSync(dirname(path), { recursive: true });
+  if (!existsSync(path) || readFileSync(path, "utf8") !== text) writeFileSync(path, text);
+  return path;
+}
+
+/// The kernels of a room for the one CPU there is, as CMake makes them: the hot one alone, with other flags.
+function kernelSources(room, isFast) {
+  const kernels = [];
+  for (const file of readdirSync(join(root, "src", room), { recursive: true })) {
+    if (!file.endsWith("CMakeLists.txt")) continue;
+    const text = readFileSync(join(root, "src", room, file), "utf8");
+    for (const [, name] of text.matchAll(/tspace_simd_kernel\((\w+)\)/g))
+      kernels.push(join(room, dirname(file), `${name}_kernel.h`));
+  }
+  const head = '// SPDX-License-Identifier: MIT\n#include "simd/lanes_wasm.h"\n#define TSPACE_LANES wasm\n';
+  const source = (name, list) =>
+    write(join(out, `${name}.cpp`), head + list.map((kernel) => `#include "${kernel}"\n`).join(""));
+  const [fast, small] = [kernels.filter((k) => hot.test(k)), kernels.filter((k) => !hot.test(k))];
+  const sources = [{ path: source(`kernels_${room}`, small) }];
+  if (fast.length !== 0) sources.push({ path: source(`kernels_${room}_hot`, fast), flags: isFast ? ["-O2", "-DTSPACE_FAST_KERNELS"] : [] });
+  return sources;
+}
+
+function sourcesOf(module) {
+  const sources = rooms.flatMap((room) =>
+    readdirSync(join(root, "src", room))
+      .filter((file) => file.endsWith(".cpp") && !notHere.has(`${room}/${file}`))
+      .map((file) => ({ path: join(root, "src", room, file) })));
+  for (const room of module.kernels) sources.push(...kernelSources(room, module.isFast));
+  for (const file of ["memory.cpp", "common.cpp", module.source]) sources.push({ path: join(here, file) });
+  return sources;
+}
+
+function isCurrent(object, depfile) {
+  if (!existsSync(object) || !existsSync(depfile)) return false;
+  const made = statSync(object).mtimeMs;
+  const needs = readFileSync(depfile, "utf8").replace(/\\\n/g, " ").split(":").slice(1).join(":").trim().split(/\s+/);
+  return [...needs, fileURLToPath(import.meta.url)].every((path) => existsSync(path) && statSync(path).mtimeMs <= made);
+}
+
+async function compile(source, folder, defines) {
+  const stem = source.path.replace(`${root}/`, "").replaceAll("/", "_");
+  const object = join(folder, `${stem}.o`);
+  if (isCurrent(object, `${object}.d`)) return object;
+  await run("em++", [...flags, ...defines.map((d) => `-D${d}`), ...(source.flags ?? []), "-MMD", "-MF", `${object}.d`,
+    "-c", source.path, "-o", object]).catch((error) => {
+    console.error(error.stderr);
+    process.exit(1);
+  });
+  return object;
+}
+
+/// At most as many at a time as there are cores.
+async function inParallel(jobs) {
+  const results = [];
+  let next = 0;
+  const work = async () => {
+    for (let i; (i = next++) < jobs.length; ) results[i] = await jobs[i]();
+  };
+  await Promise.all(Array.from({ length: availableParallelism?.() ?? cpus().length }, work));
+  return results;
+}
+
+async function link(name, objects) {
+  const libraries = (await run("em-config", ["CACHE"]).catch(() => ({ stdout: "" }))).stdout.trim() || "/usr/share/emscripten/cache";
+  const folder = join(libraries, "sysroot/lib/wasm32-emscripten");
+  const raw = join(out, `${name}_raw.wasm`);
+  await run("wasm-ld-14", ["--no-entry", "--gc-sections", "--strip-all", "--stack-first", "-z", "stack-size=262144",
+    "--initial-memory=1048576", "--max-memory=4294967296", "--lto-O2", "-mllvm", "-disable-lsr", ...objects,
+    `-L${folder}/lto`, `-L${folder}`, "-lc-optz", "-lc++-noexcept", "-lc++abi-noexcept", "-lcompiler_rt",
+    "--export=__wasm_call_ctors", "--allow-undefined", "-o", raw]);
+  const wasm = join(out, `${name}.wasm`);
+  await run("wasm-opt", ["--enable-simd", "--enable-bulk-memory", "--enable-sign-ext", "--enable-mutable-globals",
+    "--enable-nontrapping-float-to-int", "-Oz", "--converge", raw, "-o", wasm]);
+  const imports = WebAssembly.Module.imports(new WebAssembly.Module(readFileSync(wasm)));
+  if (imports.length !== 1 || imports[0].name !== "endCall")
+    throw new Error(`${name}.wasm imports ${imports.map((i) => i.name).join(", ")}`);
+  const bytes = readFileSync(wasm);
+  console.log(`${name}.wasm: ${bytes.length} bytes, ${gzipSync(bytes, { level: 9 }).length} gzipped`);
+}
+
+const version = readFileSync(join(root, "CMakeLists.txt"), "utf8").match(/project\(tspace VERSION (\d+)\.(\d+)\.(\d+)/);
+const [major, minor, patch] = version.slice(1).map(Number);
+write(join(out, "include/tspace/version.h"),
+  `#pragma once\n#define TSPACE_VERSION_NUMBER ${10000 * major + 100 * minor + patch}\n#define TSPACE_VERSION_STRING "${major}.${minor}.${patch}"\n`);
+flags.push(`-I${join(out, "include")}`);
+const chosen = process.argv.length > 3 ? process.argv.slice(3) : Object.keys(modules);
+for (const name of chosen) {
+  const module = modules[name];
+  const folder = join(out, name);
+  mkdirSync(folder, { recursive: true });
+  const jobs = sourcesOf(module).map((source) => () => compile(source, folder, module.defines));
+  await link(name, await inParallel(jobs));
+}

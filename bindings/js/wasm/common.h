@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Shared by the modules: the mesh of a call, and ways for results to go back.
+#pragma once
+
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "exports.h"
+#include "tspace/sanitize.h"
+#include "tspace/split.h"
+#include "tspace/tangents.h"
+
+namespace tspace::js {
+
+/// What setMesh was given.
+const MeshView& mesh();
+
+/// v axis in the lowest two bits, then a bit each for green, stored sign, handedness and winding.
+Convention conventionOf(std::uint32_t bits);
+
+inline void keepCounts(std::span<const std::uint64_t> counts) {
+    for (std::size_t i = 0; i < counts.size(); ++i) report[i] = static_cast<double>(counts[i]);
+}
+void keep(const TangentReport& r);
+
+/// As JavaScript lays it out.
+struct AttributeWords {
+    const float* data;
+    std::uint32_t component_count;
+    float tolerance;
+};
+
+/// A copy that JavaScript releases: its place and the number of its elements.
+template <class T>
+void giveArray(const std::vector<T>& from, std::uint32_t* to) {
+    void* memory = ::operator new(from.size() * sizeof(T));
+    std::memcpy(memory, from.data(), from.size() * sizeof(T));
+    to[0] = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(memory));
+    to[1] = static_cast<std::uint32_t>(from.size());
+}
+
+}  // namespace tspace::js

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// The module of the entry "tspace".
+#include "common.h"
+#include "tspace/indexed_frames.h"
+#include "tspace/normals.h"
+
+using namespace tspace;
+using namespace tspace::js;
+
+namespace {
+
+TangentOptions tangentOptions(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
+                              std::uint32_t convention, std::uint32_t frame, std::uint32_t refine) {
+    TangentOptions options;
+    options.method = static_cast<Method>(method);
+    options.angular_threshold_deg = threshold_deg;
+    options.pairing = static_cast<Pairing>(pairing);
+    options.ngons = static_cast<Ngons>(ngons);
+    options.convention = conventionOf(convention);
+    options.frame = static_cast<FrameShape>(frame);
+    options.refine = refine;
+    return options;
+}
+
+NormalOptions normalOptions(std::uint32_t weighting, float crease_angle_deg, const std::uint32_t* groups,
+                            std::size_t group_count, bool groups_are_masks, bool weld_positions,
+                            std::uint32_t convention, std::uint32_t refine) {
+    NormalOptions options;
+    options.weighting = static_cast<NormalWeighting>(weighting);
+    options.crease_angle_deg = crease_angle_deg;
+    options.smoothing_groups = {groups, group_count};
+    options.smoothing_groups_are_masks = groups_are_masks;
+    options.weld_positions = weld_positions;
+    options.convention = conventionOf(convention);
+    options.refine = refine;
+    return options;
+}
+
+}  // namespace
+
+extern "C" {
+
+/// `out`: four floats per corner.
+TSPACE_JS_EXPORT(generateTangents)
+std::uint32_t generate(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
+                       std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, float* out) {
+    const auto options = tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine);
+    auto result = generateTangents(mesh(), options, {.tangents = vec4Span(out, mesh().cornerCount())});
+    if (result) keep(*result);
+    return codeOf(result);
+}
+
+/// `plan`: gets the plan, to be ended by destroyPlan.
+TSPACE_JS_EXPORT(makePlan)
+std::uint32_t makePlan(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
+                       std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, TangentPlan** plan) {
+    const auto options = tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine);
+    auto result = planTangents(mesh(), options);
+    if (result) *plan = new TangentPlan(*std::move(result));
+    return codeOf(result);
+}
+
+/// With the positions and normals that setMesh was given.
+TSPACE_JS_EXPORT(evaluatePlan) std::uint32_t evaluate(const TangentPlan* plan, float* out) {
+    const Pose pose{mesh().positions, mesh().normals};
+    auto result = evaluateTangents(*plan, pose, {.tangents = vec4Span(out, plan->outputCount())});
+    if (result) keep(*result);
+    return codeOf(result);
+}
+
+TSPACE_JS_EXPORT(planBytes) std::size_t planBytes(const TangentPlan* plan) { return plan->memoryBytes(); }
+TSPACE_JS_EXPORT(destroyPlan) void destroyPlan(TangentPlan* plan) { delete plan; }
+
+/// `out`: three floats per corner.
+TSPACE_JS_EXPORT(generateNormals)
+std::uint32_t normals(std::uint32_t weighting, float crease_angle_deg, const std::uint32_t* groups,
+                      std::size_t group_count, bool groups_are_masks, bool weld_positions, std::uint32_t convention,
+                      std::uint32_t refine, float* out) {
+    const auto options = normalOptions(weighting, crease_angle_deg, groups, group_count, groups_are_masks,
+                                       weld_positions, convention, refine);
+    auto result = generateNormals(mesh(), options, vec3Span(out, mesh().cornerCount()));
+    if (!result) return codeOf(result);
+    const std::uint64_t counts[] = {result->face_count, result->degenerate_face_count, result->fallback_corner_count};
+    keepCounts(counts);
+    return 0;
+}
+
+/// `result`: gets ten words, a pointer and a count for indices, source vertices, source corners, normals and tangents, to be
+/// released one by one. The report is that of tangents.
+TSPACE_JS_EXPORT(makeIndexedFrames)
+std::uint32_t frames(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
+                     std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, bool make_normals,
+                     bool sanitize, bool orthogonalize_all, std::uint32_t weighting, float crease_angle_deg,
+                     const std::uint32_t* groups, std::size_t group_count, bool groups_are_masks, bool weld_positions,
+                     std::uint32_t normal_convention, std::uint32_t normal_refine, std::uint32_t* result) {
+    IndexedFramesOptions options;
+    options.tangents = tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine);
+    options.normals = normalOptions(weighting, crease_angle_deg, groups, group_count, groups_are_masks, weld_positions,
+                                    normal_convention, normal_refine);
+    options.make_normals = make_normals;
+    options.sanitize = sanitize;
+    options.orthogonalize_all = orthogonalize_all;
+    auto made = makeIndexedFrames(mesh(), options);
+    if (!made) return codeOf(made);
+    giveArray(made->indices, result);
+    giveArray(made->source_vertex, result + 2);
+    giveArray(made->source_corner, result + 4);
+    giveArray(made->normals, result + 6);
+    giveArray(made->tangents, result + 8);
+    keep(made->report.tangents);
+    return 0;
+}
+
+}  // extern "C"

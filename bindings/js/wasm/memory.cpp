@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// Memory for a program of one thread without an operating system, and what happens when there is none left: a call into
+// JavaScript, which throws, so that the call ends there. The instance is then thrown away.
+#include <cstddef>
+#include <cstdint>
+#include <new>
+
+#include "exports.h"
+
+extern "C" unsigned char __heap_base;  // the linker's: the first byte that is nobody's
+
+namespace {
+
+/// The core asks for 64. What is given out is a multiple of it, less the head before it.
+constexpr std::size_t kUnit = 64, kHead = 16, kPage = 65536;
+
+/// Free memory is a list in the order of addresses; no two of it touch.
+struct Block {
+    std::size_t bytes;  // with this head
+    Block* next;        // only while it is free
+};
+Block* first_free = nullptr;
+std::uintptr_t heap_end = 0;
+
+char* placeOf(Block* block) { return reinterpret_cast<char*>(block) + kHead; }
+
+void giveBack(Block* block) {
+    Block* previous = nullptr;
+    Block* next = first_free;
+    while (next != nullptr && next < block) {
+        previous = next;
+        next = next->next;
+    }
+    block->next = next;
+    (previous == nullptr ? first_free : previous->next) = block;
+    if (next != nullptr && reinterpret_cast<char*>(block) + block->bytes == reinterpret_cast<char*>(next)) {
+        block->bytes += next->bytes;
+        block->next = next->next;
+    }
+    if (previous != nullptr && reinterpret_cast<char*>(previous) + previous->bytes == reinterpret_cast<char*>(block)) {
+        previous->bytes += block->bytes;
+        previous->next = block->next;
+    }
+}
+
+/// The first block that is large enough: large ones that were given back are found again by the next call.
+Block* take(std::size_t bytes) {
+    for (Block** at = &first_free; *at != nullptr; at = &(*at)->next) {
+        Block* block = *at;
+        if (block->bytes < bytes) continue;
+        if (block->bytes == bytes) {
+            *at = block->next;
+        } else {
+            auto* rest = reinterpret_cast<Block*>(reinterpret_cast<char*>(block) + bytes);
+            *rest = {block->bytes - bytes, block->next};
+            *at = rest;
+            block->bytes = bytes;
+        }
+        return block;
+    }
+    return nullptr;
+}
+
+bool growBy(std::size_t bytes) {
+    if (heap_end == 0) {
+        const auto base = reinterpret_cast<std::uintptr_t>(&__heap_base);
+        heap_end = (base + kHead + kUnit - 1) / kUnit * kUnit - kHead;
+    }
+    const std::uintptr_t have = __builtin_wasm_memory_size(0) * kPage;
+    const std::uintptr_t left = have > heap_end ? have - heap_end : 0;
+    // A unit more: memory ends at a multiple of kUnit, and blocks end kHead before one.
+    const std::size_t missing = bytes + kUnit > left ? bytes + kUnit - left : 0;
+    if (missing != 0 && __builtin_wasm_memory_grow(0, (missing + kPage - 1) / kPage) == SIZE_MAX) return false;
+    const std::uintptr_t end = __builtin_wasm_memory_size(0) * kPage;
+    auto* block = reinterpret_cast<Block*>(heap_end);
+    // The very last byte of 4 GB has no number.
+    block->bytes = ((end == 0 ? std::uintptr_t{0} - kUnit : end) - heap_end) / kUnit * kUnit;
+    heap_end += block->bytes;
+    giveBack(block);
+    return true;
+}
+
+}  // namespace
+
+extern "C" {
+
+void* tspace_js_allocate(std::size_t bytes) {
+    constexpr std::size_t kMost = SIZE_MAX - 2 * kPage;
+    if (bytes > kMost) return nullptr;
+    const std::size_t needed = (bytes + kHead + kUnit - 1) / kUnit * kUnit;
+    Block* block = take(needed);
+    if (block == nullptr && growBy(needed)) block = take(needed);
+    return block == nullptr ? nullptr : placeOf(block);
+}
+
+void tspace_js_release(void* memory) {
+    if (memory != nullptr) giveBack(reinterpret_cast<Block*>(static_cast<char*>(memory) - kHead));
+}
+
+void tspace_endCallOutOfMemory() { tspace_js_endCall(9); }
+/// The C++ library comes here for lists that are longer than the address space.
+void abort() { tspace_js_endCall(9); }
+
+}  // extern "C"
+
+void* operator new(std::size_t bytes) {
+    void* memory = tspace_js_allocate(bytes);
+    if (memory == nullptr) tspace_endCallOutOfMemory();
+    return memory;
+}
+void* operator new(std::size_t bytes, std::align_val_t, const std::nothrow_t&) noexcept {
+    return tspace_js_allocate(bytes);
+}
+void operator delete(void* memory) noexcept { tspace_js_release(memory); }
+void operator delete(void* memory, std::size_t) noexcept { tspace_js_release(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { tspace_js_release(memory); }

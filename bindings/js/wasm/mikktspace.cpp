@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// The module of the entry "tspace/mikktspace": one method.
+#include "common.h"
+
+using namespace tspace;
+using namespace tspace::js;
+
+extern "C" {
+
+/// `out`: four floats per corner.
+TSPACE_JS_EXPORT(generateTangents)
+std::uint32_t generate(std::uint32_t, float threshold_deg, std::uint32_t pairing, std::uint32_t,
+                       std::uint32_t convention, std::uint32_t, std::uint32_t, float* out) {
+    TangentOptions options;
+    options.angular_threshold_deg = threshold_deg;
+    options.pairing = static_cast<Pairing>(pairing);
+    options.ngons = Ngons::skip;
+    options.convention = conventionOf(convention);
+    auto result = generateTangents(mesh(), options, {.tangents = vec4Span(out, mesh().cornerCount())});
+    if (result) keep(*result);
+    return codeOf(result);
+}
+
+}  // extern "C"
