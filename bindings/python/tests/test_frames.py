@@ -8,6 +8,7 @@ import unittest
 import numpy
 import tspace
 from support import cube, same_bits, torus
+from tspace._mesh import Mesh
 
 
 def lengths(vectors):
@@ -64,6 +65,17 @@ class Tangents(unittest.TestCase):
         for array in shape:
             array.setflags(write=False)
         self.assertTrue(same_bits(tspace.tangents(*shape, convention="gltf"), want))
+
+    def test_arrays_of_the_right_type_are_read_where_they_lie(self):
+        vertex = numpy.zeros(9, [("p", "f4", 3), ("n", "f4", 3), ("uv", "f4", 2)])
+        for kind in (numpy.uint8, numpy.uint16, numpy.uint32, numpy.int32):
+            for vertices in (vertex, vertex[::3]):
+                indices = numpy.zeros(6, kind)
+                struct = Mesh(vertices["p"], vertices["n"], vertices["uv"], indices, None).struct
+                for span, name in ((struct.positions, "p"), (struct.normals, "n"), (struct.uvs, "uv")):
+                    place = vertices[name].ctypes.data, len(vertices), vertices.strides[0]
+                    self.assertEqual((span.data, span.count, span.stride_bytes), place)
+                self.assertEqual((struct.indices.data, struct.indices.count), (indices.ctypes.data, 6))
 
     def test_broadcast_arrays_are_read(self):
         shape = cube()
