@@ -2,11 +2,14 @@
 // Metal code run as C++, on the types of metal_shim: that which is written by hand, and what spirv-cross makes of the
 // other languages.
 #include <gtest/gtest.h>
-#include <metal_stdlib>
 
 #include <iostream>
 
 #include "cases.h"
+#include "pack/frame_list.h"
+
+// Last, as it has macros.
+#include <metal_stdlib>
 
 namespace tspace::shaders {
 
@@ -45,7 +48,9 @@ void runKernel(void (*run)(const Words&, Results&, uint3), const Case& c, std::v
     }
 }
 
-void expectRight(void (*run)(const Case&, std::vector<float>&), std::size_t frames) {
+/// TSPACE_FRAMES sets other numbers of frames.
+void expectRight(void (*run)(const Case&, std::vector<float>&), long default_frames) {
+    const auto frames = static_cast<std::size_t>(test::frameCount(default_frames));
     for (std::uint32_t number = 0; number < caseCount(); ++number) {
         const Case c = makeCase(number, frames);
         std::vector<float> results(c.expected.size());

@@ -2,10 +2,10 @@
 // The shaders on a Vulkan device, lavapipe where it is installed, against the C++ decoder and geometry.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <iostream>
 
 #include "cases.h"
+#include "pack/frame_list.h"
 #include "read_spirv.h"
 #include "vulkan_compute.h"
 
@@ -15,10 +15,9 @@ namespace {
 
 /// Frames of each format, fewer where code of a compiler is compiled; TSPACE_FRAMES sets others. The other functions get
 /// a tenth of that.
-std::size_t frameCount(const std::string& language) {
-    const char* asked = std::getenv("TSPACE_FRAMES");
-    if (asked != nullptr) return std::strtoull(asked, nullptr, 10);
-    return language.find("_as_") == std::string::npos ? 1'000'000 : 100'000;
+std::size_t framesFor(const std::string& language) {
+    const bool is_as_written = language.find("_as_") == std::string::npos;
+    return static_cast<std::size_t>(test::frameCount(is_as_written ? 1'000'000 : 100'000));
 }
 
 /// A way to SPIR-V: which language, and what it was turned into on the way.
@@ -32,7 +31,7 @@ TEST_P(ShaderLanguage, GivesTheFramesOfTheLibrary) {
     const std::vector<std::uint32_t> spirv = readSpirv(GetParam());
     ASSERT_FALSE(spirv.empty()) << GetParam();
     for (std::uint32_t number = 0; number < caseCount(); ++number) {
-        const Case c = makeCase(number, frameCount(GetParam()));
+        const Case c = makeCase(number, framesFor(GetParam()));
         std::vector<float> results(c.expected.size());
         ASSERT_EQ(vulkan->run(spirv, c.buffer, c.count(), results), "") << c.name;
         EXPECT_EQ(whatIsWrong(c, results), "");
