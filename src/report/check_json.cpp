@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Findings as JSON.
 #include "report/report.h"
-#include "tspace/version.h"
 
 namespace tspace::report {
 namespace {
@@ -46,12 +45,8 @@ Json packedJson(const PackedFramesInfo& info) {
     };
 }
 
-Json outcomeJson(const CheckOutcome& outcome) {
-    Json json = {
-        {"input", outcome.input},
-        {"ok", outcome.result.ok()},
-        {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())},
-    };
+Json checkedJson(const CheckOutcome& outcome) {
+    Json json = fileJson(outcome);
     if (!outcome.result) return json;
     const CheckReport& report = *outcome.result;
     json["format"] = report.format;
@@ -60,22 +55,17 @@ Json outcomeJson(const CheckOutcome& outcome) {
     json["primitivesWithTangents"] = report.tangents_count;
     json["normalMaps"] = report.image_count;
     json["counts"] = {{"error", report.error_count}, {"warning", report.warning_count}, {"note", report.note_count}};
-    json["packedFrames"] = Json::array();
-    for (const PackedFramesInfo& info : report.packed_frames) json["packedFrames"].push_back(packedJson(info));
-    json["findings"] = Json::array();
-    for (const Finding& finding : report.findings) json["findings"].push_back(findingJson(finding));
+    json["packedFrames"] = listJson(report.packed_frames, packedJson);
+    json["findings"] = listJson(report.findings, findingJson);
     return json;
 }
 
 }  // namespace
 
 std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, Severity fail_on) {
-    Json json = {
-        {"schema", "tspace.check/1"},        {"version", TSPACE_VERSION_STRING},
-        {"ok", exit_code == ExitCode::done}, {"exitCode", static_cast<int>(exit_code)},
-        {"failOn", severityName(fail_on)},   {"files", Json::array()},
-    };
-    for (const CheckOutcome& outcome : outcomes) json["files"].push_back(outcomeJson(outcome));
+    Json json = documentJson("tspace.check/1", exit_code == ExitCode::done, exit_code);
+    json["failOn"] = severityName(fail_on);
+    json["files"] = listJson(outcomes, checkedJson);
     return jsonText(json);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Differences as JSON.
 #include "report/report.h"
-#include "tspace/version.h"
 
 namespace tspace::report {
 namespace {
@@ -24,7 +23,7 @@ Json sideJson(const PrimitiveDiff& p, bool is_a) {
             {"hasNormals", is_a ? p.has_normals_a : p.has_normals_b}};
 }
 
-Json primitiveJson(const PrimitiveDiff& p) {
+Json comparedPrimitiveJson(const PrimitiveDiff& p) {
     return {{"a", sideJson(p, true)},
             {"b", sideJson(p, false)},
             {"meshName", p.mesh_name},
@@ -54,15 +53,10 @@ Json worstJson(const FrameDifference& d) {
 
 std::string diffJson(const std::string& a, const std::string& b, double tolerance_deg, const Result<FrameDiff>& diff,
                      ExitCode exit_code) {
-    Json json = {
-        {"schema", "tspace.diff/1"},
-        {"version", TSPACE_VERSION_STRING},
-        {"ok", diff.ok()},
-        {"exitCode", static_cast<int>(exit_code)},
-        {"a", a},
-        {"b", b},
-        {"error", errorJson(diff ? nullptr : &diff.error())},
-    };
+    Json json = documentJson("tspace.diff/1", diff.ok(), exit_code);
+    json["a"] = a;
+    json["b"] = b;
+    json["error"] = errorJson(diff ? nullptr : &diff.error());
     if (!diff) return jsonText(json);
     json["toleranceDeg"] = tolerance_deg;
     json["isWithinTolerance"] = diff->isWithin(tolerance_deg);
@@ -74,10 +68,8 @@ std::string diffJson(const std::string& a, const std::string& b, double toleranc
     json["tangents"] = anglesJson(diff->tangents);
     json["normals"] = anglesJson(diff->normals);
     json["bitangents"] = anglesJson(diff->bitangents);
-    json["worst"] = Json::array();
-    for (const FrameDifference& place : diff->worst) json["worst"].push_back(worstJson(place));
-    json["primitives"] = Json::array();
-    for (const PrimitiveDiff& primitive : diff->primitives) json["primitives"].push_back(primitiveJson(primitive));
+    json["worst"] = listJson(diff->worst, worstJson);
+    json["primitives"] = listJson(diff->primitives, comparedPrimitiveJson);
     return jsonText(json);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // An image whose green was inverted, as JSON.
 #include "report/report.h"
-#include "tspace/version.h"
 
 namespace tspace::report {
 
@@ -21,16 +20,11 @@ const char* imageFormatName(ImageFileFormat format) {
 
 std::string flipGreenJson(const Outcome<FlipGreenReport>& outcome, ExitCode exit_code) {
     const Result<FlipGreenReport>& result = outcome.result;
-    Json json = {
-        {"schema", "tspace.flip-green/1"},
-        {"version", TSPACE_VERSION_STRING},
-        {"ok", result.ok()},
-        {"exitCode", static_cast<int>(exit_code)},
-        {"input", outcome.input},
-        {"output", outcome.output},
-        {"dryRun", outcome.is_dry_run},
-        {"error", errorJson(result ? nullptr : &result.error())},
-    };
+    Json json = documentJson("tspace.flip-green/1", result.ok(), exit_code);
+    json["input"] = outcome.input;
+    json["output"] = outcome.output;
+    json["dryRun"] = outcome.is_dry_run;
+    json["error"] = errorJson(result ? nullptr : &result.error());
     if (!result) return jsonText(json);
     json["format"] = imageFormatName(result->format);
     json["width"] = result->width;

@@ -2,7 +2,6 @@
 // What was generated, as JSON.
 #include "report/generate_totals.h"
 #include "report/report.h"
-#include "tspace/version.h"
 
 namespace tspace::report {
 namespace {
@@ -15,7 +14,7 @@ Json sanitizeJson(const SanitizeReport& report) {
     return json;
 }
 
-Json primitiveJson(const PrimitiveReport& primitive) {
+Json generatedPrimitiveJson(const PrimitiveReport& primitive) {
     const TangentReport& tangents = primitive.tangents;
     return {
         {"mesh", primitive.mesh},
@@ -74,7 +73,11 @@ Json totalsJson(const GenerateReport& report) {
     return json;
 }
 
-Json outcomeJson(const GenerateOutcome& outcome) {
+Json normalMapJson(const NormalMapReport& map) {
+    return {{"image", map.image}, {"name", map.name}, {"flipped", map.flipped}, {"reason", map.reason}};
+}
+
+Json generatedJson(const GenerateOutcome& outcome) {
     Json json = {
         {"input", outcome.input},     {"output", outcome.output},
         {"ok", outcome.result.ok()},  {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())},
@@ -89,29 +92,18 @@ Json outcomeJson(const GenerateOutcome& outcome) {
     json["outputFiles"] = report.output_files;
     json["warnings"] = report.warnings;
     json["totals"] = totalsJson(report);
-    json["normalMaps"] = Json::array();
-    for (const NormalMapReport& map : report.normal_maps) {
-        json["normalMaps"].push_back(
-            {{"image", map.image}, {"name", map.name}, {"flipped", map.flipped}, {"reason", map.reason}});
-    }
-    json["primitives"] = Json::array();
-    for (const PrimitiveReport& primitive : report.primitives) json["primitives"].push_back(primitiveJson(primitive));
+    json["normalMaps"] = listJson(report.normal_maps, normalMapJson);
+    json["primitives"] = listJson(report.primitives, generatedPrimitiveJson);
     return json;
 }
 
 }  // namespace
 
 std::string generateJson(const std::vector<GenerateOutcome>& outcomes, ExitCode exit_code, double seconds) {
-    Json json = {
-        {"schema", "tspace.generate/1"},
-        {"version", TSPACE_VERSION_STRING},
-        {"ok", exit_code == ExitCode::done},
-        {"exitCode", static_cast<int>(exit_code)},
-        {"seconds", seconds},
-        {"files", Json::array()},
-    };
+    Json json = documentJson("tspace.generate/1", exit_code == ExitCode::done, exit_code);
+    json["seconds"] = seconds;
+    json["files"] = listJson(outcomes, generatedJson);
     json["dryRun"] = !outcomes.empty() && outcomes.front().is_dry_run;
-    for (const GenerateOutcome& outcome : outcomes) json["files"].push_back(outcomeJson(outcome));
     return jsonText(json);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Methods as JSON.
 #include "report/report.h"
-#include "tspace/version.h"
 
 namespace tspace::report {
 namespace {
@@ -22,44 +21,33 @@ Json explanationJson(const Explanation& entry) {
             {"signs", signReadingName(entry.signs())}};
 }
 
-Json listJson(const std::vector<Explanation>& explanations) {
-    Json list = Json::array();
-    for (const Explanation& entry : explanations) list.push_back(explanationJson(entry));
-    return list;
+Json identityJson(const PrimitiveIdentity& primitive) {
+    return {{"place", primitive.place},
+            {"mesh", primitive.mesh},
+            {"primitive", primitive.primitive},
+            {"meshName", primitive.mesh_name},
+            {"materialName", primitive.material_name},
+            {"skipped", primitive.skipped},
+            {"explanations", listJson(primitive.explanations, explanationJson)}};
 }
 
-Json outcomeJson(const IdentifyOutcome& outcome) {
-    Json json = {{"input", outcome.input},
-                 {"ok", outcome.result.ok()},
-                 {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())}};
+Json identifiedJson(const IdentifyOutcome& outcome) {
+    Json json = fileJson(outcome);
     if (!outcome.result) return json;
     const Identification& result = *outcome.result;
     json["format"] = result.format;
     json["generator"] = result.generator;
     json["verdict"] = result.verdict;
-    json["explanations"] = listJson(result.explanations);
-    json["primitives"] = Json::array();
-    for (const PrimitiveIdentity& primitive : result.primitives) {
-        json["primitives"].push_back({{"place", primitive.place},
-                                      {"mesh", primitive.mesh},
-                                      {"primitive", primitive.primitive},
-                                      {"meshName", primitive.mesh_name},
-                                      {"materialName", primitive.material_name},
-                                      {"skipped", primitive.skipped},
-                                      {"explanations", listJson(primitive.explanations)}});
-    }
+    json["explanations"] = listJson(result.explanations, explanationJson);
+    json["primitives"] = listJson(result.primitives, identityJson);
     return json;
 }
 
 }  // namespace
 
 std::string identifyJson(const std::vector<IdentifyOutcome>& outcomes, ExitCode exit_code) {
-    Json json = {{"schema", "tspace.identify/1"},
-                 {"version", TSPACE_VERSION_STRING},
-                 {"ok", exit_code == ExitCode::done},
-                 {"exitCode", static_cast<int>(exit_code)},
-                 {"files", Json::array()}};
-    for (const IdentifyOutcome& outcome : outcomes) json["files"].push_back(outcomeJson(outcome));
+    Json json = documentJson("tspace.identify/1", exit_code == ExitCode::done, exit_code);
+    json["files"] = listJson(outcomes, identifiedJson);
     return jsonText(json);
 }
 

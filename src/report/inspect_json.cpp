@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is in files, as JSON.
 #include "report/report.h"
-#include "tspace/version.h"
 
 namespace tspace::report {
 namespace {
@@ -20,9 +19,7 @@ Json useJson(const TangentUseInfo& use) {
     };
 }
 
-Json primitiveJson(const PrimitiveInfo& primitive) {
-    Json uses = Json::array();
-    for (const TangentUseInfo& use : primitive.tangent_uses) uses.push_back(useJson(use));
+Json inspectedPrimitiveJson(const PrimitiveInfo& primitive) {
     return {
         {"mesh", primitive.mesh},
         {"primitive", primitive.primitive},
@@ -43,7 +40,7 @@ Json primitiveJson(const PrimitiveInfo& primitive) {
         {"packedFrames", packedNames(primitive)},
         {"needsTangents", primitive.needs_tangents},
         {"neededBy", primitive.needed_by},
-        {"tangentUses", uses},
+        {"tangentUses", listJson(primitive.tangent_uses, useJson)},
         {"variantMaterials", primitive.variant_material_count},
         {"nodes", primitive.node_count},
         {"instances", primitive.instance_count},
@@ -56,12 +53,8 @@ Json primitiveJson(const PrimitiveInfo& primitive) {
     };
 }
 
-Json outcomeJson(const InspectOutcome& outcome) {
-    Json json = {
-        {"input", outcome.input},
-        {"ok", outcome.result.ok()},
-        {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())},
-    };
+Json inspectedJson(const InspectOutcome& outcome) {
+    Json json = fileJson(outcome);
     if (!outcome.result) return json;
     const Inspection& file = *outcome.result;
     json["format"] = file.format;
@@ -76,8 +69,7 @@ Json outcomeJson(const InspectOutcome& outcome) {
     json["extensionsRequired"] = file.extensions_required;
     json["variants"] = file.variants;
     json["warnings"] = file.warnings;
-    json["primitives"] = Json::array();
-    for (const PrimitiveInfo& primitive : file.primitives) json["primitives"].push_back(primitiveJson(primitive));
+    json["primitives"] = listJson(file.primitives, inspectedPrimitiveJson);
     return json;
 }
 
@@ -90,14 +82,8 @@ std::vector<std::string> packedNames(const PrimitiveInfo& primitive) {
 }
 
 std::string inspectJson(const std::vector<InspectOutcome>& outcomes, ExitCode exit_code) {
-    Json json = {
-        {"schema", "tspace.inspect/1"},
-        {"version", TSPACE_VERSION_STRING},
-        {"ok", exit_code == ExitCode::done},
-        {"exitCode", static_cast<int>(exit_code)},
-        {"files", Json::array()},
-    };
-    for (const InspectOutcome& outcome : outcomes) json["files"].push_back(outcomeJson(outcome));
+    Json json = documentJson("tspace.inspect/1", exit_code == ExitCode::done, exit_code);
+    json["files"] = listJson(outcomes, inspectedJson);
     return jsonText(json);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the JSON of all calls has in common.
 #include "report/report.h"
+#include "tspace/version.h"
 
 namespace tspace::report {
 
@@ -12,6 +13,13 @@ Json errorJson(const Error* error) {
         {"place", error->place},
         {"exitCode", static_cast<int>(exitCodeOf(error->code))},
     };
+}
+
+Json documentJson(const char* schema, bool is_ok, ExitCode exit_code) {
+    return {{"schema", schema},
+            {"version", TSPACE_VERSION_STRING},
+            {"ok", is_ok},
+            {"exitCode", static_cast<int>(exit_code)}};
 }
 
 std::string jsonText(const Json& document) { return document.dump(2, ' ', BadUtf8::replace) + "\n"; }

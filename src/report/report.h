@@ -41,6 +41,23 @@ std::string flipGreenJson(const Outcome<FlipGreenReport>& outcome, ExitCode exit
 
 /// null, or the error as docs/json.md describes it.
 Json errorJson(const Error* error);
+/// How every document begins.
+Json documentJson(const char* schema, bool is_ok, ExitCode exit_code);
+/// How what is said of a file begins: its name, and the error if there is one.
+template <class Value>
+Json fileJson(const Outcome<Value>& outcome) {
+    return {{"input", outcome.input},
+            {"ok", outcome.result.ok()},
+            {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())}};
+}
+/// An array of what `toJson` makes of each value.
+template <class List, class ToJson>
+Json listJson(const List& values, ToJson toJson) {
+    Json list = Json::array();
+    for (const auto& value : values) list.push_back(toJson(value));
+    return list;
+}
+
 /// The document as text. Bytes that are not UTF-8 (from file names) become U+FFFD.
 std::string jsonText(const Json& document);
 
