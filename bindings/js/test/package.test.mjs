@@ -61,7 +61,7 @@ describe("the archive", { skip: !archive && "run scripts/js" }, () => {
   });
 
   it("has types that fit its modules", async () => {
-    for (const entry of ["index", "mikktspace", "compat"]) {
+    for (const entry of ["index", "mikktspace", "pack", "compat"]) {
       const declared = readFileSync(join(installed, `${entry}.d.ts`), "utf8") + (entry === "compat" ? "" : readFileSync(join(installed, "types.d.ts"), "utf8"));
       for (const name of Object.keys(await import(join(installed, `${entry}.js`))))
         assert.match(declared, new RegExp(`(function|const|class) ${name}\\b`), `${entry}: ${name}`);

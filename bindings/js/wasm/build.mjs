@@ -17,11 +17,12 @@ const out = resolve(process.argv[2] ?? join(root, "build/js/wasm"));
 /// Rooms of src/ and their files; loops over meshes that are worth more code than -Oz gives.
 const rooms = ["core", "frames", "normals", "tangents", "tangents/mikktspace", "tangents/estimators", "mesh_frames"];
 const notHere = new Set(["core/parallel.cpp", "core/arena.cpp"]); // threads, and memory of an operating system
-const hot = /mikktspace\/corner_terms_kernel/;
+const hot = /mikktspace\/corner_terms_kernel|^pack\//;
 
 const modules = {
-  core: { source: "core.cpp", isFast: true, defines: [], kernels: ["normals", "tangents"] },
-  mikktspace: { source: "mikktspace.cpp", isFast: false, defines: ["TSPACE_MIKKTSPACE_ONLY"], kernels: ["tangents"] },
+  core: { sources: ["common.cpp", "core.cpp"], isFast: true, defines: [], rooms, kernels: ["normals", "tangents"] },
+  mikktspace: { sources: ["common.cpp", "mikktspace.cpp"], isFast: false, defines: ["TSPACE_MIKKTSPACE_ONLY"], rooms, kernels: ["tangents"] },
+  pack: { sources: ["pack.cpp"], isFast: true, defines: [], rooms: ["core", "pack"], kernels: ["pack"] },
 };
 
 // -finline-functions: emscripten forbids inlining with -Oz, which makes more code, not less.
@@ -57,12 +58,12 @@ function kernelSources(room, isFast) {
 }
 
 function sourcesOf(module) {
-  const sources = rooms.flatMap((room) =>
+  const sources = module.rooms.flatMap((room) =>
     readdirSync(join(root, "src", room))
       .filter((file) => file.endsWith(".cpp") && !notHere.has(`${room}/${file}`))
       .map((file) => ({ path: join(root, "src", room, file) })));
   for (const room of module.kernels) sources.push(...kernelSources(room, module.isFast));
-  for (const file of ["memory.cpp", "common.cpp", module.source]) sources.push({ path: join(here, file) });
+  for (const file of ["memory.cpp", "state.cpp", ...module.sources]) sources.push({ path: join(here, file) });
   return sources;
 }
 

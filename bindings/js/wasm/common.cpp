@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What every module exports: the mesh of the next call, its error and report, and the three functions that the smallest
-// module has.
+// What the modules that compute frames export: the mesh of the next call, and the three functions that the smaller one has.
 #include "common.h"
 
 namespace tspace::js {
 
 namespace {
-// Never destroyed: an instance ends all at once.
-alignas(Error) unsigned char error_room[sizeof(Error)];
 MeshView current_mesh;
 }  // namespace
-
-Error& error = *new (error_room) Error;
-double report[kReportNumbers];
 
 const MeshView& mesh() { return current_mesh; }
 
@@ -39,12 +33,6 @@ using namespace tspace;
 using namespace tspace::js;
 
 extern "C" {
-
-TSPACE_JS_EXPORT(errorText) const char* errorText() { return error.message.c_str(); }
-TSPACE_JS_EXPORT(errorElement) double errorElement() {
-    return error.element == kNoElement ? -1.0 : static_cast<double>(error.element);
-}
-TSPACE_JS_EXPORT(report) const double* reportNumbers() { return report; }
 
 /// Arrays in this module's memory, null where there are none; counts of vertices, corners and faces.
 TSPACE_JS_EXPORT(setMesh)

@@ -19,9 +19,6 @@ const MeshView& mesh();
 /// v axis in the lowest two bits, then a bit each for green, stored sign, handedness and winding.
 Convention conventionOf(std::uint32_t bits);
 
-inline void keepCounts(std::span<const std::uint64_t> counts) {
-    for (std::size_t i = 0; i < counts.size(); ++i) report[i] = static_cast<double>(counts[i]);
-}
 void keep(const TangentReport& r);
 
 /// As JavaScript lays it out.

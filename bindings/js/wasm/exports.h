@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "tspace/result.h"
 
@@ -27,6 +28,10 @@ extern Error& error;
 /// Numbers of the last call's report, in the order of its struct's fields.
 inline constexpr std::size_t kReportNumbers = 16;
 extern double report[kReportNumbers];
+
+inline void keepCounts(std::span<const std::uint64_t> counts) {
+    for (std::size_t i = 0; i < counts.size(); ++i) report[i] = static_cast<double>(counts[i]);
+}
 
 /// The result's error code, 0 for success; keeps the error.
 template <class T>

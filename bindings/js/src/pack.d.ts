@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+export { TspaceError } from "./types.js";
+
+/** Resolves when calls can be made. */
+export const ready: Promise<void>;
+
+/**
+ * How a frame is stored, and how far N and T are from what was packed at most, in degrees: "frame32" 4 bytes, 0.135 and
+ * 0.135; "frame48" 6, 0.0037 and 0.0042; "frame64" 8, 0.0001 and 0.00015; "oct32" 4, 0.15 and 0.165; "qtangent64" 8, 0.004 and
+ * 0.004; vectors as snorm numbers: "snorm8_pair" 8 bytes, "snorm16_pair" 16, "gltf_snorm8" 7, "gltf_snorm16" 14. Signs are
+ * always exact.
+ */
+export type FrameFormat =
+  | "frame32" | "frame48" | "frame64" | "oct32" | "qtangent64" | "snorm8_pair" | "snorm16_pair" | "gltf_snorm8" | "gltf_snorm16";
+
+/** All of them. */
+export const frameFormats: readonly FrameFormat[];
+
+/** Frames that were mended before they were packed, by cause. */
+export interface PackReport {
+  badNormalCount?: number;
+  notFiniteCount?: number;
+  zeroCount?: number;
+  parallelCount?: number;
+  notUnitCount?: number;
+  notOrthogonalCount?: number;
+  badSignCount?: number;
+  mendedCount?: number;
+}
+
+/** Bytes of one frame. */
+export function frameBytes(format: FrameFormat): number;
+
+/**
+ * Packs frames, each by itself. Any input is packed: what is broken is mended and counted.
+ * @param normals three numbers per frame, unit
+ * @param tangents four numbers per frame, unit and across the normal, and the sign
+ * @param options `report`: an object that gets the counts
+ * @returns `frameBytes(format)` bytes per frame, for the shaders of tspace or unpackFrames
+ */
+export function packFrames(
+  format: FrameFormat, normals: Float32Array, tangents: Float32Array, options?: { report?: PackReport },
+): Uint8Array;
+
+/** Unpacks frames: any bytes are frames, finite and unit. */
+export function unpackFrames(format: FrameFormat, frames: Uint8Array): { normals: Float32Array; tangents: Float32Array };
