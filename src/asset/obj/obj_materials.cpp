@@ -131,6 +131,8 @@ bool isOneFile(const std::string& line, const NamedFiles& files) try {
     return files.kindOf(path) != NamedFiles::Kind::missing;
 } catch (const FileError&) {
     return false;
+} catch (const fs::filesystem_error&) {
+    return false;  // too long for a name
 }
 
 }  // namespace
