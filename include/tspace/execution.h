@@ -40,8 +40,8 @@ inline constexpr std::uint32_t kAllThreads = 0xffffffffu;
 /// Passed by value inside option structs. What it points to must outlive the call (and a plan made with it).
 struct Execution {
     std::uint32_t thread_count = 1;  ///< 0 and 1: the calling thread only; kAllThreads
-    const Executor* executor =
-        nullptr;  ///< runs all work, whatever thread_count says; null: std::thread, joined within the call
+    /// Runs all work, whatever thread_count says; null: std::thread, started and joined within the call.
+    const Executor* executor = nullptr;
     const Allocator* allocator = nullptr;  ///< null: operator new; only for scratch memory and plans
     /// For tests and measurements. What this CPU lacks becomes the best of a lower number.
     SimdTarget simd = SimdTarget::best;

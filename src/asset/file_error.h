@@ -40,7 +40,8 @@ T valueOrThrow(Result<T> result) {
     return *std::move(result);
 }
 
-/// What is being thrown, where it is a FileError, a CallerError or one of std::filesystem; all else flies on. Only inside a catch.
+/// What is being thrown, where it is a FileError, a CallerError or one of std::filesystem; all else flies on. Only inside
+/// a catch.
 Error fileErrorInFlight();
 
 /// Runs `body`, which returns a Result and may throw FileError or CallerError.

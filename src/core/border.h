@@ -36,7 +36,8 @@ auto atBorder(Body&& body) -> std::invoke_result_t<Body> {
 /// For checkSpan: any length is right.
 inline constexpr std::size_t kAnyCount = ~std::size_t{0};
 
-/// Checks pointer, stride, alignment and length of one span. `name` is how messages call it. Returns an Error with code ok when all is well.
+/// Checks pointer, stride, alignment and length of one span. `name` is how messages call it. Returns an Error with code
+/// ok when all is well.
 Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, std::size_t element_bytes,
                 std::size_t expected_count, const char* name);
 

@@ -56,12 +56,10 @@ std::vector<std::uint32_t> sourcesOf(const IndexView& list, const SplitResult& s
 }
 
 template <class T>
-std::vector<T> gather(const StridedSpan<const T>& values, const std::vector<std::uint32_t>& sources) {
-    std::vector<T> gathered(sources.size());
-    for (std::size_t i = 0; i < sources.size(); ++i) {
-        if (sources[i] != kNoCorner) gathered[i] = values[sources[i]];
-    }
-    return gathered;
+std::vector<T> gathered(const StridedSpan<const T>& values, const std::vector<std::uint32_t>& sources) {
+    std::vector<T> result(sources.size());
+    gather<T>(values, sources, result.data());
+    return result;
 }
 
 }  // namespace
@@ -83,12 +81,12 @@ Result<Done> useOneList(const MeshView& mesh, const Execution& execution, OneLis
         }
     }
 
-    made.positions = gather(mesh.positions, split->source_vertices);
+    made.positions = gathered(mesh.positions, split->source_vertices);
     if (!mesh.normals.empty()) {
         made.source_normals = sourcesOf(mesh.normal_indices, *split);
-        made.normals = gather(mesh.normals, made.source_normals);
+        made.normals = gathered(mesh.normals, made.source_normals);
     }
-    if (!mesh.uvs.empty()) made.uvs = gather(mesh.uvs, sourcesOf(mesh.uv_indices, *split));
+    if (!mesh.uvs.empty()) made.uvs = gathered(mesh.uvs, sourcesOf(mesh.uv_indices, *split));
     made.indices = std::move(split->indices);
     made.source_vertices = std::move(split->source_vertices);
     made.view = mesh;

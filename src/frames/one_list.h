@@ -38,6 +38,12 @@ inline bool hasOwnLists([[maybe_unused]] const MeshView& mesh) {
 #endif
 }
 
+/// to[i] = values[sources[i]]; zero where that is kNoCorner, of vertices that no corner uses.
+template <class T>
+void gather(const StridedSpan<const T>& values, std::span<const std::uint32_t> sources, T* to) {
+    for (std::size_t i = 0; i < sources.size(); ++i) to[i] = sources[i] == kNoCorner ? T{} : values[sources[i]];
+}
+
 /// Splits the vertices where the attributes' own lists tell corners apart, and where any of `further` does. The vertices
 /// of the mesh keep their places. `welded`: the vertices of a mesh without indices, of which some are one; then normals
 /// and UVs without a list tell corners apart as well. The mesh is a valid one. Errors: outOfMemory, and those of

@@ -131,12 +131,11 @@ Error checkPose(const Pose& pose, std::size_t vertex_count, std::size_t normal_c
     return checkSpan(pose.normals, normal_count, "normals");
 }
 
-Buffer<Vec3> gather(const StridedSpan<const Vec3>& values, const std::vector<std::uint32_t>& sources,
-                    const Allocator* allocator) {
-    Buffer<Vec3> gathered(allocator, sources.size());
-    for (std::size_t i = 0; i < sources.size(); ++i)
-        gathered[i] = sources[i] == kNoCorner ? Vec3{} : values[sources[i]];
-    return gathered;
+Buffer<Vec3> gathered(const StridedSpan<const Vec3>& values, const std::vector<std::uint32_t>& sources,
+                      const Allocator* allocator) {
+    Buffer<Vec3> result(allocator, sources.size());
+    gather<Vec3>(values, sources, result.data());
+    return result;
 }
 
 /// Results per vertex have no place where vertices are combinations that only we know.
@@ -248,8 +247,8 @@ Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose
         }
         Parallel parallel(execution, work(state.method, state.corner_count));
         if (state.source_vertices.empty()) return state.evaluateFrames(pose, out, execution, parallel);
-        const Buffer<Vec3> positions = gather(pose.positions, state.source_vertices, execution.allocator);
-        const Buffer<Vec3> normals = gather(pose.normals, state.source_normals, execution.allocator);
+        const Buffer<Vec3> positions = gathered(pose.positions, state.source_vertices, execution.allocator);
+        const Buffer<Vec3> normals = gathered(pose.normals, state.source_normals, execution.allocator);
         const Pose with_one_list{{positions.data(), positions.size()}, {normals.data(), normals.size()}};
         return state.evaluateFrames(with_one_list, out, execution, parallel);
     });
