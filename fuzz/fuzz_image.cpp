@@ -5,7 +5,7 @@
 #include <string>
 
 #include "maps/image.h"
-#include "tspace/maps.h"
+#include "tspace/flip_green.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     constexpr std::uint64_t kMostPixels = 1 << 20;

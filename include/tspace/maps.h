@@ -1,74 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Images of normal maps. CMake target tspace::asset. Reads PNG (8 and 16 bits), JPEG and WebP, told apart by content, where
-// tspace was built with their libraries.
-//
-// All functions are thread-safe, and give the same bytes each time.
+// Normal maps: how they are read, and what can be done to them.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include "tspace/result.h"
-
-namespace tspace {
-
-enum class ImageFileFormat : std::uint32_t {
-    sameAsInput = 0,
-    png = 1,
-    jpeg = 2,
-    webp = 3,
-};
-
-struct FlipGreenOptions {
-    /// Of the output: that of the input, or PNG. Others are refused (unsupportedFile): they would lose bits or depth.
-    ImageFileFormat format = ImageFileFormat::sameAsInput;
-    /// Where a JPEG is written: 1 to 100. The default adds less than the rounding to 8 bits did.
-    int jpeg_quality = 98;
-    /// As FileOptions::memory_limit_bytes.
-    std::uint64_t memory_limit_bytes = 0;
-
-    // For flipGreenFile.
-
-    std::span<const std::uint8_t> content = {};  ///< the image, in place of the file `input`; must stay while it runs
-    /// As GenerateOptions::sink: gets the bytes in place of the file `output`, of which nothing is asked then.
-    std::function<bool(std::span<const std::uint8_t>)> sink = {};
-    bool dry_run = false;  ///< everything but writing
-};
-
-struct FlipGreenReport {
-    ImageFileFormat format = ImageFileFormat::png;  ///< of the output; never sameAsInput
-    std::uint32_t width = 0, height = 0;
-    std::uint32_t bits = 8;  ///< of a channel
-    /// Every texel has exactly 255 - G (65535 - G with 16 bits), and all other channels are as they were. false: a JPEG was
-    /// written, whose texels are rounded again.
-    bool is_exact = true;
-    std::vector<std::string> warnings = {};  ///< one sentence each
-};
-
-struct FlippedImage {
-    std::vector<std::uint8_t> bytes = {};  ///< the image file
-    FlipGreenReport report = {};
-};
-
-/// Inverts the green channel of an image: makes a normal map for OpenGL of one for DirectX, and back.
-///
-/// PNG keeps its colour type, bits, alpha, palette, and every chunk; rows come one after the other (interlaced files no
-/// longer are). Of a transparent or background colour green is inverted too. JPEG is compressed once more, without
-/// subsampling, and keeps its Exif data, profile and comments. WebP is written without loss, without metadata. Whatever a file says
-/// about its colour space stays as it is, and nothing is added: glTF takes normal maps as numbers.
-///
-/// Errors: unsupportedFile (not an image that this build reads; grey, so that there is no green channel; animated; a
-/// format that cannot be written), invalidFile (broken), invalidOption, tooLarge, outOfMemory. Time and memory: linear in the
-/// pixels; a PNG that is not interlaced needs a few rows and the size of its file.
-Result<FlippedImage> flipGreen(std::span<const std::uint8_t> image, const FlipGreenOptions& options = {});
-
-/// The same from file to file; `output` may be `input`. With sameAsInput the name of the output decides: .png, .jpg,
-/// .jpeg or .webp. The output appears at once, or not at all. Errors also: cannotRead, cannotWrite; unsupportedFile for
-/// another extension. Returns what was done.
-Result<FlipGreenReport> flipGreenFile(const std::string& input, const std::string& output,
-                                      const FlipGreenOptions& options = {});
-
-}  // namespace tspace
+#include "tspace/flip_green.h"
+#include "tspace/map_reading.h"
+#include "tspace/texture_wrap.h"

@@ -97,7 +97,7 @@ tspace_ErrorCode tspace_diffFiles(const char* a, const char* b, const char* opti
 tspace_ErrorCode tspace_diffBytes(const tspace_Model* a, const tspace_Model* b, const char* options,
                                   tspace_Bytes* report, tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Inverts the green channel of a normal map, PNG, JPEG or WebP (tspace/maps.h): options of `tspace flip-green`, report
+/* Inverts the green channel of a normal map, PNG, JPEG or WebP (tspace/flip_green.h): options of `tspace flip-green`, report
  * tspace.flip-green/1. The name of `output`, which may be the input, says its format: that of the input, or PNG.
  * Errors: as tspace_generateFile. */
 tspace_ErrorCode tspace_flipGreenFile(const char* input, const char* output, const char* options, tspace_Bytes* report,

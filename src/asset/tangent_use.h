@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "asset/texture_wrap.h"
+#include "tspace/texture_wrap.h"
 
 namespace tspace {
 

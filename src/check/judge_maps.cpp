@@ -8,7 +8,7 @@
 #include "check/check_images.h"
 #include "check/scene_verdict.h"
 #include "maps/flip_green.h"
-#include "tspace/maps.h"
+#include "tspace/flip_green.h"
 
 namespace tspace {
 

@@ -6,7 +6,7 @@
 #include "asset/file_error.h"
 #include "asset/memory_budget.h"
 #include "maps/codecs.h"
-#include "tspace/maps.h"
+#include "tspace/flip_green.h"
 
 namespace tspace {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "asset/texture_wrap.h"
 #include "maps/texel_mask.h"
+#include "tspace/texture_wrap.h"
 #include "tspace/vec.h"
 
 namespace tspace {

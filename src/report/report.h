@@ -10,8 +10,8 @@
 #include "tspace/asset.h"
 #include "tspace/check.h"
 #include "tspace/diff.h"
+#include "tspace/flip_green.h"
 #include "tspace/identify.h"
-#include "tspace/maps.h"
 
 namespace tspace::report {
 

@@ -10,7 +10,7 @@
 
 #include "maps/images.h"
 #include "support/temp_folder.h"
-#include "tspace/maps.h"
+#include "tspace/flip_green.h"
 
 namespace tspace::test {
 namespace {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The shading reference: from a texel and the frames of a triangle to the normal that a renderer shades, and back. In
+// double, so that what is measured with it is not its own rounding. See tspace/map_reading.h.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "core/unit.h"
+#include "tspace/map_reading.h"
+
+namespace tspace {
+
+/// What the three corners of a triangle store.
+struct CornerFrames {
+    std::array<Vec3, 3> normals = {};
+    std::array<Vec4, 3> tangents = {};
+};
+
+/// T, B and N where a texel is applied: neither unit nor at right angles.
+struct ShadingFrame {
+    DVec3 tangent, bitangent, normal;
+};
+
+/// At the point with these barycentric coordinates (their sum is 1; a point outside of the triangle goes on as its plane
+/// does).
+ShadingFrame shadingFrame(const CornerFrames& corners, const std::array<double, 3>& weights, const MapReading& reading);
+
+/// A texel, channels from 0 to 1, as a vector along T, B and N: green, scale and the third channel are settled. As long as
+/// it is.
+DVec3 decodeTexel(const Vec3& texel, const MapReading& reading);
+/// The texel that is decoded to the vector, or nearly: channels beyond 0 to 1 are not clamped. With two channels the vector
+/// is made unit, and its z must not be negative.
+DVec3 encodeTexel(const DVec3& vector, const MapReading& reading);
+
+/// unit(x T + y B + z N); zero where that has no direction.
+DVec3 shadedNormal(const ShadingFrame& frame, const DVec3& vector);
+/// The unit vector (x, y, z) for which shadedNormal gives the direction: the inverse of the frame, whatever it is, and not
+/// its transpose. Zero where the frame is singular or the direction has none.
+DVec3 vectorFor(const ShadingFrame& frame, const DVec3& direction);
+
+/// In degrees, exact for small angles too. Not finite where one of them is; 0 where one is zero.
+double angleBetween(const DVec3& a, const DVec3& b);
+
+}  // namespace tspace

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Bilinear filtering: which texels a point of a texture is made of. Texel centres lie at (i + 0.5) / size, as in every
+// graphics API; row 0 is v = 0.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "tspace/texture_wrap.h"
+#include "tspace/vec.h"
+
+namespace tspace {
+
+/// What of a texture decides which texels are read.
+struct TextureShape {
+    std::uint32_t width = 0, height = 0;  ///< both at least 1
+    TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
+};
+
+/// The texel that stands at column (or row) `at` of a texture that goes on in all directions. Any number.
+inline std::uint32_t wrappedTexel(std::int64_t at, std::uint32_t size, TextureWrap wrap) {
+    const std::int64_t count = size;
+    if (wrap == TextureWrap::clamp) return static_cast<std::uint32_t>(at < 0 ? 0 : at < count ? at : count - 1);
+    const std::int64_t period = wrap == TextureWrap::mirror ? 2 * count : count;
+    std::int64_t inside = at % period;
+    if (inside < 0) inside += period;
+    return static_cast<std::uint32_t>(inside < count ? inside : period - 1 - inside);
+}
+
+/// Four texels (numbers y * width + x) and what each counts; the weights have the sum 1.
+struct BilinearTaps {
+    std::array<std::size_t, 4> texels = {};
+    std::array<float, 4> weights = {};
+};
+
+/// UVs that are not finite, or lie 2^40 texels away or more, read the texel at (0, 0).
+inline BilinearTaps bilinearTaps(const TextureShape& shape, Vec2 uv) {
+    const double x = static_cast<double>(uv.x) * shape.width - 0.5, y = static_cast<double>(uv.y) * shape.height - 0.5;
+    constexpr double kFar = 1099511627776.0;
+    if (!(std::abs(x) < kFar && std::abs(y) < kFar)) return {{}, {1, 0, 0, 0}};
+    const double left = std::floor(x), top = std::floor(y);
+    const auto column = [&](int step) {
+        return wrappedTexel(static_cast<std::int64_t>(left) + step, shape.width, shape.wrap_u);
+    };
+    const auto row = [&](int step) {
+        return std::size_t{wrappedTexel(static_cast<std::int64_t>(top) + step, shape.height, shape.wrap_v)} *
+               shape.width;
+    };
+    const auto right = static_cast<float>(x - left), below = static_cast<float>(y - top);
+    return {{row(0) + column(0), row(0) + column(1), row(1) + column(0), row(1) + column(1)},
+            {(1 - right) * (1 - below), right * (1 - below), (1 - right) * below, right * below}};
+}
+
+/// `texels`: width * height.
+inline Vec3 sampleBilinear(const TextureShape& shape, std::span<const Vec3> texels, Vec2 uv) {
+    const BilinearTaps taps = bilinearTaps(shape, uv);
+    Vec3 sum{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Vec3& texel = texels[taps.texels[i]];
+        const float weight = taps.weights[i];
+        sum = {sum.x + weight * texel.x, sum.y + weight * texel.y, sum.z + weight * texel.z};
+    }
+    return sum;
+}
+
+}  // namespace tspace
