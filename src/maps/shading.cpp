@@ -2,7 +2,9 @@
 #include "maps/shading.h"
 
 #include <cstring>
-#include <numbers>
+#include <limits>
+
+#include "core/angle.h"
 
 namespace tspace {
 
@@ -102,8 +104,10 @@ DVec3 vectorFor(const ShadingFrame& frame, const DVec3& direction) {
     return normalize(vector) ? vector : DVec3{};
 }
 
-double angleBetween(const DVec3& a, const DVec3& b) {
-    return std::atan2(length(cross(a, b)), dot(a, b)) * (180 / std::numbers::pi);
+double degreesBetween(const DVec3& a, const DVec3& b) {
+    const double x = dot(a, b), y = length(cross(a, b));
+    if (!std::isfinite(x) || !std::isfinite(y)) return std::numeric_limits<double>::quiet_NaN();
+    return polarAngle(x, y) * (180 / kPi);
 }
 
 }  // namespace tspace

@@ -40,6 +40,6 @@ DVec3 shadedNormal(const ShadingFrame& frame, const DVec3& vector);
 DVec3 vectorFor(const ShadingFrame& frame, const DVec3& direction);
 
 /// In degrees, exact for small angles too. Not finite where one of them is; 0 where one is zero.
-double angleBetween(const DVec3& a, const DVec3& b);
+double degreesBetween(const DVec3& a, const DVec3& b);
 
 }  // namespace tspace

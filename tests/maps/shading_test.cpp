@@ -44,7 +44,7 @@ TEST(Shading, AgreesWithTheFunctionOfOneFrame) {
         const DVec3 normal = shadedNormal(shadingFrame(corners, {1, 0, 0}, {}), toDouble(texel));
         const Vec3 expected = objectNormalMikktspace(corners.normals[0], corners.tangents[0], texel);
         RC_PRE(length(normal) > 0.5);
-        RC_ASSERT(angleBetween(normal, toDouble(expected)) < 1e-3);
+        RC_ASSERT(degreesBetween(normal, toDouble(expected)) < 1e-3);
     });
 }
 
@@ -57,7 +57,7 @@ TEST(Shading, WhatIsEncodedShadesAsWanted) {
         RC_PRE(length(toDouble(wanted)) > 0.1 && vector.z > 0.2);
         const DVec3 texel = encodeTexel(vector, reading);
         RC_PRE(reading.scale == 1.0f || !reading.two_channels);
-        RC_ASSERT(angleBetween(shadedNormal(frame, decodeTexel(toFloat(texel), reading)), toDouble(wanted)) < 1e-3);
+        RC_ASSERT(degreesBetween(shadedNormal(frame, decodeTexel(toFloat(texel), reading)), toDouble(wanted)) < 1e-3);
     });
 }
 
@@ -78,7 +78,7 @@ TEST(Shading, BitangentPerVertexIsAnotherNormalOnCoarseMeshesOnly) {
     const DVec3 vector{0.4, 0.5, 0.7};
     const auto differ = [&](const CornerFrames& corners) {
         const std::array<double, 3> middle{1.0 / 3, 1.0 / 3, 1.0 / 3};
-        return angleBetween(
+        return degreesBetween(
             shadedNormal(shadingFrame(corners, middle, {}), vector),
             shadedNormal(shadingFrame(corners, middle, {.bitangent = BitangentPlace::perVertex}), vector));
     };
