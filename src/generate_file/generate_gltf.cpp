@@ -70,26 +70,20 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     report.warnings = document.warnings;
     std::vector<Primitive> primitives = readPrimitives(document);
     const bool removed = removeMiscounted(document, primitives, options.pack);
-    const auto makePlan = [&] {
-        GeneratePlan made = planGenerate(document, primitives, options);
-        if (options.existing == ExistingTangents::repair) planRepair(document, primitives, options, made);
-        return made;
-    };
-    GeneratePlan plan = makePlan();
+    const bool converted = target.container != document.container || document.imported;
+    const bool keeps_compression = options.compression == Compression::keep;
+    if (!keeps_compression) convertContainer(document, target, true, report.warnings);
+    const std::string new_file = freeFileName(document, target, ".tspace.bin");
+    const bool unpacked = unpackGeometry(document, options.compression, new_file);
+    if (unpacked) primitives = readPrimitives(document);
+    GeneratePlan plan = planGenerate(document, primitives, options);
+    if (options.existing == ExistingTangents::repair) planRepair(document, primitives, options, plan);
     MapFlips flips;
     if (options.flip_green != FlipGreen::none) flips = planFlips(document, primitives, plan.reports, options);
     report.input_bytes = document.input_bytes;
-    const bool converted = target.container != document.container || document.imported;
-    const bool keeps_compression = options.compression == Compression::keep;
-    const bool will_edit =
-        !plan.pools.empty() || !keeps_compression || !flips.images.empty() || options.pack.has_value();
-    convertContainer(document, target, will_edit, report.warnings);
-    const std::string new_file = freeFileName(document, target, ".tspace.bin");
-    const bool repacked = recompress(document, options.compression, new_file);
-    if (repacked) {
-        primitives = readPrimitives(document);
-        plan = makePlan();
-    }
+    const bool will_edit = !plan.pools.empty() || !flips.images.empty() || options.pack.has_value();
+    if (keeps_compression) convertContainer(document, target, will_edit, report.warnings);
+    takeImagesIn(document, target, report.warnings);
     tell(options, "reading", 1, 1);
 
     Editor editor(document, new_file);
@@ -116,13 +110,11 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     report.normal_maps = std::move(flips.reports);
     if (!flips.images.empty()) applyFlips(document, editor, target, std::move(flips));
     editor.finish();
-    // Views that could not be packed may be free now of what stood in the way.
-    const bool packed_more =
-        options.compression == Compression::meshopt && recompress(document, options.compression, new_file);
+    const bool packed = packGeometry(document, options.compression, new_file);
 
     AtomicOutput files(options.sink, options.dry_run);
     tell(options, "writing", 0, 1);
-    report.changed = editor.changed() || converted || repacked || packed_more;
+    report.changed = editor.changed() || converted || unpacked || packed;
     if (report.changed) {
         writeDocument(document, target, files, report.warnings, options.tangents.execution);
     } else {

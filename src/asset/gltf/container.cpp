@@ -256,7 +256,6 @@ void convertContainer(Document& document, const OutputTarget& target, bool will_
     if (target.container == Container::glb) {
         const bool has_bin = document.buffers.empty() || document.buffers[0].source == BufferSource::bin;
         if (target.takes_images_in || (!has_bin && will_edit)) joinBuffers(document);
-        if (target.takes_images_in) embedImages(document, warnings);
         document.container = Container::glb;
         if (!document.buffers.empty() && document.buffers[0].source == BufferSource::bin)
             document.buffers[0].own = true;
@@ -286,6 +285,10 @@ void convertContainer(Document& document, const OutputTarget& target, bool will_
             buffer.path = own_name;
         }
     }
+}
+
+void takeImagesIn(Document& document, const OutputTarget& target, std::vector<std::string>& warnings) {
+    if (target.takes_images_in) embedImages(document, warnings);
 }
 
 void writeDocument(Document& document, const OutputTarget& target, AtomicOutput& output,

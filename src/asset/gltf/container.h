@@ -24,11 +24,13 @@ struct OutputTarget {
 /// stream that is no GLB.
 OutputTarget outputTarget(const Document& document, const Path& path, bool is_stream);
 
-/// Prepares the document for its output: .gltf to .glb joins all buffers in BIN and takes the images in; .glb
-/// to .gltf gives BIN a file name. Marks the buffers that the output owns. `will_edit`: new data is to be
-/// expected.
+/// Prepares the document for its output: .gltf to .glb joins all buffers in BIN; .glb to .gltf gives BIN a file name.
+/// Marks the buffers that the output owns. `will_edit`: new data is to be expected.
 void convertContainer(Document& document, const OutputTarget& target, bool will_edit,
                       std::vector<std::string>& warnings);
+
+/// Takes images in BIN where a .gltf becomes a .glb. Behind convertContainer; images have lost their names then.
+void takeImagesIn(Document& document, const OutputTarget& target, std::vector<std::string>& warnings);
 
 /// Whether a buffer or an image of the document names this file, a path from the model's folder.
 bool namesFile(const Document& document, const std::string& name);

@@ -147,25 +147,37 @@ bool usesMeshopt(const Document& document) {
     return std::any_of(views.begin(), views.end(), [](const Json& view) { return meshoptExtension(view) != nullptr; });
 }
 
+/// Whether anything changed.
+template <class Body>
+bool edit(Document& document, const std::string& new_file_name, Body&& body) {
+    Editor editor(document, new_file_name);
+    body(editor);
+    if (!editor.changed()) return false;
+    editor.finish();
+    removeIdleBuffers(document);
+    return true;
+}
+
 void needLibrary(const std::string& missing) {
     if (!missing.empty()) failFile(ErrorCode::unsupportedFile, "the output cannot be compressed so: " + missing);
 }
 
 }  // namespace
 
-bool recompress(Document& document, Compression compression, const std::string& new_file_name) {
+bool unpackGeometry(Document& document, Compression compression, const std::string& new_file_name) {
     if (compression == Compression::keep) return false;
     if (compression == Compression::meshopt) needLibrary(meshoptMissing(false));
     if (compression == Compression::draco) needLibrary(dracoMissing());
-    Editor editor(document, new_file_name);
-    if (compression != Compression::draco && usesDraco(document)) unpackDraco(document, editor);
-    if (compression != Compression::meshopt && usesMeshopt(document)) unpackMeshopt(document, editor);
-    if (compression == Compression::meshopt) packMeshopt(document, editor);
-    if (compression == Compression::draco) packDraco(document, editor);
-    if (!editor.changed()) return false;
-    editor.finish();
-    removeIdleBuffers(document);
-    return true;
+    return edit(document, new_file_name, [&](Editor& editor) {
+        if (compression != Compression::draco && usesDraco(document)) unpackDraco(document, editor);
+        if (compression != Compression::meshopt && usesMeshopt(document)) unpackMeshopt(document, editor);
+        if (compression == Compression::draco) packDraco(document, editor);
+    });
+}
+
+bool packGeometry(Document& document, Compression compression, const std::string& new_file_name) {
+    if (compression != Compression::meshopt) return false;
+    return edit(document, new_file_name, [&](Editor& editor) { packMeshopt(document, editor); });
 }
 
 }  // namespace tspace::gltf

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Packing and unpacking the geometry of a whole file, before anything is computed from it: frames belong to the values
-// that are written.
+// The geometry of a whole file, from any compression to a given one: unpacked before anything is computed from it, and packed
+// when all is done.
 #pragma once
 
 #include <string>
@@ -9,8 +9,13 @@
 
 namespace tspace::gltf {
 
-/// Brings the document to the given compression. `new_file_name` as for Editor. Returns false when nothing had to
-/// change. Fails with unsupportedFile when this build has not the library.
-bool recompress(Document& document, Compression compression, const std::string& new_file_name);
+/// Unpacks what is compressed otherwise than asked for. Draco is packed here as well: it rounds, and frames belong to the
+/// values that are written. `new_file_name` as for Editor. Returns false when nothing had to change. Fails with
+/// unsupportedFile when this build has not the library.
+bool unpackGeometry(Document& document, Compression compression, const std::string& new_file_name);
+
+/// Packs what is not compressed yet, where the compression keeps every value: meshopt. Returns false when nothing had to
+/// change.
+bool packGeometry(Document& document, Compression compression, const std::string& new_file_name);
 
 }  // namespace tspace::gltf
