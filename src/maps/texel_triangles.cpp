@@ -45,6 +45,7 @@ class TriangleSearch {
         found_.places = Buffer<TexelPlace>(allocator_, texels, TexelPlace{});
         found_.kinds = Buffer<TexelKind>(allocator_, texels, TexelKind::none);
         found_.overlaps = Buffer<bool>(allocator_, texels, false);
+        found_.is_read = Buffer<bool>(allocator_, texels, false);
         if (near_ > 0) distances_ = Buffer<float>(allocator_, texels, static_cast<float>(near_ * near_));
         parallel_.forTasks(band_count_, [&](std::size_t band) {
             for (const std::uint32_t triangle : entries(band)) addInside(triangle, band);
@@ -234,8 +235,9 @@ class TriangleSearch {
             forColumns(nearColumns(corners, row), [&](std::int64_t column, std::size_t image_column) {
                 const std::size_t texel = image_row * shape_.width + image_column;
                 if (found_.kinds[texel] == TexelKind::inside) return;
-                const auto distance = static_cast<float>(
-                    corners.squaredDistance(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5));
+                const double x = static_cast<double>(column) + 0.5, y = static_cast<double>(row) + 0.5;
+                const auto distance = static_cast<float>(corners.squaredDistance(x, y));
+                if (distance < 2 && !found_.is_read[texel]) found_.is_read[texel] = corners.isReadAt(x, y);
                 const bool is_first = found_.kinds[texel] == TexelKind::none;
                 if (is_first ? distance > distances_[texel] : distance >= distances_[texel]) return;
                 found_.kinds[texel] = TexelKind::beside;
@@ -442,6 +444,19 @@ std::array<double, 3> ExactTriangle::weights(double px, double py) const {
 }
 
 double ExactTriangle::squaredDistance(double px, double py) const { return nearest(px, py).squared_distance; }
+
+bool ExactTriangle::isReadAt(double px, double py) const {
+    for (std::size_t a = 0; a < 3; ++a) {
+        const std::size_t b = (a + 1) % 3;
+        const double from_x = x[a] - px, from_y = y[a] - py, dx = x[b] - x[a], dy = y[b] - y[a];
+        // The larger of both distances is least at an end, or where they are equal.
+        for (const double part : {0.0, 1.0, (from_y - from_x) / (dx - dy), -(from_x + from_y) / (dx + dy)}) {
+            if (!(part >= 0 && part <= 1)) continue;
+            if (std::fabs(from_x + part * dx) < 1 && std::fabs(from_y + part * dy) < 1) return true;
+        }
+    }
+    return squaredDistance(px, py) == 0;
+}
 
 std::array<double, 3> weightsAt(const UvTriangles& triangles, const TextureShape& shape, const TexelPlace& place) {
     const std::array<Vec2, 3> uvs = cornerUvs(triangles, place.triangle);

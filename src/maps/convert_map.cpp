@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: MIT
+// convertMap: the frames of both sides at each texel, and the sums of the report.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/border.h"
+#include "core/parallel.h"
+#include "maps/convert_texel.h"
+#include "maps/map_stop.h"
+#include "maps/matched_triangles.h"
+#include "tspace/map_convert.h"
+
+namespace tspace {
+
+namespace {
+
+constexpr std::size_t kTexelsOfTask = 4096, kTasksOfStep = 64;
+
+/// UVs of corners as a list of triangles.
+struct CornerTriangles {
+    CornerTriangles(const MapSide& side, const Allocator* allocator)
+        : uvs(allocator, side.uvs.count), corners(allocator, side.uvs.count) {
+        for (std::size_t i = 0; i < uvs.size(); ++i) {
+            uvs[i] = side.uvs[i];
+            corners[i] = static_cast<std::uint32_t>(i);
+        }
+    }
+
+    [[nodiscard]] UvTriangles triangles(const MapImage& map) const {
+        return {.corners = {corners.data(), corners.size()},
+                .uvs = {uvs.data(), uvs.size()},
+                .wrap_u = map.wrap_u,
+                .wrap_v = map.wrap_v};
+    }
+
+    Buffer<Vec2> uvs;
+    Buffer<std::uint32_t> corners;
+};
+
+/// What counts in object space.
+MapReading readingOf(const MapSide& side) {
+    return side.space == MapSpace::tangent ? side.reading : MapReading{.green = side.reading.green};
+}
+
+bool hasFrames(const MapSide& side) { return side.space == MapSpace::tangent && !side.uvs.empty(); }
+
+ShadingFrame frameOf(const MapSide& side, std::size_t triangle, const std::array<double, 3>& weights) {
+    if (side.space == MapSpace::object) {
+        const MapAxes axes = side.axes.empty() ? MapAxes{} : side.axes[triangle];
+        return {toDouble(axes.x), toDouble(axes.y), toDouble(axes.z)};
+    }
+    CornerFrames corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+        corners.normals[i] = side.normals[3 * triangle + i];
+        corners.tangents[i] = side.tangents[3 * triangle + i];
+    }
+    return shadingFrame(corners, weights, side.reading);
+}
+
+/// Sums of some texels, in their order.
+struct Sums {
+    std::uint64_t converted = 0, changed = 0, background = 0, without_frame = 0, below_horizon = 0, unmatched = 0;
+    double change = 0, most_change = 0;
+
+    void add(const Sums& other) {
+        converted += other.converted;
+        changed += other.changed;
+        background += other.background;
+        without_frame += other.without_frame;
+        below_horizon += other.below_horizon;
+        unmatched += other.unmatched;
+        change += other.change;
+        most_change = std::max(most_change, other.most_change);
+    }
+};
+
+class Conversion {
+  public:
+    Conversion(const MapImage& map, const MapSide& from, const MapSide& to, std::span<Vec3> out,
+               const ConvertMapOptions& options, Parallel& parallel)
+        : map_(map),
+          from_(from),
+          to_(to),
+          out_(out),
+          options_(options),
+          parallel_(parallel),
+          // Where one side alone has frames, they are those of the other too.
+          one_mesh_(!(hasFrames(from) && hasFrames(to))),
+          main_(from.uvs.empty() || (to.space == MapSpace::tangent && from.space == MapSpace::object) ? to : from),
+          other_(&main_ == &from ? to : from),
+          main_corners_(main_, options.execution.allocator),
+          other_corners_(one_mesh_ ? MapSide{} : other_, options.execution.allocator) {}
+
+    Result<ConvertMapReport> run() {
+        if (!main_.uvs.empty()) {
+            if (!findPlaces()) {
+                return makeError(ErrorCode::tooLarge, kNoElement, "the UVs show the image far too often");
+            }
+        }
+        const std::size_t texels = map_.texels.size(), tasks = (texels + kTexelsOfTask - 1) / kTexelsOfTask;
+        Buffer<Sums> sums(options_.execution.allocator, tasks, Sums{});
+        for (std::size_t first = 0; first < tasks; first += kTasksOfStep) {
+            if (options_.stop && options_.stop()) return stoppedError();
+            if (options_.progress) options_.progress("converting texels", first, tasks);
+            parallel_.forTasks(std::min(kTasksOfStep, tasks - first), [&](std::size_t task) {
+                const std::size_t begin = (first + task) * kTexelsOfTask;
+                for (std::size_t i = begin; i < std::min(begin + kTexelsOfTask, texels); ++i) {
+                    convert(i, sums[first + task]);
+                }
+            });
+        }
+        Sums all;
+        for (const Sums& part : sums) all.add(part);
+        return reportOf(all);
+    }
+
+  private:
+    /// False: too much work.
+    bool findPlaces() {
+        const Allocator* allocator = options_.execution.allocator;
+        const UvTriangles triangles = main_corners_.triangles(map_);
+        // The texels that filtering reads are found within two.
+        const std::uint32_t padding = std::max<std::uint32_t>(options_.padding, 2);
+        auto places = findTexelTriangles(triangles, map_.width, map_.height, padding, parallel_, allocator);
+        if (!places) return false;
+        places_ = std::move(*places);
+        if (one_mesh_) return true;
+        matches_ = matchTriangles(main_, other_, allocator);
+        if (std::find(matches_.begin(), matches_.end(), kNoTriangle) == matches_.end()) return true;
+        const UvTriangles others = other_corners_.triangles(map_);
+        auto other_places = findTexelTriangles(others, map_.width, map_.height, padding, parallel_, allocator);
+        if (!other_places) return false;
+        other_places_ = std::move(*other_places);
+        if (other_places_.counts.overlapping > 0 && !main_.positions.empty() && !other_.positions.empty()) {
+            chooseByPosition(main_, triangles, places_, other_, others, other_places_, allocator);
+        }
+        return true;
+    }
+
+    void convert(std::size_t texel, Sums& sums) {
+        const Vec3 before = map_.texels[texel];
+        out_[texel] = before;
+        ShadingFrame from{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, to = from;
+        if (!main_.uvs.empty()) {
+            const TexelKind kind = places_.kinds[texel];
+            const bool is_shown = kind == TexelKind::inside || places_.is_read[texel] ||
+                                  (kind == TexelKind::beside && options_.padding > 0);
+            if (!is_shown) {
+                ++sums.background;
+                return;
+            }
+            if (!findFrames(texel, from, to)) {
+                ++sums.unmatched;
+                return;
+            }
+        }
+        const auto converted =
+            convertTexel(before, from, readingOf(from_), to, readingOf(to_), {.bits = options_.bits});
+        if (!converted) {
+            ++sums.without_frame;
+            return;
+        }
+        out_[texel] = converted->texel;
+        ++sums.converted;
+        sums.changed += converted->texel == before ? 0 : 1;
+        sums.below_horizon += converted->is_below_horizon ? 1 : 0;
+        sums.change += converted->change_deg;
+        sums.most_change = std::max(sums.most_change, converted->change_deg);
+    }
+
+    /// False: the other side has no triangle there.
+    [[nodiscard]] bool findFrames(std::size_t texel, ShadingFrame& from, ShadingFrame& to) const {
+        const TexelPlace& place = places_.places[texel];
+        const std::array<double, 3> weights = weightsAt(main_corners_.triangles(map_), places_.shape, place);
+        if (one_mesh_) {
+            from = oneMeshFrame(from_, place.triangle, weights);
+            to = oneMeshFrame(to_, place.triangle, weights);
+            return true;
+        }
+        TexelPlace other_place = place;
+        other_place.triangle = matches_[place.triangle];
+        if (other_place.triangle == kNoTriangle) other_place = other_places_.places[texel];
+        if (other_place.triangle == kNoTriangle) return false;
+        const ShadingFrame main_frame = frameOf(main_, place.triangle, weights);
+        const ShadingFrame other_frame = frameOf(other_, other_place.triangle,
+                                                 weightsAt(other_corners_.triangles(map_), places_.shape, other_place));
+        from = &main_ == &from_ ? main_frame : other_frame;
+        to = &main_ == &from_ ? other_frame : main_frame;
+        return true;
+    }
+
+    [[nodiscard]] ShadingFrame oneMeshFrame(const MapSide& side, std::size_t triangle,
+                                            const std::array<double, 3>& weights) const {
+        if (side.space == MapSpace::object || hasFrames(side)) return frameOf(side, triangle, weights);
+        MapSide with_mesh = main_;
+        with_mesh.reading = side.reading;
+        return frameOf(with_mesh, triangle, weights);
+    }
+
+    [[nodiscard]] ConvertMapReport reportOf(const Sums& sums) const {
+        ConvertMapReport report;
+        report.converted = sums.converted;
+        report.changed = sums.changed;
+        report.background = sums.background;
+        report.without_frame = sums.without_frame;
+        report.below_horizon = sums.below_horizon;
+        report.unmatched = sums.unmatched;
+        report.overlapping = places_.counts.overlapping;
+        report.degenerate_uv_count = places_.counts.without_area;
+        report.bad_uv_count = places_.counts.not_finite + places_.counts.too_far;
+        if (sums.converted > 0) report.mean_change_deg = sums.change / static_cast<double>(sums.converted);
+        report.max_change_deg = sums.most_change;
+        if (options_.bits != 32) {
+            report.half_step_deg = 180 / std::numbers::pi / (TexelNumbers{options_.bits}.most());
+            report.is_below_half_step = sums.changed > 0 && report.mean_change_deg < report.half_step_deg;
+        }
+        return report;
+    }
+
+    const MapImage& map_;
+    const MapSide &from_, &to_;
+    std::span<Vec3> out_;
+    const ConvertMapOptions& options_;
+    Parallel& parallel_;
+    bool one_mesh_;
+    const MapSide &main_, &other_;  ///< texels go by the triangles of the first
+    CornerTriangles main_corners_, other_corners_;
+    TexelTriangles places_ = {}, other_places_ = {};
+    Buffer<std::uint32_t> matches_ = {};  ///< triangles of the other side, by those of the main one
+};
+
+const Error kFine{ErrorCode::ok};
+
+Error checkSide(const MapSide& side, const MapSide& other, const char* missing) {
+    const std::size_t corners = side.uvs.count;
+    if (Error error = checkSpan(side.uvs, kAnyCount, "uvs"); error.code != ErrorCode::ok) return error;
+    if (corners % 3 != 0 || corners / 3 >= kNoTriangle / 3) {
+        return makeError(ErrorCode::countMismatch, kNoElement, "uvs: three per triangle are needed");
+    }
+    if (!side.positions.empty()) {
+        if (Error error = checkSpan(side.positions, corners, "positions"); error.code != ErrorCode::ok) return error;
+    }
+    const MapReading& reading = side.reading;
+    if (!std::isfinite(reading.scale) || reading.scale == 0) {
+        return makeError(ErrorCode::invalidOption, kNoElement, "a map's scale is finite and not 0");
+    }
+    if (side.space == MapSpace::object) {
+        const std::size_t triangles = (corners != 0 && other.space == MapSpace::object ? corners : other.uvs.count) / 3;
+        if (!side.axes.empty() && side.axes.size() != triangles) {
+            return makeError(ErrorCode::countMismatch, kNoElement, "axes: one per triangle is needed");
+        }
+        return kFine;
+    }
+    if (corners == 0) {
+        const bool same_frames =
+            reading.bitangent == other.reading.bitangent && reading.unit_vectors == other.reading.unit_vectors;
+        const bool needs_mesh = other.space == MapSpace::object || (other.uvs.empty() && !same_frames);
+        return needs_mesh ? makeError(ErrorCode::missingAttribute, kNoElement, "%s", missing) : kFine;
+    }
+    if (side.normals.empty() || side.tangents.empty()) {
+        return makeError(ErrorCode::missingAttribute, kNoElement, "tangent space needs normals and tangents");
+    }
+    if (Error error = checkSpan(side.normals, corners, "normals"); error.code != ErrorCode::ok) return error;
+    return checkSpan(side.tangents, corners, "tangents");
+}
+
+Error checkCall(const MapImage& map, const MapSide& from, const MapSide& to, std::span<Vec3> out,
+                const ConvertMapOptions& options) {
+    const std::uint64_t texels = std::uint64_t{map.width} * map.height;
+    if (texels == 0 || texels >> 32 != 0) {
+        return makeError(ErrorCode::tooLarge, kNoElement, "an image has 1 to 2^32 texels");
+    }
+    if (map.texels.size() != texels || out.size() != texels) {
+        return makeError(ErrorCode::countMismatch, kNoElement, "texels: width * height are needed");
+    }
+    if (options.bits != 8 && options.bits != 16 && options.bits != 32) {
+        return makeError(ErrorCode::invalidOption, kNoElement, "bits are 8, 16 or 32");
+    }
+    if (Error error = checkSide(from, to, "the frames that the map was made for are needed: a mesh");
+        error.code != ErrorCode::ok) {
+        return error;
+    }
+    return checkSide(to, from, "the frames that the map is to be read with are needed: a mesh");
+}
+
+}  // namespace
+
+Result<ConvertMapReport> convertMap(const MapImage& map, const MapSide& from, const MapSide& to, std::span<Vec3> out,
+                                    const ConvertMapOptions& options) {
+    return atBorder([&]() -> Result<ConvertMapReport> {
+        if (Error error = checkCall(map, from, to, out, options); error.code != ErrorCode::ok) return error;
+        Parallel parallel(options.execution);
+        return Conversion(map, from, to, out, options, parallel).run();
+    });
+}
+
+}  // namespace tspace

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "maps/convert_texel.h"
+
+#include <algorithm>
+
+#include "maps/quantize.h"
+
+namespace tspace {
+
+namespace {
+
+/// What is closer is the same: far below a step of 16 bits, far above what inverting a frame in double errs by.
+constexpr double kSameVector = 1e-7;
+
+/// Lengths that texels of 8 bits may have.
+constexpr double kLeastLength = 0.7;
+
+bool isOnGrid(float channel, unsigned most) {
+    const double scaled = static_cast<double>(channel) * most;
+    // A float of n / most errs by half a unit in its last place, and somewhat more after 1 - n / most.
+    return std::fabs(scaled - std::nearbyint(scaled)) <= most * 1.5e-7;
+}
+
+bool isOnGrid(const Vec3& texel, const TexelNumbers& numbers) {
+    if (numbers.bits == 32) return true;
+    const unsigned most = numbers.most();
+    return isOnGrid(texel.x, most) && isOnGrid(texel.y, most) && isOnGrid(texel.z, most);
+}
+
+/// Channels for a vector as the image stores it.
+Vec3 channelsOf(const DVec3& stored, const TexelNumbers& numbers) {
+    const auto channel = [&](double component) {
+        const double part = std::clamp(0.5 * (component + 1), 0.0, 1.0);
+        if (numbers.bits == 32) return static_cast<float>(part);
+        const auto most = static_cast<float>(numbers.most());
+        return static_cast<float>(std::floor(part * most + 0.5)) / most;
+    };
+    return {channel(stored.x), channel(stored.y), channel(stored.z)};
+}
+
+/// The texel for a vector, which keeps its length where it can.
+Vec3 storedTexel(const DVec3& vector, const MapReading& reading, const TexelNumbers& numbers) {
+    const DVec3 encoded = encodeTexel(vector, reading);
+    DVec3 stored{2 * encoded.x - 1, 2 * encoded.y - 1, 2 * encoded.z - 1};
+    if (numbers.bits == 8 && reading.scale == 1.0f) {
+        DVec3 direction = stored;
+        if (normalize(direction)) {
+            stored = nearestIntegers(
+                {.most = numbers.most(), .least_length = kLeastLength, .is_two_channel = reading.two_channels},
+                direction);
+        }
+    }
+    const double largest = std::max({std::fabs(stored.x), std::fabs(stored.y), std::fabs(stored.z)});
+    if (largest > 1) stored = (1 / largest) * stored;
+    return channelsOf(stored, numbers);
+}
+
+/// Whether a vector is stored alike, but for green.
+bool storesAlike(const MapReading& a, const MapReading& b) {
+    return a.scale == b.scale && a.two_channels == b.two_channels;
+}
+
+}  // namespace
+
+std::optional<ConvertedTexel> convertTexel(const Vec3& texel, const ShadingFrame& from, const MapReading& from_reading,
+                                           const ShadingFrame& to, const MapReading& to_reading,
+                                           const TexelNumbers& numbers) {
+    const DVec3 before = decodeTexel(texel, from_reading);
+    const double size = length(before);
+    const DVec3 direction = shadedNormal(from, before);
+    DVec3 after = vectorFor(to, direction);
+    if (!(size > 0) || !std::isfinite(size) || !(dot(direction, direction) > 0) || !(dot(after, after) > 0)) return {};
+    after = size * after;
+    ConvertedTexel converted;
+    const DVec3 unconverted = shadedNormal(to, decodeTexel(texel, to_reading));
+    converted.change_deg = degreesBetween(unconverted, direction);
+    if (!std::isfinite(converted.change_deg)) return {};
+    if (length(after - before) <= kSameVector * size && storesAlike(from_reading, to_reading)) {
+        converted.texel = texel;
+        if (from_reading.green != to_reading.green) converted.texel.y = 1 - texel.y;
+        if (isOnGrid(converted.texel, numbers)) return converted;
+    }
+    if (to_reading.two_channels && after.z < 0) {
+        after.z = 0;
+        converted.is_below_horizon = true;
+        if (!normalize(after)) return {};
+    }
+    converted.texel = storedTexel(after, to_reading, numbers);
+    return converted;
+}
+
+}  // namespace tspace

@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: MIT
+// What a map shows on one set of frames, it shows on the other after conversion.
+#include "tspace/map_convert.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "maps/quantize.h"
+#include "maps/shading.h"
+#include "maps/texel_triangles.h"
+
+namespace tspace::test {
+namespace {
+
+/// A side that owns its corners.
+struct Corners {
+    std::vector<Vec2> uvs = {};
+    std::vector<Vec3> positions = {}, normals = {};
+    std::vector<Vec4> tangents = {};
+    MapReading reading = {};
+
+    [[nodiscard]] MapSide side() const {
+        return {.reading = reading, .uvs = uvs, .normals = normals, .tangents = tangents, .positions = positions};
+    }
+};
+
+Vec3 unit(DVec3 v) {
+    normalize(v);
+    return toFloat(v);
+}
+
+/// A bent patch over UVs from `begin` to `end`, `cells` x `cells` quads. `twist`: how its tangents are turned about the normal,
+/// and `lean` how its normals lean, both smoothly different over the patch.
+struct Patch {
+    int cells = 4;
+    float begin = 0.1f, end = 0.9f;
+    double twist = 0, lean = 0;
+    bool other_diagonal = false;
+    float sign = 1;
+    float x_offset = 0;
+};
+
+void addCorner(const Patch& patch, int column, int row, Corners& to) {
+    const double a = static_cast<double>(column) / patch.cells, b = static_cast<double>(row) / patch.cells;
+    const float size = patch.end - patch.begin;
+    to.uvs.push_back({patch.begin + size * static_cast<float>(a), patch.begin + size * static_cast<float>(b)});
+    to.positions.push_back({patch.x_offset + patch.sign * static_cast<float>(a), static_cast<float>(b),
+                            static_cast<float>(0.2 * std::sin(3 * a) * std::cos(2 * b))});
+    const DVec3 normal{patch.sign * (0.3 * std::cos(3 * a) + patch.lean * b), 0.2 * std::sin(2 * b) - patch.lean * a,
+                       1};
+    const Vec3 n = unit(normal);
+    const double turn = patch.twist * (1 + a - b);
+    DVec3 tangent{patch.sign * std::cos(turn), std::sin(turn), 0};
+    tangent = tangent - dot(toDouble(n), tangent) * toDouble(n);
+    const Vec3 t = unit(tangent);
+    to.normals.push_back(n);
+    to.tangents.push_back({t.x, t.y, t.z, patch.sign});
+}
+
+Corners cornersOf(const Patch& patch) {
+    Corners corners;
+    for (int row = 0; row < patch.cells; ++row) {
+        for (int column = 0; column < patch.cells; ++column) {
+            const int right = column + 1, below = row + 1;
+            const std::vector<std::pair<int, int>> first = {{column, row}, {right, row}, {right, below}};
+            const std::vector<std::pair<int, int>> second = {{column, row}, {right, below}, {column, below}};
+            const std::vector<std::pair<int, int>> third = {{column, row}, {right, row}, {column, below}};
+            const std::vector<std::pair<int, int>> fourth = {{right, row}, {right, below}, {column, below}};
+            for (const auto& [x, y] : patch.other_diagonal ? third : first) addCorner(patch, x, y, corners);
+            for (const auto& [x, y] : patch.other_diagonal ? fourth : second) addCorner(patch, x, y, corners);
+        }
+    }
+    return corners;
+}
+
+/// Texels that lean by up to 30 degrees, of somewhat different lengths, with integers of `bits`.
+std::vector<Vec3> randomTexels(std::size_t count, unsigned bits, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> lean(-0.5, 0.5), size(0.85, 1.0);
+    std::vector<Vec3> texels(count);
+    const double most = bits == 32 ? 0 : (1U << bits) - 1;
+    for (Vec3& texel : texels) {
+        const Vec3 v = unit({lean(random), lean(random), 1});
+        const double length = size(random);
+        const auto channel = [&](float c) {
+            const double part = 0.5 * (length * c + 1);
+            if (bits == 32) return static_cast<float>(part);
+            return static_cast<float>(std::floor(part * most + 0.5)) / static_cast<float>(most);
+        };
+        texel = {channel(v.x), channel(v.y), channel(v.z)};
+    }
+    return texels;
+}
+
+constexpr std::uint32_t kSize = 32;
+
+MapImage imageOf(const std::vector<Vec3>& texels, std::uint32_t size = kSize) { return {size, size, texels}; }
+
+std::vector<Vec3> converted(const std::vector<Vec3>& texels, const MapSide& from, const MapSide& to,
+                            const ConvertMapOptions& options = {}, ConvertMapReport* report = nullptr) {
+    std::vector<Vec3> out(texels.size());
+    const auto size = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(texels.size()))));
+    const Result<ConvertMapReport> done = convertMap(imageOf(texels, size), from, to, out, options);
+    EXPECT_TRUE(done.ok()) << (done ? "" : done.error().message);
+    if (done && report != nullptr) *report = *done;
+    return out;
+}
+
+/// What a side shows at each texel's centre; zero where it has no triangle.
+std::vector<DVec3> shown(const std::vector<Vec3>& texels, const Corners& side) {
+    std::vector<std::uint32_t> corners(side.uvs.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
+    Parallel parallel(Execution{});
+    const UvTriangles triangles{corners, side.uvs};
+    const auto size = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(texels.size()))));
+    const auto places = findTexelTriangles(triangles, size, size, 0, parallel);
+    std::vector<DVec3> directions(texels.size());
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        if (places->kinds[i] != TexelKind::inside) continue;
+        const TexelPlace& place = places->places[i];
+        CornerFrames frames;
+        for (std::size_t c = 0; c < 3; ++c) {
+            frames.normals[c] = side.normals[3 * place.triangle + c];
+            frames.tangents[c] = side.tangents[3 * place.triangle + c];
+        }
+        const auto weights = weightsAt(triangles, places->shape, place);
+        directions[i] = shadedNormal(shadingFrame(frames, weights, side.reading), decodeTexel(texels[i], side.reading));
+    }
+    return directions;
+}
+
+double mostApart(const std::vector<DVec3>& a, const std::vector<DVec3>& b) {
+    double most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, degreesBetween(a[i], b[i]));
+    return most;
+}
+
+double meanApart(const std::vector<DVec3>& a, const std::vector<DVec3>& b) {
+    double sum = 0;
+    int count = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (dot(a[i], a[i]) == 0) continue;
+        sum += degreesBetween(a[i], b[i]);
+        ++count;
+    }
+    return sum / count;
+}
+
+TEST(ConvertMap, ShowsOnTheNewFramesWhatItShowedOnTheOld) {
+    const Corners from = cornersOf({}), to = cornersOf({.twist = 0.3, .lean = 0.2});
+    for (const unsigned bits : {16U, 32U}) {
+        const auto texels = randomTexels(kSize * kSize, bits, 1);
+        ConvertMapReport report;
+        const auto out = converted(texels, from.side(), to.side(), {.bits = bits}, &report);
+        const auto wanted = shown(texels, from);
+        EXPECT_LT(mostApart(wanted, shown(out, to)), bits == 16 ? 0.002 : 2e-5);
+        EXPECT_GT(meanApart(wanted, shown(texels, to)), 9) << "the frames are others";
+        EXPECT_NEAR(report.mean_change_deg, meanApart(wanted, shown(texels, to)), 2);
+        EXPECT_FALSE(report.is_below_half_step);
+        EXPECT_EQ(report.converted + report.background, kSize * kSize);
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            const auto size = [&](const Vec3& texel) { return length(decodeTexel(texel, {})); };
+            EXPECT_NEAR(size(out[i]), std::min(size(texels[i]), 1.0), 0.0001) << "lengths are kept";
+        }
+        const auto back = converted(out, to.side(), from.side(), {.bits = bits});
+        EXPECT_LT(mostApart(wanted, shown(back, from)), bits == 16 ? 0.004 : 2e-5);
+    }
+}
+
+RC_GTEST_PROP(ConvertMap, ChangesNothingWhereBothSidesAreTheSame, ()) {
+    const auto bits = *rc::gen::element(8U, 16U, 32U);
+    Corners side = cornersOf({.twist = *rc::gen::inRange(0, 100) / 50.0, .lean = *rc::gen::inRange(0, 100) / 100.0});
+    side.reading.bitangent = *rc::gen::element(BitangentPlace::perPixel, BitangentPlace::perVertex);
+    side.reading.two_channels = *rc::gen::arbitrary<bool>();
+    side.reading.unit_vectors = *rc::gen::arbitrary<bool>();
+    auto texels = randomTexels(kSize * kSize, bits, *rc::gen::inRange(0U, 1000U));
+    texels[40] = {0.9f, 0.1f, 0.2f};
+    if (bits != 32) texels[40] = {1, 0, 1};
+    const auto out = converted(texels, side.side(), side.side(), {.bits = bits});
+    RC_ASSERT(out == texels);
+    Corners other_order = side;
+    std::rotate(other_order.uvs.begin(), other_order.uvs.begin() + 6, other_order.uvs.end());
+    std::rotate(other_order.positions.begin(), other_order.positions.begin() + 6, other_order.positions.end());
+    std::rotate(other_order.normals.begin(), other_order.normals.begin() + 6, other_order.normals.end());
+    std::rotate(other_order.tangents.begin(), other_order.tangents.begin() + 6, other_order.tangents.end());
+    RC_ASSERT(converted(texels, side.side(), other_order.side(), {.bits = bits}) == texels);
+}
+
+TEST(ConvertMap, InvertsGreenExactly) {
+    for (const unsigned bits : {8U, 16U}) {
+        const auto most = static_cast<float>((1U << bits) - 1);
+        std::vector<Vec3> texels(kSize * kSize);
+        for (std::size_t i = 0; i < texels.size(); ++i) {
+            const auto n = static_cast<float>(i * 61 % static_cast<std::size_t>(most + 1));
+            texels[i] = {n / most, n / most, 0.8f};
+            texels[i].z = std::floor(0.8f * most) / most;
+        }
+        Corners down;
+        down.reading.green = Green::down;
+        const Corners mesh = cornersOf({.begin = -0.5f, .end = 1.5f});
+        Corners mesh_down = mesh;
+        mesh_down.reading.green = Green::down;
+        for (const bool with_mesh : {false, true}) {
+            const auto out = with_mesh ? converted(texels, mesh.side(), mesh_down.side(), {.bits = bits})
+                                       : converted(texels, Corners{}.side(), down.side(), {.bits = bits});
+            for (std::size_t i = 0; i < texels.size(); ++i) {
+                EXPECT_EQ(std::lround(out[i].y * most), std::lround(most) - std::lround(texels[i].y * most));
+                EXPECT_EQ(out[i].x, texels[i].x);
+                EXPECT_EQ(out[i].z, texels[i].z);
+            }
+        }
+    }
+}
+
+TEST(ConvertMap, LeavesTheBackgroundAlone) {
+    const Corners from = cornersOf({.cells = 3, .begin = 0.3f, .end = 0.6f}),
+                  to = cornersOf({.cells = 3, .begin = 0.3f, .end = 0.6f, .twist = 1});
+    const auto texels = randomTexels(64 * 64, 32, 3);
+    ConvertMapReport report;
+    const auto out = converted(texels, from.side(), to.side(), {}, &report);
+    // Filtering between 0.3 * 64 and 0.6 * 64 reads columns 18 (whose centre is 0.7 away) to 38.
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        const std::size_t x = i % 64, y = i / 64;
+        const bool is_read = x >= 18 && x <= 38 && y >= 18 && y <= 38;
+        EXPECT_EQ(out[i] != texels[i], is_read) << x << " " << y;
+    }
+    EXPECT_EQ(report.converted, 21u * 21u);
+    EXPECT_EQ(report.background, 64u * 64u - 21u * 21u);
+    converted(texels, from.side(), to.side(), {.padding = 4}, &report);
+    EXPECT_GT(report.converted, 26u * 26u);
+}
+
+TEST(ConvertMap, FindsTrianglesInAnyOrderAlsoOnMirroredHalves) {
+    const Patch left{.twist = 0.2}, right{.twist = 0.2, .sign = -1, .x_offset = 5};
+    const auto both = [](Patch first, Patch second, double twist) {
+        first.twist = second.twist = twist;
+        Corners corners = cornersOf(first);
+        const Corners more = cornersOf(second);
+        corners.uvs.insert(corners.uvs.end(), more.uvs.begin(), more.uvs.end());
+        corners.positions.insert(corners.positions.end(), more.positions.begin(), more.positions.end());
+        corners.normals.insert(corners.normals.end(), more.normals.begin(), more.normals.end());
+        corners.tangents.insert(corners.tangents.end(), more.tangents.begin(), more.tangents.end());
+        return corners;
+    };
+    const auto texels = randomTexels(kSize * kSize, 16, 5);
+    const Corners from = both(left, right, 0), to = both(left, right, 0.4), swapped = both(right, left, 0.4);
+    ConvertMapReport report;
+    const auto out = converted(texels, from.side(), to.side(), {}, &report);
+    EXPECT_GT(report.overlapping, 500u);
+    EXPECT_EQ(converted(texels, from.side(), swapped.side()), out);
+    Patch cut_left = left, cut_right = right;
+    cut_left.other_diagonal = cut_right.other_diagonal = true;
+    const auto cut = converted(texels, from.side(), both(cut_right, cut_left, 0.4).side());
+    EXPECT_LT(mostApart(shown(texels, from), shown(cut, both(cut_left, cut_right, 0.4))), 0.01)
+        << "quads cut the other way: the same half";
+}
+
+TEST(ConvertMap, GoesToObjectSpaceAndBack) {
+    const Corners mesh = cornersOf({.twist = 0.3, .lean = 0.2});
+    const auto texels = randomTexels(kSize * kSize, 16, 6);
+    const MapSide object{.space = MapSpace::object};
+    const auto in_object = converted(texels, mesh.side(), object);
+    const auto wanted = shown(texels, mesh);
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        if (dot(wanted[i], wanted[i]) == 0) continue;
+        EXPECT_LT(degreesBetween(decodeTexel(in_object[i], {}), wanted[i]), 0.002);
+    }
+    EXPECT_LT(mostApart(shown(converted(in_object, object, mesh.side()), mesh), wanted), 0.004);
+
+    // An object that lies on its side: what is x in the map is y in the frames.
+    const std::vector<MapAxes> axes(mesh.uvs.size() / 3, MapAxes{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}});
+    MapSide turned = object;
+    turned.axes = axes;
+    std::vector<Vec3> none(texels.size());
+    EXPECT_FALSE(convertMap(imageOf(in_object), object, turned, none).ok()) << "no mesh says where the axes count";
+    MapSide with_mesh = turned;
+    with_mesh.uvs = mesh.uvs;
+    const auto out = converted(in_object, object, with_mesh);
+    const std::size_t middle = kSize * kSize / 2 + kSize / 2;
+    EXPECT_NEAR(decodeTexel(out[middle], {}).x, decodeTexel(in_object[middle], {}).y, 1e-4);
+    EXPECT_NEAR(decodeTexel(out[middle], {}).y, -decodeTexel(in_object[middle], {}).x, 1e-4);
+}
+
+TEST(ConvertMap, TakesTheBestLengthsWithEightBits) {
+    const Corners from = cornersOf({}), to = cornersOf({.twist = 0.3, .lean = 0.2});
+    const auto texels = randomTexels(kSize * kSize, 16, 7);
+    const auto wanted = shown(texels, from);
+    const auto best = converted(texels, from.side(), to.side(), {.bits = 8});
+    auto rounded = converted(texels, from.side(), to.side(), {.bits = 32});
+    for (Vec3& texel : rounded) {
+        const auto round = [](float part) { return std::floor(part * 255 + 0.5f) / 255; };
+        texel = {round(texel.x), round(texel.y), round(texel.z)};
+    }
+    EXPECT_LT(meanApart(wanted, shown(best, to)), 0.5 * meanApart(wanted, shown(rounded, to)));
+    for (const Vec3& texel : best) EXPECT_GE(length(decodeTexel(texel, {})), 0.69);
+}
+
+TEST(ConvertMap, GivesTwoChannelsUnitVectors) {
+    Corners from = cornersOf({}), to = cornersOf({.twist = 0.3, .lean = 0.2});
+    to.reading.two_channels = true;
+    const auto texels = randomTexels(kSize * kSize, 16, 8);
+    for (const unsigned bits : {8U, 16U}) {
+        const auto out = converted(texels, from.side(), to.side(), {.bits = bits});
+        EXPECT_LT(mostApart(shown(texels, from), shown(out, to)), bits == 16 ? 0.01 : 2.0);
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            if (out[i] == texels[i]) continue;
+            EXPECT_NEAR(length(decodeTexel(out[i], {})), 1, bits == 16 ? 1e-4 : 0.02);
+        }
+    }
+    MapReading down;
+    const auto below = converted(std::vector<Vec3>(16, Vec3{0.9f, 0.5f, 0.2f}), {}, {.reading = to.reading});
+    EXPECT_NEAR(below[0].x, 1, 1e-4) << "what looks down gets the horizon";
+}
+
+TEST(ConvertMap, NeverMakesNan) {
+    Corners from = cornersOf({}), to = cornersOf({.twist = 0.3});
+    for (std::size_t i = 0; i < 12; ++i) to.tangents[i] = {to.normals[i].x, to.normals[i].y, to.normals[i].z, 1};
+    for (std::size_t i = 12; i < 24; ++i) to.normals[i].x = NAN;
+    for (std::size_t i = 24; i < 36; ++i) from.tangents[i] = {};
+    for (std::size_t i = 36; i < 42; ++i) from.uvs[i] = {0.5f, 0.5f};
+    for (std::size_t i = 42; i < 45; ++i) from.uvs[i].x = INFINITY;
+    auto texels = randomTexels(kSize * kSize, 32, 9);
+    texels[kSize * 20 + 9] = {0.5f, 0.5f, 0.5f};
+    ConvertMapReport report;
+    const auto out = converted(texels, from.side(), to.side(), {}, &report);
+    for (const Vec3& texel : out) EXPECT_TRUE(isFinite(texel));
+    EXPECT_GT(report.without_frame, 50u);
+    EXPECT_GE(report.degenerate_uv_count, 1u);
+    EXPECT_EQ(report.bad_uv_count, 1u);
+}
+
+TEST(ConvertMap, SaysWhenRoundingUndoesIt) {
+    const Corners from = cornersOf({}), to = cornersOf({.twist = 0.001});
+    ConvertMapReport report;
+    converted(randomTexels(kSize * kSize, 16, 10), from.side(), to.side(), {.bits = 8}, &report);
+    EXPECT_TRUE(report.is_below_half_step);
+    EXPECT_NEAR(report.half_step_deg, 0.2247, 0.0001);
+    converted(randomTexels(kSize * kSize, 16, 10), from.side(), to.side(), {.bits = 16}, &report);
+    EXPECT_FALSE(report.is_below_half_step);
+}
+
+TEST(ConvertMap, GivesTheSameTexelsForAnyNumberOfThreads) {
+    const Corners from = cornersOf({}), to = cornersOf({.twist = 0.3, .other_diagonal = true});
+    const auto texels = randomTexels(200 * 200, 16, 11);
+    ConvertMapReport one, four;
+    const auto a = converted(texels, from.side(), to.side(), {.padding = 9}, &one);
+    const auto b = converted(texels, from.side(), to.side(), {.padding = 9, .execution = {.thread_count = 4}}, &four);
+    EXPECT_EQ(a, b);
+    EXPECT_EQ(one.mean_change_deg, four.mean_change_deg);
+}
+
+TEST(ConvertMap, StopsWhenAskedTo) {
+    const auto texels = randomTexels(16, 16, 12);
+    std::vector<Vec3> out(16);
+    const auto stopped = convertMap({4, 4, texels}, {}, {}, out, {.stop = [] { return true; }});
+    ASSERT_FALSE(stopped.ok());
+    EXPECT_EQ(stopped.error().code, ErrorCode::cannotWrite);
+}
+
+TEST(ConvertMap, RefusesWhatMakesNoSense) {
+    const auto texels = randomTexels(16, 16, 12);
+    std::vector<Vec3> out(16);
+    const auto codeOf = [&](const MapSide& from, const MapSide& to, const ConvertMapOptions& options = {}) {
+        const auto done = convertMap({4, 4, texels}, from, to, out, options);
+        return done ? ErrorCode::ok : done.error().code;
+    };
+    const Corners mesh = cornersOf({});
+    EXPECT_EQ(codeOf({}, {}), ErrorCode::ok);
+    EXPECT_EQ(codeOf({}, {}, {.bits = 12}), ErrorCode::invalidOption);
+    EXPECT_EQ(codeOf({}, {.space = MapSpace::object}), ErrorCode::missingAttribute);
+    EXPECT_EQ(codeOf({.space = MapSpace::object}, {}), ErrorCode::missingAttribute);
+    EXPECT_EQ(codeOf({}, {.reading = *findMapReading("three")}), ErrorCode::missingAttribute);
+    EXPECT_EQ(codeOf(mesh.side(), {.reading = *findMapReading("three")}), ErrorCode::ok);
+    EXPECT_EQ(codeOf({.reading = {.scale = 0}}, {}), ErrorCode::invalidOption);
+    MapSide side = mesh.side();
+    side.tangents = {};
+    EXPECT_EQ(codeOf(side, mesh.side()), ErrorCode::missingAttribute);
+    side = mesh.side();
+    side.normals.count -= 1;
+    EXPECT_EQ(codeOf(mesh.side(), side), ErrorCode::countMismatch);
+    EXPECT_FALSE(convertMap({4, 5, texels}, {}, {}, out).ok());
+    EXPECT_FALSE(convertMap({0, 5, {}}, {}, {}, {}).ok());
+}
+
+RC_GTEST_PROP(NearestIntegers, PointAsWellAsAnyThatAreLongEnough, ()) {
+    const auto part = [] { return *rc::gen::inRange(-1000, 1001) / 1000.0; };
+    DVec3 direction{part(), part(), part()};
+    RC_PRE(normalize(direction));
+    const unsigned most = 15;
+    const DVec3 found = nearestIntegers({.most = most}, direction);
+    double least = INFINITY;
+    for (unsigned i = 0; i < 16 * 16 * 16; ++i) {
+        const auto value = [&](unsigned n) { return 2.0 * n / most - 1; };
+        const DVec3 candidate{value(i % 16), value(i / 16 % 16), value(i / 256)};
+        const double size = length(candidate);
+        if (size >= 0.7 && size <= 1) least = std::min(least, degreesBetween(candidate, direction));
+    }
+    RC_ASSERT(length(found) >= 0.7 && length(found) <= 1.0000001);
+    RC_ASSERT(degreesBetween(found, direction) <= least + 1e-6);
+}
+
+}  // namespace
+}  // namespace tspace::test
