@@ -193,14 +193,18 @@ class BucketFinder {
 
     /// All half-edges whose ends both have a corner from L on; among them are those of the last bucket.
     void findEdges() {
-        constexpr std::size_t kSmallMesh = 1024, kSmallTail = 8, kTail = 24;  // triangles
-        constexpr std::size_t kLonger = 4;                                    // times, when that was not enough
+        constexpr std::size_t kTinyMesh = 64, kSmallMesh = 1024, kTinyTail = 2, kSmallTail = 8,
+                              kTail = 24;   // triangles
+        constexpr std::size_t kLonger = 4;  // times, when that was not enough
         ranges_ = Buffer<CornerRange>(allocator_, nodes_.count);
-        for (std::size_t length = triangles_.count < kSmallMesh ? kSmallTail : kTail;; length *= kLonger) {
+        const std::size_t count = triangles_.count;
+        const std::size_t first_length = count < kTinyMesh ? kTinyTail : count < kSmallMesh ? kSmallTail : kTail;
+        for (std::size_t length = first_length;; length *= kLonger) {
             const std::size_t begin = tailOf(length);
             const std::uint32_t first_corner = findRanges(begin);
             least_ = leastKey();
             if (begin == 0 || least_ >= first_corner) break;
+            if (length == kTinyTail) continue;
             findExactly([](std::uint32_t) { return true; });
             least_ = leastKey();
             if (least_ >= first_corner) break;

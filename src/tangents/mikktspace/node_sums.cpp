@@ -50,7 +50,7 @@ struct Sweep {
     /// The nodes of some vertices, where they lie or in `to`.
     const std::uint32_t* readNodes(const std::uint32_t* vertices, std::size_t count, std::uint32_t* to) const {
         if (nodes.of_vertex.empty()) return vertices;
-        for (std::size_t i = 0; i < 3 * count; ++i) to[i] = nodes.of_vertex[vertices[i]];
+        for (std::size_t i = 0; i < count; ++i) to[i] = nodes.of_vertex[vertices[i]];
         return to;
     }
 };
@@ -61,9 +61,9 @@ struct Block {
     const std::uint32_t* nodes = nullptr;     // where it is added
     std::size_t count = 0;
     bool is_whole = false;  // consecutive, and all their nodes are in the range
-    std::uint32_t own_vertices[kTermCorners] = {};
-    std::uint32_t own_nodes[kTermCorners] = {};
-    std::uint32_t triangles[kTermTriangles] = {};  // their numbers
+    std::uint32_t own_vertices[kTermCorners];
+    std::uint32_t own_nodes[kTermCorners];
+    std::uint32_t triangles[kTermTriangles];  // their numbers
 };
 
 /// A node while its range is worked on and triangles are listed: a cache line.
@@ -159,15 +159,16 @@ class Summer {
         finish(block);
     }
 
-    /// Looks up the nodes. Kernels read whole groups, so what follows the last triangle must be valid.
+    /// Looks up the nodes. Kernels read whole groups (corner_terms.h), so what follows the last triangle must be valid.
     void finish(Block& block) {
         const Nodes& map = sweep_.nodes;
         if (block.count == 0) return;
+        const std::size_t corners = 3 * ((block.count + 15) / 16 * 16);
         if (block.count < kTermTriangles)
-            std::fill(block.own_vertices + 3 * block.count, block.own_vertices + kTermCorners, block.own_vertices[0]);
-        block.nodes = sweep_.readNodes(block.vertices, kTermTriangles, block.own_nodes);
+            std::fill(block.own_vertices + 3 * block.count, block.own_vertices + corners, block.own_vertices[0]);
+        block.nodes = sweep_.readNodes(block.vertices, corners, block.own_nodes);
         if (map.mixed) {
-            for (std::size_t i = 0; i < kTermCorners; ++i) block.own_vertices[i] = map.vertex(block.nodes[i]);
+            for (std::size_t i = 0; i < corners; ++i) block.own_vertices[i] = map.vertex(block.nodes[i]);
             block.vertices = block.own_vertices;
         }
         if (sweep_.asks) askFor(block);
@@ -424,15 +425,10 @@ bool NodeSums::isOneGroup(std::size_t node, const Vec3& normal, bool may_split) 
 
 bool sumCannotSplit(const float* sum, std::uint32_t marks, const Vec3& normal) {
     if ((marks & (kTurnsLeft | kTurnsRight)) == 0 || (marks & kNotLight) == 0) return false;
-    const float lightest = (marks & kHeavy) != 0       ? kHeavyWeight
-                           : (marks & kNotMiddle) != 0 ? kMiddleWeight
-                                                       : kLightWeight;
-    const float least = sum[3] - 0.4f * lightest;
-    const float square = sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
-    const float normal_square = normal.x * normal.x + normal.y * normal.y + normal.z * normal.z;
-    // With a weight sum of at most 1024 times the lightest, the rounding errors of the sums stay below 0.1 of
-    // it.
-    return square > least * least && sum[3] < 1024 * lightest && normal_square > 0.98f && normal_square < 1.02f;
+    const Float4 x = splat(sum[0]), y = splat(sum[1]), z = splat(sum[2]);
+    const Vec3x4 n{splat(normal.x), splat(normal.y), splat(normal.z)};
+    return laneBits(cannotSplit(dot(Vec3x4{x, y, z}, Vec3x4{x, y, z}), splat(sum[3]),
+                                Mask4{} + static_cast<std::int32_t>(marks), n)) != 0;
 }
 
 void finishInRanges(std::size_t count, const FinishNodes& finish, Parallel& parallel) {

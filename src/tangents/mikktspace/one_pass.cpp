@@ -262,18 +262,26 @@ class OnePass {
     void finishNodes(std::size_t first, std::size_t end) {
         std::uint64_t complex_here = 0, groups_here = 0;
         for (; first < end; first += 64) {
-            std::uint64_t bits = 0;
+            std::uint64_t bits = 0, empty = 0;
             const std::size_t last = std::min(first + 64, end);
-            for (std::size_t n = first; n < last; ++n) {
-                const bool clear = finishNode(n);
-                if (!clear) [[unlikely]] {
-                    bits |= std::uint64_t{1} << (n - first);
-                    sums_.row(n)[3] = kComplexSign;
+            const auto leave = [&](std::size_t n) { bits |= std::uint64_t{1} << (n - first); };
+            for (std::size_t n = first; n < last;) {
+                if (n % 4 == 0 && n + 4 <= last && finishFour(n, leave)) {
+                    n += 4;
+                    continue;
                 }
-                groups_here += clear && !sums_.isEmpty(n) ? 1 : 0;
+                if (!finishNode(n)) {
+                    leave(n);
+                    sums_.row(n)[3] = kComplexSign;
+                } else if (sums_.isEmpty(n)) {
+                    ++empty;
+                }
+                ++n;
             }
             complex_[first / 64] = bits;
-            complex_here += static_cast<std::uint64_t>(std::popcount(bits));
+            const auto complex = static_cast<std::uint64_t>(std::popcount(bits));
+            complex_here += complex;
+            groups_here += last - first - complex - empty;
         }
         complex_count_ += complex_here;
         group_count_ += groups_here;
@@ -307,6 +315,54 @@ class OnePass {
         std::size_t count = 0;
         forEachComplex([&](std::uint32_t node) { chosen[count++] = node; });
         return chosen;
+    }
+
+    /// The same as finishNode for four nodes, where each has one fan of one orientation and only tangents are asked for;
+    /// leave(node) for complex ones. Returns whether that is so; else nothing is done.
+    template <class Leave>
+    bool finishFour(std::size_t n, const Leave& leave) {
+        constexpr std::uint64_t kOnes = 0x0001000100010001u;
+        std::uint64_t m = 0;  // marks, 16 bits each
+        std::memcpy(&m, sums_.marks.data() + n, sizeof m);
+        const bool splits = isMikktspace(options_.method);
+        static_assert(kFacesUp == 1 && kFacesDown == 2 && kTurnsLeft == 4 && kTurnsRight == 8 && kNotLight == 16 &&
+                      kFanKnown == 128);
+        const std::uint64_t one_facing = (m ^ m >> 1) & m >> 7;  // so it has triangles, which make at least one path
+        if (((splits ? one_facing & (m >> 2 | m >> 3) & m >> 4 : one_facing) & kOnes) != kOnes) return false;
+        NodeSum* const sum = sums_.nodes.data() + n;
+        const std::uint32_t second_paths =
+            sum[0].fan.leaves[1] & sum[1].fan.leaves[1] & sum[2].fan.leaves[1] & sum[3].fan.leaves[1];
+        if (second_paths != Fan::kFree || estimates_ || !sums_.rest.empty()) return false;
+        const std::uint16_t* const at = sums_.marks.data() + n;
+        const Mask4 marks = {at[0], at[1], at[2], at[3]};
+        Float4 x = loadFloat4(sum[0].s), y = loadFloat4(sum[1].s), z = loadFloat4(sum[2].s), w = loadFloat4(sum[3].s);
+        transpose4(x, y, z, w);
+        const Float4 square = dot(Vec3x4{x, y, z}, Vec3x4{x, y, z});
+        Mask4 clear = (square > splat(0)) & (square < splat(__builtin_huge_valf()));  // it does not vanish
+        if (splits) {
+            const auto normal = [&](std::size_t i) -> const Vec3& { return mesh_.normals[nodes_.vertex(n + i)]; };
+            clear = cannotSplit(square, w, marks, gatherVec3(normal(0), normal(1), normal(2), normal(3)));
+        }
+        const unsigned clear_bits = laneBits(clear);
+        if (clear_bits != 15) [[unlikely]] {
+            if (!splits) return false;
+            for (unsigned i = 0; i < 4; ++i) {
+                if ((clear_bits >> i & 1) == 0) leave(n + i);
+            }
+        }
+        const Float4 inverse = splat(1) / sqrt4(square);
+        const Mask4 down = ~marks << 31;  // the bit of kFacesUp becomes that of the sign
+        w = select4(clear, std::bit_cast<Float4>(std::bit_cast<Mask4>(splat(sign_factor_)) ^ down),
+                    splat(kComplexSign));
+        x = inverse * x;
+        y = inverse * y;
+        z = inverse * z;
+        transpose4(x, y, z, w);
+        storeFloat4(sum[0].s, x);
+        storeFloat4(sum[1].s, y);
+        storeFloat4(sum[2].s, z);
+        storeFloat4(sum[3].s, w);
+        return true;
     }
 
     bool finishNode(std::size_t n) {
