@@ -35,6 +35,7 @@ enum class Winding : std::uint32_t { counterClockwise = 0, clockwise = 1 };
 ///     sign = uv_orientation * (v_axis down ? -1 : 1) * (green down ? -1 : 1) * (stored_sign negated ? -1 : 1)
 /// where uv_orientation is +1 when cross(dP/du, dP/dv) points along N. Handedness and winding say which side of a
 /// face is out (see `normalFactor`), and so which way N points; B = sign * cross(N, T) holds numerically in either.
+/// Normals look at handedness and winding only.
 struct Convention {
     VAxis v_axis = VAxis::unset;
     Green green = Green::up;

@@ -37,10 +37,11 @@ enum class SimdTarget : std::uint32_t {
 /// For Execution::thread_count: as many as there are cores.
 inline constexpr std::uint32_t kAllThreads = 0xffffffffu;
 
-/// Passed by value inside option structs. What it points to must outlive the call (and a plan made with it).
+/// Where work runs and where its memory comes from. Passed by value inside option structs. What it points to must
+/// outlive the call (and a plan made with it).
 struct Execution {
     std::uint32_t thread_count = 1;  ///< 0 and 1: the calling thread only; kAllThreads
-    /// Runs all work, whatever thread_count says; null: std::thread, started and joined within the call.
+    /// Runs all work, whatever thread_count says; null: threads that are started and joined within the call.
     const Executor* executor = nullptr;
     const Allocator* allocator = nullptr;  ///< null: operator new; only for scratch memory and plans
     /// For tests and measurements. What this CPU lacks becomes the best of a lower number.

@@ -65,7 +65,7 @@ struct FlippedImage {
 /// pixels; a PNG that is not interlaced needs a few rows and the size of its file.
 Result<FlippedImage> flipGreen(std::span<const std::uint8_t> image, const FlipGreenOptions& options = {});
 
-/// The same from file to file; `output` may be `input`. With sameAsInput the name of the output decides: .png, .jpg,
+/// The same from file to file; `output` may be `input`. Where no format is asked for, the name of the output decides: .png, .jpg,
 /// .jpeg or .webp. The output appears at once, or not at all. Errors also: cannotRead, cannotWrite; unsupportedFile for
 /// another extension. Returns what was done.
 Result<FlipGreenReport> flipGreenFile(const std::string& input, const std::string& output,

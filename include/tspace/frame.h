@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The mathematics of one frame (T, B, N), after Lengyel, "Foundations of Game Engine Development 2", 2019, ch. 7.
-// All functions are pure, finite for finite sound input, and safe to call from any thread. Vectors need not be unit
-// unless a function says so.
+// All functions are pure, O(1), use no memory, cannot fail, and may be called from any thread. Results are finite for
+// finite sound input. Vectors need not be unit unless a function says so.
 #pragma once
 
 #include "tspace/convention.h"
@@ -70,12 +70,14 @@ Vec3 transform(const Mat3& m, const Vec3& v);
 Vec3 toTangentSpace(const Frame& frame, const Vec3& direction);
 Vec3 toObjectSpace(const Frame& frame, const Vec3& direction);
 
-/// A normal-map texel, each channel in [0, 1], decoded to a unit tangent-space normal.
+/// How a normal-map texel is read.
 struct TexelDecode {
-    float scale = 1.0f;       ///< multiplies x and y before normalising (glTF normalTexture.scale)
+    float scale = 1.0f;       ///< multiplies x and y before normalising
     Green green = Green::up;  ///< down: y is negated
 };
-/// (2c - 1), x and y scaled, y flipped for Green::down, normalised. Returns (0, 0, 1) when the result has no length.
+/// A normal-map texel, each channel in [0, 1], decoded to a unit tangent-space normal: 2c - 1, x and y times `scale`
+/// (usually 1; glTF normalTexture.scale), y negated for Green::down, normalised. (0, 0, 1) when the result has no
+/// length.
 Vec3 decodeNormal(const Vec3& texel, const TexelDecode& options = {});
 
 /// uv * tiling + offset, then taken into [0, 1) per component: where a tiled texture is sampled.

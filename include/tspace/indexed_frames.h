@@ -15,6 +15,7 @@
 
 namespace tspace {
 
+/// How makeIndexedFrames works.
 struct IndexedFramesOptions {
     /// Its convention must be set; it also says which side of a face is out, and its execution serves all steps.
     /// Results are per corner (`domain`): the split makes vertices of them.
@@ -24,7 +25,7 @@ struct IndexedFramesOptions {
     bool make_normals = false;  ///< also where the mesh has normals; they are made anyway where it has none
     /// Mend tangents that are not finite, zero, not unit, parallel to N, or of mixed sign inside a face.
     bool sanitize = true;
-    bool orthogonalize_all = false;  ///< SanitizeOptions::orthogonalize_all
+    bool orthogonalize_all = false;  ///< as SanitizeOptions::orthogonalize_all
     /// Further attributes, one entry per corner, that must not be shared: corners that disagree get a vertex each.
     /// Only a mesh without indices needs it, for what hangs on its vertices beside position, normal and UV.
     std::span<const CornerAttribute> keep_apart = {};

@@ -13,6 +13,7 @@
 
 namespace tspace {
 
+/// Bytes of one index.
 enum class IndexType : std::uint32_t {
     none = 0,
     u8 = 1,
@@ -59,22 +60,24 @@ struct MeshView {
     StridedSpan<const Vec3> positions = {};  ///< one per vertex
     StridedSpan<const Vec3> normals = {};    ///< one per vertex, used as given (never normalised), or empty
     StridedSpan<const Vec2> uvs = {};        ///< one per vertex, or empty
-    IndexView indices = {};                  ///< one per corner, or type none: every corner has its own vertex
+    IndexView indices = {};                  ///< one per corner, or IndexType::none: every corner has its own vertex
     /// Corners of each face. Empty: all faces have `face_size` corners. Faces of 0, 1 or 2 corners are allowed
     /// and ignored: nothing is computed for them.
     std::span<const std::uint32_t> face_sizes = {};
     std::uint32_t face_size = 3;  ///< corners of every face when face_sizes is empty; at least 1
     /// One per corner, into `normals` and `uvs`, which then have any number of entries: FBX, USD, OBJ and Houdini keep
-    /// them so. Type none: these attributes have one entry per vertex, and follow `indices`. Type corners: they have one
-    /// entry per corner. Corners count as one vertex, as if the mesh had one list, where their three indices are equal,
-    /// and for type corners where the entries have the same bits.
+    /// them so. IndexType::none: these attributes have one entry per vertex, and follow `indices`. IndexType::corners:
+    /// they have one entry per corner. Corners count as one vertex, as if the mesh had one list, where their three
+    /// indices are equal, and for IndexType::corners where the entries have the same bits.
     IndexView normal_indices = {};
     IndexView uv_indices = {};
 
     [[nodiscard]] std::size_t vertexCount() const { return positions.count; }
+    /// Corners of the mesh: the length of results. Not checked: call validate() for that.
     [[nodiscard]] std::size_t cornerCount() const {
         return indices.type == IndexType::none ? positions.count : indices.count;
     }
+    /// Faces of the mesh, not checked either.
     [[nodiscard]] std::size_t faceCount() const {
         if (!face_sizes.empty()) return face_sizes.size();
         return face_size == 0 ? 0 : cornerCount() / face_size;

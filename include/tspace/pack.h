@@ -14,26 +14,30 @@
 
 namespace tspace {
 
-/// How a frame is stored. Numbers are little-endian; "word" is all bytes of one frame as one unsigned number. The
-/// enumerators' values are stable and never reused.
+/// How a frame is stored, and how far N and T may be off (frameErrorBound), in degrees. Numbers are little-endian;
+/// "word" is all bytes of one frame as one unsigned number. The enumerators' values are stable and never reused.
 enum class FrameFormat : std::uint32_t {
-    /// 4 bytes: (rotation << 1) | mirrored. The rotation is a cell of a lattice in one of 24 charts.
+    /// 4 bytes, 0.135: (rotation << 1) | mirrored. The rotation is a cell of a lattice in one of 24 charts.
     frame32 = 0,
-    /// 6 bytes: ((i * 46339 + j) << 17) | (angle << 1) | mirrored; i, j on a warped octahedron, 65,536 angles.
+    /// 6 bytes, N 0.0037 and T 0.0042: ((i * 46339 + j) << 17) | (angle << 1) | mirrored; i, j on a warped
+    /// octahedron, 65,536 angles.
     frame48 = 1,
-    /// 8 bytes: i:21 | j:21 | angle:21 | mirrored:1 from the top; as frame48, finer.
+    /// 8 bytes, N 0.0001 and T 0.00015: i:21 | j:21 | angle:21 | mirrored:1 from the top; as frame48, finer.
     frame64 = 2,
-    /// 4 bytes: i:10 | j:10 | angle:11 | mirrored:1 from the top; the cheapest to decode of the codes of 4 bytes.
+    /// 4 bytes, N 0.15 and T 0.165: i:10 | j:10 | angle:11 | mirrored:1 from the top; the cheapest to decode of the
+    /// codes of 4 bytes.
     oct32 = 3,
-    /// 8 bytes: the quaternion x, y, z, w of the rotation (T, N x T, N) as snorm16; w is never 0, its sign is the sign.
+    /// 8 bytes, 0.004: the quaternion x, y, z, w of the rotation (T, N x T, N) as snorm16; w is never 0, its sign is
+    /// the sign.
     qtangent64 = 4,
-    /// 8 bytes: T.xyz, 127, N.xyz, sign as snorm8: the order of Unreal's TangentX and TangentZ.
+    /// 8 bytes, 0.391: T.xyz, 127, N.xyz, sign as snorm8: the order of Unreal's TangentX and TangentZ.
     snorm8_pair = 5,
-    /// 16 bytes: the same as snorm16.
+    /// 16 bytes, 0.00152: the same as snorm16.
     snorm16_pair = 6,
-    /// 7 bytes: TANGENT (4 snorm8), then NORMAL (3 snorm8), as KHR_mesh_quantization stores them, without padding.
+    /// 7 bytes, 0.391: TANGENT (4 snorm8), then NORMAL (3 snorm8), as KHR_mesh_quantization stores them, without
+    /// padding.
     gltf_snorm8 = 7,
-    /// 14 bytes: the same as snorm16.
+    /// 14 bytes, 0.00152: the same as snorm16.
     gltf_snorm16 = 8,
 };
 
@@ -61,7 +65,7 @@ struct PackReport {
     std::uint64_t not_orthogonal_count = 0;  ///< cosine between N and T beyond 5e-4: T made orthogonal to N
     std::uint64_t bad_sign_count = 0;        ///< sign not exactly +1 or -1: below 0 is taken as -1, all else as +1
 
-    /// All frames that were mended.
+    /// All frames that were mended: the sum of the causes.
     [[nodiscard]] std::uint64_t mendedCount() const {
         return bad_normal_count + not_finite_count + zero_count + parallel_count + not_unit_count +
                not_orthogonal_count + bad_sign_count;

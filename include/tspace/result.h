@@ -9,10 +9,10 @@
 
 namespace tspace {
 
-/// Why a call failed. The numbers are stable, also in the C API, and never reused.
+/// Why a call failed. The numbers are stable, the same in C and C++, and never reused.
 enum class ErrorCode : std::uint32_t {
     ok = 0,                 ///< not an error
-    nullData = 1,           ///< a pointer is null although its count is not zero
+    nullData = 1,           ///< a pointer is null although it is needed, or its count is not zero
     countMismatch = 2,      ///< two arrays that must have the same length do not
     indexOutOfRange = 3,    ///< an index is not smaller than the number of vertices; `element` is its position
     strideTooSmall = 4,     ///< elements of a span would overlap
@@ -23,16 +23,18 @@ enum class ErrorCode : std::uint32_t {
     outOfMemory = 9,        ///< the allocator returned null
     planMismatch = 10,      ///< arrays do not fit the plan they are evaluated with
     internal = 11,          ///< a defect of tspace; please report it
-    invalidFile = 100,      ///< asset layer: the file breaks its format; `place` says where
+    invalidFile = 100,      ///< asset layer: the file breaks its format; the error says where
     unsupportedFile = 101,  ///< asset layer: valid, but needs a feature that this version does not have
     forbiddenPath = 102,    ///< asset layer: a URI leads outside the model's folder
     cannotRead = 103,       ///< asset layer: a file cannot be opened or read
     cannotWrite = 104,      ///< asset layer: a file cannot be written; nothing was changed
 };
 
-/// Stable identifier of a code in lowerCamelCase, for logs and JSON ("indexOutOfRange").
+/// Stable identifier of a code in lowerCamelCase, for logs and JSON ("indexOutOfRange"); "unknown" for other numbers.
+/// Static memory.
 const char* errorName(ErrorCode code);
 
+/// Element of an error that is about no element in particular.
 inline constexpr std::uint64_t kNoElement = ~std::uint64_t{0};
 
 /// What went wrong, in words for the person who has to mend it, and where.

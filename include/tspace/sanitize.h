@@ -34,7 +34,7 @@ struct SanitizeReport {
 
     std::uint64_t bad_normal_count = 0;  ///< corners whose N is zero or not finite: only a unit tangent is promised
 
-    /// All corners that were written.
+    /// All corners that were written: the sum of the causes.
     [[nodiscard]] std::uint64_t mendedCount() const {
         return not_finite_count + zero_count + not_unit_count + parallel_count + placeholder_count + bad_sign_count +
                mixed_sign_count + orthogonalized_count;

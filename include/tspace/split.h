@@ -50,9 +50,9 @@ struct SplitResult {
 /// The first corner (in corner order) of an old vertex keeps the vertex; each corner that equals none of the
 /// vertex's earlier variants gets a copy, appended in corner order. Deterministic.
 ///
-/// indices       the old vertex of each corner (type none: corner c uses vertex c)
+/// indices       the old vertex of each corner (IndexType::none: corner c uses vertex c)
 /// vertex_count  number of old vertices
-/// corner_count  length of every attribute; equals indices.count unless type is none
+/// corner_count  length of every attribute; equals the count of `indices` unless there are none
 /// execution     threads; scratch memory is only needed where a vertex becomes more than 8
 /// Errors: nullData, countMismatch, indexOutOfRange, strideTooSmall, tooLarge, invalidOption, outOfMemory.
 /// O(corners) expected, exact or tolerant. Thread-safe; same result for any thread count.

@@ -47,7 +47,7 @@ enum class Pairing : std::uint32_t {
 
 /// What happens to faces with more than 4 corners, which the MikkTSpace reference ignores.
 enum class Ngons : std::uint32_t {
-    triangulate = 0,  ///< cut by the rule of triangulate.h; results come back per corner of the n-gon
+    triangulate = 0,  ///< cut as by triangulate(); results come back per corner of the n-gon
     skip = 1,         ///< as the reference: nothing is computed, outputs are 0
 };
 
@@ -180,7 +180,7 @@ Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& opt
 /// own vertex, also where vertices that were equal on the mesh come apart. On the pose the plan was made from the
 /// result is bit for bit that of generateTangents. `execution` replaces the plan's. Scratch memory of the grouping
 /// methods: 12 bytes per group when only tangents are asked for, else 44. Errors: planMismatch when counts differ from
-/// the plan's, and those of span checks.
+/// the plan's, and those of span checks. O(corners).
 Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose, const TangentOutput& out,
                                        const Execution& execution = {});
 

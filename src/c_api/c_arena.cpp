@@ -26,6 +26,8 @@ const tspace_Allocator* tspace_arenaAllocator(const tspace_Arena* arena) noexcep
 
 size_t tspace_arenaHeldBytes(const tspace_Arena* arena) noexcept { return arena->arena.heldBytes(); }
 
+size_t tspace_arenaUsedBytes(const tspace_Arena* arena) noexcept { return arena->arena.usedBytes(); }
+
 void tspace_trimArena(tspace_Arena* arena) noexcept { arena->arena.trim(); }
 
 void tspace_destroyArena(tspace_Arena* arena) noexcept { delete arena; }

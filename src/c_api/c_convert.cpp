@@ -37,6 +37,7 @@ static_assert(TSPACE_INDEX_CORNERS == static_cast<std::uint32_t>(IndexType::corn
 static_assert(TSPACE_INDEX_U32 == static_cast<std::uint32_t>(IndexType::u32));
 
 static_assert(TSPACE_ALL_THREADS == kAllThreads);
+static_assert(TSPACE_MAX_CORNERS == kMaxCorners);
 static_assert(TSPACE_V_UP == static_cast<std::uint32_t>(VAxis::up));
 static_assert(TSPACE_V_DOWN == static_cast<std::uint32_t>(VAxis::down));
 static_assert(TSPACE_GREEN_DOWN == static_cast<std::uint32_t>(Green::down));

@@ -39,6 +39,11 @@ Error checkBytes(const void* bytes, std::size_t count) { return checkSpan(bytes,
 
 size_t tspace_frameBytes(tspace_FrameFormat format) noexcept { return frameBytes(static_cast<FrameFormat>(format)); }
 
+tspace_FrameErrorBound tspace_frameErrorBound(tspace_FrameFormat format) noexcept {
+    const FrameErrorBound bound = frameErrorBound(static_cast<FrameFormat>(format));
+    return {bound.normal_deg, bound.tangent_deg};
+}
+
 tspace_ErrorCode tspace_packFrames(tspace_FrameFormat format, tspace_ConstSpan normals, tspace_ConstSpan tangents,
                                    void* out, size_t out_bytes, tspace_PackReport* report,
                                    tspace_Error* error) noexcept {

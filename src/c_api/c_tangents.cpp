@@ -110,6 +110,8 @@ TangentOutput toOutput(const tspace_TangentOutput& out) {
 
 }  // namespace
 
+const char* tspace_methodName(tspace_Method method) noexcept { return methodName(static_cast<Method>(method)); }
+
 tspace_ErrorCode tspace_generateTangents(const tspace_Mesh* mesh, const tspace_TangentOptions* options,
                                          const tspace_TangentOutput* out, tspace_TangentReport* report,
                                          tspace_Error* error) noexcept {

@@ -443,6 +443,12 @@ TEST(CApi, AnArenaServesASecondCallFromWhatItHolds) {
     expectSame(expected, c);
     const std::size_t held = tspace_arenaHeldBytes(arena);
     EXPECT_GT(held, 0u);
+    EXPECT_EQ(tspace_arenaUsedBytes(arena), 0u);
+    tspace_TangentPlan* plan = nullptr;
+    ASSERT_EQ(TSPACE_OK, tspace_planTangents(&c_mesh, &options, &plan, nullptr));
+    EXPECT_GT(tspace_arenaUsedBytes(arena), 0u);
+    tspace_destroyTangentPlan(plan);
+    EXPECT_EQ(tspace_arenaUsedBytes(arena), 0u);
     ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr));
     expectSame(expected, c);
     EXPECT_EQ(tspace_arenaHeldBytes(arena), held);

@@ -41,6 +41,8 @@ static void checkErrors(void) {
 void checkPackFunctions(void);
 void checkPackFunctions(void) {
     CHECK(tspace_frameBytes(TSPACE_FRAME_FORMAT_FRAME48) == 6 && tspace_frameBytes(9) == 0);
+    const tspace_FrameErrorBound bound = tspace_frameErrorBound(TSPACE_FRAME_FORMAT_OCT32);
+    CHECK(bound.normal_deg == 0.15 && bound.tangent_deg == 0.165 && tspace_frameErrorBound(9).normal_deg == 0);
     for (tspace_FrameFormat format = 0; format <= TSPACE_FRAME_FORMAT_GLTF_SNORM16; ++format) checkRoundTrip(format);
     checkErrors();
 }

@@ -158,5 +158,7 @@ int main(void) {
     checkPackFunctions();
     CHECK(strcmp(tspace_errorName(TSPACE_ERROR_INDEX_OUT_OF_RANGE), "indexOutOfRange") == 0);
     CHECK(strcmp(tspace_errorName(12345), "unknown") == 0);
+    CHECK(strcmp(tspace_methodName(TSPACE_METHOD_LENGYEL), "lengyel") == 0);
+    CHECK(strcmp(tspace_methodName(12345), "unknown") == 0);
     return 0;
 }

@@ -12,7 +12,7 @@ from pathlib import Path
 from tspace import _abi, _files_abi
 
 INCLUDE = Path(__file__).resolve().parents[3] / "include"
-HEADERS = ("tspace.h", "tspace_frame.h", "tspace_pack.h", "tspace_files.h")
+HEADERS = ("tspace.h", "tspace_frame.h", "tspace_indexed_frames.h", "tspace_normals.h", "tspace_pack.h", "tspace_files.h")
 ENUMERATIONS = {
     "METHOD": _abi.METHODS,
     "PAIRING": _abi.PAIRINGS,

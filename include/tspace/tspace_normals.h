@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: MIT */
+/* Normals of faces, averaged at vertices: one result per corner, so that hard edges can be split afterwards.
+ * In C: part of tspace/tspace.h, which includes it. */
+#include "tspace/tspace.h" /* first: it includes all parts, of which tspace_indexed_frames.h needs this one */
+
+#ifndef TSPACE_TSPACE_NORMALS_H
+#define TSPACE_TSPACE_NORMALS_H
+
+#if defined(__GNUC__) && !defined(_WIN32)
+#pragma GCC visibility push(default)
+#endif
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How much a face counts in the mean at one of its corners. e1, e2 are the edges at the corner, a the interior angle
+ * between them (above 180 degrees where a polygon is reflex). */
+typedef uint32_t tspace_NormalWeighting;
+enum {
+    /* no averaging: each corner gets its face's unit normal, as glTF asks where normals are missing */
+    TSPACE_NORMAL_WEIGHTING_FLAT = 0,
+    TSPACE_NORMAL_WEIGHTING_UNIFORM = 1,    /* 1: mean of unit face normals (Gouraud 1971) */
+    TSPACE_NORMAL_WEIGHTING_AREA = 2,       /* the face's area (|e1 x e2| / 2 for a triangle): large faces count more */
+    TSPACE_NORMAL_WEIGHTING_ANGLE = 3,      /* a: independent of tessellation (Thuermer & Wuethrich 1998) */
+    TSPACE_NORMAL_WEIGHTING_ANGLE_AREA = 4, /* a * area */
+    TSPACE_NORMAL_WEIGHTING_MAX = 5,        /* sin(a) / (|e1| |e2|): exact on a sphere (Max 1999) */
+    /* No mean: the normal of a quadratic surface through the edges at the point. Where these look like noise or a
+     * bevel it is the mean of TSPACE_NORMAL_WEIGHTING_ANGLE_AREA, and in between a blend. The most accurate, and the
+     * slowest. */
+    TSPACE_NORMAL_WEIGHTING_BEST = 6
+};
+
+typedef struct tspace_NormalOptions {
+    uint32_t struct_size;
+    tspace_NormalWeighting weighting; /* Default: TSPACE_NORMAL_WEIGHTING_ANGLE. */
+    /* Degrees, 0..180. Two faces that share an edge are smoothed over it only when their normals differ by no more
+     * than this (and 1e-6 rad for rounding). 180: never hard (except by smoothing groups); then all faces at a point
+     * are smoothed together, also those that share no edge. TSPACE_NORMAL_WEIGHTING_FLAT looks at neither. Default:
+     * 180. */
+    float crease_angle_deg;
+    uint32_t smoothing_groups_are_masks; /* 0 or 1. */
+    /* One number per face, or empty. Faces smooth together only when their numbers are equal and not 0 (OBJ `s`),
+     * or, with `smoothing_groups_are_masks`, when they have a bit in common (3ds Max). Connections pass on: where A
+     * is smooth with B and B with C around a point, all three share one normal. */
+    const uint32_t* smoothing_groups;
+    size_t smoothing_group_count; /* entries of smoothing_groups */
+    /* 0 or 1. 1: vertices at the same position are one point (so UV seams stay smooth); 0: only equal indices are.
+     * Default: 1. */
+    uint32_t weld_positions;
+    tspace_Convention convention; /* handedness and winding say which side is out */
+    tspace_Execution execution;
+    /* 0, 1 or 2 steps that TSPACE_NORMAL_WEIGHTING_BEST takes after its fit; other weightings take none. A step
+     * moves each normal so that, interpolated along the edges around it, it is across them, as far as these agree.
+     * 1: a third less error at vertices and in what is shaded between them. 2: another fifth less. 0: the fit alone.
+     * Default: 1. */
+    uint32_t refine;
+} tspace_NormalOptions;
+
+/* What was met. Broken input is counted here and never makes the call fail. */
+typedef struct tspace_NormalReport {
+    uint32_t struct_size;
+    uint32_t reserved;
+    uint64_t face_count;            /* faces with at least 3 corners */
+    uint64_t degenerate_face_count; /* faces without a normal (zero area or not finite) */
+    uint64_t fallback_corner_count; /* corners whose mean vanished: they got a substitute, see below */
+} tspace_NormalReport;
+
+/* Computes one unit normal per corner of the mesh.
+ *
+ * Face normal: Newell's sum over the polygon (for a triangle: cross(P1-P0, P2-P0)), times
+ * tspace_normalFactor(convention). Vertex normal: the weighted mean of the unit face normals of all faces that are
+ * connected to the corner's face around the vertex over smooth edges; weights as in tspace_NormalWeighting, summed
+ * in double precision and in face order. A corner whose mean vanishes (is below 1e-10 of the weights) takes its own
+ * face normal; if that is degenerate, the mean of the other faces at the vertex; if there is none, (0, 0, 1). So
+ * every result is finite and unit.
+ * Corners of faces with fewer than 3 corners get (0, 0, 0).
+ *
+ * mesh      positions and indices; UVs and normals are not looked at
+ * out       3 floats each: one per corner (count == tspace_cornerCount(mesh)); must not overlap the inputs
+ * Errors: those of tspace_validate; COUNT_MISMATCH (out, smoothing_groups), INVALID_OPTION, OUT_OF_MEMORY.
+ * Angles in triangles are good to 2e-7, those of polygons (face_sizes, or a face_size other than 3) are exact.
+ * O(corners). Scratch memory: about 36 bytes per vertex; with hard edges or polygons less for large meshes, up to 40
+ * bytes per triangle for small ones; TSPACE_NORMAL_WEIGHTING_BEST 24 bytes per corner more. Thread-safe; same bits
+ * for any thread count. */
+tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_NormalOptions* options, tspace_Span out,
+                                        tspace_NormalReport* report, tspace_Error* error) TSPACE_NOEXCEPT;
+
+/* For TSPACE_INIT: the defaults that are not zero. */
+static inline void tspace_setNormalDefaults(tspace_NormalOptions* options) {
+    options->weighting = TSPACE_NORMAL_WEIGHTING_ANGLE;
+    options->crease_angle_deg = 180.0f;
+    options->weld_positions = 1;
+    options->refine = 1;
+}
+
+#ifdef __cplusplus
+}
+
+inline void tspace_setDefaults(tspace_NormalOptions* options) noexcept { tspace_setNormalDefaults(options); }
+#endif
+#if defined(__GNUC__) && !defined(_WIN32)
+#pragma GCC visibility pop
+#endif
+
+#endif

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: MIT
+"""What scripts/c_comments cannot know by itself: where the two APIs differ, and why they may."""
+
+C_HEADERS = ("tspace.h", "tspace_normals.h", "tspace_indexed_frames.h", "tspace_frame.h", "tspace_pack.h", "tspace_files.h")
+FILE_HEADERS = ("asset.h", "check.h", "diff.h", "flip_green.h", "identify.h")
+# Headers whose first comment is that of a C++ header.
+HEADS = {f"tspace_{name}": name for name in ("frame.h", "indexed_frames.h", "normals.h", "pack.h")}
+
+# Name in C -> name in C++, where it is no other by rule.
+TWINS = {
+    "tspace_Mesh": "MeshView",
+    "tspace_Indices": "IndexView",
+    "tspace_ConstSpan": "StridedSpan",
+    "tspace_cornerCount": "MeshView::cornerCount",
+    "tspace_faceCount": "MeshView::faceCount",
+    "tspace_arenaAllocator": "Arena::allocator",
+    "tspace_arenaHeldBytes": "Arena::heldBytes",
+    "tspace_trimArena": "Arena::trim",
+    "tspace_TangentPlanInfo": "TangentPlan",
+    "tspace_arenaUsedBytes": "Arena::usedBytes",
+    "tspace_flipGreenBytes": "flipGreen",
+}
+
+# Only in C (regular expressions; a type stands for its fields) -> why.
+C_ALONE = {
+    r"tspace_version": "C++ programs read version.h: they are linked with the library that they were compiled with",
+    r"\w+\.(struct_size|reserved)": "old programs with newer libraries",
+    r"tspace_Span": "a StridedSpan of what is not const",
+    r"tspace_(Mesh\.face|NormalOptions\.smoothing_group|IndexedFramesOptions\.keep_apart)_count": "a span has its length",
+    r"tspace_((SplitResult|IndexedFrames)\.corner|Triangulation\.triangle)_count": "a vector has its length",
+    r"tspace_createArena|tspace_destroy(?!Bytes)\w+": "constructors and destructors",
+    r"tspace_describeTangentPlan|tspace_TangentPlanInfo": "TangentPlan has a function for each field",
+    r"tspace_IndexedFrames\.\w+_report": "members of IndexedFramesReport; null stands for normals_made",
+    r"tspace_Bytes|tspace_destroyBytes|tspace_Model|tspace_FindFile": "FileOptions::content and find_file, Sink",
+    r"tspace_(generate|check|inspect|identify|diff)Bytes": "in C++ those on files take bytes: FileOptions::content",
+}
+
+# Only in C++ (regular expressions; a type stands for its members) -> why.
+CPP_ALONE = {
+    r"conventions::\w+": "tspace_findConvention gives them by their names",
+    r"TexelDecode": "C takes its fields as parameters",
+    r"IndexedFramesReport|IndexedFrames::report": "three reports in tspace_IndexedFrames",
+    r"MeshView::(vertexCount|hasOwnLists)|\w+::empty|\w+Result::vertexCount": "shorthand for what fields say",
+    r"vec[234]Span|cornerAttribute|xyz": "shorthand for C++ types",
+    r"Result|Done|Error::place": "C returns a code, and the place is part of the message",
+    r"State|TangentPlan::state": "private",
+    r"(action|faces|frameFormat|severity|signReading)Name|finding\w+": "reports of files have these names and texts in their JSON",
+    r"removeAbandonedFiles": "a matter of the tool",
+}
+
+# Fields whose default in C is zero (regular expressions) -> how it is that of C++.
+OTHER_DEFAULTS = {
+    r"tspace_Mesh\.face_size": "0 means 3",
+}
+
+# Regular expressions -> how C says it.
+PHRASES = {
+    r"`?conventions::(\w+)`?": r'"\1"',
+    r"mesh\.vertexCount\(\)": "mesh->positions.count",
+    r"Returns null for any other name\.": "INVALID_OPTION for any other name.",
+}
+
+# Words that look like names of C++ and are none.
+WORDS = {"glTF", "lowerCamelCase", "normalTexture"}
