@@ -9,6 +9,7 @@
 #include "core/border.h"
 #include "core/early_lines.h"
 #include "core/parallel.h"
+#include "core/typed_indices.h"
 
 namespace tspace {
 
@@ -193,6 +194,26 @@ Error checkAllButIndices(const MeshView& mesh) {
 
 Error checkMesh(const MeshView& mesh, Parallel* parallel) {
     return check(mesh, [&](const IndexView& indices) { return checkIndices(indices, mesh.positions.count, parallel); });
+}
+
+const std::uint32_t* widenIndices(const IndexView& view, std::size_t first, std::size_t count, std::uint32_t* buffer) {
+    const auto fill = [&](const auto& indexAt) {
+        for (std::size_t i = 0; i < count; ++i) buffer[i] = static_cast<std::uint32_t>(indexAt(first + i));
+    };
+    switch (view.type) {
+#ifndef TSPACE_SMALL
+        case IndexType::u16:
+            fill([from = static_cast<const std::uint16_t*>(view.data)](std::size_t c) { return from[c]; });
+            break;
+        case IndexType::u8:
+            fill([from = static_cast<const std::uint8_t*>(view.data)](std::size_t c) { return from[c]; });
+            break;
+#endif
+        default:
+            fill([](std::size_t c) { return c; });
+            break;
+    }
+    return buffer;
 }
 
 Result<Done> validate(const MeshView& mesh) {

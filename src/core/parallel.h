@@ -57,20 +57,21 @@ class Parallel {
 #ifdef TSPACE_SERIAL
         for (std::size_t task = 0; task < count; ++task) body(task);
 #else
-        if (count <= 1 || width_ == 1) {
-            for (std::size_t task = 0; task < count; ++task) body(task);
-            return;
-        }
         using Type = std::remove_reference_t<Body>;
-        run(
-            count, [](void* context, std::size_t task) { (*static_cast<Type*>(context))(task); },
-            const_cast<void*>(static_cast<const void*>(&body)));
+        void* const context = const_cast<void*>(static_cast<const void*>(&body));
+        if (count > 1 && width_ > 1) return run(count, call<Type>, context);
+        for (std::size_t task = 0; task < count; ++task) call<Type>(context, task);
 #endif
     }
 
 #ifndef TSPACE_SERIAL
   private:
     class Pool;
+    /// Never inlined, so that bodies are compiled once, not for one thread and for several.
+    template <class Body>
+    [[gnu::noinline]] static void call(void* context, std::size_t task) {
+        (*static_cast<Body*>(context))(task);
+    }
     void run(std::size_t count, void (*task)(void*, std::size_t), void* context);
 
     unsigned width_ = 1;

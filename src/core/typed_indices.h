@@ -21,27 +21,14 @@ decltype(auto) withIndices(const IndexView& view, Body&& body) {
     return body([view](std::size_t c) { return view[c]; });
 }
 
+/// Writes the indices [first, first + count), of another type than 32-bit numbers, to `buffer` and returns it.
+const std::uint32_t* widenIndices(const IndexView& view, std::size_t first, std::size_t count, std::uint32_t* buffer);
+
 /// The indices [first, first + count) as 32-bit numbers: where they lie, or in `buffer`.
 inline const std::uint32_t* readIndices(const IndexView& view, std::size_t first, std::size_t count,
                                         std::uint32_t* buffer) {
-    [[maybe_unused]] const auto widen = [&](const auto* from) {
-        for (std::size_t i = 0; i < count; ++i) buffer[i] = from[i];
-        return buffer;
-    };
-    switch (view.type) {
-        case IndexType::u32:
-            return static_cast<const std::uint32_t*>(view.data) + first;
-#ifndef TSPACE_SMALL
-        case IndexType::u16:
-            return widen(static_cast<const std::uint16_t*>(view.data) + first);
-        case IndexType::u8:
-            return widen(static_cast<const std::uint8_t*>(view.data) + first);
-#endif
-        default:
-            break;
-    }
-    for (std::size_t i = 0; i < count; ++i) buffer[i] = static_cast<std::uint32_t>(first + i);
-    return buffer;
+    if (view.type == IndexType::u32) return static_cast<const std::uint32_t*>(view.data) + first;
+    return widenIndices(view, first, count, buffer);
 }
 
 }  // namespace tspace

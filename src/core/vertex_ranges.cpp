@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/early_lines.h"
+#include "core/typed_indices.h"
 
 namespace tspace {
 
@@ -84,7 +85,7 @@ std::uint64_t VertexRanges::markOf(std::size_t block, unsigned shift) const {
     std::uint32_t buffer[3 * kBlock];
     const std::size_t count = 3 * blockSize(block);
     if (count == 0) return 0;
-    const std::uint32_t* v = blockVertices(vertices_, block * kBlock, count / 3, buffer);
+    const std::uint32_t* v = readIndices(vertices_, 3 * block * kBlock, count, buffer);
     askForLines(v, 3 * kBlock * sizeof *v);
     RangeBits bits = bitsOf(v, count, limit_);
     if (!bits.are_below) return 0;

@@ -31,15 +31,6 @@ inline const std::uint32_t* fillGroup(const std::uint32_t* vertices, std::size_t
     return buffer;
 }
 
-/// Vertices of some triangles as 32-bit numbers: in `buffer`, of 3 * count, where they are not that already.
-inline const std::uint32_t* blockVertices(const IndexView& vertices, std::size_t first_triangle, std::size_t count,
-                                          std::uint32_t* buffer) {
-    const std::size_t first = 3 * first_triangle;
-    if (vertices.type == IndexType::u32) return static_cast<const std::uint32_t*>(vertices.data) + first;
-    for (std::size_t i = 0; i < 3 * count; ++i) buffer[i] = vertices[first + i];
-    return buffer;
-}
-
 class VertexRanges {
   public:
     static constexpr std::size_t kBlock = 64;  ///< triangles

@@ -113,22 +113,24 @@ class Splitter {
     }
 
     SplitResult split(const IndexView& indices) {
-        withIndices(indices, [&](auto vertexOf) {
-#ifndef TSPACE_SMALL
-            using Tangents = ExactAttributes<4>;
-            using Normals = ExactAttributes<3>;
-            using Both = ExactAttributes<3, 4>;
-            if (Tangents::fits(attributes_)) return splitAll(vertexOf, Tangents(attributes_));
-            if (Normals::fits(attributes_)) return splitAll(vertexOf, Normals(attributes_));
-            if (Both::fits(attributes_)) return splitAll(vertexOf, Both(attributes_));
-#endif
-            splitAll(vertexOf, AnyAttributes(attributes_));
-        });
+        splitAsFits(indices);
         writeSources(indices);
         return std::move(result_);
     }
 
   private:
+    void splitAsFits(const IndexView& indices) {
+#ifndef TSPACE_SMALL
+        using Tangents = ExactAttributes<4>;
+        using Normals = ExactAttributes<3>;
+        using Both = ExactAttributes<3, 4>;
+        if (Tangents::fits(attributes_)) return splitAll(indices, Tangents(attributes_));
+        if (Normals::fits(attributes_)) return splitAll(indices, Normals(attributes_));
+        if (Both::fits(attributes_)) return splitAll(indices, Both(attributes_));
+#endif
+        splitAll(indices, AnyAttributes(attributes_));
+    }
+
     static void resizeAtOnce(std::vector<std::uint32_t>& values, std::size_t count, std::size_t capacity,
                              std::uint32_t value = 0) {
         values.reserve(capacity);
@@ -136,39 +138,40 @@ class Splitter {
         values.resize(count, value);
     }
 
-    template <class VertexOf, class Attributes>
-    [[gnu::noinline]] void splitAll(VertexOf vertexOf, const Attributes& attributes) {
+    template <class Attributes>
+    [[gnu::noinline]] void splitAll(const IndexView& indices, const Attributes& attributes) {
         if (parallel_.width() == 1 || pending_.size() < kTasksForThreads) {
             // One after the other, while corners are in the cache; the first corner of a vertex is found on
             // the way.
             for (std::size_t task = 0; task < pending_.size(); ++task) {
-                compare(task, vertexOf, attributes, [](std::uint32_t& first, std::uint32_t corner) {
+                compare(task, indices, attributes, [](std::uint32_t& first, std::uint32_t corner) {
                     static_assert(kNoCorner == 0xffffffffu);  // above all corners
                     return first = std::min(first, corner);
                 });
-                resolve(task, vertexOf);
+                resolve(task, indices);
             }
             return;
         }
         // Backwards, so that the first corner of a vertex is the one that stays.
-        for (std::size_t c = result_.indices.size(); c-- > 0;) {
-            result_.source_corners[vertexOf(c)] = static_cast<std::uint32_t>(c);
-        }
+        withIndices(indices, [&](auto vertexOf) {
+            for (std::size_t c = result_.indices.size(); c-- > 0;)
+                result_.source_corners[vertexOf(c)] = static_cast<std::uint32_t>(c);
+        });
         parallel_.forTasks(pending_.size(), [&](std::size_t task) {
-            compare(task, vertexOf, attributes, [](std::uint32_t first, std::uint32_t) { return first; });
+            compare(task, indices, attributes, [](std::uint32_t first, std::uint32_t) { return first; });
         });
         for (std::size_t task = 0; task < pending_.size(); ++task) {
             for (std::uint32_t corner = pending_[task]; corner != kNoCorner; corner = result_.indices[corner]) {
                 attributes.fetch(corner);
             }
-            resolve(task, vertexOf);
+            resolve(task, indices);
         }
     }
 
     /// Gives corners that equal the first one of their vertex this vertex, and lists the others. `firstOf`
     /// says which corner is the first one, from what is known of the vertex and the corner itself.
-    template <class VertexOf, class Attributes, class FirstOf>
-    void compare(std::size_t task, VertexOf vertexOf, const Attributes& attributes, FirstOf firstOf) {
+    template <class Attributes, class FirstOf>
+    void compare(std::size_t task, const IndexView& view, const Attributes& attributes, FirstOf firstOf) {
         // Copies: numbers that are written might be those of the vectors themselves.
         std::uint32_t* const indices = result_.indices.data();
         std::uint32_t* const known_firsts = result_.source_corners.data();
@@ -176,12 +179,13 @@ class Splitter {
         std::uint32_t first = kNoCorner, last = kNoCorner;
         for (std::size_t begin = task * kCornersPerTask; begin < end; begin += kWordBits) {
             const std::size_t count = std::min(kWordBits, end - begin);
-            std::array<std::uint32_t, kWordBits> different;
+            std::array<std::uint32_t, kWordBits> different, buffer;
+            const std::uint32_t* const vertices = readIndices(view, begin, count, buffer.data());
             std::size_t different_count = 0;
             for (std::size_t i = 0; i < count; ++i) {
                 const auto corner = static_cast<std::uint32_t>(begin + i);
-                const std::uint32_t vertex = vertexOf(corner);
-                indices[corner] = vertex;
+                const std::uint32_t vertex = vertices[i];
+                indices[begin + i] = vertex;
                 different[different_count] = corner;
                 different_count += attributes.areEqual(corner, firstOf(known_firsts[vertex], corner)) ? 0 : 1;
             }
@@ -195,13 +199,12 @@ class Splitter {
     }
 
     /// Task after task, because copies are numbered in corner order.
-    template <class VertexOf>
-    void resolve(std::size_t task, VertexOf vertexOf) {
+    void resolve(std::size_t task, const IndexView& indices) {
         if (pending_[task] == kNoCorner) return;
         if (result_.source_vertices.empty()) variants_.prepare();
         for (std::uint32_t corner = pending_[task]; corner != kNoCorner;) {
             const std::uint32_t next = result_.indices[corner];
-            result_.indices[corner] = variants_.variantOf(corner, vertexOf(corner));
+            result_.indices[corner] = variants_.variantOf(corner, indices[corner]);
             corner = next;
         }
     }

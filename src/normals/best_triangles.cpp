@@ -9,6 +9,7 @@
 
 #include "core/input_scale.h"
 #include "core/range_lists.h"
+#include "core/typed_indices.h"
 #include "core/vertex_ranges.h"
 
 namespace tspace::smooth {
@@ -28,7 +29,7 @@ class PointTriangles final : public TriangleGroups {
         : TriangleGroups(mesh.faceCount()), mesh_(mesh), points_(points) {}
 
     void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const override {
-        const std::uint32_t* const v = blockVertices(mesh_.indices, first, size, groups);
+        const std::uint32_t* const v = readIndices(mesh_.indices, 3 * first, 3 * size, groups);
         if (v != groups) std::copy_n(v, 3 * size, groups);
         if (vertices != nullptr) std::copy_n(groups, 3 * size, vertices);
         if (points_.empty()) return;

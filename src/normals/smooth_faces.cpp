@@ -13,6 +13,7 @@
 #include <cstring>
 
 #include "core/angle.h"
+#include "core/typed_indices.h"
 #include "core/vertex_ranges.h"
 #include "normals/best_triangles.h"
 #include "normals/face_terms.h"
@@ -47,7 +48,7 @@ class PointItems final : public TriangleGroups {
     }
     void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* points) const override {
         if (areTriangles(mesh_)) {
-            const std::uint32_t* const v = blockVertices(mesh_.indices, first, size, points);
+            const std::uint32_t* const v = readIndices(mesh_.indices, 3 * first, 3 * size, points);
             if (vertices != nullptr) std::copy_n(v, 3 * size, vertices);
             if (v != points) std::copy_n(v, 3 * size, points);
             for (std::size_t i = 0; !points_.empty() && i < 3 * size; ++i) points[i] = points_[points[i]];

@@ -17,6 +17,7 @@
 #include "core/border.h"
 #include "core/float4.h"
 #include "core/sum_ranges.h"
+#include "core/typed_indices.h"
 #include "core/vec_math.h"
 #include "core/vertex_ranges.h"
 #include "normals/best_triangles.h"
@@ -186,7 +187,7 @@ class TriangleSmoother {
         std::uint64_t degenerate = 0;
         ranges_.forBlocks(index, [&](std::size_t b) {
             std::size_t count = blockSize(b);
-            const std::uint32_t* v = blockVertices(mesh_.indices, b * kBlock, count, block.vertices);
+            const std::uint32_t* v = readIndices(mesh_.indices, 3 * b * kBlock, 3 * count, block.vertices);
             const std::uint32_t* points = blockPoints(b, v, count, block.points);
             if (ranges_.isWithinOne(b)) {
                 degenerate +=
@@ -268,7 +269,7 @@ class TriangleSmoother {
 
     void addExactly(std::size_t triangle, const RangeSums& place) const {
         std::uint32_t buffer[3], point_buffer[3];
-        const std::uint32_t* const v = blockVertices(mesh_.indices, triangle, 1, buffer);
+        const std::uint32_t* const v = readIndices(mesh_.indices, 3 * triangle, 3, buffer);
         const std::uint32_t* const points = blockPoints(triangle / kBlock, v, 1, point_buffer);
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t i = points[k] - place.range.begin;
@@ -292,7 +293,7 @@ class TriangleSmoother {
         std::uint32_t buffer[3 * kBlock], point_buffer[3 * kBlock];
         ranges_.forBlocks(index, [&](std::size_t b) {
             const std::size_t count = blockSize(b);
-            const std::uint32_t* v = blockVertices(mesh_.indices, b * kBlock, count, buffer);
+            const std::uint32_t* v = readIndices(mesh_.indices, 3 * b * kBlock, 3 * count, buffer);
             const std::uint32_t* points = blockPoints(b, v, count, point_buffer);
             substitutes += ranges_.isWithinOne(b) ? writeBlock(b * kBlock, points, count, place)
                                                   : writeSome(b * kBlock, points, count, place);
@@ -332,7 +333,7 @@ class TriangleSmoother {
         const RangeSums all{sums_.data(), {0, static_cast<std::uint32_t>(sums_.size())}, nullptr};
         for (std::size_t first = begin; first < end; first += kBlock) {
             const std::size_t count = std::min(kBlock, end - first);
-            substitutes += writeBlock(first, blockVertices(mesh_.indices, first, count, buffer), count, all);
+            substitutes += writeBlock(first, readIndices(mesh_.indices, 3 * first, 3 * count, buffer), count, all);
         }
         return substitutes;
     }
@@ -389,7 +390,7 @@ class TriangleSmoother {
     /// What stands for a mean that vanished.
     [[nodiscard, gnu::noinline]] Vec3 ownNormal(std::size_t triangle) const {
         Block block;
-        const std::uint32_t* v = blockVertices(mesh_.indices, triangle, 1, block.vertices);
+        const std::uint32_t* v = readIndices(mesh_.indices, 3 * triangle, 3, block.vertices);
         kernel_.compute(faceSource(false, false), fillGroup(v, 1, kTermGroup, block.vertices), 1, block.terms);
         const double(&normal)[4] = block.terms.normal[0];
         if (normal[3] == 0.0) return {0, 0, 1};

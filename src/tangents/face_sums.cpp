@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "core/typed_indices.h"
 #include "core/uv_frame.h"
 
 namespace tspace {
@@ -71,7 +72,7 @@ TriangleCounts FaceSums::sum(unsigned index) const {
     ranges_.forBlocks(index, [&](std::size_t b) {
         const std::size_t first = b * Block::kMost;
         block.count = std::min(Block::kMost, plan_.triangleCount() - first);
-        block.vertices = blockVertices(plan_.triangle_vertices, first, block.count, block.buffer);
+        block.vertices = readIndices(plan_.triangle_vertices, 3 * first, 3 * block.count, block.buffer);
         askForLines(block.vertices, 3 * Block::kMost * sizeof(std::uint32_t));
         const bool is_whole = ranges_.isWithinOne(b);
         if (!is_whole) block.select(range);
