@@ -1,7 +1,7 @@
 # What every consumer builds and runs: both quick starts and an engine with the MikkTSpace interface. LINK is what the
 # targets link to; COMPAT_DIR is the folder of mikktspace.h.
+enable_testing()  # in the function it would be forgotten at its end
 function(tspace_add_consumers link compat_dir)
-    enable_testing()
     get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
     add_executable(quickstart_c "${TSPACE_SOURCE_DIR}/examples/quickstart.c")
     add_executable(engine "${TSPACE_SOURCE_DIR}/tests/c_api/c_mikktspace_test.c")
