@@ -67,6 +67,15 @@ else()
     set(TSPACE_PC_LIBDIR "\${prefix}/${CMAKE_INSTALL_LIBDIR}")
     set(TSPACE_PC_INCLUDEDIR "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
 endif()
-configure_file("${CMAKE_CURRENT_LIST_DIR}/tspace.pc.in" "${PROJECT_BINARY_DIR}/package/tspace.pc" @ONLY)
-install(FILES "${PROJECT_BINARY_DIR}/package/tspace.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig"
-        COMPONENT tspace_core)
+
+# tspace_pkg_config(NAME COMPONENT DESCRIPTION LIBS)
+function(tspace_pkg_config TSPACE_PC_NAME component TSPACE_PC_DESCRIPTION TSPACE_PC_LIBS)
+    configure_file("${PROJECT_SOURCE_DIR}/cmake/tspace.pc.in" "${PROJECT_BINARY_DIR}/package/${TSPACE_PC_NAME}.pc" @ONLY)
+    install(FILES "${PROJECT_BINARY_DIR}/package/${TSPACE_PC_NAME}.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig"
+            COMPONENT ${component})
+endfunction()
+tspace_pkg_config(tspace tspace_core "${PROJECT_DESCRIPTION}" "-ltspace ${TSPACE_PC_CXX_RUNTIME} -lm -pthread")
+# The static library of files needs other libraries, which this one has found already.
+if(TARGET tspace_files_shared)
+    tspace_pkg_config(tspace-files tspace_files_shared_link "${PROJECT_DESCRIPTION}: model files, in C" "-ltspace-files")
+endif()

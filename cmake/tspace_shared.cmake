@@ -20,6 +20,14 @@ function(tspace_shared_library target output_name)
         target_link_options(${target} PRIVATE -Wl,-z,defs)
     endif()
     target_link_libraries(${target} PRIVATE Threads::Threads)
+    # Beside a static library of its name, what linkers look for is a script: the C functions come from the shared library,
+    # and what C++ programs call, which that does not export, from the static one.
+    if(TARGET ${output_name})
+        set(script "${PROJECT_BINARY_DIR}/package/lib${output_name}.so")
+        file(WRITE "${script}" "GROUP ( AS_NEEDED ( lib${output_name}.so.0 ) lib${output_name}.a )\n")
+        install(FILES "${script}" DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT ${target}_link)
+        set(namelink NAMELINK_SKIP)
+    endif()
     install(TARGETS ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT ${target}
-            NAMELINK_COMPONENT ${target}_link)
+            NAMELINK_COMPONENT ${target}_link ${namelink})
 endfunction()
