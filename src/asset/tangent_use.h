@@ -6,21 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "tspace/texture_wrap.h"
+#include "asset/texture_reading.h"
 
 namespace tspace {
-
-/// KHR_texture_transform: uv' = translation * rotation * scale * uv. `rotation` in radians, counter-clockwise as the
-/// extension defines it.
-struct UvTransform {
-    double offset[2] = {0, 0};
-    double rotation = 0;
-    double scale[2] = {1, 1};
-
-    /// true when it turns, mirrors or squeezes directions: an offset alone does not touch frames.
-    [[nodiscard]] bool changesFrames() const { return rotation != 0 || scale[0] != 1 || scale[1] != 1; }
-    [[nodiscard]] bool mirrors() const { return scale[0] * scale[1] < 0; }
-};
 
 struct TangentUse {
     std::string needed_by = {};  ///< "normalTexture", "clearcoatNormalTexture" or "anisotropy"

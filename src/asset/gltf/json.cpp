@@ -116,6 +116,18 @@ double readNumber(const Json& object, const char* key, const std::string& place,
     return value->get<double>();
 }
 
+void readNumbers(const Json& object, const char* key, const std::string& place, std::span<double> numbers) {
+    const Json* value = findMember(object, key);
+    if (value == nullptr) return;
+    bool are_numbers = value->is_array() && value->size() == numbers.size();
+    for (std::size_t i = 0; are_numbers && i < numbers.size(); ++i) are_numbers = (*value)[i].is_number();
+    if (!are_numbers) {
+        failJson(std::string("'") + key + "' is not an array of " + std::to_string(numbers.size()) + " numbers",
+                 join(place, key));
+    }
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = (*value)[i].get<double>();
+}
+
 std::string readString(const Json& object, const char* key, const std::string& place, const std::string& fallback) {
     const Json* value = findMember(object, key);
     if (value == nullptr) return fallback;

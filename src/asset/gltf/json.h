@@ -53,6 +53,8 @@ std::optional<std::size_t> readIndex(const Json& object, const char* key, const 
 std::size_t toIndex(const Json& value, const std::string& place, std::size_t limit, const char* what);
 
 double readNumber(const Json& object, const char* key, const std::string& place, double fallback);
+/// An array of as many numbers as `numbers` has; they stay as they are when the member is absent.
+void readNumbers(const Json& object, const char* key, const std::string& place, std::span<double> numbers);
 std::string readString(const Json& object, const char* key, const std::string& place, const std::string& fallback = {});
 bool readBool(const Json& object, const char* key, const std::string& place, bool fallback);
 

@@ -170,6 +170,10 @@ void readImages(const Document& document, Scene& scene) {
             if (use.image) wanted.insert(*use.image);
         }
     }
+    readImages(document, wanted, scene);
+}
+
+void readImages(const Document& document, const std::set<std::size_t>& wanted, Scene& scene) {
     std::set<std::string> files;
     const Json& list = rootArray(document, "images");
     for (const std::size_t i : wanted) {

@@ -13,10 +13,10 @@ namespace tspace::obj {
 
 namespace {
 
-/// Number of each normal map among the images of the scene, one per file.
-class NormalMaps {
+/// Number of each texture among the images of the scene, one per file.
+class ImageFiles {
   public:
-    NormalMaps(const NamedFiles& files, bool with_bytes, MemoryBudget& memory)
+    ImageFiles(const NamedFiles& files, bool with_bytes, MemoryBudget& memory)
         : files_(files), with_bytes_(with_bytes), memory_(memory) {}
 
     std::size_t indexOf(const Texture& texture) {
@@ -57,7 +57,7 @@ SharedArray<std::uint32_t> triangleCorners(const ObjGeometry& geometry) {
     return corners;
 }
 
-ScenePrimitive loadPrimitive(const Model& model, const ObjPrimitive& primitive, NormalMaps& maps) {
+ScenePrimitive loadPrimitive(const Model& model, const ObjPrimitive& primitive, ImageFiles& maps) {
     const Material& material = model.materials[primitive.material];
     ObjGeometry geometry = buildGeometry(model, primitive);
     ScenePrimitive result;
@@ -81,19 +81,52 @@ ScenePrimitive loadPrimitive(const Model& model, const ObjPrimitive& primitive, 
 
 }  // namespace
 
-Scene sceneOf(const Model& model, std::span<const ObjPrimitive> primitives, bool with_images) {
+namespace {
+
+/// Without images, which are in `files`.
+Scene loadScene(const Model& model, std::span<const ObjPrimitive> primitives, ImageFiles& files) {
     Scene scene;
     scene.format = "obj";
     scene.memory = model.memory;
     scene.warnings = model.warnings;
-    NormalMaps maps(model.files, with_images, *scene.memory);
     std::vector<std::uint32_t> next_in_mesh(model.shape_names.size(), 0);
     for (const ObjPrimitive& primitive : primitives) {
-        scene.primitives.push_back(loadPrimitive(model, primitive, maps));
+        scene.primitives.push_back(loadPrimitive(model, primitive, files));
         scene.primitives.back().primitive = next_in_mesh[primitive.shape]++;
     }
-    scene.images = std::move(maps.images);
     return scene;
+}
+
+SurfaceLook lookOf(const Material& material, ImageFiles& files) {
+    SurfaceLook look;
+    look.base_color = {material.base_color.x, material.base_color.y, material.base_color.z, 1};
+    if (material.base_color_texture.used())
+        look.base_texture = TextureReading{.image = files.indexOf(material.base_color_texture)};
+    if (material.normal_texture.used())
+        look.normal_texture = TextureReading{.image = files.indexOf(material.normal_texture)};
+    look.normal_scale = material.normal_scale;
+    look.is_double_sided = true;
+    return look;
+}
+
+}  // namespace
+
+Scene sceneOf(const Model& model, std::span<const ObjPrimitive> primitives, bool with_images) {
+    ImageFiles files(model.files, with_images, *model.memory);
+    Scene scene = loadScene(model, primitives, files);
+    scene.images = std::move(files.images);
+    return scene;
+}
+
+DrawnScene drawnSceneOf(const Model& model, std::span<const ObjPrimitive> primitives, bool with_images) {
+    ImageFiles files(model.files, with_images, *model.memory);
+    DrawnScene drawn{.scene = loadScene(model, primitives, files)};
+    for (const ObjPrimitive& primitive : primitives) {
+        drawn.placements.push_back({drawn.looks.size(), {}});
+        drawn.looks.push_back(lookOf(model.materials[primitive.material], files));
+    }
+    drawn.scene.images = std::move(files.images);
+    return drawn;
 }
 
 }  // namespace tspace::obj

@@ -2,8 +2,10 @@
 // Chooses the reader by the name of the file.
 #include "asset/read/read_scene.h"
 
+#include "asset/file_error.h"
 #include "asset/file_io.h"
 #include "asset/gltf/primitive_reader.h"
+#include "asset/gltf/read_look.h"
 #include "asset/gltf/read_scene.h"
 #include "asset/obj/obj_reader.h"
 #include "asset/obj/read_scene.h"
@@ -22,6 +24,23 @@ Scene readScene(const std::string& input, const FileOptions& options, bool with_
     Scene scene = gltf::sceneOf(document, gltf::readPrimitives(document));
     if (with_images) gltf::readImages(document, scene);
     return scene;
+}
+
+DrawnScene readDrawnScene(const std::string& input, const FileOptions& options, bool with_images) {
+    if (lowerExtension(input) == ".obj") {
+        obj::Model model = obj::readModel(input, options);
+        std::vector<obj::ObjPrimitive> primitives = obj::collectPrimitives(model);
+        valueOrThrow(obj::completeNormals(model, primitives, {}));
+        return obj::drawnSceneOf(model, primitives, with_images);
+    }
+    gltf::Document document = gltf::loadDocument(input, options);
+    gltf::checkRequiredExtensions(document);
+    const std::vector<gltf::Primitive> primitives = gltf::readPrimitives(document);
+    DrawnScene drawn{.scene = gltf::sceneOf(document, primitives)};
+    for (const gltf::Primitive& primitive : primitives) drawn.looks.push_back(gltf::readLook(document, primitive));
+    drawn.placements = gltf::readPlacements(document, primitives);
+    if (with_images) gltf::readImages(document, gltf::imagesOf(drawn.looks), drawn.scene);
+    return drawn;
 }
 
 }  // namespace tspace

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "asset/drawn_scene.h"
 #include "asset/scene.h"
 
 namespace tspace {
@@ -12,5 +13,9 @@ namespace tspace {
 /// error. Fails as generateFile does, also with tooLarge where a small file makes arrays that are far larger than
 /// itself. Throws FileError.
 Scene readScene(const std::string& input, const FileOptions& options, bool with_images);
+
+/// The same with places and looks, and `with_images` the bytes of those images that pictures show. Faces of an OBJ file
+/// without normals get those that generateFile gives them.
+DrawnScene readDrawnScene(const std::string& input, const FileOptions& options, bool with_images);
 
 }  // namespace tspace
