@@ -9,7 +9,7 @@ install(TARGETS tspace EXPORT tspace_core
         LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT tspace_core)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/tspace" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT tspace_core
         FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp"
-        PATTERN "asset.h" EXCLUDE PATTERN "check.h" EXCLUDE PATTERN "diff.h" EXCLUDE PATTERN "identify.h" EXCLUDE PATTERN "maps.h" EXCLUDE PATTERN "map_*.h" EXCLUDE PATTERN "flip_green.h" EXCLUDE PATTERN "tspace_files.h" EXCLUDE)
+        PATTERN "asset.h" EXCLUDE PATTERN "check.h" EXCLUDE PATTERN "diff.h" EXCLUDE PATTERN "identify.h" EXCLUDE PATTERN "maps.h" EXCLUDE PATTERN "map_*.h" EXCLUDE PATTERN "flip_green.h" EXCLUDE PATTERN "render.h" EXCLUDE PATTERN "tspace_files.h" EXCLUDE)
 install(FILES "${PROJECT_BINARY_DIR}/include/tspace/version.h" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/tspace"
         COMPONENT tspace_core)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/shaders" DESTINATION "${CMAKE_INSTALL_DATADIR}/tspace" COMPONENT tspace_core)
@@ -22,7 +22,7 @@ if(TARGET tspace_asset)
             LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT tspace_asset)
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/tspace" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
             COMPONENT tspace_asset FILES_MATCHING PATTERN "asset.h" PATTERN "check.h" PATTERN "diff.h" PATTERN "identify.h"
-            PATTERN "maps.h" PATTERN "map_*.h" PATTERN "flip_green.h" PATTERN "tspace_files.h")
+            PATTERN "maps.h" PATTERN "map_*.h" PATTERN "flip_green.h" PATTERN "render.h" PATTERN "tspace_files.h")
     install(EXPORT tspace_asset NAMESPACE tspace:: FILE tspace-asset.cmake DESTINATION "${TSPACE_CMAKE_DIR}"
             COMPONENT tspace_asset)
 endif()

@@ -9,7 +9,7 @@
 
 #include "asset/work_together.h"
 #include "check/findings.h"
-#include "core/angle.h"
+#include "check/uv_reading.h"
 #include "maps/uv_coverage.h"
 
 namespace tspace {
@@ -65,24 +65,12 @@ std::vector<NormalMap> collectNormalMaps(const Scene& scene) {
     return maps;
 }
 
-std::vector<Vec2> transformed(std::span<const Vec2> uvs, const UvTransform& transform) {
-    const SineCosine turn = sineCosine(transform.rotation);
-    std::vector<Vec2> result;
-    result.reserve(uvs.size());
-    for (const Vec2& uv : uvs) {
-        const double u = transform.scale[0] * uv.x, v = transform.scale[1] * uv.y;
-        result.push_back({static_cast<float>(turn.cosine * u + turn.sine * v + transform.offset[0]),
-                          static_cast<float>(turn.cosine * v - turn.sine * u + transform.offset[1])});
-    }
-    return result;
-}
-
 /// Where a primitive has no triangles or no UVs it shows nothing. False: the steps ran out.
 bool cover(const MapPart& part, TexelMask& mask, std::uint64_t& steps) {
     const ScenePrimitive& primitive = *part.primitive;
     const std::size_t set = part.use->uv_set;
     if (set >= primitive.uv_sets.size() || primitive.uv_sets[set].empty()) return true;
-    const std::vector<Vec2> uvs = transformed(primitive.uv_sets[set].span(), part.use->transform);
+    const std::vector<Vec2> uvs = textureUvs(primitive.uv_sets[set].span(), part.use->transform);
     return coverTexels({primitive.corners.span(), uvs, part.use->wrap_u, part.use->wrap_v}, mask, steps);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "check/uv_reading.h"
 
+#include "core/angle.h"
 #include "surface/uv_matrix.h"
 
 namespace tspace {
@@ -19,6 +20,18 @@ UvReading readingOf(const ScenePrimitive& primitive, const TangentUse& use) {
     reading.own = transformUvs(reading.uvs, matrix);
     reading.uvs = reading.own;
     return reading;
+}
+
+std::vector<Vec2> textureUvs(std::span<const Vec2> uvs, const UvTransform& transform) {
+    const SineCosine turn = sineCosine(transform.rotation);
+    std::vector<Vec2> result;
+    result.reserve(uvs.size());
+    for (const Vec2& uv : uvs) {
+        const double u = transform.scale[0] * uv.x, v = transform.scale[1] * uv.y;
+        result.push_back({static_cast<float>(turn.cosine * u + turn.sine * v + transform.offset[0]),
+                          static_cast<float>(turn.cosine * v - turn.sine * u + transform.offset[1])});
+    }
+    return result;
 }
 
 }  // namespace tspace

@@ -23,4 +23,7 @@ UvReading readingOf(const ScenePrimitive& primitive, const TangentUse& use);
 /// A set as it is in the file.
 UvReading plainReading(const ScenePrimitive& primitive, std::size_t uv_set);
 
+/// Where a texture is read, with scales and offsets that no direction depends on.
+std::vector<Vec2> textureUvs(std::span<const Vec2> uvs, const UvTransform& transform);
+
 }  // namespace tspace

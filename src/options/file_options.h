@@ -15,6 +15,11 @@ inline constexpr Named<Convention> kConventions[] = {
     {"unreal", conventions::unreal}, {"unity", conventions::unity},   {"blender", conventions::blender},
     {"godot", conventions::godot},
 };
+inline constexpr Named<Method> kMethods[] = {
+    {"mikktspace", Method::mikktspace}, {"lengyel", Method::lengyel}, {"uniform", Method::uniform},
+    {"angle", Method::angle},           {"area", Method::area},       {"flat", Method::flat},
+    {"basis", Method::basis},           {"fast", Method::fast},       {"best", Method::best},
+};
 inline constexpr Named<Faces> kFaces[] = {
     {"triangles", Faces::triangles},
     {"quads", Faces::quads},

@@ -9,11 +9,6 @@
 namespace tspace::options {
 namespace {
 
-constexpr Named<Method> kMethods[] = {
-    {"mikktspace", Method::mikktspace}, {"lengyel", Method::lengyel}, {"uniform", Method::uniform},
-    {"angle", Method::angle},           {"area", Method::area},       {"flat", Method::flat},
-    {"basis", Method::basis},           {"fast", Method::fast},       {"best", Method::best},
-};
 constexpr Named<Pairing> kPairings[] = {
     {"reference", Pairing::reference},
     {"corrected", Pairing::corrected},

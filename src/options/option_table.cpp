@@ -15,14 +15,6 @@ namespace {
 
 constexpr const char* kDigits = "0123456789";
 
-/// No spaces, no hexadecimal digits, no names such as "inf"; with a point, whatever the program's locale says.
-bool parseReal(const std::string& text, double& number) {
-    if (text.empty() || text.find_first_not_of("0123456789.+-eE") != std::string::npos) return false;
-    std::istringstream stream(text);
-    stream.imbue(std::locale::classic());
-    return stream >> number && stream.peek() == std::istringstream::traits_type::eof() && std::isfinite(number);
-}
-
 /// As few digits as a person would write.
 std::string plainText(double number) {
     std::ostringstream stream;
@@ -52,6 +44,14 @@ std::string givePart(const Option& option, const std::string& value) {
 }
 
 }  // namespace
+
+// No spaces, no hexadecimal digits, no names such as "inf"; with a point, whatever the program's locale says.
+bool parseReal(const std::string& text, double& number) {
+    if (text.empty() || text.find_first_not_of("0123456789.+-eE") != std::string::npos) return false;
+    std::istringstream stream(text);
+    stream.imbue(std::locale::classic());
+    return stream >> number && stream.peek() == std::istringstream::traits_type::eof() && std::isfinite(number);
+}
 
 bool parseNumber(const std::string& text, std::uint64_t& number) {
     constexpr std::size_t kMostDigits = 19;  // of any number below 2^63

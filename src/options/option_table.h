@@ -121,5 +121,7 @@ Option choice(const char* names, const char* value_name, const Named<Value> (&ta
 
 /// The whole text as a whole number. false: it is none, or too large.
 bool parseNumber(const std::string& text, std::uint64_t& number);
+/// The same of any finite number.
+bool parseReal(const std::string& text, double& number);
 
 }  // namespace tspace::options

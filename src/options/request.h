@@ -12,6 +12,7 @@
 #include "tspace/diff.h"
 #include "tspace/flip_green.h"
 #include "tspace/identify.h"
+#include "tspace/render.h"
 
 namespace tspace::options {
 
@@ -33,6 +34,7 @@ OptionList diffOptions(DiffRequest& request);
 OptionList identifyOptions(IdentifyOptions& options);
 OptionList inspectOptions(FileOptions& options);
 OptionList flipGreenOptions(FlipGreenOptions& options);
+OptionList renderOptions(RenderOptions& options);
 
 /// What options of generate mean together, once all are given. Returns what makes no sense, or nothing.
 std::string finish(const Given& given, GenerateOptions& options);

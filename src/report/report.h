@@ -12,6 +12,7 @@
 #include "tspace/diff.h"
 #include "tspace/flip_green.h"
 #include "tspace/identify.h"
+#include "tspace/render.h"
 
 namespace tspace::report {
 
@@ -38,6 +39,7 @@ std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_c
 std::string diffJson(const std::string& a, const std::string& b, double tolerance_deg, const Result<FrameDiff>& diff,
                      ExitCode exit_code);
 std::string flipGreenJson(const Outcome<FlipGreenReport>& outcome, ExitCode exit_code);
+std::string renderJson(const Outcome<RenderReport>& outcome, ExitCode exit_code);
 
 /// null, or the error as docs/json.md describes it.
 Json errorJson(const Error* error);

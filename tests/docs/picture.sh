@@ -1,13 +1,16 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# The pictures of the README are what the program draws; scripts/picture draws them anew.
-# usage: picture.sh PROGRAM SOURCE_FOLDER
+# The pictures of the documentation are what the programs draw, and small; scripts/picture draws them anew.
+# usage: picture.sh PROGRAMS_FOLDER SOURCE_FOLDER
 set -euo pipefail
-program=${1:?usage: picture.sh PROGRAM SOURCE_FOLDER}
-images=${2:?usage: picture.sh PROGRAM SOURCE_FOLDER}/docs/images
+programs=${1:?usage: picture.sh PROGRAMS_FOLDER SOURCE_FOLDER}
+source=${2:?usage: picture.sh PROGRAMS_FOLDER SOURCE_FOLDER}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-"$program" "$work/sign-lost.png" "$work/sign-right.png"
-cmp "$work/sign-lost.png" "$images/sign-lost.png"
-cmp "$work/sign-right.png" "$images/sign-right.png"
+"$source/tests/docs/draw_pictures.sh" "$programs" "$work"
+for picture in "$work"/*.png; do
+    cmp "$picture" "$source/docs/images/$(basename "$picture")"
+    bytes=$(wc -c <"$picture")
+    case $(basename "$picture") in render-*) [ "$bytes" -le 60000 ] || { echo "$picture has $bytes bytes"; exit 1; } ;; esac
+done

@@ -47,7 +47,7 @@ ExitCode runHelp(const ToolTable& tool, const std::string& topic) {
 Arguments parseArguments(int argc, char** argv) {
     AllArguments all;
     for (FileOptions* file : {&all.generate.options.file, &all.diff.request.options.file, &all.identify.options.file,
-                              &all.inspect.file, &all.check.request.options.file}) {
+                              &all.inspect.file, &all.check.request.options.file, &all.render.options.file}) {
         file->importer = importerPath();
     }
     const ToolTable tool = toolTable(all);
@@ -65,6 +65,7 @@ Arguments parseArguments(int argc, char** argv) {
     if (command->name == "diff") return std::move(all.diff);
     if (command->name == "identify") return std::move(all.identify);
     if (command->name == "flip-green") return std::move(all.flip_green);
+    if (command->name == "render") return std::move(all.render);
     return runHelp(tool, all.help_topic);
 }
 

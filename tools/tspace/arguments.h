@@ -91,9 +91,17 @@ struct FlipGreenArguments {
     bool quiet = false;
 };
 
+struct RenderArguments {
+    std::string input = {};
+    std::string output = {};
+    RenderOptions options = {};
+    bool json = false;
+    bool quiet = false;
+};
+
 /// Nothing to run: help was printed, or the command line is wrong and the error line was printed.
 using Arguments = std::variant<ExitCode, GenerateArguments, InspectArguments, CheckArguments, DiffArguments,
-                               IdentifyArguments, FlipGreenArguments>;
+                               IdentifyArguments, FlipGreenArguments, RenderArguments>;
 
 Arguments parseArguments(int argc, char** argv);
 

@@ -12,5 +12,6 @@ ExitCode runIdentify(const IdentifyArguments& arguments);
 ExitCode runInspect(const InspectArguments& arguments);
 ExitCode runCheck(const CheckArguments& arguments);
 ExitCode runFlipGreen(const FlipGreenArguments& arguments);
+ExitCode runRender(const RenderArguments& arguments);
 
 }  // namespace tspace::tool

@@ -44,6 +44,7 @@ ExitCode run(int argc, char** argv) {
     if (const auto* inspect = std::get_if<InspectArguments>(&arguments)) return runInspect(*inspect);
     if (const auto* check = std::get_if<CheckArguments>(&arguments)) return runCheck(*check);
     if (const auto* flip = std::get_if<FlipGreenArguments>(&arguments)) return runFlipGreen(*flip);
+    if (const auto* render = std::get_if<RenderArguments>(&arguments)) return runRender(*render);
     return std::get<ExitCode>(arguments);
 }
 

@@ -16,6 +16,7 @@ struct AllArguments {
     DiffArguments diff = {};
     IdentifyArguments identify = {};
     FlipGreenArguments flip_green = {};
+    RenderArguments render = {};
     std::string help_topic = {};  ///< of `tspace help`
 };
 
@@ -25,6 +26,7 @@ Command checkCommand(CheckArguments& arguments);
 Command diffCommand(DiffArguments& arguments);
 Command identifyCommand(IdentifyArguments& arguments);
 Command flipGreenCommand(FlipGreenArguments& arguments);
+Command renderCommand(RenderArguments& arguments);
 
 /// All commands, in the order in which help lists them.
 ToolTable toolTable(AllArguments& arguments);

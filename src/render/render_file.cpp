@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// renderFile: reads a model, draws it, writes the picture.
+#include <cmath>
+
+#include "asset/atomic_output.h"
+#include "asset/file_error.h"
+#include "asset/read/read_scene.h"
+#include "maps/float_image.h"
+#include "picture/legend.h"
+#include "render/model_picture.h"
+
+namespace tspace {
+
+namespace {
+
+void checkRenderOptions(const RenderOptions& options) {
+    constexpr std::uint32_t kLeastPixels = 16, kMostPixels = 8192, kMostSamples = 16384;
+    constexpr std::uint64_t kMostInAll = std::uint64_t{1} << 26;
+    for (const std::uint32_t pixels : {options.width, options.height}) {
+        if (pixels < kLeastPixels || pixels > kMostPixels)
+            failFile(ErrorCode::invalidOption, "a picture has 16 to 8192 pixels along each side");
+        if (options.samples < 1 || options.samples > 4 || pixels * options.samples > kMostSamples)
+            failFile(ErrorCode::invalidOption,
+                     "a picture has 1 to 4 samples along each side of a pixel, and 16384 in all");
+    }
+    if (std::uint64_t{options.width} * options.samples * options.height * options.samples > kMostInAll)
+        failFile(ErrorCode::invalidOption, "the picture has more than 67108864 samples; ask for fewer of each pixel");
+    if (!std::isfinite(options.yaw_deg) || !std::isfinite(options.pitch_deg))
+        failFile(ErrorCode::invalidOption, "an angle of the view is not a number");
+    if (!(options.field_of_view_deg >= 0 && options.field_of_view_deg <= 120))
+        failFile(ErrorCode::invalidOption, "the field of view is not from 0 to 120 degrees");
+    DVec3 light = toDouble(options.to_light);
+    if (!normalize(light)) failFile(ErrorCode::invalidOption, "the direction to the light has no length");
+    if (!std::isfinite(options.reading.scale))
+        failFile(ErrorCode::invalidOption, "the scale of the normal map is not a number");
+}
+
+/// Twice: for the camera's direction, and for its distance.
+void visitPoints(const ModelPicture& model, Effort& effort, bool is_uv,
+                 const std::function<void(const DVec3&)>& visit) {
+    for (const DrawnMesh& mesh : model.meshes()) {
+        effort.spend(1 + 2 * mesh.corners.size());
+        for (const std::uint32_t vertex : mesh.corners) visit(mesh.to_world.point(toDouble(mesh.positions[vertex])));
+    }
+    if (!is_uv) return;
+    visit({0, 0, 0});
+    visit({1, -1, 0});
+}
+
+RgbImage drawModel(const ModelPicture& model, const RenderOptions& options, RenderReport& report) {
+    const bool is_uv = options.show == RenderShow::uv;
+    // Under the heat map stands its scale.
+    const std::uint32_t scale_rows = options.show == RenderShow::error ? heatScaleRows(options.width) : 0;
+    const std::uint32_t height = scale_rows + 16 <= options.height ? options.height - scale_rows : options.height;
+    const std::uint64_t samples = std::uint64_t{options.width} * options.samples * options.height * options.samples;
+    constexpr std::uint64_t kSteps = std::uint64_t{1} << 28, kMostLayers = 100, kCornerSteps = 64;
+    Effort effort(kSteps + kMostLayers * samples + kCornerSteps * model.cornerCount());
+    const ViewAngles angles = is_uv ? ViewAngles{} : ViewAngles{options.yaw_deg, options.pitch_deg};
+    const Camera camera = Camera::around(
+        [&](const std::function<void(const DVec3&)>& visit) { visitPoints(model, effort, is_uv, visit); }, angles,
+        is_uv ? 0 : options.field_of_view_deg, options.width * options.samples, height * options.samples);
+    const DVec3 light = toDouble(options.to_light);
+    DVec3 to_light = light.x * camera.right() + light.y * camera.up() + light.z * camera.back();
+    normalize(to_light);
+    Parallel parallel(options.execution);
+    SurfacePicture picture = drawSurfaces(options.show, model.meshes(), model.surfaces(), camera, to_light,
+                                          {options.width, height, options.samples}, effort, parallel);
+    if (height != options.height) {
+        picture.image.height = options.height;
+        picture.image.rgb.resize(std::size_t{3} * options.width * options.height);
+        drawHeatScale(picture.image);
+    }
+    if (is_uv) drawUvSquare(picture.image, camera, options.samples);
+    report.error_sample_count = picture.errors.count;
+    report.max_error_deg = picture.errors.max_deg;
+    if (picture.errors.count > 0)
+        report.mean_error_deg = picture.errors.sum_deg / static_cast<double>(picture.errors.count);
+    return std::move(picture.image);
+}
+
+std::vector<std::uint8_t> pngOf(const RgbImage& image) {
+    FloatImage values{.width = image.width, .height = image.height};
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+        const std::uint8_t* c = image.rgb.data() + i;
+        const auto value = [](std::uint8_t byte) { return static_cast<float>(byte) / 255; };
+        values.texels.push_back({value(c[0]), value(c[1]), value(c[2])});
+    }
+    std::optional<std::vector<std::uint8_t>> png = encodePng(values, 8);
+    if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
+    return *std::move(png);
+}
+
+bool showsTangents(RenderShow show) {
+    return show == RenderShow::tangents || show == RenderShow::sign || show == RenderShow::error;
+}
+
+RenderReport renderModel(const std::string& input, const std::string& output, const RenderOptions& options) {
+    checkRenderOptions(options);
+    const DrawnScene drawn = readDrawnScene(input, options.file, options.textures);
+    ModelTextures textures(drawn.scene, options.most_pixels);
+    const bool compares = options.show == RenderShow::error;
+    const FrameChoice choice{.frames = compares ? RenderFrames::stored : options.frames,
+                             .method = options.method,
+                             .always = showsTangents(options.show),
+                             .compare = compares,
+                             .execution = options.execution};
+    const ModelPicture model(drawn, options.show, choice, options.reading, options.textures ? &textures : nullptr);
+    RenderReport report{.show = options.show, .width = options.width, .height = options.height};
+    report.primitive_count = drawn.scene.primitives.size();
+    report.warnings = drawn.scene.warnings;
+    const RgbImage image = drawModel(model, options, report);
+    for (const DrawnMesh& mesh : model.meshes()) report.triangle_count += mesh.corners.size() / 3;
+    for (std::size_t i = 0; i < drawn.scene.primitives.size(); ++i) {
+        const ModelSurface& surface = model.surfaceOf(i);
+        report.computed_count += !surface.computed.empty();
+        report.without_tangents_count +=
+            !drawn.scene.primitives[i].corners.empty() && choice.always && surface.shown.tangents.empty();
+    }
+    report.warnings.insert(report.warnings.end(), textures.warnings.begin(), textures.warnings.end());
+    const std::vector<std::uint8_t> png = pngOf(image);
+    AtomicOutput files(options.sink, options.dry_run);
+    files.add(output, std::span<const std::uint8_t>(png));
+    files.commit();
+    return report;
+}
+
+}  // namespace
+
+const char* renderShowName(RenderShow show) {
+    constexpr const char* kNames[] = {"lit", "normals", "tangents", "sign", "error", "uv", "mapped"};
+    const auto number = static_cast<std::size_t>(show);
+    return number < std::size(kNames) ? kNames[number] : "";
+}
+
+Result<RenderReport> renderFile(const std::string& input, const std::string& output, const RenderOptions& options) {
+    return atFileBorder([&]() -> Result<RenderReport> { return renderModel(input, output, options); });
+}
+
+}  // namespace tspace
