@@ -12,6 +12,7 @@
 #include "tspace/diff.h"
 #include "tspace/flip_green.h"
 #include "tspace/identify.h"
+#include "tspace/map_convert_file.h"
 #include "tspace/render.h"
 
 namespace tspace::options {
@@ -35,9 +36,11 @@ OptionList identifyOptions(IdentifyOptions& options);
 OptionList inspectOptions(FileOptions& options);
 OptionList flipGreenOptions(FlipGreenOptions& options);
 OptionList renderOptions(RenderOptions& options);
+OptionList convertMapOptions(ConvertMapFileOptions& options);
 
 /// What options of generate mean together, once all are given. Returns what makes no sense, or nothing.
 std::string finish(const Given& given, GenerateOptions& options);
+std::string finish(const Given& given, ConvertMapFileOptions& options);
 
 /// Takes away the findings that nobody wants to hear of, and counts anew.
 void leaveOut(const CheckRequest& request, CheckReport& report);

@@ -12,6 +12,7 @@
 #include "tspace/diff.h"
 #include "tspace/flip_green.h"
 #include "tspace/identify.h"
+#include "tspace/map_convert_file.h"
 #include "tspace/render.h"
 
 namespace tspace::report {
@@ -40,6 +41,7 @@ std::string diffJson(const std::string& a, const std::string& b, double toleranc
                      ExitCode exit_code);
 std::string flipGreenJson(const Outcome<FlipGreenReport>& outcome, ExitCode exit_code);
 std::string renderJson(const Outcome<RenderReport>& outcome, ExitCode exit_code);
+std::string convertMapJson(const Outcome<ConvertMapFileReport>& outcome, ExitCode exit_code);
 
 /// null, or the error as docs/json.md describes it.
 Json errorJson(const Error* error);

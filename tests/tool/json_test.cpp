@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "maps/images.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {
@@ -77,6 +78,17 @@ void expectDocumented(const std::string& arguments, const std::string& schema) {
 
 TEST(JsonOutput, OfGenerateIsAsDocumented) {
     expectDocumented("generate in -o out --json --flip-green", "tspace.generate/1");
+}
+
+TEST(JsonOutput, OfConvertMapIsAsDocumented) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    folder.write("bump.png", pngFile(normalMapOf(8, bumps)));
+    std::vector<Json> documents;
+    for (const std::string arguments : {"bump.png --mesh a.obj --to-mesh ./a.obj", "bump.png"}) {
+        documents.push_back(Json::parse(runTool(folder, "convert-map --json -o b.png " + arguments).out));
+    }
+    expectFieldsDocumented(documents, "tspace.convert-map/1");
 }
 
 TEST(JsonOutput, OfInspectIsAsDocumented) { expectDocumented("inspect in --json", "tspace.inspect/1"); }

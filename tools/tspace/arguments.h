@@ -99,9 +99,17 @@ struct RenderArguments {
     bool quiet = false;
 };
 
+struct ConvertMapArguments {
+    std::string input = {};
+    std::string output = {};
+    ConvertMapFileOptions options = {};
+    bool json = false;
+    bool quiet = false;
+};
+
 /// Nothing to run: help was printed, or the command line is wrong and the error line was printed.
 using Arguments = std::variant<ExitCode, GenerateArguments, InspectArguments, CheckArguments, DiffArguments,
-                               IdentifyArguments, FlipGreenArguments, RenderArguments>;
+                               IdentifyArguments, FlipGreenArguments, RenderArguments, ConvertMapArguments>;
 
 Arguments parseArguments(int argc, char** argv);
 

@@ -13,5 +13,6 @@ ExitCode runInspect(const InspectArguments& arguments);
 ExitCode runCheck(const CheckArguments& arguments);
 ExitCode runFlipGreen(const FlipGreenArguments& arguments);
 ExitCode runRender(const RenderArguments& arguments);
+ExitCode runConvertMap(const ConvertMapArguments& arguments);
 
 }  // namespace tspace::tool

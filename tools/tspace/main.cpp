@@ -45,6 +45,7 @@ ExitCode run(int argc, char** argv) {
     if (const auto* check = std::get_if<CheckArguments>(&arguments)) return runCheck(*check);
     if (const auto* flip = std::get_if<FlipGreenArguments>(&arguments)) return runFlipGreen(*flip);
     if (const auto* render = std::get_if<RenderArguments>(&arguments)) return runRender(*render);
+    if (const auto* convert = std::get_if<ConvertMapArguments>(&arguments)) return runConvertMap(*convert);
     return std::get<ExitCode>(arguments);
 }
 

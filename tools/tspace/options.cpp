@@ -83,13 +83,14 @@ ToolTable toolTable(AllArguments& arguments) {
     ToolTable tool;
     for (Execution* execution :
          {&arguments.generate.options.tangents.execution, &arguments.check.request.options.execution,
-          &arguments.identify.options.execution, &arguments.render.options.execution}) {
+          &arguments.identify.options.execution, &arguments.render.options.execution,
+          &arguments.convert_map.options.tangents.execution}) {
         execution->thread_count = kAllThreads;
     }
     tool.commands = {generateCommand(arguments.generate), diffCommand(arguments.diff),
                      identifyCommand(arguments.identify), inspectCommand(arguments.inspect),
                      checkCommand(arguments.check),       flipGreenCommand(arguments.flip_green),
-                     renderCommand(arguments.render)};
+                     renderCommand(arguments.render),     convertMapCommand(arguments.convert_map)};
     tool.commands.push_back(helpCommand(arguments.help_topic, tool.commands));
     Option help = helpOption();
     help.group = "Options";

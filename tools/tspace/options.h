@@ -17,6 +17,7 @@ struct AllArguments {
     IdentifyArguments identify = {};
     FlipGreenArguments flip_green = {};
     RenderArguments render = {};
+    ConvertMapArguments convert_map = {};
     std::string help_topic = {};  ///< of `tspace help`
 };
 
@@ -27,6 +28,7 @@ Command diffCommand(DiffArguments& arguments);
 Command identifyCommand(IdentifyArguments& arguments);
 Command flipGreenCommand(FlipGreenArguments& arguments);
 Command renderCommand(RenderArguments& arguments);
+Command convertMapCommand(ConvertMapArguments& arguments);
 
 /// All commands, in the order in which help lists them.
 ToolTable toolTable(AllArguments& arguments);

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Conversion of normal maps (map_convert.h) from file to file, with the frames of model files. CMake target tspace::asset.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tspace/asset.h"
+#include "tspace/map_convert.h"
+
+namespace tspace {
+
+/// What the vectors of a map in a file are told in.
+enum class MapFileSpace : std::uint32_t {
+    tangent = 0,
+    object = 1,  ///< the coordinates of the mesh, as the model file has them
+    world = 2    ///< those of the scene: the mesh's node turns and scales them
+};
+
+struct ConvertMapFileOptions {
+    std::string mesh = {};     ///< the model that the map was made for; empty: none is needed
+    std::string to_mesh = {};  ///< the model that it is to be shown on: the same surface and UVs; empty: `mesh`
+    /// Takes the primitives of the material with this name. Empty: those whose material names an image of the map's name,
+    /// else all that have UVs.
+    std::string material = {};
+    MapFileSpace from = MapFileSpace::tangent, to = MapFileSpace::tangent;
+    MapReading from_reading = {}, to_reading = {};
+    unsigned bits = 16;         ///< of a PNG: 8 or 16
+    std::uint32_t padding = 0;  ///< ConvertMapOptions::padding
+    /// For meshes without tangents, which get them as generateFile gives them. Its execution serves the whole call.
+    TangentOptions tangents{.convention = conventions::gltf};
+    /// How models and the image are read. A limit on memory counts for the image too; without one, images of up to 2^24
+    /// pixels are read whatever their files weigh.
+    FileOptions file = {};
+    std::span<const std::uint8_t> content = {};  ///< the image, in place of the file `input`; must stay while it runs
+    Sink sink = {};                              ///< takes the output in place of a file
+    bool dry_run = false;                        ///< everything but writing
+    Progress progress = {};
+};
+
+/// What was taken of a model file.
+struct MapMeshReport {
+    std::uint32_t primitive_count = 0;
+    std::uint64_t triangle_count = 0;
+    std::vector<std::string> materials = {};  ///< names, each once
+    bool tangents_made = false;               ///< by `tangents`, for some of them at least
+};
+
+struct ConvertMapFileReport {
+    std::uint32_t width = 0, height = 0;
+    unsigned bits_before = 8, bits = 16;  ///< of a channel in the files
+    MapMeshReport from = {}, to = {};     ///< empty where there is no mesh
+    ConvertMapReport texels = {};
+    std::vector<std::string> warnings = {};  ///< one sentence each
+};
+
+/// Converts the image `input` (PNG, JPEG, WebP) into `output` (.png), which appears at once, or not at all. Alpha stays. The
+/// output has no word on colours.
+///
+/// Errors: those of convertMap and of readers of models; cannotRead, cannotWrite, unsupportedFile, invalidFile (an image that
+/// is broken; a model without what is needed), invalidOption, tooLarge, outOfMemory. Thread-safe.
+Result<ConvertMapFileReport> convertMapFile(const std::string& input, const std::string& output,
+                                            const ConvertMapFileOptions& options = {});
+
+}  // namespace tspace

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// convertMapFile: the image, the meshes of both sides, limits, warnings.
+#include <charconv>
+#include <optional>
+
+#include "asset/atomic_output.h"
+#include "asset/file_error.h"
+#include "asset/file_io.h"
+#include "asset/memory_budget.h"
+#include "map_files/map_mesh.h"
+#include "maps/float_image.h"
+
+namespace tspace {
+
+namespace {
+
+/// What decoding, converting and writing hold per pixel, without the decoder's own.
+constexpr std::uint64_t kPixelBytes = 72;
+constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28;
+
+FloatImage readImage(const std::string& input, const ConvertMapFileOptions& options) {
+    Bytes read;
+    ByteSpan bytes = options.content;
+    if (bytes.data() == nullptr) {
+        read = readFile(input);
+        bytes = read;
+    }
+    if (const char* why_not = whyNotRead(imageFormat(bytes))) failFile(ErrorCode::unsupportedFile, why_not);
+    if (options.file.memory_limit_bytes != 0) {
+        MemoryBudget budget(options.file.memory_limit_bytes);
+        budget.require(bytes.size() + imageWorkBytes(bytes) + kPixelBytes * claimedSize(bytes).pixels(), {});
+    }
+    std::string why;
+    std::optional<FloatImage> image = decodeFloatImage(bytes, kMostPixels, why);
+    if (!image) failFile(ErrorCode::invalidFile, why);
+    return *std::move(image);
+}
+
+std::string angleText(double degrees) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, degrees, std::chars_format::general, 2);
+    return {text, end.ptr};
+}
+
+std::string fileNameOf(const std::string& path) {
+    const std::size_t folder = path.find_last_of("/\\");
+    return folder == std::string::npos ? path : path.substr(folder + 1);
+}
+
+/// The mesh of each side that needs one.
+struct Meshes {
+    std::optional<MapMesh> from = {}, to = {};
+};
+
+Meshes readMeshes(const std::string& input, const ConvertMapFileOptions& options) {
+    const MapMeshChoice choice{options.material, fileNameOf(input)};
+    const auto read = [&](const std::string& model) {
+        try {
+            return readMapMesh(model, choice, options.tangents, options.file);
+        } catch (FileError& failure) {
+            // Errors are printed with the name of the image.
+            failure.error.message = "the model " + pathInQuotes(model) + ": " + failure.error.message;
+            throw;
+        }
+    };
+    const bool from_tangent = options.from == MapFileSpace::tangent, to_tangent = options.to == MapFileSpace::tangent;
+    const std::string& to_mesh = options.to_mesh.empty() ? options.mesh : options.to_mesh;
+    Meshes meshes;
+    if (from_tangent && !options.mesh.empty()) meshes.from = read(options.mesh);
+    // One mesh serves both sides where it is one file.
+    if (to_tangent && !to_mesh.empty() && !(meshes.from && to_mesh == options.mesh)) meshes.to = read(to_mesh);
+    return meshes;
+}
+
+MapSide sideOf(const MapMesh* mesh, MapFileSpace space, const MapReading& reading) {
+    MapSide side{.space = space == MapFileSpace::tangent ? MapSpace::tangent : MapSpace::object, .reading = reading};
+    if (mesh == nullptr || space != MapFileSpace::tangent) return side;
+    side.uvs = mesh->uvs;
+    side.positions = mesh->positions;
+    side.normals = mesh->normals;
+    side.tangents = mesh->tangents;
+    return side;
+}
+
+void addWarnings(const ConvertMapFileOptions& options, ConvertMapFileReport& report) {
+    const ConvertMapReport& texels = report.texels;
+    const auto warn = [&](std::string text) { report.warnings.push_back(std::move(text)); };
+    if (texels.is_below_half_step) {
+        warn("the change is " + angleText(texels.mean_change_deg) + " degrees in the mean, less than half a step of " +
+             std::to_string(report.bits) + " bits (" + angleText(texels.half_step_deg) +
+             " degrees): rounding undoes it" + (report.bits == 8 ? "; 16 bits keep it" : ""));
+    }
+    if (texels.overlapping > 0) {
+        warn(std::to_string(texels.overlapping) + " texels are shown by several triangles; the first decides" +
+             (report.from.materials.size() + report.to.materials.size() > 2 ? "; choose a material by its name" : ""));
+    }
+    if (texels.unmatched > 0) {
+        warn(std::to_string(texels.unmatched) +
+             " texels stay as they are, since only one of the meshes has triangles there");
+    }
+    if (texels.without_frame > 0) {
+        warn(std::to_string(texels.without_frame) +
+             " texels stay as they are, since their frames or values are broken");
+    }
+    if (texels.below_horizon > 0) {
+        warn(std::to_string(texels.below_horizon) + " texels look below the horizon, which two channels cannot say");
+    }
+    const bool has_mesh = report.from.triangle_count + report.to.triangle_count > 0;
+    if (has_mesh && texels.converted == 0) warn("no triangle of the mesh shows the map: nothing was converted");
+    if (!options.to_mesh.empty() && texels.converted > 0 && texels.changed == 0) {
+        warn("both meshes have the same frames: no texel changed");
+    }
+}
+
+ConvertMapFileReport convert(const std::string& input, const std::string& output,
+                             const ConvertMapFileOptions& options) {
+    if (!options.sink && lowerExtension(output) != ".png") {
+        failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(output) + " does not end in .png");
+    }
+    if (whyNotRead(ImageFormat::png) != nullptr) failFile(ErrorCode::unsupportedFile, whyNotRead(ImageFormat::png));
+    if (options.bits != 8 && options.bits != 16) failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits");
+    if (options.from == MapFileSpace::world || options.to == MapFileSpace::world) {
+        failFile(ErrorCode::unsupportedFile, "maps in world space are not converted yet");
+    }
+    FloatImage image = readImage(input, options);
+    const Meshes meshes = readMeshes(input, options);
+    const MapMesh* const from = meshes.from ? &*meshes.from : nullptr;
+    const MapMesh* const to = meshes.to ? &*meshes.to : nullptr;
+    const MapMesh* const any = from != nullptr ? from : to;
+    ConvertMapFileReport report;
+    report.width = image.width;
+    report.height = image.height;
+    report.bits_before = image.bits;
+    report.bits = options.bits;
+    if (from != nullptr) report.from = from->report;
+    if (to != nullptr) report.to = to->report;
+    const MapImage map{.width = image.width,
+                       .height = image.height,
+                       .texels = image.texels,
+                       .wrap_u = any == nullptr ? TextureWrap::repeat : any->wrap_u,
+                       .wrap_v = any == nullptr ? TextureWrap::repeat : any->wrap_v};
+    const ConvertMapOptions chosen{.bits = options.bits,
+                                   .padding = options.padding,
+                                   .execution = options.tangents.execution,
+                                   .progress = options.progress};
+    report.texels = valueOrThrow(convertMap(map, sideOf(from, options.from, options.from_reading),
+                                            sideOf(to, options.to, options.to_reading), image.texels, chosen));
+    addWarnings(options, report);
+    const std::optional<std::vector<std::uint8_t>> file = encodePng(image, options.bits);
+    if (!file) failFile(ErrorCode::outOfMemory, "the image cannot be packed");
+    AtomicOutput files(options.sink, options.dry_run);
+    files.add(output, std::span<const std::uint8_t>(*file));
+    files.commit();
+    return report;
+}
+
+}  // namespace
+
+Result<ConvertMapFileReport> convertMapFile(const std::string& input, const std::string& output,
+                                            const ConvertMapFileOptions& options) {
+    return atFileBorder([&]() -> Result<ConvertMapFileReport> { return convert(input, output, options); });
+}
+
+}  // namespace tspace

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// How a normal map is converted.
+#include "options/file_options.h"
+#include "options/request.h"
+
+namespace tspace::options {
+namespace {
+
+constexpr Named<MapFileSpace> kSpaces[] = {
+    {"tangent", MapFileSpace::tangent},
+    {"object", MapFileSpace::object},
+    {"world", MapFileSpace::world},
+};
+constexpr Named<BitangentPlace> kBitangents[] = {
+    {"pixel", BitangentPlace::perPixel},
+    {"vertex", BitangentPlace::perVertex},
+};
+constexpr Named<unsigned> kBits[] = {{"16", 16}, {"8", 8}};
+
+/// The names of findMapReading.
+Option reading(const char* name, MapReading& target, std::string help) {
+    const auto take = [&target](const std::string& value) {
+        target = *findMapReading(value.c_str());
+        return std::string();
+    };
+    Option chosen = option(name, "NAME", take, std::move(help));
+    chosen.choices = {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot", "three"};
+    chosen.default_text = "gltf";
+    return chosen;
+}
+
+}  // namespace
+
+OptionList convertMapOptions(ConvertMapFileOptions& options) {
+    OptionList list;
+    add(list, kInputAndOutput,
+        text("--mesh", "FILE", options.mesh,
+             "The model that the map was made for. Its own tangents count; where it has none they are made."))
+        .is_file = true;
+    add(list, kInputAndOutput,
+        text("--to-mesh", "FILE", options.to_mesh,
+             "The model that the map is to be shown on: the same surface and UVs, other tangents, normals, splits or "
+             "triangles. Default: that of --mesh."))
+        .is_file = true;
+    add(list, kInputAndOutput,
+        text("--material", "NAME", options.material,
+             "Takes the primitives with the material of this name. Default: those whose material names an image of "
+             "the map's name; where there are none, all that have UVs."));
+    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything but write."));
+    addAllowExternal(list, options.file);
+    const char* group = "Map";
+    add(list, group, choice("--from", "SPACE", kSpaces, options.from, "What the map's vectors are told in."));
+    add(list, group, choice("--to", "SPACE", kSpaces, options.to, "What those of the output are to be told in."));
+    add(list, group, reading("--from-convention", options.from_reading, "The program that the map was made for."));
+    add(list, group, reading("--to-convention", options.to_reading, "The program that will show the output."));
+    add(list, group,
+        choice("--from-bitangent", "WHERE", kBitangents, options.from_reading.bitangent,
+               "Where that program computes bitangents. Default: as its convention says; pixel for gltf."))
+        .default_text.clear();
+    add(list, group,
+        choice("--to-bitangent", "WHERE", kBitangents, options.to_reading.bitangent, "Where the other one does."))
+        .default_text.clear();
+    add(list, group,
+        option(
+            "--flip-green", "", [](const std::string&) { return std::string(); },
+            "Green of the output points the other way than --to-convention says."));
+    add(list, group, choice("--bits", "BITS", kBits, options.bits, "Of a channel of the output."));
+    add(list, group,
+        number(
+            "--padding", options.padding, 65536,
+            "Texels around the triangles that are converted as well. 0: those that filtering reads. All further ones "
+            "are background and stay as they are."));
+    add(list, group,
+        choice("--method", "NAME", kMethods, options.tangents.method,
+               "How tangents are made for a model that has none."));
+    addThreads(list, options.tangents.execution,
+               "Threads; 0: as many as there are cores. The output is the same for any number.");
+    addLimits(list, options.file);
+    return list;
+}
+
+std::string finish(const Given& given, ConvertMapFileOptions& options) {
+    // Whatever their order on the command line, conventions come first.
+    for (const Given::Item& item : given.items) {
+        const std::string& name = item.option->name();
+        if (name == "--from-bitangent" || name == "--to-bitangent") item.option->take(item.value);
+    }
+    if (given.has("--flip-green")) {
+        options.to_reading.green = options.to_reading.green == Green::up ? Green::down : Green::up;
+    }
+    if (!options.to_mesh.empty() && options.mesh.empty() && options.from == MapFileSpace::tangent) {
+        return "--to-mesh needs --mesh: the model that the map was made for";
+    }
+    const bool same_kind = (options.from == MapFileSpace::tangent) == (options.to == MapFileSpace::tangent);
+    if (!same_kind && options.mesh.empty() && options.to_mesh.empty()) {
+        return "from one space to another takes the frames of a model: --mesh";
+    }
+    const bool same_frames = options.from_reading.bitangent == options.to_reading.bitangent &&
+                             options.from_reading.unit_vectors == options.to_reading.unit_vectors;
+    if (options.from == MapFileSpace::tangent && same_kind && !same_frames && options.mesh.empty()) {
+        return "these conventions interpolate frames in different ways, so the frames of a model are needed: --mesh";
+    }
+    return {};
+}
+
+}  // namespace tspace::options

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// tspace convert-map.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "maps/float_image.h"
+#include "maps/images.h"
+#include "run_tool.h"
+
+namespace tspace::test {
+namespace {
+
+using Json = nlohmann::json;
+
+FloatImage imageIn(const TempFolder& folder, const std::string& name) {
+    std::string why;
+    const std::string file = folder.read(name);
+    const std::optional<FloatImage> image = decodeFloatImage(bytesOf(file), 1 << 22, why);
+    EXPECT_TRUE(image) << name << ": " << why;
+    return image ? *image : FloatImage{};
+}
+
+/// bump.png, and a bent sheet with uneven UVs that shows it: a.glb with tangents, b.glb with those of another method.
+void writeSheet(const TempFolder& folder) {
+    folder.write("sheet.mtl", "newmtl skin\nmap_Bump bump.png\n");
+    folder.write("a.obj",
+                 "mtllib sheet.mtl\no sheet\n"
+                 "v 0 0 0\nv 1 0 0\nv 2 0 -1\nv 0 1 0.5\nv 1 1 0\nv 2 1 -1\n"
+                 "vn -0.3 -0.1 0.95\nvn 0.3 0 0.95\nvn 0.7 0 0.7\nvn -0.2 0.3 0.93\nvn 0.4 0.1 0.9\nvn 0.7 0.2 0.7\n"
+                 "vt 0 0\nvt 0.4 0\nvt 1 0\nvt 0 1\nvt 0.6 1\nvt 1 1\n"
+                 "usemtl skin\nf 1/1/1 2/2/2 5/5/5\nf 1/1/1 5/5/5 4/4/4\n"
+                 "f 2/2/2 3/3/3 6/6/6\nf 2/2/2 6/6/6 5/5/5\n");
+    folder.write("bump.png", pngFile(normalMapOf(32, bumps)));
+    for (const std::string arguments :
+         {"generate -q a.obj -o a.glb", "generate -q a.glb -o b.glb --overwrite --method flat"}) {
+        ASSERT_EQ(runTool(folder, arguments).exit_code, 0);
+    }
+}
+
+TEST(ConvertMapCommand, ConvertsAndComesBack) {
+    const TempFolder folder;
+    writeSheet(folder);
+    const ToolRun run = runTool(folder, "convert-map bump.png --mesh a.glb --to-mesh b.glb -o out/b.png");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("bump.png -> out/b.png"), std::string::npos) << run.out;
+    const FloatImage before = imageIn(folder, "bump.png"), there = imageIn(folder, "out/b.png");
+    EXPECT_EQ(there.bits, 16u);
+    EXPECT_TRUE(there.texels != before.texels);
+    ASSERT_EQ(runTool(folder, "convert-map -q out/b.png --mesh b.glb --to-mesh a.glb -o back.png").exit_code, 0);
+    const FloatImage back = imageIn(folder, "back.png");
+    for (std::size_t i = 0; i < back.texels.size(); ++i) {
+        EXPECT_NEAR(back.texels[i].x, before.texels[i].x, 5e-5);
+        EXPECT_NEAR(back.texels[i].y, before.texels[i].y, 5e-5);
+        EXPECT_NEAR(back.texels[i].z, before.texels[i].z, 5e-5);
+    }
+    ASSERT_EQ(runTool(folder, "convert-map -q bump.png --mesh a.glb --to object -o object.png").exit_code, 0);
+    ASSERT_EQ(runTool(folder, "convert-map -q object.png --from object --mesh a.glb -o again.png --bits 8").exit_code,
+              0);
+    const FloatImage again = imageIn(folder, "again.png");
+    for (std::size_t i = 0; i < again.texels.size(); ++i) {
+        const auto slope = [](const Vec3& texel) { return (2 * texel.x - 1) / (2 * texel.z - 1); };
+        EXPECT_NEAR(slope(again.texels[i]), slope(before.texels[i]), 0.012);
+    }
+}
+
+TEST(ConvertMapCommand, ChangesNothingForTheSameFrames) {
+    const TempFolder folder;
+    writeSheet(folder);
+    std::filesystem::copy_file(folder.path() / "a.glb", folder.path() / "copy.glb");
+    const FloatImage before = imageIn(folder, "bump.png");
+    for (const std::string bits : {"8", "16"}) {
+        const ToolRun run =
+            runTool(folder, "convert-map bump.png --mesh a.glb --to-mesh copy.glb -o same.png --bits " + bits);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_NE(run.out.find("no texel changed"), std::string::npos) << run.out;
+        const FloatImage after = imageIn(folder, "same.png");
+        for (std::size_t i = 0; i < before.texels.size(); ++i) EXPECT_EQ(after.texels[i], before.texels[i]);
+    }
+}
+
+TEST(ConvertMapCommand, InvertsGreenExactly) {
+    const TempFolder folder;
+    const RgbImage map = normalMapOf(16, bumps);
+    folder.write("n.png", pngFile(map));
+    for (const std::string how : {"--flip-green", "--from-convention directx", "--to-convention directx",
+                                  "--flip-green --from-convention unity --to-convention unity"}) {
+        ASSERT_EQ(runTool(folder, "convert-map -q n.png --bits 8 -o f.png " + how).exit_code, 0);
+        const FloatImage flipped = imageIn(folder, "f.png");
+        for (std::size_t i = 0; i < flipped.texels.size(); ++i) {
+            EXPECT_EQ(std::lround(flipped.texels[i].y * 255), 255 - map.rgb[3 * i + 1]) << how;
+            EXPECT_EQ(std::lround(flipped.texels[i].x * 255), map.rgb[3 * i]) << how;
+            EXPECT_EQ(std::lround(flipped.texels[i].z * 255), map.rgb[3 * i + 2]) << how;
+        }
+    }
+    EXPECT_EQ(runTool(folder, "convert-map -q - -o - --bits 8 < n.png").out.substr(1, 3), "PNG");
+}
+
+TEST(ConvertMapCommand, TakesBitangentsBeforeOrBehindConventions) {
+    const TempFolder folder;
+    writeSheet(folder);
+    const std::string command = "convert-map -q bump.png --mesh a.glb -o ";
+    ASSERT_EQ(runTool(folder, command + "1.png --to-convention three --to-bitangent pixel").exit_code, 0);
+    ASSERT_EQ(runTool(folder, command + "2.png --to-bitangent pixel --to-convention three").exit_code, 0);
+    ASSERT_EQ(runTool(folder, command + "3.png --to-convention three").exit_code, 0);
+    EXPECT_TRUE(folder.read("1.png") == folder.read("2.png"));
+    EXPECT_TRUE(folder.read("1.png") != folder.read("3.png"));
+}
+
+TEST(ConvertMapCommand, ChoosesTheTrianglesOfAMaterial) {
+    const TempFolder folder;
+    writeSheet(folder);
+    const auto json = [&](const std::string& more) {
+        const ToolRun run = runTool(folder, "convert-map --json -o c.png --to object " + more);
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        return Json::parse(run.out);
+    };
+    EXPECT_EQ(json("bump.png --mesh a.glb")["from"]["materials"], Json({"skin"}));
+    EXPECT_EQ(json("bump.png --mesh a.glb --material skin")["from"]["triangles"], 4);
+    const ToolRun none = runTool(folder, "convert-map bump.png --mesh a.glb --to object --material bone -o d.png");
+    EXPECT_EQ(none.exit_code, 3);
+    EXPECT_NE(none.err.find("bone"), std::string::npos) << none.err;
+    EXPECT_EQ(json("bump.png --mesh a.obj")["from"]["tangentsMade"], true);
+}
+
+TEST(ConvertMapCommand, WarnsWhenRoundingUndoesTheChange) {
+    const TempFolder folder;
+    writeSheet(folder);
+    ASSERT_EQ(runTool(folder, "generate -q a.obj -o smooth.glb --method best").exit_code, 0);
+    const auto json = Json::parse(
+        runTool(folder, "convert-map bump.png --mesh a.glb --to-mesh smooth.glb --bits 8 -o c.png --json").out);
+    const bool is_small = json["meanChangeDeg"] > 0 && json["meanChangeDeg"] < json["halfStepDeg"];
+    EXPECT_EQ(json["belowHalfStep"], is_small && json["changed"] > 0);
+    EXPECT_EQ(json["warnings"].dump().find("rounding") != std::string::npos, json["belowHalfStep"] == true);
+}
+
+TEST(ConvertMapCommand, SaysInOneLineWhatIsWrong) {
+    const TempFolder folder;
+    writeSheet(folder);
+    folder.write("broken.png", folder.read("bump.png").substr(0, 100));
+    folder.write("broken.glb", folder.read("a.glb").substr(0, 200));
+    folder.write("text.png", "no image");
+    folder.write("no-uvs.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    for (const auto& [arguments, exit_code] : std::vector<std::pair<std::string, int>>{
+             {"bump.png", 2},
+             {"bump.png -o bump.png", 2},
+             {"bump.png -o b.png --to object", 2},
+             {"bump.png -o b.png --from object", 2},
+             {"bump.png -o b.png --to-mesh a.glb", 2},
+             {"bump.png -o b.png --to-convention three", 2},
+             {"bump.png -o b.png --bits 12", 2},
+             {"bump.png -o b.png --from-convention quake", 2},
+             {"bump.png -o b.tga", 3},
+             {"broken.png -o b.png", 3},
+             {"text.png -o b.png", 3},
+             {"bump.png -o b.png --mesh broken.glb", 3},
+             {"bump.png -o b.png --mesh no-uvs.obj", 3},
+             {"none.png -o b.png", 4},
+             {"bump.png -o b.png --mesh none.glb", 4},
+             {"bump.png -o bump.png/b.png", 4},
+         }) {
+        const ToolRun run = runTool(folder, "convert-map " + arguments);
+        EXPECT_EQ(run.exit_code, exit_code) << arguments << "\n" << run.err;
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << arguments << "\n" << run.err;
+        EXPECT_FALSE(std::filesystem::exists(folder.path() / "b.png")) << arguments;
+    }
+    EXPECT_EQ(runTool(folder, "convert-map bump.png --flip-green -o new/b.png --dry-run").exit_code, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "new"));
+    folder.write("large.png", pngFile({2048, 2048, std::vector<std::uint8_t>(2048 * 2048 * 3, 128)}));
+    EXPECT_EQ(runTool(folder, "convert-map large.png --flip-green -o b.png --memory-limit 64M").exit_code, 3);
+    EXPECT_EQ(runTool(folder, "convert-map -q large.png --flip-green -o b.png").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace tspace::test
