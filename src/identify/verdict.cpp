@@ -3,8 +3,7 @@
 #include "identify/verdict.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -22,9 +21,8 @@ constexpr double kLikelyShare = 0.5;
 constexpr double kClearlyMore = 0.25;
 
 std::string percent(double share) {
-    std::array<char, 16> text = {};
-    std::snprintf(text.data(), text.size(), "%.1f %%", share * 100);
-    return text.data();
+    const auto tenths = static_cast<int>(std::nearbyint(share * 1000));
+    return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " %";
 }
 
 std::string primitivesText(std::size_t count) {

@@ -6,6 +6,9 @@
 
 namespace tspace {
 
+// Not in the header: reports are made of hundreds of them.
+Json::Json(const char* text) : Json(std::string(text)) {}
+Json::Json(std::string_view text) : Json(std::string(text)) {}
 Json::Json(std::string text) : kind_(Kind::text) { value_.text = new std::string(std::move(text)); }
 
 Json::Json(std::initializer_list<Json> values) : Json(array(values)) {

@@ -23,10 +23,11 @@ namespace tspace {
 /// Thrown where text is not JSON, or a value is not of the kind that is asked for.
 class JsonError : public std::exception {
   public:
+    JsonError() = default;
     explicit JsonError(std::string text) : message(std::move(text)) {}
     [[nodiscard]] const char* what() const noexcept override { return message.c_str(); }
 
-    std::string message;
+    std::string message = {};
     std::optional<std::size_t> byte = {};      ///< where the text cannot be read
     std::optional<std::string> repeated = {};  ///< the member that one object has twice
 };
@@ -78,8 +79,8 @@ class Json {
     }
     Json(double value) noexcept : kind_(Kind::real) { value_.real = value; }
     Json(float value) noexcept : Json(static_cast<double>(value)) {}
-    Json(const char* text) : Json(std::string(text)) {}
-    Json(std::string_view text) : Json(std::string(text)) {}
+    Json(const char* text);
+    Json(std::string_view text);
     Json(std::string text);
     /// An array of what is in a container.
     template <class T>
@@ -105,6 +106,8 @@ class Json {
 
     /// Throws JsonError: syntax, numbers that no double can hold, repeated members, nesting. `memory` may be null.
     static Json parse(std::string_view text, JsonMemory* memory = nullptr);
+    /// The same, but nothing is thrown by it: nothing comes back, and `error` says why.
+    static std::optional<Json> read(std::string_view text, JsonError& error, JsonMemory* memory = nullptr);
     /// `indent`: characters per level; -1: all on one line.
     [[nodiscard]] std::string dump(int indent = -1, char indent_char = ' ', BadUtf8 bad = BadUtf8::refuse) const;
 

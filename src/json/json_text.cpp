@@ -16,7 +16,8 @@ using Library = nlohmann::json;
 /// closes: a search for every new member would be quadratic.
 class JsonBuilder {
   public:
-    JsonBuilder(Json& root, JsonMemory* memory) : root_(root), memory_(memory) {}
+    /// Each function is true, or false with `error`.
+    JsonBuilder(Json& root, JsonError& error, JsonMemory* memory) : root_(root), error_(error), memory_(memory) {}
 
     bool null() { return put(nullptr); }
     bool boolean(bool value) { return put(value); }
@@ -37,7 +38,12 @@ class JsonBuilder {
         return true;
     }
     bool end_object() {
-        checkRepeated(stack_.back()->value_.children->names);
+        const std::string* repeated = findRepeated(stack_.back()->value_.children->names);
+        if (repeated != nullptr) {
+            error_ = JsonError("the JSON has a member twice in one object");
+            error_.repeated = *repeated;
+            return false;
+        }
         stack_.pop_back();
         return true;
     }
@@ -47,9 +53,9 @@ class JsonBuilder {
     }
     bool parse_error(std::size_t position, const std::string&, const Library::exception& failure) {
         const bool is_range = failure.id == 406;
-        JsonError error(is_range ? "the JSON has a number that is too large" : "the JSON has a syntax error");
-        error.byte = position;
-        throw error;
+        error_ = JsonError(is_range ? "the JSON has a number that is too large" : "the JSON has a syntax error");
+        error_.byte = position;
+        return false;
     }
 
   private:
@@ -61,8 +67,10 @@ class JsonBuilder {
         return true;
     }
     bool open(Json::Kind structured) {
-        if (stack_.size() >= kMaxJsonDepth)
-            throw JsonError("the JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
+        if (stack_.size() >= kMaxJsonDepth) {
+            error_ = JsonError("the JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
+            return false;
+        }
         take(kBlockBytes);
         Json& place = slot();
         place = Json(structured);
@@ -89,17 +97,16 @@ class JsonBuilder {
         const std::size_t more = std::max<std::size_t>(list.size(), 1) * sizeof(typename List::value_type);
         take(more < kShortBytes ? more + kAround : 2 * more);
     }
-    void checkRepeated(const std::vector<std::string>& names) {
+    const std::string* findRepeated(const std::vector<std::string>& names) {
         seen_.clear();
         for (const std::string& name : names) {
-            if (seen_.insert(name).second) continue;
-            JsonError error("the JSON has a member twice in one object");
-            error.repeated = name;
-            throw error;
+            if (!seen_.insert(name).second) return &name;
         }
+        return nullptr;
     }
 
     Json& root_;
+    JsonError& error_;
     JsonMemory* memory_;
     std::vector<Json*> stack_;
     std::unordered_set<std::string_view> seen_;
@@ -179,11 +186,18 @@ class JsonWriter {
     std::size_t depth_ = 0;
 };
 
-Json Json::parse(std::string_view text, JsonMemory* memory) {
+std::optional<Json> Json::read(std::string_view text, JsonError& error, JsonMemory* memory) {
     Json root;
-    JsonBuilder builder(root, memory);
-    Library::sax_parse(text.data(), text.data() + text.size(), &builder);
+    JsonBuilder builder(root, error, memory);
+    if (!Library::sax_parse(text.data(), text.data() + text.size(), &builder)) return {};
     return root;
+}
+
+Json Json::parse(std::string_view text, JsonMemory* memory) {
+    JsonError error;
+    std::optional<Json> root = read(text, error, memory);
+    if (!root) throw error;
+    return std::move(*root);
 }
 
 std::string Json::dump(int indent, char indent_char, BadUtf8 bad) const {

@@ -43,15 +43,14 @@ std::string giveMember(const Option& option, const Json& value, Given& given) {
 
 std::string readJsonOptions(const OptionList& list, std::string_view text, Given& given) {
     if (text.empty()) return {};
-    Json root;
-    try {
-        root = Json::parse(text);
-    } catch (const JsonError& error) {
+    JsonError error;
+    const std::optional<Json> root = Json::read(text, error);
+    if (!root) {
         return "the options cannot be read: " + error.message +
                (error.byte ? " (at byte " + std::to_string(*error.byte) + ")" : "");
     }
-    if (!root.is_object()) return "the options are not a JSON object";
-    for (const auto& [name, value] : root.items()) {
+    if (!root->is_object()) return "the options are not a JSON object";
+    for (const auto& [name, value] : root->items()) {
         const std::string long_name = std::string("--").append(name);
         const Option* option = findOption(list, long_name);
         const std::string wrong =

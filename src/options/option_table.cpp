@@ -3,11 +3,10 @@
 #include "options/option_table.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <locale>
-#include <sstream>
+#include <optional>
 
+#include "json/json.h"
 #include "options/nearest_name.h"
 
 namespace tspace::options {
@@ -17,10 +16,8 @@ constexpr const char* kDigits = "0123456789";
 
 /// As few digits as a person would write.
 std::string plainText(double number) {
-    std::ostringstream stream;
-    stream.imbue(std::locale::classic());
-    stream << number;
-    return stream.str();
+    const std::string text = Json(number).dump();
+    return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -47,10 +44,25 @@ std::string givePart(const Option& option, const std::string& value) {
 
 // No spaces, no hexadecimal digits, no names such as "inf"; with a point, whatever the program's locale says.
 bool parseReal(const std::string& text, double& number) {
-    if (text.empty() || text.find_first_not_of("0123456789.+-eE") != std::string::npos) return false;
-    std::istringstream stream(text);
-    stream.imbue(std::locale::classic());
-    return stream >> number && stream.peek() == std::istringstream::traits_type::eof() && std::isfinite(number);
+    std::size_t at = 0;
+    const auto take = [&](const char* these, std::size_t most) {
+        const std::size_t begin = at;
+        at = std::min({text.find_first_not_of(these, at), begin + most, text.size()});
+        return text.substr(begin, at - begin);
+    };
+    const std::string sign = take("+-", 1);
+    take("0", text.size());
+    const bool has_zeros = at > sign.size();
+    const std::string whole = take(kDigits, text.size());
+    const std::string part = take(".", 1).empty() ? "" : take(kDigits, text.size());
+    if (!has_zeros && whole.empty() && part.empty()) return false;
+    const std::string exponent = text.substr(at);
+    if (exponent.find_first_not_of("0123456789+-eE") != std::string::npos) return false;
+    JsonError error;
+    const std::optional<Json> read = Json::read(
+        (sign == "-" ? "-" : "") + (whole.empty() ? "0" : whole) + (part.empty() ? "" : "." + part) + exponent, error);
+    if (read) number = read->get<double>();
+    return read.has_value();
 }
 
 bool parseNumber(const std::string& text, std::uint64_t& number) {

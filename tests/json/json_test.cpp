@@ -108,6 +108,19 @@ RC_GTEST_PROP(JsonText, IsRefusedExactlyWhereTheLibraryRefusesIt, ()) {
     RC_ASSERT(accepts == Oracle::accept(text));
 }
 
+TEST(Json, IsReadWithoutThrowingWhereThatIsAskedFor) {
+    JsonError error;
+    EXPECT_EQ(Json::read("[1]", error), Json::array({1}));
+    EXPECT_FALSE(Json::read("[1", error));
+    EXPECT_EQ(error.message, "the JSON has a syntax error");
+    EXPECT_TRUE(error.byte);
+    EXPECT_FALSE(Json::read("1e400", error));
+    EXPECT_EQ(error.message, "the JSON has a number that is too large");
+    EXPECT_FALSE(Json::read(R"({"a":1,"a":2})", error));
+    EXPECT_EQ(error.repeated, "a");
+    EXPECT_FALSE(Json::read(std::string(kMaxJsonDepth + 1, '['), error));
+}
+
 TEST(Json, RefusesToWriteWhatIsNotUtf8UnlessAskedToReplaceIt) {
     EXPECT_THROW(static_cast<void>(Json("\xff").dump()), JsonError);
     EXPECT_EQ(Json("\xff").dump(-1, ' ', BadUtf8::replace), "\"\xEF\xBF\xBD\"");

@@ -158,6 +158,20 @@ TEST(Usage, AWrongLineSaysWhatIsWrongWithIt) {
     }
 }
 
+TEST(Usage, NumbersAreTakenAsPeopleWriteThem) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    for (const std::string number : {"60", "+60", "060", "60.", ".5", "0.5e2", "5E+1", "1e-300", "0"}) {
+        const ToolRun run = runTool(folder, "generate a.obj -o b.glb --crease " + number);
+        EXPECT_EQ(run.exit_code, 0) << number << "\n" << run.err;
+    }
+    for (const std::string number :
+         {"1e400", "60.5.1", ".", "+", "e5", "5e", "+-5", "0x10", "inf", "-1", "1-2", "5,5"}) {
+        const ToolRun run = runTool(folder, "generate a.obj -o b.glb --crease " + number);
+        EXPECT_EQ(run.exit_code, 2) << number;
+    }
+}
+
 TEST(Usage, VersionIsPrinted) {
     for (const char* name : {"--version", "-V"}) {
         const ToolRun run = runTool(TempFolder(), name);

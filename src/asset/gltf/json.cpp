@@ -27,11 +27,12 @@ class BudgetMemory final : public JsonMemory {
     MemoryBudget& budget_;
 };
 
-Json parseText(std::string_view text, MemoryBudget* budget) try {
-    if (budget == nullptr) return Json::parse(text);
-    BudgetMemory memory(*budget);
-    return Json::parse(text, &memory);
-} catch (const JsonError& error) {
+Json parseText(std::string_view text, MemoryBudget* budget) {
+    std::optional<BudgetMemory> memory;
+    if (budget != nullptr) memory.emplace(*budget);
+    JsonError error;
+    std::optional<Json> root = Json::read(text, error, memory ? &*memory : nullptr);
+    if (root) return std::move(*root);
     if (error.repeated) failJson("the JSON has the member " + inQuotes(*error.repeated) + " twice in one object", {});
     failJson(error.message, error.byte ? "JSON byte " + std::to_string(*error.byte) : std::string());
 }
