@@ -3,6 +3,7 @@
 // temporary name, and all are renamed at the end.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,6 +47,12 @@ class AtomicOutput {
     [[nodiscard]] std::uint64_t byteCount() const { return byte_count_; }
 
   private:
+    [[noreturn]] static void failToWrite(const Path& target, const std::string& why);
+    /// What is done on the disk. writeTo(sink) returns 0, or errno.
+    void addFile(const Path& requested_path, const std::function<int(const Sink&)>& writeTo);
+    void renameFiles();
+    void removeTemporaryFiles();
+
     struct File {
         Path temporary;
         Path target;

@@ -34,6 +34,10 @@ Character firstCharacter(std::string_view text) {
 
 }  // namespace
 
+void failFile(ErrorCode code, std::string message, std::string place) {
+    throw FileError{Error{code, std::move(message), kNoElement, std::move(place)}};
+}
+
 std::string inQuotes(std::string_view text, std::size_t limit) {
     std::string result = "'";
     while (!text.empty()) {

@@ -3,8 +3,10 @@
 // that started the work turns it into a Result. No exception leaves the library.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "asset/path.h"
@@ -24,9 +26,7 @@ struct CallerError {
 };
 
 /// `message` is one sentence without a line break; `place` a JSON pointer, line or byte offset.
-[[noreturn]] inline void failFile(ErrorCode code, std::string message, std::string place = {}) {
-    throw FileError{Error{code, std::move(message), kNoElement, std::move(place)}};
-}
+[[noreturn]] void failFile(ErrorCode code, std::string message, std::string place = {});
 
 /// Text from a file or of a user, fit to stand inside a one-line message: in quotation marks, valid UTF-8,
 /// without control characters, cut after `limit` bytes.
@@ -39,6 +39,26 @@ T valueOrThrow(Result<T> result) {
     if (!result) throw FileError{std::move(result).error()};
     return *std::move(result);
 }
+
+/// Runs `body`; where that throws a FileError, its error comes back. Bindings that are compiled without exceptions have
+/// another way to come back (tryFile of a function and its context).
+#ifdef TSPACE_THROWS_END_CALL
+std::optional<Error> tryFile(void (*body)(void*), void* context);
+template <class Body>
+std::optional<Error> tryFile(Body&& body) {
+    return tryFile([](void* context) { (*static_cast<std::remove_reference_t<Body>*>(context))(); }, &body);
+}
+#else
+template <class Body>
+std::optional<Error> tryFile(Body&& body) {
+    try {
+        body();
+    } catch (const FileError& failure) {
+        return failure.error;
+    }
+    return {};
+}
+#endif
 
 /// What is being thrown, where it is a FileError, a CallerError or one of std::filesystem; all else flies on. Only inside
 /// a catch.

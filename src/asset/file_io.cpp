@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading whole files, and questions about paths.
+// Reading whole files, and questions about what is on the disk.
 #include "asset/file_io.h"
 
 #include <unistd.h>
@@ -51,8 +51,6 @@ bool readSteps(int file, std::span<std::uint8_t> to, const Execution& execution)
 
 }  // namespace
 
-Path Path::operator/(const std::string& name) const { return fs::path(text_) / name; }
-
 Bytes readFile(const Path& path, const std::string& place, const Execution& execution) {
     // What the user named cannot be read; what a model names makes the model incomplete.
     const ErrorCode code = place.empty() ? ErrorCode::cannotRead : ErrorCode::invalidFile;
@@ -79,9 +77,14 @@ Bytes readFile(const Path& path, const std::string& place, const Execution& exec
     return bytes;
 }
 
-Path folderOf(const Path& file) {
-    const fs::path folder = fs::path(file).parent_path();
-    return folder.empty() ? fs::path(".") : folder;
+bool isThere(const Path& path) {
+    std::error_code error;
+    return fs::exists(path.string(), error);
+}
+
+bool isFolder(const Path& path) {
+    std::error_code error;
+    return fs::is_directory(path.string(), error);
 }
 
 bool isSameFile(const Path& path_a, const Path& path_b) {
@@ -90,14 +93,6 @@ bool isSameFile(const Path& path_a, const Path& path_b) {
     if (fs::equivalent(a, b, error) && !error) return true;
     if (fs::exists(a, error) || fs::exists(b, error)) return false;
     return fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
-}
-
-std::string lowerExtension(const Path& path) {
-    std::string extension = fs::path(path).extension().string();
-    for (char& c : extension) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return extension;
 }
 
 }  // namespace tspace

@@ -57,13 +57,11 @@ using Bytes = std::vector<std::uint8_t, UnsetAllocator<std::uint8_t>>;
 /// a model names it.
 Bytes readFile(const Path& path, const std::string& place = {}, const Execution& execution = {.thread_count = 1});
 
-/// The folder that a file lies in; "." for a bare name.
-Path folderOf(const Path& file);
+/// Whether there is something of that name; false where nobody can tell.
+bool isThere(const Path& path);
+bool isFolder(const Path& path);
 
 /// True when both paths name the same existing file, or are the same path where nothing exists yet.
 bool isSameFile(const Path& a, const Path& b);
-
-/// The extension in lower case with its dot, or "".
-std::string lowerExtension(const Path& path);
 
 }  // namespace tspace

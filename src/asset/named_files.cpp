@@ -38,9 +38,8 @@ Result<std::span<const std::uint8_t>> NamedFiles::find(const Path& file) const {
 
 NamedFiles::Kind NamedFiles::kindOf(const Path& file) const {
     if (is_in_memory_) return find(file) ? Kind::file : Kind::missing;
-    std::error_code error;
-    if (fs::is_directory(file.string(), error)) return Kind::folder;
-    return fs::exists(file.string(), error) ? Kind::file : Kind::missing;
+    if (isFolder(file)) return Kind::folder;
+    return isThere(file) ? Kind::file : Kind::missing;
 }
 
 Bytes NamedFiles::read(const Path& file, const std::string& place) const {

@@ -30,4 +30,10 @@ class Path {
     std::string text_;
 };
 
+/// The folder that a file lies in; "." for a bare name.
+Path folderOf(const Path& file);
+
+/// The extension in lower case with its dot, or "".
+std::string lowerExtension(const Path& path);
+
 }  // namespace tspace

@@ -87,15 +87,11 @@ std::string encodeBase64(const Bytes& bytes) {
     return text;
 }
 
-[[noreturn]] void refuse(std::string_view uri, const char* why, const std::string& place) {
+}  // namespace
+
+void refuseUri(std::string_view uri, const char* why, const std::string& place) {
     failFile(ErrorCode::forbiddenPath, "the URI " + inQuotes(uri, 200) + " " + why, place);
 }
-
-bool startsWith(const fs::path& path, const fs::path& prefix) {
-    return std::mismatch(prefix.begin(), prefix.end(), path.begin(), path.end()).first == prefix.end();
-}
-
-}  // namespace
 
 UriKind uriKind(std::string_view uri) {
     const std::size_t length = schemeLength(uri);
@@ -168,7 +164,7 @@ std::string pathOfUri(std::string_view uri) {
 }
 
 std::string checkedPathOfUri(std::string_view uri, bool allow_external, const std::string& place) {
-    if (uriKind(uri) != UriKind::path) refuse(uri, "has a scheme other than data, which is never loaded", place);
+    if (uriKind(uri) != UriKind::path) refuseUri(uri, "has a scheme other than data, which is never loaded", place);
     if (uri.starts_with(':'))
         failFile(ErrorCode::invalidFile, "the URI " + inQuotes(uri, 200) + " has no scheme before its colon", place);
     std::string path = pathOfUri(uri);
@@ -177,20 +173,10 @@ std::string checkedPathOfUri(std::string_view uri, bool allow_external, const st
     }
     if (allow_external) return path;
     const fs::path relative(path);
-    if (relative.is_absolute()) refuse(uri, "is an absolute path", place);
+    if (relative.is_absolute()) refuseUri(uri, "is an absolute path", place);
     if (std::find(relative.begin(), relative.end(), fs::path("..")) != relative.end())
-        refuse(uri, "leads out of the model's folder", place);
+        refuseUri(uri, "leads out of the model's folder", place);
     return path;
-}
-
-Path resolveUri(const Path& in_folder, std::string_view uri, bool allow_external, const std::string& place) {
-    const fs::path folder = in_folder, relative(checkedPathOfUri(uri, allow_external, place));
-    if (allow_external) return folder / relative;
-    const fs::path root = fs::weakly_canonical(fs::absolute(folder));
-    if (!startsWith(fs::weakly_canonical(root / relative), root)) {
-        refuse(uri, "leads out of the model's folder by a symbolic link", place);
-    }
-    return folder / relative;
 }
 
 }  // namespace tspace

@@ -39,6 +39,9 @@ std::string pathOfUri(std::string_view uri);
 /// these but the scheme.
 std::string checkedPathOfUri(std::string_view uri, bool allow_external, const std::string& place);
 
+/// Fails with forbiddenPath: `why` says what is wrong with the URI.
+[[noreturn]] void refuseUri(std::string_view uri, const char* why, const std::string& place);
+
 /// The file that `uri` names in a folder on the disk. Fails as checkedPathOfUri, and with forbiddenPath when a symbolic
 /// link leads out of `folder`, unless `allow_external`.
 Path resolveUri(const Path& folder, std::string_view uri, bool allow_external, const std::string& place);

@@ -254,8 +254,8 @@ class ImagePlacer {
             const fs::path name = old.parent_path() / (old.stem().string() + ending + old.extension().string());
             const fs::path file = folderOf(target_.path) / name.string();
             if (namesFile(document_, name.string())) continue;
+            if (!isThere(file)) return name.string();
             std::error_code error;
-            if (!fs::exists(file, error)) return name.string();
             const bool may_be_same = fs::is_regular_file(file, error) && fs::file_size(file, error) == bytes.size();
             if (may_be_same && readFile(file) == bytes) return name.string();
         }

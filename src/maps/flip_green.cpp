@@ -51,7 +51,8 @@ void invertGreen(ChannelImage& image) {
     for (std::size_t i = 1; i < image.pixels.size(); i += image.channels) image.pixels[i] ^= 0xff;
 }
 
-FlippedImage flipPixels(ByteSpan bytes, ImageFileFormat input, ImageFileFormat output, int jpeg_quality) {
+FlippedImage flipPixels([[maybe_unused]] ByteSpan bytes, [[maybe_unused]] ImageFileFormat input, ImageFileFormat output,
+                        [[maybe_unused]] int jpeg_quality) {
     ChannelImage image;
 #ifdef TSPACE_HAS_IMAGES
     if (input == ImageFileFormat::jpeg) image = readJpegPixels(bytes);

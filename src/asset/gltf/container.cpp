@@ -179,8 +179,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
     const fs::path to = fs::path(folderOf(target.path)) / relative;
     const std::vector<std::string> planned = output.files();
     if (std::find(planned.begin(), planned.end(), to.string()) != planned.end()) return;
-    std::error_code error;
-    if (fs::exists(to, error)) {
+    if (isThere(to)) {
         if (!document.files.areInMemory() && isSameFile(from, to)) return;
         if (document.files.read(from, place) == readFile(to, place)) return;
         failFile(ErrorCode::cannotWrite,

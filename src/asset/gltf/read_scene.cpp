@@ -156,11 +156,9 @@ Bytes readImageBytes(const Document& document, const Json& image, const std::str
 }  // namespace
 
 Bytes tryReadImage(const Document& document, std::size_t image) {
-    try {
-        return readImageBytes(document, rootArray(document, "images")[image], join("/images", image));
-    } catch (const FileError&) {
-        return {};
-    }
+    Bytes bytes;
+    tryFile([&] { bytes = readImageBytes(document, rootArray(document, "images")[image], join("/images", image)); });
+    return bytes;
 }
 
 void readImages(const Document& document, Scene& scene) {
@@ -179,17 +177,16 @@ void readImages(const Document& document, const std::set<std::size_t>& wanted, S
     for (const std::size_t i : wanted) {
         const std::string place = join("/images", i);
         const std::string uri = readString(list[i], "uri", place);
-        try {
+        const std::optional<Error> failure = tryFile([&] {
             const Bytes bytes = readImageBytes(document, list[i], place);
             // A file that many entries name has its bytes once.
             const bool is_file = !uri.empty() && uriKind(uri) == UriKind::path;
             if (is_file && files.insert(uri).second) document.memory->allow(bytes.size());
             document.memory->take(bytes.size(), place);
             scene.images[i].bytes.assign(bytes.begin(), bytes.end());
-        } catch (const FileError& failure) {
-            // The geometry is none the worse for it.
-            if (failure.error.code == ErrorCode::tooLarge) throw;
-        }
+        });
+        // The geometry is none the worse for it.
+        if (failure && failure->code == ErrorCode::tooLarge) throw FileError{*failure};
     }
 }
 

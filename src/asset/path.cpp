@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Paths as text: nothing is looked up.
+#include "asset/path.h"
+
+#include <filesystem>
+
+namespace tspace {
+
+namespace fs = std::filesystem;
+
+Path Path::operator/(const std::string& name) const { return fs::path(text_) / name; }
+
+Path folderOf(const Path& file) {
+    const fs::path folder = fs::path(file).parent_path();
+    return folder.empty() ? fs::path(".") : folder;
+}
+
+std::string lowerExtension(const Path& path) {
+    std::string extension = fs::path(path).extension().string();
+    for (char& c : extension) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return extension;
+}
+
+}  // namespace tspace

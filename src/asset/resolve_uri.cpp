@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// URIs of models on the disk, where links lead anywhere.
+#include <algorithm>
+#include <filesystem>
+
+#include "asset/uri.h"
+
+namespace tspace {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool startsWith(const fs::path& path, const fs::path& prefix) {
+    return std::mismatch(prefix.begin(), prefix.end(), path.begin(), path.end()).first == prefix.end();
+}
+
+}  // namespace
+
+Path resolveUri(const Path& in_folder, std::string_view uri, bool allow_external, const std::string& place) {
+    const fs::path folder = in_folder, relative(checkedPathOfUri(uri, allow_external, place));
+    if (allow_external) return folder / relative;
+    const fs::path root = fs::weakly_canonical(fs::absolute(folder));
+    if (!startsWith(fs::weakly_canonical(root / relative), root)) {
+        refuseUri(uri, "leads out of the model's folder by a symbolic link", place);
+    }
+    return folder / relative;
+}
+
+}  // namespace tspace
