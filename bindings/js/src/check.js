@@ -33,6 +33,16 @@ export function floats(array, name, size, isRequired = false) {
   return array;
 }
 
+/** Bytes as a Uint8Array. */
+export function bytes(value, name) {
+  const isBuffer = value instanceof ArrayBuffer;
+  if (isBuffer && value.byteLength === 0) return new Uint8Array(0); // detached, or nothing in it
+  const array = isBuffer ? new Uint8Array(value) : value;
+  if (!(array instanceof Uint8Array)) fail("wrongType", `${name} is ${describe(array)}, not a Uint8Array or an ArrayBuffer`);
+  mustBeAttached(array, name);
+  return array;
+}
+
 /** An array of unsigned integers, or undefined. */
 export function integers(array, name) {
   if (isMissing(array)) return undefined;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A WebAssembly module, its instance, and arrays on the way in and out. The modules have one import, which ends a call that
-// runs out of memory: it throws through the module's frames. What such a call leaves behind is unknown, so the next one
-// gets a new instance.
+// A WebAssembly module, its instance, and arrays on the way in and out. The modules import one function, or more where they
+// ask for files, which ends a call, as one that runs out of memory: it throws through the module's frames. What such a call
+// leaves behind is unknown, so the next one gets a new instance.
 import { load } from "#load";
 import { TspaceError, codeName } from "./error.js";
 
@@ -12,12 +12,18 @@ class Failure {
   }
 }
 
+/** Thrown by the module where its input is wrong. */
+class Ended extends TspaceError {}
+
 export class Wasm {
   #module;
   #instance;
+  #imports;
+  #isWorn = false;
 
-  /** Starts loading. */
-  constructor(url) {
+  /** Starts loading. `imports`: what the module needs beside the way out of a call. */
+  constructor(url, imports = {}) {
+    this.#imports = imports;
     this.ready = load(url).then(WebAssembly.compile).then((module) => {
       this.#module = module;
     });
@@ -27,13 +33,32 @@ export class Wasm {
   get exports() {
     if (!this.#module) throw new TspaceError("notReady", "tspace is not loaded: `await ready` first");
     if (!this.#instance) {
-      const endCall = (number) => {
-        throw new TspaceError(codeName(number), number === 9 ? "out of memory" : "internal error of tspace");
-      };
-      this.#instance = new WebAssembly.Instance(this.#module, { env: { endCall } });
+      const env = { endCall: (number) => this.#endCall(number), attempt: (body, context) => this.#attempt(body, context) };
+      this.#instance = new WebAssembly.Instance(this.#module, { env: { ...env, ...this.#imports } });
       this.#instance.exports.__wasm_call_ctors();
     }
     return this.#instance.exports;
+  }
+
+  #endCall(number) {
+    if (number === 9) throw new TspaceError("outOfMemory", "out of memory");
+    if (number === 11) throw new TspaceError("internal", "internal error of tspace");
+    throw new Ended(...errorOf(this.#instance.exports, number));
+  }
+
+  /** Calls a function of the module; 1 where it ended as calls do whose input is wrong. */
+  #attempt(body, context) {
+    const { stackSave, stackRestore, __indirect_function_table: functions } = this.#instance.exports;
+    const top = stackSave();
+    try {
+      functions.get(body)(context);
+      return 0;
+    } catch (error) {
+      if (!(error instanceof Ended)) throw error;
+      stackRestore(top);
+      this.#isWorn = true; // what that function had allocated stays behind
+      return 1;
+    }
   }
 
   /** body(call), and the end of what it allocated. */
@@ -42,22 +67,36 @@ export class Wasm {
     let isClean = false;
     try {
       const result = body(call);
-      isClean = true;
+      isClean = !this.#isWorn;
       return result;
     } catch (error) {
-      isClean = error instanceof Failure;
-      if (isClean) throw call.errorOf(error.number);
+      isClean = error instanceof Failure && !this.#isWorn;
+      if (error instanceof Failure) throw new TspaceError(...errorOf(call.wasm, error.number));
+      if (error instanceof Ended) throw new TspaceError(error.code, error.message, error.element);
       if (error instanceof WebAssembly.RuntimeError)
         throw new TspaceError("internal", `internal error of tspace: ${error.message}`);
       throw error;
     } finally {
       if (isClean) call.end();
       else this.#instance = undefined;
+      this.#isWorn = false;
     }
   }
 }
 
 const utf8 = new TextDecoder();
+
+/** Text in the module's memory that a 0 ends. */
+export function textAt(exports, place) {
+  const bytes = new Uint8Array(exports.memory.buffer, place >>> 0);
+  return utf8.decode(bytes.slice(0, bytes.indexOf(0)));
+}
+
+/** Code, sentence and element of the last call that failed. */
+function errorOf(exports, number) {
+  const element = exports.errorElement();
+  return [codeName(number), textAt(exports, exports.errorText()), element < 0 ? undefined : element];
+}
 
 /** The arrays of one call in the module's memory. Views are made anew each time, since memory moves when it grows. */
 class Call {
@@ -96,13 +135,6 @@ class Call {
   /** Throws the error of a function that returned one. */
   check(number) {
     if (number !== 0) throw new Failure(number);
-  }
-
-  errorOf(number) {
-    const bytes = new Uint8Array(this.wasm.memory.buffer, this.wasm.errorText() >>> 0);
-    const text = utf8.decode(bytes.slice(0, bytes.indexOf(0)));
-    const element = this.wasm.errorElement();
-    return new TspaceError(codeName(number), text, element < 0 ? undefined : element);
   }
 
   /** Fills in the last function's report. */

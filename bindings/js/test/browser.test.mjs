@@ -20,8 +20,9 @@ const missing =
 const page = `
 import { generateTangents, ready } from "tspace";
 import * as small from "tspace/mikktspace";
+import * as files from "tspace/gltf";
 import { differences, readGolden } from "./golden.mjs";
-await Promise.all([ready, small.ready]);
+await Promise.all([ready, small.ready, files.ready]);
 const names = await (await fetch("/golden/")).json();
 let compared = 0;
 const wrong = [];
@@ -35,7 +36,11 @@ for (const name of names) {
 }
 let code;
 try { generateTangents({ positions: new Float32Array(9) }, {}); } catch (error) { code = error.code; }
-window.result = { compared, wrong, code };
+let refused;
+try { files.check(new TextEncoder().encode("{")); } catch (error) { refused = error.code; }
+const model = new TextEncoder().encode(JSON.stringify({ asset: { version: "2.0" }, scenes: [] }));
+const made = files.generate(model);
+window.result = { compared, wrong, code, refused, glb: made.bytes.length, found: files.check(made.bytes).findings.length };
 `;
 
 it("gives the same bits in Chromium, bundled by Vite", { skip: missing, timeout: 300_000 }, async () => {
@@ -66,10 +71,12 @@ it("gives the same bits in Chromium, bundled by Vite", { skip: missing, timeout:
     tab.on("pageerror", (error) => messages.push(String(error)));
     await tab.goto(`http://127.0.0.1:${server.address().port}/`);
     await tab.waitForFunction("window.result", undefined, { timeout: 120_000 }).catch((error) => assert.fail([...messages, error].join("\n")));
-    const { compared, wrong, code } = await tab.evaluate("window.result");
+    const { compared, wrong, code, refused, glb, found } = await tab.evaluate("window.result");
     assert.ok(compared > 300);
     assert.deepEqual(wrong, []);
     assert.equal(code, "invalidOption");
+    assert.equal(refused, "invalidFile");
+    assert.deepEqual([glb > 20, found], [true, 0]);
   } finally {
     await browser?.close();
     server?.close();

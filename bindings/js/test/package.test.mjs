@@ -8,6 +8,7 @@ import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { describe, it } from "node:test";
 import { gzipSync } from "node:zlib";
+import { gridModel } from "./models.mjs";
 
 const archive = process.env.TSPACE_TGZ;
 const installed = fileURLToPath(new URL("../node_modules/tspace/src/", import.meta.url));
@@ -30,10 +31,13 @@ describe("the archive", { skip: !archive && "run scripts/js" }, () => {
       const readme = readFileSync(join(folder, "node_modules/tspace/README.md"), "utf8");
       const blocks = [...readme.matchAll(/```js\n([\s\S]*?)```/g)].map((match) => match[1]);
       assert.ok(blocks.length > 0);
+      const { model, buffer } = gridModel({ uri: "chair.bin" });
+      writeFileSync(join(folder, "chair.gltf"), model);
+      writeFileSync(join(folder, "chair.bin"), buffer);
       blocks.forEach((code, i) => {
         if (/from "(three|@gltf)/.test(code)) return; // those run in adapters.test.mjs, where the packages are
         writeFileSync(join(folder, `readme${i}.mjs`), code);
-        assert.match(execFileSync("node", [`readme${i}.mjs`], { cwd: folder, encoding: "utf8" }), /Uint32Array|Float32Array/);
+        assert.match(execFileSync("node", [`readme${i}.mjs`], { cwd: folder, encoding: "utf8" }), /Uint32Array|Float32Array|Uint8Array/);
       });
       assert.ok(existsSync(join(folder, "node_modules/tspace/LICENSE")));
     });
@@ -55,13 +59,13 @@ describe("the archive", { skip: !archive && "run scripts/js" }, () => {
   }
 
   it("is as small as the documentation says", () => {
-    const [whole, small] = ["index.js", "mikktspace.js"].map(sizeOf);
-    console.log(`tspace ${whole} bytes gzipped, tspace/mikktspace ${small}`);
-    assert.ok(whole < 110_000 && small < 50_000);
+    const [whole, small, files] = ["index.js", "mikktspace.js", "gltf.js"].map(sizeOf);
+    console.log(`tspace ${whole} bytes gzipped, tspace/mikktspace ${small}, tspace/gltf ${files}`);
+    assert.ok(whole < 110_000 && small < 50_000 && files < 335_000);
   });
 
   it("has types that fit its modules", async () => {
-    for (const entry of ["index", "mikktspace", "pack", "compat"]) {
+    for (const entry of ["index", "mikktspace", "pack", "gltf", "compat"]) {
       const declared = readFileSync(join(installed, `${entry}.d.ts`), "utf8") + (entry === "compat" ? "" : readFileSync(join(installed, "types.d.ts"), "utf8"));
       for (const name of Object.keys(await import(join(installed, `${entry}.js`))))
         assert.match(declared, new RegExp(`(function|const|class) ${name}\\b`), `${entry}: ${name}`);
@@ -74,13 +78,15 @@ describe("the archive", { skip: !archive && "run scripts/js" }, () => {
       writeFileSync(join(project, name), code);
       execFileSync("node", [tsc, "--noEmit", "--strict", "--module", "nodenext", "--target", "es2022", "--lib", "es2022,dom", "--skipLibCheck", "false", "--types", "", name], { cwd: project, stdio: "pipe" });
     };
-    const head = 'import { generateTangents, makeIndexedFrames, Plan, ready, TspaceError } from "tspace";\nimport * as small from "tspace/mikktspace";\nawait ready;\nconst mesh = { positions: new Float32Array(9), indices: new Uint16Array(3) };\n';
+    const head = 'import { generateTangents, makeIndexedFrames, Plan, ready, TspaceError } from "tspace";\nimport * as small from "tspace/mikktspace";\nimport { check, generate } from "tspace/gltf";\nawait ready;\nconst mesh = { positions: new Float32Array(9), indices: new Uint16Array(3) };\n';
     check("right.ts", `${head}const t: Float32Array = generateTangents(mesh, { convention: "gltf", method: "best" });
 const frames = makeIndexedFrames(mesh, { convention: { vAxis: "up" }, normals: { weighting: "area" } });
 const plan = new Plan(mesh, { convention: "unreal" });
 try { plan.evaluate({ positions: t, normals: frames.normals }); } catch (e) { if (e instanceof TspaceError) e.code.length; }
-small.generateTangents(mesh, { convention: "gltf", pairing: "corrected" });\n`);
-    for (const wrong of ["generateTangents(mesh, {});", 'generateTangents(mesh, { convention: "maya" });', 'small.generateTangents(mesh, { convention: "gltf", method: "best" });', "generateTangents({ positions: [0] }, { convention: 'gltf' });"])
+small.generateTangents(mesh, { convention: "gltf", pairing: "corrected" });
+const made = generate(new Uint8Array(9), { method: "best", resources: { "a.bin": t.buffer as ArrayBuffer } });
+for (const finding of check(made.bytes, { resources: () => undefined }).findings) finding.code.length;\n`);
+    for (const wrong of ["generateTangents(mesh, {});", 'generateTangents(mesh, { convention: "maya" });', 'small.generateTangents(mesh, { convention: "gltf", method: "best" });', "generateTangents({ positions: [0] }, { convention: 'gltf' });", 'check("model.glb");'])
       assert.throws(() => check("wrong.ts", head + wrong), /./, wrong);
   });
 });

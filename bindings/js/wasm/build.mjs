@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Compiles the core into WebAssembly modules: node build.mjs OUT. emscripten gives the compiler and the C++ library; its
-// JavaScript is not used, since the modules need nothing of it: no files, no threads, no exceptions, one import.
+// Compiles the core, and the file layer on bytes, into WebAssembly modules: node build.mjs OUT. emscripten gives the compiler
+// and the C++ library; its JavaScript is not used, since the modules need nothing of it: no files, no threads, no exceptions,
+// and one import, or those few of the file layer.
 import { execFile } from "node:child_process";
-import { existsSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readdirSync, readFileSync, statSync, symlinkSync, writeFileSync } from "node:fs";
 import { availableParallelism, cpus } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -16,19 +17,35 @@ const out = resolve(process.argv[2] ?? join(root, "build/js/wasm"));
 
 /// Rooms of src/ and their files; loops over meshes that are worth more code than -Oz gives.
 const rooms = ["core", "frames", "normals", "tangents", "tangents/mikktspace", "tangents/estimators", "mesh_frames"];
-const notHere = new Set(["core/parallel.cpp", "core/arena.cpp"]); // threads, and memory of an operating system
+const fileRooms = [
+  "json", "asset", "asset/read", "asset/gltf", "asset/gltf/codecs", "asset/gltf/compression", "surface", "quads", "maps", "check",
+  "diff", "generate", "generate_file", "identify", "inspect", "options", "report", "c_files",
+];
+/// Threads, memory of an operating system, the disk, and readers of other formats; only_memory.cpp is in the place of some.
+const notHere = new Set([
+  "core/parallel.cpp", "core/arena.cpp", "asset/atomic_output_disk.cpp", "asset/file_io.cpp", "asset/resolve_uri.cpp",
+  "asset/temporary_name.cpp", "generate_file/generate_obj.cpp", "inspect/inspect_obj.cpp", "maps/flip_png.cpp", "maps/jpeg.cpp",
+  "maps/png.cpp", "maps/webp.cpp",
+]);
 const hot = /mikktspace\/corner_terms_kernel|^pack\//;
 
 const modules = {
-  core: { sources: ["common.cpp", "core.cpp"], isFast: true, defines: [], rooms, kernels: ["normals", "tangents"] },
-  mikktspace: { sources: ["common.cpp", "mikktspace.cpp"], isFast: false, defines: ["TSPACE_MIKKTSPACE_ONLY"], rooms, kernels: ["tangents"] },
-  pack: { sources: ["pack.cpp"], isFast: true, defines: [], rooms: ["core", "pack"], kernels: ["pack"] },
+  core: { sources: ["memory.cpp", "common.cpp", "core.cpp"], isFast: true, defines: [], rooms, kernels: ["normals", "tangents"] },
+  mikktspace: {
+    sources: ["memory.cpp", "common.cpp", "mikktspace.cpp"], isFast: false, defines: ["TSPACE_MIKKTSPACE_ONLY"], rooms, kernels: ["tangents"],
+  },
+  pack: { sources: ["memory.cpp", "pack.cpp"], isFast: true, defines: [], rooms: ["core", "pack"], kernels: ["pack"] },
+  gltf: {
+    sources: ["heap.cpp", "c_library.cpp", "throw.cpp", "only_memory.cpp", "gltf.cpp"], isFast: false, defines: ["TSPACE_THROWS_END_CALL"],
+    rooms: [...rooms, "pack", ...fileRooms], more: ["c_api/c_convert.cpp"], kernels: ["normals", "tangents", "pack"], throws: true,
+    imports: ["attempt", "endCall", "findFile", "now", "parseNumber"],
+  },
 };
 
 // -finline-functions: emscripten forbids inlining with -Oz, which makes more code, not less.
 const flags = [
   "-std=c++20", "-Oz", "-flto", "-finline-functions", "-msimd128", "-mbulk-memory", "-msign-ext", "-mnontrapping-fptoint",
-  "-ffp-contract=off", "-fno-fast-math", "-fno-math-errno", "-fno-trapping-math", "-fno-exceptions", "-fno-rtti",
+  "-ffp-contract=off", "-fno-fast-math", "-fno-math-errno", "-fno-trapping-math",
   "-fno-c++-static-destructors", "-DNDEBUG", "-DTSPACE_SERIAL", "-DTSPACE_SMALL", "-DTSPACE_SIMD_WASM", "-Wall", "-Wextra", "-Werror",
   `-I${root}/src`, `-I${root}/include`, `-I${here}`, "-include", join(here, "bit_cast.h"),
 ];
@@ -57,13 +74,29 @@ function kernelSources(room, isFast) {
   return sources;
 }
 
-function sourcesOf(module) {
-  const sources = module.rooms.flatMap((room) =>
-    readdirSync(join(root, "src", room))
-      .filter((file) => file.endsWith(".cpp") && !notHere.has(`${room}/${file}`))
-      .map((file) => ({ path: join(root, "src", room, file) })));
+/// Twelve files of a library as one, which takes a third of the time. Names are unique within a library: the core, the file
+/// layer, and the C API over it.
+function inBatches(name, rooms, more = []) {
+  const files = rooms.flatMap((room) => readdirSync(join(root, "src", room)).sort()
+    .filter((file) => file.endsWith(".cpp") && !notHere.has(`${room}/${file}`))
+    .map((file) => `${room}/${file}`)).concat(more);
+  const batches = [];
+  for (let i = 0; i < files.length; i += 12)
+    batches.push({ path: write(join(out, `${name}_${i / 12}.cpp`), files.slice(i, i + 12).map((file) => `#include "${file}"\n`).join("")) });
+  return batches;
+}
+
+function sourcesOf(name, module) {
+  const isOf = (list) => (room) => list.includes(room);
+  const libraries = {
+    core: module.rooms.filter((room) => !isOf(fileRooms)(room)),
+    files: module.rooms.filter((room) => isOf(fileRooms)(room) && room !== "c_files"),
+    c_files: module.rooms.filter(isOf(["c_files"])),
+  };
+  const sources = Object.entries(libraries).flatMap(([library, list]) =>
+    inBatches(`${name}_${library}`, list, library === "c_files" ? module.more : []));
   for (const room of module.kernels) sources.push(...kernelSources(room, module.isFast));
-  for (const file of ["memory.cpp", "state.cpp", ...module.sources]) sources.push({ path: join(here, file) });
+  for (const file of ["new.cpp", "state.cpp", ...module.sources]) sources.push({ path: join(here, file) });
   return sources;
 }
 
@@ -74,11 +107,13 @@ function isCurrent(object, depfile) {
   return [...needs, fileURLToPath(import.meta.url)].every((path) => existsSync(path) && statSync(path).mtimeMs <= made);
 }
 
-async function compile(source, folder, defines) {
+async function compile(source, folder, module) {
   const stem = source.path.replace(`${root}/`, "").replaceAll("/", "_");
   const object = join(folder, `${stem}.o`);
   if (isCurrent(object, `${object}.d`)) return object;
-  await run("em++", [...flags, ...defines.map((d) => `-D${d}`), ...(source.flags ?? []), "-MMD", "-MF", `${object}.d`,
+  // Without -fexceptions, emscripten lets code throw, but nothing catches.
+  const throwing = module.throws ? [] : ["-fno-exceptions", "-fno-rtti"];
+  await run("em++", [...flags, ...throwing, ...module.defines.map((d) => `-D${d}`), ...(source.flags ?? []), "-MMD", "-MF", `${object}.d`,
     "-c", source.path, "-o", object]).catch((error) => {
     console.error(error.stderr);
     process.exit(1);
@@ -97,20 +132,20 @@ async function inParallel(jobs) {
   return results;
 }
 
-async function link(name, objects) {
+async function link(name, module, objects) {
   const libraries = (await run("em-config", ["CACHE"]).catch(() => ({ stdout: "" }))).stdout.trim() || "/usr/share/emscripten/cache";
   const folder = join(libraries, "sysroot/lib/wasm32-emscripten");
   const raw = join(out, `${name}_raw.wasm`);
-  await run("wasm-ld-14", ["--no-entry", "--gc-sections", "--strip-all", "--stack-first", "-z", "stack-size=262144",
-    "--initial-memory=1048576", "--max-memory=4294967296", "--lto-O2", "-mllvm", "-disable-lsr", ...objects,
-    `-L${folder}/lto`, `-L${folder}`, "-lc-optz", "-lc++-noexcept", "-lc++abi-noexcept", "-lcompiler_rt",
-    "--export=__wasm_call_ctors", "--allow-undefined", "-o", raw]);
+  await run("wasm-ld-14", ["--no-entry", "--gc-sections", "--strip-all", "--stack-first", "-z", `stack-size=${module.throws ? 1048576 : 262144}`,
+    `--initial-memory=${module.throws ? 2097152 : 1048576}`, "--max-memory=4294967296", "--lto-O2", "-mllvm", "-disable-lsr", ...objects,
+    `-L${folder}/lto`, `-L${folder}`, ...(module.throws ? ["-ldlmalloc", "--export=stackSave", "--export=stackRestore", "--export-table"] : []),
+    "-lc-optz", "-lc++-noexcept", "-lc++abi-noexcept", "-lcompiler_rt", "--export=__wasm_call_ctors", "--allow-undefined", "-o", raw]);
   const wasm = join(out, `${name}.wasm`);
   await run("wasm-opt", ["--enable-simd", "--enable-bulk-memory", "--enable-sign-ext", "--enable-mutable-globals",
     "--enable-nontrapping-float-to-int", "-Oz", "--converge", raw, "-o", wasm]);
-  const imports = WebAssembly.Module.imports(new WebAssembly.Module(readFileSync(wasm)));
-  if (imports.length !== 1 || imports[0].name !== "endCall")
-    throw new Error(`${name}.wasm imports ${imports.map((i) => i.name).join(", ")}`);
+  const imports = WebAssembly.Module.imports(new WebAssembly.Module(readFileSync(wasm))).map((i) => i.name);
+  const unknown = imports.filter((i) => !(module.imports ?? ["endCall"]).includes(i));
+  if (unknown.length !== 0) throw new Error(`${name}.wasm imports ${unknown.join(", ")}`);
   const bytes = readFileSync(wasm);
   console.log(`${name}.wasm: ${bytes.length} bytes, ${gzipSync(bytes, { level: 9 }).length} gzipped`);
 }
@@ -119,12 +154,15 @@ const version = readFileSync(join(root, "CMakeLists.txt"), "utf8").match(/projec
 const [major, minor, patch] = version.slice(1).map(Number);
 write(join(out, "include/tspace/version.h"),
   `#pragma once\n#define TSPACE_VERSION_NUMBER ${10000 * major + 100 * minor + patch}\n#define TSPACE_VERSION_STRING "${major}.${minor}.${patch}"\n`);
+// The system's own folder of headers would hide those of emscripten.
+const json = join(out, "include/nlohmann");
+if (!existsSync(json)) symlinkSync("/usr/include/nlohmann", json);
 flags.push(`-I${join(out, "include")}`);
 const chosen = process.argv.length > 3 ? process.argv.slice(3) : Object.keys(modules);
 for (const name of chosen) {
   const module = modules[name];
   const folder = join(out, name);
   mkdirSync(folder, { recursive: true });
-  const jobs = sourcesOf(module).map((source) => () => compile(source, folder, module.defines));
-  await link(name, await inParallel(jobs));
+  const jobs = sourcesOf(name, module).map((source) => () => compile(source, folder, module));
+  await link(name, module, await inParallel(jobs));
 }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Memory for a program of one thread without an operating system, and what happens when there is none left: a call into
-// JavaScript, which throws, so that the call ends there. The instance is then thrown away.
+// Memory for a program of one thread without an operating system, which takes and gives back a few large arrays.
 #include <cstddef>
 #include <cstdint>
-#include <new>
 
 #include "exports.h"
 
@@ -97,20 +95,4 @@ void tspace_js_release(void* memory) {
     if (memory != nullptr) giveBack(reinterpret_cast<Block*>(static_cast<char*>(memory) - kHead));
 }
 
-void tspace_endCallOutOfMemory() { tspace_js_endCall(9); }
-/// The C++ library comes here for lists that are longer than the address space.
-void abort() { tspace_js_endCall(9); }
-
 }  // extern "C"
-
-void* operator new(std::size_t bytes) {
-    void* memory = tspace_js_allocate(bytes);
-    if (memory == nullptr) tspace_endCallOutOfMemory();
-    return memory;
-}
-void* operator new(std::size_t bytes, std::align_val_t, const std::nothrow_t&) noexcept {
-    return tspace_js_allocate(bytes);
-}
-void operator delete(void* memory) noexcept { tspace_js_release(memory); }
-void operator delete(void* memory, std::size_t) noexcept { tspace_js_release(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { tspace_js_release(memory); }

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+export { TspaceError } from "./types.js";
+
+/** Resolves when calls can be made. */
+export const ready: Promise<void>;
+
+/** A file: .glb or .gltf. Read during the call only, and never changed. */
+export type Bytes = Uint8Array | ArrayBuffer;
+
+/**
+ * The files that a model names, by their paths relative to it ("textures/normal.png"). Paths that lead out of the model's folder
+ * are never asked for. Without a buffer (.bin) the call fails; without an image it goes on.
+ */
+export type Resources =
+  | Readonly<Record<string, Bytes>>
+  | ReadonlyMap<string, Bytes>
+  | ((path: string) => Bytes | null | undefined);
+
+/** Options are those of the tool (docs/tool.md), in camelCase: --memory-limit is memoryLimit. */
+export interface ModelOptions {
+  /** What reports call the model. */
+  name?: string;
+  resources?: Resources;
+  /** Memory that working on the model may take, such as "2G"; 0: by its size. */
+  memoryLimit?: string | number;
+  /** Also ask for files outside of the model's folder. */
+  allowExternal?: boolean;
+}
+
+export interface GenerateOptions extends ModelOptions {
+  /** Also where the material needs no tangents. */
+  all?: boolean;
+  /** Keep tangents that are there (the default), compute them anew, or mend what is wrong with them. */
+  onlyMissing?: boolean;
+  overwrite?: boolean;
+  repair?: boolean;
+  /** Take tangents away where no material needs them. */
+  strip?: boolean;
+  method?: "mikktspace" | "uniform" | "angle" | "area" | "fast" | "best" | "lengyel" | "flat" | "basis";
+  faces?: "triangles" | "quads" | "auto";
+  pairing?: "reference" | "corrected";
+  /** Degrees. */
+  threshold?: number | string;
+  frame?: "gram-schmidt" | "symmetric";
+  refine?: number | string;
+  convention?: "gltf" | "opengl" | "directx" | "unreal" | "unity" | "blender" | "godot";
+  textureTransform?: "apply" | "ignore";
+  bitangents?: boolean;
+  format?: "float32" | "snorm16" | "snorm8";
+  pack?: string;
+  packDrop?: "nothing" | "tangents" | "all";
+  /** How normals are made where they are missing. */
+  normals?: "flat" | "uniform" | "area" | "angle" | "angle-area" | "max" | "best";
+  /** Degrees. */
+  crease?: number | string;
+  noSanitize?: boolean;
+  orthogonalize?: boolean;
+  /** Nothing is made, but the report says what would be. */
+  dryRun?: boolean;
+}
+
+export interface CheckOptions extends ModelOptions {
+  /** Findings from this severity on make exitCode 1. */
+  failOn?: Severity;
+  /** Findings below it are left out. */
+  severity?: Severity;
+  /** Codes of findings that are left out. */
+  ignore?: string | readonly string[];
+  /** Degrees: angles up to it are right. */
+  angle?: number | string;
+  convention?: GenerateOptions["convention"];
+  faces?: GenerateOptions["faces"];
+  noImages?: boolean;
+}
+
+export interface IdentifyOptions extends ModelOptions {
+  /** Degrees: a method explains a tangent that it comes this close to. */
+  tolerance?: number | string;
+}
+
+export interface DiffOptions extends Omit<ModelOptions, "name"> {
+  /** Degrees: larger angles are differences. */
+  tolerance?: number | string;
+  /** How many of the worst places are listed. */
+  worst?: number | string;
+}
+
+export type Severity = "error" | "warning" | "note";
+
+/** What all reports have. docs/json.md describes every member. */
+export interface Report {
+  /** What the model is called. */
+  input: string;
+  ok: true;
+  error: null;
+  /** That of the tool: 0, or 1 where something was found. */
+  exitCode: 0 | 1;
+  [member: string]: unknown;
+}
+
+export interface GenerateReport extends Report {
+  /** False: the bytes are those of the input. */
+  changed: boolean;
+  warnings: string[];
+  primitives: {
+    mesh: number;
+    primitive: number;
+    meshName: string;
+    materialName: string;
+    action: "generated" | "replaced" | "unchanged" | "kept" | "notNeeded" | "notTriangles" | "impossible" | "removed";
+    /** Why: a sentence for a person. */
+    reason: string;
+    notes: string[];
+    verticesBefore: number;
+    verticesAfter: number;
+    [member: string]: unknown;
+  }[];
+}
+
+export interface Finding {
+  /** Stable; docs/check.md explains each. */
+  code: string;
+  severity: Severity;
+  /** JSON pointer; empty: the whole file. */
+  place: string;
+  mesh: number;
+  primitive: number;
+  meshName: string;
+  materialName: string;
+  /** What is counted: "vertices", "triangles", ... */
+  unit: string;
+  /** How many have it, of how many that could. */
+  count: number;
+  total: number;
+  /** Their part of the primitive's surface, 0 to 1. */
+  surfaceShare: number;
+  worstDegrees: number;
+  /** 0 to 1. */
+  confidence: number;
+  /** The first of them, at most 8. */
+  vertices: number[];
+  message: string;
+  remedy: string;
+}
+
+export interface CheckReport extends Report {
+  counts: Record<Severity, number>;
+  /** Errors first. */
+  findings: Finding[];
+}
+
+export interface IdentifyReport extends Report {
+  /** A sentence or two. */
+  verdict: string;
+  /** What explains the tangents, the best first. */
+  explanations: { method: string; [member: string]: unknown }[];
+}
+
+export interface DiffReport {
+  exitCode: 0 | 1;
+  isWithinTolerance: boolean;
+  signChanges: number;
+  [member: string]: unknown;
+}
+
+/**
+ * Adds normals and tangents where materials need them, or mends them.
+ * @returns the bytes of a .glb with everything in it, none after `dryRun`; and what was done
+ */
+export function generate(model: Bytes, options?: GenerateOptions): { bytes: Uint8Array; report: GenerateReport };
+
+/** Says what is wrong with the frames of a model: inverted signs, averaged seams, the wrong UV set, and more. */
+export function check(model: Bytes, options?: CheckOptions): CheckReport;
+
+/** Says what is in a model: meshes, attributes, materials that need tangents. */
+export function inspect(model: Bytes, options?: ModelOptions): Report;
+
+/** Says which method and convention made the tangents of a model. */
+export function identify(model: Bytes, options?: IdentifyOptions): IdentifyReport;
+
+/** Compares the frames of two models that show the same surface. Resources are those of both. */
+export function diff(a: Bytes, b: Bytes, options?: DiffOptions): DiffReport;

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// The entry "tspace/gltf": models as bytes. Options and reports are those of the tool and its JSON.
+import { bytes, fail, object } from "./check.js";
+import { textAt, Wasm } from "./wasm.js";
+
+export { TspaceError } from "./error.js";
+
+/** The call that runs, and where each of its models gets the files that it names. */
+let current;
+
+const wasm = new Wasm(new URL("./gltf.wasm", import.meta.url), {
+  findFile: (model, path, data, size) => current.findFile(model, path, data, size),
+  parseNumber: (text) => Number(textAt(wasm.exports, text)),
+  now: () => performance.now(),
+});
+export const ready = wasm.ready;
+
+const verbs = ["generate", "check", "inspect", "identify", "diff"];
+const cannotRead = 103;
+
+const utf8 = new TextEncoder();
+const textDecoder = new TextDecoder();
+
+/** What a model gets its files from, as a function from a path to bytes, or undefined. */
+function finderOf(resources) {
+  if (resources === undefined || resources === null) return undefined;
+  if (typeof resources === "function") return resources;
+  if (resources instanceof Map) return (path) => resources.get(path);
+  object(resources, "resources");
+  return (path) => (Object.hasOwn(resources, path) ? resources[path] : undefined);
+}
+
+/** memoryLimit: as the tool calls it, "memory-limit". */
+const toolName = (name) => name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
+
+/** Checks options, and makes the text of them that the module reads. */
+function textOfOptions(options) {
+  const given = {};
+  for (const [name, value] of Object.entries(options)) {
+    const parts = Array.isArray(value) ? value : [value];
+    for (const part of parts)
+      if (!["string", "number", "boolean", "undefined"].includes(typeof part) && part !== null)
+        fail("wrongType", `${name} is neither text, a number, true nor false`);
+    given[toolName(name)] = value;
+  }
+  return JSON.stringify(given);
+}
+
+class Files {
+  #found = new Map();
+
+  constructor(call, finders) {
+    this.call = call;
+    this.finders = finders;
+  }
+
+  findFile(model, path, data, size) {
+    const name = textAt(this.call.wasm, path);
+    const key = `${model} ${name}`;
+    if (!this.#found.has(key)) {
+      const content = this.finders[model](name);
+      if (content === undefined || content === null) return cannotRead;
+      const array = bytes(content, `what resources give for ${JSON.stringify(name)}`);
+      this.#found.set(key, [this.call.put(array, Uint8Array), array.length]);
+    }
+    new Uint32Array(this.call.wasm.memory.buffer, data, 1)[0] = this.#found.get(key)[0];
+    new Uint32Array(this.call.wasm.memory.buffer, size, 1)[0] = this.#found.get(key)[1];
+    return 0;
+  }
+}
+
+/** Output and report of a function of the C API. */
+function run(verb, models, { resources, ...options }) {
+  const text = textOfOptions(options);
+  const finder = finderOf(resources);
+  if (current !== undefined) fail("invalidOption", "resources must not call tspace/gltf");
+  return wasm.run((call) => {
+    current = new Files(call, models.map(() => finder));
+    try {
+      const table = call.allocate(16 * models.length + 16);
+      const words = models.flatMap(({ data, name }) => [call.put(data, Uint8Array), data.length, call.put(utf8.encode(`${name}\0`)), finder ? 1 : 0]);
+      const given = call.put(utf8.encode(`${text}\0`));
+      new Uint32Array(call.wasm.memory.buffer, table, words.length + 4).set([...words, 0, 0, 0, 0]);
+      const results = table + 4 * words.length;
+      call.check(call.wasm.callFiles(verbs.indexOf(verb), table, given, results));
+      const [output, outputBytes, report, reportBytes] = call.get(Uint32Array, results, 4);
+      const made = output === 0 ? new Uint8Array(0) : call.take(Uint8Array, output, outputBytes);
+      return { bytes: made, report: JSON.parse(textDecoder.decode(call.take(Uint8Array, report, reportBytes))) };
+    } finally {
+      current = undefined;
+    }
+  });
+}
+
+function modelOf(data, name, what = "the model") {
+  if (name !== undefined && name !== null && (typeof name !== "string" || name.includes("\0")))
+    fail("wrongType", "name is not text");
+  return { data: bytes(data, what), name: name ?? "" };
+}
+
+/** Of the one file, with the exit code of the run. */
+const ofFile = ({ files, exitCode }) => ({ ...files[0], exitCode });
+
+function ask(verb, data, options) {
+  const { name, ...others } = object(options, "options");
+  const made = run(verb, [modelOf(data, name)], others);
+  return { ...made, report: ofFile(made.report) };
+}
+
+export const generate = (data, options = {}) => ask("generate", data, options);
+export const check = (data, options = {}) => ask("check", data, options).report;
+export const inspect = (data, options = {}) => ask("inspect", data, options).report;
+export const identify = (data, options = {}) => ask("identify", data, options).report;
+export const diff = (a, b, options = {}) =>
+  run("diff", [modelOf(a, "a", "the first model"), modelOf(b, "b", "the second model")], object(options, "options")).report;

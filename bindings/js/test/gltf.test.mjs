@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// The entry "tspace/gltf": on models that are made here, on those of ../shared beside the tool, and on broken ones.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { basename, dirname, join } from "node:path";
+import { describe, it } from "node:test";
+import { check, diff, generate, identify, inspect, ready, TspaceError } from "tspace/gltf";
+import { gridModel } from "./models.mjs";
+
+await ready;
+
+const { model } = gridModel();
+const good = generate(model);
+
+/** The JSON in a .glb. */
+const jsonOf = (glb) => JSON.parse(Buffer.from(glb.buffer, glb.byteOffset + 20, new DataView(glb.buffer, glb.byteOffset).getUint32(12, true)).toString());
+
+/** body() throws a TspaceError of that code, with one line that has all the words; then the module works as before. */
+function refuses(code, words, body) {
+  assert.throws(body, (error) => {
+    assert.ok(error instanceof TspaceError, String(error.stack));
+    assert.equal(error.code, code, error.message);
+    assert.match(error.message, /^[^\n]+$/);
+    for (const word of words) assert.match(error.message, word);
+    return true;
+  });
+  assert.deepEqual(generate(model).bytes, good.bytes);
+}
+
+describe("models in memory", () => {
+  it("get tangents, and are right then", () => {
+    assert.equal(good.report.primitives[0].action, "generated");
+    assert.equal(good.report.exitCode, 0);
+    assert.ok("TANGENT" in jsonOf(good.bytes).meshes[0].primitives[0].attributes);
+    assert.deepEqual(check(good.bytes).findings.filter(({ severity }) => severity === "error"), []);
+    assert.equal(identify(good.bytes).explanations[0].method, "mikktspace");
+    assert.equal(inspect(good.bytes).primitives[0].hasTangents, true);
+    const again = generate(good.bytes);
+    assert.equal(again.report.changed, false);
+    assert.deepEqual(again.bytes, good.bytes);
+  });
+
+  it("take options by the tool's names, in camelCase", () => {
+    const best = generate(model, { method: "best", textureTransform: "ignore", dryRun: false, crease: 60, name: "grid.gltf" });
+    assert.equal(best.report.input, "grid.gltf");
+    assert.equal(generate(model, { dryRun: true }).bytes.length, 0);
+    assert.equal(diff(good.bytes, best.bytes, { tolerance: 90 }).isWithinTolerance, true);
+    assert.equal(diff(good.bytes, generate(model, { convention: "opengl" }).bytes).exitCode, 1);
+    const codes = check(model, { failOn: "note" }).findings.map(({ code }) => code);
+    assert.deepEqual(check(model, { ignore: codes }).findings, []);
+  });
+
+  it("get the files that they name from an object, a Map or a function", () => {
+    const { model: named, buffer } = gridModel({ uri: "data/a%20grid.bin" });
+    const path = "data/a grid.bin";
+    const asked = [];
+    const ways = [{ [path]: buffer }, new Map([[path, buffer.buffer.slice(buffer.byteOffset, buffer.byteOffset + buffer.length)]]), (name) => {
+      asked.push(name);
+      return name === path ? buffer : undefined;
+    }];
+    for (const resources of ways) {
+      const { bytes } = generate(named, { resources });
+      assert.deepEqual(jsonOf(bytes).meshes, jsonOf(good.bytes).meshes);
+      assert.equal(check(named, { resources }).exitCode, check(model).exitCode);
+    }
+    assert.deepEqual([...new Set(asked)].sort(), [path, "normal.png"]);
+    refuses("invalidFile", [/a grid\.bin/], () => generate(named));
+    refuses("invalidFile", [/a grid\.bin/, /not given/], () => generate(named, { resources: {} }));
+    assert.throws(() => generate(named, { resources: () => { throw new RangeError("mine"); } }), RangeError);
+    refuses("wrongType", [/a grid\.bin/, /string/], () => check(named, { resources: { [path]: "text" } }));
+    refuses("wrongType", [/resources/], () => check(named, { resources: 5 }));
+    refuses("invalidOption", [/must not call/], () => check(named, { resources: () => check(model) }));
+    refuses("forbiddenPath", [/folder/], () => check(gridModel({ uri: "../grid.bin" }).model, { resources: () => buffer }));
+  });
+
+  it("are refused with a sentence where the call is wrong", () => {
+    refuses("wrongType", [/model is a string/, /Uint8Array/], () => check("model.glb"));
+    refuses("wrongType", [/model is a/], () => check());
+    refuses("wrongType", [/options/], () => check(model, "all"));
+    refuses("wrongType", [/ignore/], () => check(model, { ignore: [{}] }));
+    refuses("wrongType", [/name/], () => check(model, { name: 5 }));
+    refuses("invalidOption", [/methods/, /method/], () => generate(model, { methods: "best" }));
+    refuses("invalidOption", [/method/, /mikktspace/], () => generate(model, { method: "mikkt" }));
+    refuses("invalidOption", [/crease/], () => generate(model, { crease: "1e400" }));
+    refuses("invalidOption", [/all/, /strip/], () => generate(model, { all: true, strip: true }));
+    refuses("unsupportedFile", [/OBJ/], () => check(Buffer.from("v 0 0 0\n"), { name: "cube.obj" }));
+    refuses("invalidFile", [/./], () => check(new Uint8Array(0)));
+    refuses("invalidFile", [/JSON/], () => check(Buffer.from("{")));
+    refuses("invalidOption", [/memory-limit/], () => check(model, { memoryLimit: "1k" }));
+    const gone = Uint8Array.from(model);
+    structuredClone(gone.buffer, { transfer: [gone.buffer] });
+    refuses("detached", [/model/], () => check(gone));
+  });
+
+  it("leave memory as it was, also where they are wrong", () => {
+    const broken = model.subarray(0, model.length - 9);
+    const round = () => {
+      generate(model);
+      check(good.bytes);
+      assert.throws(() => check(broken), TspaceError);
+    };
+    for (let i = 0; i < 30; ++i) round();
+    globalThis.gc?.();
+    const before = process.memoryUsage().rss;
+    for (let i = 0; i < 300; ++i) round();
+    globalThis.gc?.();
+    assert.ok(process.memoryUsage().rss - before < 200e6, `${process.memoryUsage().rss - before} bytes more`);
+  });
+});
+
+const shared = process.env.TSPACE_SHARED;
+const tool = process.env.TSPACE_TOOL;
+const models = shared && existsSync(join(shared, "models"));
+
+function filesIn(folder, wanted) {
+  return readdirSync(folder, { withFileTypes: true }).flatMap((entry) =>
+    entry.isDirectory() ? filesIn(join(folder, entry.name), wanted) : wanted.test(entry.name) ? [join(folder, entry.name)] : []).sort();
+}
+/** The files in a model's folder. */
+const besideOf = (path) => (name) => {
+  const file = join(dirname(path), name);
+  return existsSync(file) && statSync(file).isFile() ? readFileSync(file) : undefined;
+};
+/** What the tool prints as JSON, whatever its exit code. */
+function ofTool(...args) {
+  try {
+    return JSON.parse(execFileSync(tool, [...args, "--json"], { maxBuffer: 1 << 28, stdio: "pipe" }));
+  } catch (error) {
+    return JSON.parse(error.stdout);
+  }
+}
+/** Without times, and what only files have: paths. */
+function plain(report) {
+  const { seconds, output, outputFiles, inputFiles, exitCode, input, ...rest } = report;
+  return rest;
+}
+
+describe("the tool", { skip: (!models && "no ../shared here") || (!tool && "no tool here: build the preset release") }, () => {
+  const paths = models ? filesIn(join(shared, "models"), /\.(glb|gltf)$/).filter((path) => statSync(path).size < 300e3) : [];
+  const missing = /Draco|meshoptimizer/;
+
+  for (const [verb, call] of [["check", check], ["inspect", inspect], ["identify", identify]]) {
+    it(`${verb}s as this does`, () => {
+      const options = verb === "check" ? ["--no-images"] : [];
+      const compare = verb === "identify" ? paths.filter((path) => statSync(path).size < 60e3) : paths;
+      const wanted = ofTool(verb, ...options, ...compare).files;
+      let compared = 0;
+      wanted.forEach((file, i) => {
+        const name = compare[i];
+        let report;
+        try {
+          report = call(readFileSync(name), { name, resources: besideOf(name), ...(verb === "check" && { noImages: true }) });
+        } catch (error) {
+          if (missing.test(error.message)) return;
+          assert.equal(file.ok, false, `${name}: ${error.message}`);
+          assert.equal(error.code, file.error.code);
+          return;
+        }
+        assert.deepEqual(plain(report), plain(file), name);
+        compared += 1;
+      });
+      assert.ok(compared > 40, String(compared));
+    });
+  }
+
+  it("generates the same bytes", () => {
+    const folder = mkdtempSync(join(tmpdir(), "tspace-js-"));
+    try {
+      let compared = 0;
+      for (const [i, name] of paths.entries()) {
+        const options = [{ overwrite: true }, { overwrite: true, all: true, method: "best" }, { repair: true }, {}][i % 4];
+        const words = Object.entries(options).flatMap(([key, value]) => (value === true ? [`--${key}`] : [`--${key}`, value]));
+        const out = join(folder, `${basename(name).replace(/\.[^.]*$/, "")}.glb`);
+        const report = ofTool("generate", name, "-o", out, ...words).files?.[0] ?? ofTool("generate", name, "-o", out, ...words);
+        let made;
+        try {
+          made = generate(readFileSync(name), { name, resources: besideOf(name), ...options });
+        } catch (error) {
+          if (missing.test(error.message)) continue;
+          assert.equal(report.ok, false, `${name}: ${error.message}`);
+          continue;
+        }
+        assert.ok(Buffer.compare(made.bytes, readFileSync(out)) === 0, name);
+        assert.deepEqual(made.report.primitives, report.primitives, name);
+        compared += 1;
+      }
+      assert.ok(compared > 60, String(compared));
+    } finally {
+      rmSync(folder, { recursive: true });
+    }
+  });
+});
+
+describe("broken files", { skip: !(shared && existsSync(join(shared, "bad"))) && "no ../shared here" }, () => {
+  it("give a report or an error with one sentence, and the module works afterwards", () => {
+    let refused = 0, read = 0;
+    for (const path of filesIn(join(shared, "bad"), /./)) {
+      for (const call of [check, generate]) {
+        try {
+          call(readFileSync(path), { resources: besideOf(path) });
+          read += 1;
+        } catch (error) {
+          assert.ok(error instanceof TspaceError && error.code !== "internal", `${path}: ${error.stack}`);
+          assert.match(error.message, /^[^\n]+$/, path);
+          refused += 1;
+        }
+      }
+    }
+    assert.ok(refused > 500 && read > 100, `${refused} ${read}`);
+    assert.deepEqual(generate(model).bytes, good.bytes);
+  });
+});

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// The module of the entry "tspace/gltf": the C API of files, on bytes, behind one function.
+#include <cstdlib>
+
+#include "exports.h"
+#include "tspace/tspace_files.h"
+
+using namespace tspace;
+using namespace tspace::js;
+
+extern "C" {
+/// Asks JavaScript for a file that a model names: fills in two words, place and size of bytes that stay until the call is
+/// over. Returns an error code. It may throw, which ends the call, and the instance with it.
+__attribute__((import_module("env"), import_name("findFile"))) tspace_ErrorCode tspace_js_findFile(
+    std::size_t model, const char* path, const std::uint8_t** data, std::size_t* size);
+}
+
+namespace {
+
+enum class Verb : std::uint32_t { generate, check, inspect, identify, diff };
+
+/// As JavaScript lays it out.
+struct ModelWords {
+    const std::uint8_t* data;
+    std::size_t size;
+    const char* name;
+    std::uint32_t has_files;
+};
+
+tspace_ErrorCode findFile(void* user, const char* path, const std::uint8_t** data, std::size_t* size) {
+    return tspace_js_findFile(reinterpret_cast<std::uintptr_t>(user), path, data, size);
+}
+
+tspace_Model modelOf(const ModelWords& words, std::uintptr_t number) {
+    return {.struct_size = sizeof(tspace_Model),
+            .reserved = 0,
+            .data = words.data,
+            .size = words.size,
+            .name = words.name,
+            .find_file = words.has_files != 0 ? findFile : nullptr,
+            .user = reinterpret_cast<void*>(number)};
+}
+
+}  // namespace
+
+extern "C" {
+
+/// `models`: one, or two for diff. `results`: gets four words, place and size of output and report, to be released.
+TSPACE_JS_EXPORT(callFiles)
+std::uint32_t callFiles(std::uint32_t verb, const ModelWords* models, const char* options, tspace_Bytes* results) {
+    const bool is_diff = static_cast<Verb>(verb) == Verb::diff;
+    const tspace_Model a = modelOf(models[0], 0), b = is_diff ? modelOf(models[1], 1) : a;
+    tspace_Error failure{};
+    const auto call = [&] {
+        switch (static_cast<Verb>(verb)) {
+            case Verb::generate:
+                return tspace_generateBytes(&a, options, &results[0], &results[1], &failure);
+            case Verb::check:
+                return tspace_checkBytes(&a, options, &results[1], &failure);
+            case Verb::inspect:
+                return tspace_inspectBytes(&a, options, &results[1], &failure);
+            case Verb::identify:
+                return tspace_identifyBytes(&a, options, &results[1], &failure);
+            case Verb::diff:
+                break;
+        }
+        return tspace_diffBytes(&a, &b, options, &results[1], &failure);
+    };
+    const tspace_ErrorCode code = call();
+    if (code != TSPACE_OK) {
+        error = Error{static_cast<ErrorCode>(code), failure.message};
+        error.element = failure.element;
+    }
+    return code;
+}
+
+}  // extern "C"

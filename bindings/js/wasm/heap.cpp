@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Memory for a module that takes many small pieces: that of the C library, over the memory of the instance.
+#include <cstdint>
+#include <cstdlib>
+
+#include "exports.h"
+
+extern "C" unsigned char __heap_base;  // the linker's: the first byte that is nobody's
+
+namespace {
+
+constexpr std::size_t kPage = 65536, kUnit = 16;
+std::uintptr_t heap_end = 0;
+
+}  // namespace
+
+extern "C" {
+
+/// What malloc asks for more memory.
+void* sbrk(std::intptr_t more) {
+    void* const none = reinterpret_cast<void*>(-1);
+    if (heap_end == 0) heap_end = (reinterpret_cast<std::uintptr_t>(&__heap_base) + kUnit - 1) / kUnit * kUnit;
+    if (more < 0) return none;
+    const std::uintptr_t begin = heap_end, end = begin + static_cast<std::uintptr_t>(more);
+    const std::size_t have = __builtin_wasm_memory_size(0);
+    // The last page stays out of use, so that no end is 2^32.
+    if (end < begin || end > UINTPTR_MAX - kPage) return none;
+    const std::size_t pages = (end + kPage - 1) / kPage;
+    if (pages > have && __builtin_wasm_memory_grow(0, pages - have) == SIZE_MAX) return none;
+    heap_end = end;
+    return reinterpret_cast<void*>(begin);
+}
+
+void* tspace_js_allocate(std::size_t bytes) { return std::malloc(bytes); }
+void tspace_js_release(void* memory) { std::free(memory); }
+
+}  // extern "C"

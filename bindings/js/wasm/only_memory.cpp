@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// What the file layer does elsewhere with a disk, with other programs and with the readers of other formats. Here models are
+// bytes in memory, and glTF: all else fails, and the linker leaves out what is only behind it.
+#include <cerrno>
+#include <new>
+
+#include "asset/atomic_output.h"
+#include "asset/file_error.h"
+#include "asset/import/import_document.h"
+#include "asset/obj/obj_primitives.h"
+#include "asset/obj/obj_reader.h"
+#include "asset/obj/read_scene.h"
+#include "asset/uri.h"
+#include "generate_file/generate_obj.h"
+#include "inspect/inspect.h"
+#include "tspace/arena.h"
+
+namespace tspace {
+
+namespace {
+
+Error noObj() { return {ErrorCode::unsupportedFile, "OBJ is not read in JavaScript, only glTF"}; }
+
+}  // namespace
+
+Bytes readFile(const Path& path, const std::string& place, const Execution&) {
+    failFile(ErrorCode::cannotRead, "there is no disk to read " + pathInQuotes(path) + " from", place);
+}
+bool isThere(const Path&) { return false; }
+bool isFolder(const Path&) { return false; }
+bool isSameFile(const Path&, const Path&) { return false; }
+Path resolveUri(const Path&, std::string_view uri, bool, const std::string& place) {
+    refuseUri(uri, "cannot be resolved without a disk", place);
+}
+
+void AtomicOutput::addFile(const Path& path, const std::function<int(const Sink&)>&) {
+    failToWrite(path, "there is no disk");
+}
+void AtomicOutput::renameFiles() {}
+void AtomicOutput::removeTemporaryFiles() {}
+
+bool isImportedFormat(const Path&) { return false; }
+gltf::Document importDocument(const Path&, const FileOptions&, const Progress&) { throw FileError{noObj()}; }
+
+namespace obj {
+Model readModel(const Path&, const FileOptions&) { throw FileError{noObj()}; }
+std::vector<ObjPrimitive> collectPrimitives(const Model&) { return {}; }
+Scene sceneOf(const Model&, std::span<const ObjPrimitive>, bool) { return {}; }
+}  // namespace obj
+Result<GenerateReport> generateObj(const std::string&, const std::string&, const GenerateOptions&) { return noObj(); }
+Inspection inspectObj(const std::string&, const FileOptions&) { throw FileError{noObj()}; }
+
+// Memory comes from the module's own heap, which keeps it anyway.
+Arena::Arena()
+    : impl_(nullptr),
+      allocator_{.allocate = [](void*, std::size_t bytes, std::size_t alignment) -> void* {
+                     return ::operator new(bytes, std::align_val_t(alignment), std::nothrow);
+                 },
+                 .release = [](void*, void* memory, std::size_t, std::size_t alignment) {
+                     ::operator delete(memory, std::align_val_t(alignment));
+                 }} {}
+Arena::~Arena() = default;
+
+}  // namespace tspace
