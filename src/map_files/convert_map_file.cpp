@@ -16,7 +16,7 @@ namespace {
 
 /// What decoding, converting and writing hold per pixel, without the decoder's own.
 constexpr std::uint64_t kPixelBytes = 72;
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28;
+constexpr std::uint64_t kMostMapPixels = std::uint64_t{1} << 28;
 
 FloatImage readImage(const std::string& input, const ConvertMapFileOptions& options) {
     Bytes read;
@@ -31,7 +31,7 @@ FloatImage readImage(const std::string& input, const ConvertMapFileOptions& opti
         budget.require(bytes.size() + imageWorkBytes(bytes) + kPixelBytes * claimedSize(bytes).pixels(), {});
     }
     std::string why;
-    std::optional<FloatImage> image = decodeFloatImage(bytes, kMostPixels, why);
+    std::optional<FloatImage> image = decodeFloatImage(bytes, kMostMapPixels, why);
     if (!image) failFile(ErrorCode::invalidFile, why);
     return *std::move(image);
 }
@@ -72,7 +72,7 @@ Meshes readMeshes(const std::string& input, const ConvertMapFileOptions& options
     return meshes;
 }
 
-MapSide sideOf(const MapMesh* mesh, MapFileSpace space, const MapReading& reading) {
+MapSide mapSideOf(const MapMesh* mesh, MapFileSpace space, const MapReading& reading) {
     MapSide side{.space = space == MapFileSpace::tangent ? MapSpace::tangent : MapSpace::object, .reading = reading};
     if (mesh == nullptr || space != MapFileSpace::tangent) return side;
     side.uvs = mesh->uvs;
@@ -82,7 +82,7 @@ MapSide sideOf(const MapMesh* mesh, MapFileSpace space, const MapReading& readin
     return side;
 }
 
-void addWarnings(const ConvertMapFileOptions& options, ConvertMapFileReport& report) {
+void addMapWarnings(const ConvertMapFileOptions& options, ConvertMapFileReport& report) {
     const ConvertMapReport& texels = report.texels;
     const auto warn = [&](std::string text) { report.warnings.push_back(std::move(text)); };
     if (texels.is_below_half_step) {
@@ -143,9 +143,9 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
                                    .padding = options.padding,
                                    .execution = options.tangents.execution,
                                    .progress = options.progress};
-    report.texels = valueOrThrow(convertMap(map, sideOf(from, options.from, options.from_reading),
-                                            sideOf(to, options.to, options.to_reading), image.texels, chosen));
-    addWarnings(options, report);
+    report.texels = valueOrThrow(convertMap(map, mapSideOf(from, options.from, options.from_reading),
+                                            mapSideOf(to, options.to, options.to_reading), image.texels, chosen));
+    addMapWarnings(options, report);
     const std::optional<std::vector<std::uint8_t>> file = encodePng(image, options.bits);
     if (!file) failFile(ErrorCode::outOfMemory, "the image cannot be packed");
     AtomicOutput files(options.sink, options.dry_run);

@@ -19,12 +19,12 @@ std::string stemOf(const std::string& name) {
     return file.substr(0, file.find_last_of('.'));
 }
 
-bool isNormalMap(const TangentUse& use) { return use.needed_by != "anisotropy"; }
+bool showsNormals(const TangentUse& use) { return use.needed_by != "anisotropy"; }
 
 /// How a primitive shows the map, where it does.
 const TangentUse* useOfImage(const Scene& scene, const ScenePrimitive& primitive, const std::string& stem) {
     for (const TangentUse& use : primitive.uses) {
-        if (!use.image || !isNormalMap(use)) continue;
+        if (!use.image || !showsNormals(use)) continue;
         const SceneImage& image = scene.images[*use.image];
         if (!stem.empty() && (stemOf(image.uri) == stem || stemOf(image.name) == stem)) return &use;
     }
@@ -33,7 +33,7 @@ const TangentUse* useOfImage(const Scene& scene, const ScenePrimitive& primitive
 
 const TangentUse* firstNormalMap(const ScenePrimitive& primitive) {
     for (const TangentUse& use : primitive.uses) {
-        if (isNormalMap(use)) return &use;
+        if (showsNormals(use)) return &use;
     }
     return nullptr;
 }
@@ -43,7 +43,7 @@ struct ChosenPrimitive {
     const TangentUse* use = nullptr;  ///< null: the first UVs, as they are
 };
 
-std::vector<ChosenPrimitive> choose(const Scene& scene, const MapMeshChoice& choice) {
+std::vector<ChosenPrimitive> choosePrimitives(const Scene& scene, const MapMeshChoice& choice) {
     const std::string stem = stemOf(choice.image_name);
     const bool by_image = choice.material.empty() &&
                           std::any_of(scene.primitives.begin(), scene.primitives.end(), [&](const auto& primitive) {
@@ -63,7 +63,7 @@ std::vector<ChosenPrimitive> choose(const Scene& scene, const MapMeshChoice& cho
 }
 
 template <class T>
-void gather(std::span<const T> from, std::span<const std::uint32_t> indices, std::vector<T>& to) {
+void gatherCorners(std::span<const T> from, std::span<const std::uint32_t> indices, std::vector<T>& to) {
     to.reserve(to.size() + indices.size());
     for (const std::uint32_t index : indices) to.push_back(from[index]);
 }
@@ -71,8 +71,8 @@ void gather(std::span<const T> from, std::span<const std::uint32_t> indices, std
 void addFrames(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const TangentOptions& options,
                MapMesh& mesh) {
     if (!primitive.normals.empty() && !primitive.tangents.empty()) {
-        gather(primitive.normals.span(), primitive.corners.span(), mesh.normals);
-        gather(primitive.tangents.span(), primitive.corners.span(), mesh.tangents);
+        gatherCorners(primitive.normals.span(), primitive.corners.span(), mesh.normals);
+        gatherCorners(primitive.tangents.span(), primitive.corners.span(), mesh.tangents);
         return;
     }
     const MeshView view{.positions = primitive.positions.span(),
@@ -81,8 +81,8 @@ void addFrames(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const
                         .indices = primitive.corners.span()};
     IndexedFramesOptions frames{.tangents = options, .normals = {.weighting = NormalWeighting::flat}};
     const IndexedFrames made = valueOrThrow(makeIndexedFrames(view, frames));
-    gather(std::span<const Vec3>(made.normals), made.indices, mesh.normals);
-    gather(std::span<const Vec4>(made.tangents), made.indices, mesh.tangents);
+    gatherCorners(std::span<const Vec3>(made.normals), made.indices, mesh.normals);
+    gatherCorners(std::span<const Vec4>(made.tangents), made.indices, mesh.tangents);
     mesh.report.tangents_made = true;
 }
 
@@ -91,7 +91,7 @@ void addFrames(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const
 MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
                     const FileOptions& file) {
     const Scene scene = readScene(model, file, false);
-    const std::vector<ChosenPrimitive> chosen = choose(scene, choice);
+    const std::vector<ChosenPrimitive> chosen = choosePrimitives(scene, choice);
     if (chosen.empty()) {
         const std::string which =
             choice.material.empty() ? std::string() : " of the material " + inQuotes(choice.material);
@@ -109,8 +109,8 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
         const std::vector<Vec2> uvs =
             textureUvs(primitive->uv_sets[use == nullptr ? 0 : use->uv_set].span(), transform);
         addFrames(*primitive, uvs, tangents, mesh);
-        gather(std::span<const Vec2>(uvs), primitive->corners.span(), mesh.uvs);
-        gather(primitive->positions.span(), primitive->corners.span(), mesh.positions);
+        gatherCorners(std::span<const Vec2>(uvs), primitive->corners.span(), mesh.uvs);
+        gatherCorners(primitive->positions.span(), primitive->corners.span(), mesh.positions);
         std::vector<std::string>& materials = mesh.report.materials;
         if (std::find(materials.begin(), materials.end(), primitive->material_name) == materials.end()) {
             materials.push_back(primitive->material_name);

@@ -15,7 +15,7 @@ constexpr Named<BitangentPlace> kBitangents[] = {
     {"pixel", BitangentPlace::perPixel},
     {"vertex", BitangentPlace::perVertex},
 };
-constexpr Named<unsigned> kBits[] = {{"16", 16}, {"8", 8}};
+constexpr Named<unsigned> kBitCounts[] = {{"16", 16}, {"8", 8}};
 
 /// The names of findMapReading.
 Option reading(const char* name, MapReading& target, std::string help) {
@@ -64,7 +64,7 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
         option(
             "--flip-green", "", [](const std::string&) { return std::string(); },
             "Green of the output points the other way than --to-convention says."));
-    add(list, group, choice("--bits", "BITS", kBits, options.bits, "Of a channel of the output."));
+    add(list, group, choice("--bits", "BITS", kBitCounts, options.bits, "Of a channel of the output."));
     add(list, group,
         number(
             "--padding", options.padding, 65536,
