@@ -79,6 +79,7 @@ struct Textures {
     Image normal;      ///< tangent space, green up
 };
 
-Textures makeTextures();
+/// Images of `size` by `size` pixels.
+Textures makeTextures(int size = 1024);
 
 }  // namespace crate

@@ -9,8 +9,6 @@
 namespace crate {
 namespace {
 
-constexpr int kSize = 1024;
-
 struct Point {
     double x, y;  ///< metres from the side's middle: right, down
 };
@@ -184,13 +182,13 @@ std::uint8_t toByte(double value) { return static_cast<std::uint8_t>(std::clamp(
 
 }  // namespace
 
-Textures makeTextures() {
-    constexpr double kPixel = 1 / (kSize * kUvPerMetre);  // metres
+Textures makeTextures(int size) {
+    const double pixel = 1 / (size * kUvPerMetre);  // metres
     Textures result;
-    result.base_color.size = result.normal.size = kSize;
-    for (int row = 0; row < kSize; ++row) {
-        for (int column = 0; column < kSize; ++column) {
-            const double u = (column + 0.5) / kSize, v = (row + 0.5) / kSize;
+    result.base_color.size = result.normal.size = size;
+    for (int row = 0; row < size; ++row) {
+        for (int column = 0; column < size; ++column) {
+            const double u = (column + 0.5) / size, v = (row + 0.5) / size;
             const Side side = sideAt(u, v);
             const Place place = placeOf(side);
             const Point p{(u - place.u) / kUvPerMetre, (v - place.v) / kUvPerMetre};
@@ -199,10 +197,8 @@ Textures makeTextures() {
                 result.base_color.rgb.push_back(toByte(value));
             }
             // Slopes by central differences over two pixels; green points up, against v.
-            const double slope_u =
-                (height(side, {p.x + kPixel, p.y}) - height(side, {p.x - kPixel, p.y})) / (2 * kPixel);
-            const double slope_v =
-                (height(side, {p.x, p.y + kPixel}) - height(side, {p.x, p.y - kPixel})) / (2 * kPixel);
+            const double slope_u = (height(side, {p.x + pixel, p.y}) - height(side, {p.x - pixel, p.y})) / (2 * pixel);
+            const double slope_v = (height(side, {p.x, p.y + pixel}) - height(side, {p.x, p.y - pixel})) / (2 * pixel);
             const double scale = 1 / std::sqrt(slope_u * slope_u + slope_v * slope_v + 1);
             for (const double value : {-slope_u * scale, slope_v * scale, scale}) {
                 result.normal.rgb.push_back(toByte(0.5 * value + 0.5));

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// tspace_demo_model FILE.glb: writes the model that scripts/demo uses, made from nothing but this code.
+// tspace_demo_model FILE.glb [SIZE]: writes the model that scripts/demo uses, made from nothing but this code, with images of
+// SIZE by SIZE pixels.
 // A crate with a normal map, mirrored UVs, UV seams and bevels, and no tangents. Every run writes the same
 // bytes.
 #include <algorithm>
 #include <bit>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <string>
@@ -72,9 +74,9 @@ Json bounds(const std::vector<float>& values, bool upper) {
     return result;
 }
 
-std::string makeGlb() {
+std::string makeGlb(int image_size) {
     const crate::Mesh mesh = crate::makeMesh();
-    const crate::Textures textures = crate::makeTextures();
+    const crate::Textures textures = crate::makeTextures(image_size);
     Builder builder;
     const auto positions = builder.addAccessor(mesh.positions, 3, kFloat, "VEC3", kArrayBuffer);
     builder.accessors[positions]["min"] = bounds(mesh.positions, false);
@@ -128,11 +130,12 @@ std::string makeGlb() {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
-        std::fputs("usage: tspace_demo_model FILE.glb\n", stderr);
+    const int image_size = argc == 3 ? std::atoi(argv[2]) : 1024;
+    if (argc < 2 || argc > 3 || image_size < 1 || image_size > 8192) {
+        std::fputs("usage: tspace_demo_model FILE.glb [SIZE]\n", stderr);
         return 2;
     }
-    const std::string glb = makeGlb();
+    const std::string glb = makeGlb(image_size);
     std::ofstream file(argv[1], std::ios::binary);
     file.write(glb.data(), static_cast<std::streamsize>(glb.size()));
     file.close();

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+// One model at a time: what is asked of the worker, in which order, and what the views are told. What comes back for a model
+// that is no longer the current one is dropped.
+import { loadModel } from "./model/load.js";
+import { glbOfObj } from "./model/obj.js";
+import { triangleCount } from "./model/part.js";
+import { Refusal, type ModelFiles } from "./files.js";
+import { Scene, type Drawn } from "./picture/scene.js";
+import type { CheckFile, IdentifyFile } from "./report.js";
+import type { FindingsView } from "./views/findings.js";
+import type { LookView } from "./views/look.js";
+import type { PlaceView } from "./views/place.js";
+import type { Progress } from "./views/progress.js";
+import type { Stage } from "./views/stage.js";
+import type { UvMapView } from "./views/uv_map.js";
+import { Work, WorkError } from "./work/client.js";
+import type { Arrays, Method } from "./work/protocol.js";
+
+export interface Views {
+  stage: Stage;
+  findings: FindingsView;
+  look: LookView;
+  uvMap: UvMapView;
+  place: PlaceView;
+  progress: Progress;
+  /** The model, its reports, or null before there is one. */
+  opened: (model: ModelFiles | null) => void;
+}
+
+export interface Reports {
+  inspect?: unknown;
+  check?: unknown;
+  identify?: unknown;
+}
+
+const sentenceOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+const copyOf = (arrays: Arrays): Arrays => structuredClone(arrays);
+
+export class App {
+  readonly work = new Work();
+  model: ModelFiles | null = null;
+  reports: Reports = {};
+  #generation = 0;
+
+  constructor(private views: Views) {}
+
+  /** Tests and style sheets read it: loading, ready, failed or stopped. */
+  #state(state: "loading" | "ready" | "failed" | "stopped"): void {
+    document.documentElement.dataset.state = state;
+  }
+
+  fail(message: string): void {
+    this.#generation += 1;
+    this.work.forget();
+    this.model = null;
+    this.#clear();
+    this.views.findings.fail(message);
+    this.views.progress.done("");
+    this.views.opened(null);
+    this.#state("failed");
+  }
+
+  stop(): void {
+    this.work.stop();
+  }
+
+  #clear(): void {
+    const { stage, look, uvMap, place } = this.views;
+    place.clear();
+    stage.viewport.show(new Scene());
+    look.showLines();
+    uvMap.reset();
+  }
+
+  async open(choose: () => Promise<ModelFiles>): Promise<void> {
+    const generation = ++this.#generation;
+    const isCurrent = () => generation === this.#generation;
+    const { findings, progress, opened } = this.views;
+    this.work.forget();
+    this.#state("loading");
+    delete document.documentElement.dataset.picture;
+    this.reports = {};
+    findings.wait("Reading…");
+    progress.at("Reading the file", 0);
+    try {
+      const chosen = await choose();
+      if (!isCurrent()) return;
+      const isObj = /\.obj$/i.test(chosen.name);
+      const model = isObj ? glbOfObj(chosen) : chosen;
+      this.model = model;
+      this.#clear();
+      opened(model);
+      this.reports.inspect = await this.work.run("report", { verb: "inspect", model });
+      if (!isCurrent()) return;
+      await this.#draw(model, isObj ? ["An OBJ is shown and judged as the GLB that it becomes."] : [], isCurrent);
+      await this.#judge(model, isCurrent);
+    } catch (error) {
+      if (!isCurrent()) return;
+      if (error instanceof WorkError && error.code === "stopped") return this.#stopped();
+      this.fail(error instanceof WorkError || error instanceof Refusal ? sentenceOf(error) : `This file cannot be opened: ${sentenceOf(error)}`);
+    }
+  }
+
+  #stopped(): void {
+    this.views.progress.done("Stopped.");
+    if (!this.reports.check) this.views.findings.wait("Stopped before the findings were there.");
+    this.#state("stopped");
+  }
+
+  /** The picture. It may fail where the verdict does not: then there is a sentence in its place. */
+  async #draw(model: ModelFiles, before: string[], isCurrent: () => boolean): Promise<void> {
+    const { stage, progress } = this.views;
+    progress.at("Drawing", 0.1);
+    stage.say("");
+    try {
+      const { parts, remarks: own } = await loadModel(model);
+      const remarks = [...before, ...own];
+      if (!isCurrent()) return;
+      const scene = new Scene();
+      for (const [i, part] of parts.entries()) {
+        if (triangleCount(part.arrays) === 0) continue;
+        const corners = await this.work.run("corners", { part: i, arrays: copyOf(part.arrays) }).catch((error: WorkError) => {
+          if (error.code === "stopped") throw error;
+          remarks.push(`A part is not drawn: ${error.message}.`);
+          return null;
+        });
+        if (!isCurrent()) return;
+        if (corners) scene.add(i, part, corners);
+        progress.at("Drawing", 0.1 + (0.2 * (i + 1)) / parts.length);
+      }
+      stage.viewport.show(scene);
+      stage.viewport.reset(true);
+      this.views.uvMap.reset();
+      this.views.look.showLines();
+      if (scene.drawn.length === 0) remarks.push("There is nothing to draw in this file.");
+      stage.say(remarks.join(" "));
+      document.documentElement.dataset.picture = scene.drawn.length > 0 ? "drawn" : "empty";
+    } catch (error) {
+      if (!isCurrent() || (error instanceof WorkError && error.code === "stopped")) throw error;
+      document.documentElement.dataset.picture = "failed";
+      stage.say(`The picture cannot be drawn: ${sentenceOf(error)}`);
+    }
+  }
+
+  async #judge(model: ModelFiles, isCurrent: () => boolean): Promise<void> {
+    const { findings, progress, look } = this.views;
+    await this.compare(look.method, 0.3, 0.6);
+    if (!isCurrent()) return;
+    progress.at("Checking", 0.6);
+    this.reports.check = await this.work.run("report", { verb: "check", model });
+    if (!isCurrent()) return;
+    findings.show(this.reports.check as CheckFile);
+    progress.at("Asking who made the tangents", 0.8);
+    this.reports.identify = await this.work.run("report", { verb: "identify", model });
+    if (!isCurrent()) return;
+    findings.showVerdict((this.reports.identify as IdentifyFile).verdict);
+    progress.done("");
+    this.#state("ready");
+  }
+
+  async generate(model: ModelFiles, options: Record<string, unknown>): Promise<{ report: unknown; bytes: Uint8Array<ArrayBuffer> }> {
+    const { progress } = this.views;
+    progress.at("Mending", 0.5);
+    try {
+      return await this.work.run("generate", { model, options });
+    } finally {
+      progress.done("");
+    }
+  }
+
+  /** Frames by another method, for the slider and the error. */
+  async setMethod(method: Method): Promise<void> {
+    const generation = this.#generation;
+    try {
+      await this.compare(method, 0, 1);
+      if (generation === this.#generation) this.views.progress.done("");
+    } catch (error) {
+      if (generation === this.#generation) this.views.progress.done(sentenceOf(error));
+    }
+  }
+
+  async compare(method: Method, from: number, to: number): Promise<void> {
+    const { stage, progress, look, uvMap } = this.views;
+    const { scene } = stage.viewport;
+    for (const [i, drawn] of scene.drawn.entries()) {
+      progress.at(`Computing frames by ${method}`, from + ((to - from) * i) / scene.drawn.length);
+      const frames = await this.#frames(drawn, method);
+      if (scene !== stage.viewport.scene || look.method !== method) return;
+      if (frames) scene.setFrames(drawn, frames);
+      stage.viewport.ask();
+    }
+    look.showFigures();
+    look.showLines();
+    void uvMap.draw();
+  }
+
+  /** A stopped worker has forgotten its parts: they are told once more. A part without frames stays as it is. */
+  async #frames(drawn: Drawn, method: Method) {
+    try {
+      return await this.work.run("frames", { part: drawn.number, method });
+    } catch (error) {
+      if (!(error instanceof WorkError)) throw error;
+      if (error.code === "stopped") throw error;
+      if (error.code !== "unknownPart") return null;
+      await this.work.run("corners", { part: drawn.number, arrays: copyOf(drawn.part.arrays) });
+      return this.work.run("frames", { part: drawn.number, method });
+    }
+  }
+}

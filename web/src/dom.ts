@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Elements without markup: whatever comes from a model becomes a text node or an attribute, never HTML.
+
+type Child = Node | string | null | undefined | false;
+type Properties = Record<string, unknown>;
+
+/** `el("button", { class: "plain", onclick: f, "aria-pressed": "true" }, "Text")` */
+export function el<K extends keyof HTMLElementTagNameMap>(tag: K, properties: Properties = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (value === undefined || value === null || value === false) continue;
+    if (name.startsWith("on")) element.addEventListener(name.slice(2), value as EventListener);
+    else if (name === "class") element.className = String(value);
+    else element.setAttribute(name, value === true ? "" : String(value));
+  }
+  append(element, ...children);
+  return element;
+}
+
+export function append(element: Element, ...children: Child[]): void {
+  for (const child of children) if (child) element.append(child);
+}
+
+export function replaceChildren(element: Element, ...children: Child[]): void {
+  element.replaceChildren(...children.filter((child): child is Node | string => Boolean(child)));
+}
+
+/** Radio buttons that look like one control. */
+export function choice<T extends string>(label: string, options: readonly (readonly [T, string])[], chosen: T, changed: (value: T) => void) {
+  const name = `choice-${++choices}`;
+  const inputs = new Map<T, HTMLInputElement>();
+  const group = el("fieldset", { class: "choice" }, el("legend", {}, label));
+  for (const [value, text] of options) {
+    const input = el("input", { type: "radio", name, value, onchange: () => changed(value) });
+    input.checked = value === chosen;
+    inputs.set(value, input);
+    group.append(el("label", {}, input, el("span", {}, text)));
+  }
+  return { element: group, set: (value: T) => void (inputs.get(value)!.checked = true) };
+}
+let choices = 0;
+
+export function checkbox(text: string, checked: boolean, changed: (on: boolean) => void) {
+  const input = el("input", { type: "checkbox", onchange: () => changed(input.checked) }) as HTMLInputElement;
+  input.checked = checked;
+  return { element: el("label", { class: "check" }, input, el("span", {}, text)), input };
+}
+
+export function select<T extends string>(label: string, options: readonly (readonly [T, string])[], chosen: T, changed: (value: T) => void) {
+  const input = el("select", { onchange: () => changed(input.value as T) }) as HTMLSelectElement;
+  for (const [value, text] of options) input.append(el("option", { value }, text));
+  input.value = chosen;
+  return { element: el("label", { class: "select" }, el("span", {}, label), input), input };
+}
+
+/** `1,234`, whatever the language of the browser: reports are in English. */
+export const count = (n: number): string => n.toLocaleString("en");
+
+export const plural = (n: number, one: string): string => `${count(n)} ${one}${n === 1 ? "" : "s"}`;

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// The page: its parts put together, and the ways a model comes in.
+import "./style.css";
+import { App } from "./app.js";
+import { el, replaceChildren } from "./dom.js";
+import { chooseModel, droppedFiles, pickedFiles, type ModelFiles } from "./files.js";
+import { embeddedModel } from "./embedded.js";
+import { samples } from "./samples.js";
+import { FindingsView } from "./views/findings.js";
+import { LookView } from "./views/look.js";
+import { MendView, mendedName, type Mended } from "./views/mend.js";
+import { PlaceView } from "./views/place.js";
+import { Progress } from "./views/progress.js";
+import { Stage } from "./views/stage.js";
+import { TexelView } from "./views/texel.js";
+import { UvMapView } from "./views/uv_map.js";
+
+const stage = new Stage();
+const place = new PlaceView(stage.viewport);
+const findings = new FindingsView((finding) => {
+  const outlined = place.show(finding);
+  stage.canvas.dataset.outlined = String(outlined);
+});
+const progress = new Progress(() => app.stop());
+const look = new LookView(stage, (method) => void app.setMethod(method));
+const uvMap = new UvMapView(stage.viewport);
+const texel = new TexelView(stage.viewport, (spot) => uvMap.point(spot));
+const title = el("p", { class: "model-name" });
+const mend = new MendView(
+  async (options): Promise<Mended> => {
+    const { model } = app;
+    if (!model) throw new Error("There is no model.");
+    const { report, bytes } = await app.generate(model, options);
+    return { report, bytes, name: mendedName(model.name) };
+  },
+  ({ bytes, name }) => void app.open(async () => ({ name, bytes, others: new Map() })),
+);
+const app: App = new App({ stage, findings, look, uvMap, place, progress, opened: showName });
+
+function showName(model: ModelFiles | null): void {
+  mend.reset(model);
+  replaceChildren(title, model ? model.name : "");
+  document.title = model ? `${model.name} – tspace view` : "tspace view";
+  for (const button of sampleButtons) button.setAttribute("aria-pressed", String(model !== null && button.dataset.file === model.name));
+}
+
+function picker(text: string, properties: Record<string, unknown>): HTMLElement {
+  const input = el("input", { type: "file", multiple: true, tabindex: "-1", ...properties }) as HTMLInputElement;
+  input.addEventListener("change", () => {
+    const files = input.files ? pickedFiles(input.files) : [];
+    input.value = "";
+    if (files.length > 0) void app.open(() => chooseModel(files));
+  });
+  return el("span", { class: "picker" }, input, el("button", { type: "button", onclick: () => input.click() }, text));
+}
+
+const sampleButtons = samples.map(({ name, file, bytes, hint }) =>
+  el("button", { type: "button", class: "sample", "data-file": file, title: hint, "aria-pressed": "false", onclick: () => void app.open(async () => ({ name: file, bytes: bytes(), others: new Map() })) }, name));
+
+const header = el("header", { class: "bar" },
+  el("h1", {}, "tspace ", el("span", {}, "view")),
+  el("div", { class: "open" }, picker("Open model…", { accept: ".glb,.gltf,.obj,.bin,.mtl,image/*", "aria-label": "Open model" }), picker("Folder…", { webkitdirectory: true, "aria-label": "Open folder" })),
+  el("nav", { class: "samples", "aria-label": "Samples" }, el("span", { class: "quiet" }, "Samples"), ...sampleButtons),
+  title);
+const inspector = el("aside", { class: "inspector", "aria-label": "Inspector" }, look.element, texel.element, uvMap.element, mend.element);
+const main = el("main", {}, findings.element, stage.element, inspector);
+const footer = el("footer", {}, progress.element, el("span", { class: "quiet" }, "Drop a .glb, a folder with a .gltf, or an .obj anywhere. Nothing leaves this computer."));
+document.body.append(header, main, footer);
+
+for (const type of ["dragenter", "dragover"]) {
+  addEventListener(type, (event) => {
+    event.preventDefault();
+    document.body.classList.add("dropping");
+  });
+}
+addEventListener("dragleave", (event) => event.relatedTarget === null && document.body.classList.remove("dropping"));
+addEventListener("drop", (event) => {
+  event.preventDefault();
+  document.body.classList.remove("dropping");
+  const { dataTransfer } = event;
+  // Entries of a drop can be asked for only now, so the first await comes after that.
+  if (dataTransfer) {
+    const files = droppedFiles(dataTransfer);
+    void app.open(async () => chooseModel(await files));
+  }
+});
+
+const own = embeddedModel();
+if (own) void app.open(async () => own);
+else sampleButtons[0].click();
+
+/** For tests, and for those who look with the browser's console. */
+Object.assign(window, { tspaceView: app });

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// A model for the eye, by the loader of three.js. What it thinks of a file counts for the picture alone; verdicts are tspace's.
+import { InstancedMesh, LoadingManager, Matrix3, Matrix4, Mesh, type BufferGeometry, SkinnedMesh, Vector3, type Group, type Material, type MeshStandardMaterial, type Object3D, type Texture } from "three";
+import { GLTFLoader, type GLTF } from "three/examples/jsm/loaders/GLTFLoader.js";
+import type { ModelFiles } from "../files.js";
+import { arraysOf, uvsOf } from "./arrays.js";
+import type { Model, Part } from "./part.js";
+
+/** More is not drawn, since a browser's memory ends there; findings are complete all the same. */
+const kMostCorners = 12_000_000;
+const kMostInstances = 1000;
+
+interface Origin {
+  meshes: number;
+  primitives: number;
+}
+
+const decoded = (uri: string): string => {
+  try {
+    return decodeURIComponent(uri);
+  } catch {
+    return uri;
+  }
+};
+
+/** Gives the loader the files that came with the model, and nothing else. */
+function managerFor(model: ModelFiles, urls: string[]): LoadingManager {
+  const manager = new LoadingManager();
+  const types: Record<string, string> = { png: "image/png", jpg: "image/jpeg", jpeg: "image/jpeg", webp: "image/webp" };
+  manager.setURLModifier((url) => {
+    if (/^(data|blob):/i.test(url)) return url;
+    const path = decoded(url).replace(/^\.\//, "");
+    const bytes = model.others.get(path);
+    if (!bytes) return "data:,"; // there is no such file here, and none is asked for elsewhere
+    const type = types[path.slice(path.lastIndexOf(".") + 1).toLowerCase()] ?? "application/octet-stream";
+    urls.push(URL.createObjectURL(new Blob([bytes], { type })));
+    return urls[urls.length - 1];
+  });
+  return manager;
+}
+
+function matrixOf(texture: Texture | null): Matrix3 | null {
+  if (!texture) return null;
+  texture.updateMatrix();
+  return texture.matrix.equals(new Matrix3()) ? null : texture.matrix.clone();
+}
+
+const usable = (texture: Texture | null | undefined): Texture | null => (texture?.image ? texture : null);
+
+function partOf(mesh: Mesh, where: Origin): Part | null {
+  const material = (Array.isArray(mesh.material) ? mesh.material[0] : mesh.material) as Material & Partial<MeshStandardMaterial>;
+  const normalMap = usable(material.normalMap), colorMap = usable(material.map);
+  const leading = material.normalMap ?? material.map ?? null;
+  const channel = leading?.channel ?? 0, matrix = matrixOf(leading);
+  const arrays = arraysOf(mesh.geometry, channel, matrix);
+  if (!arrays) return null;
+  const colorChannel = colorMap?.channel ?? channel, colorMatrix = matrixOf(colorMap);
+  const isSame = !colorMap || (colorChannel === channel && (colorMatrix?.equals(matrix ?? new Matrix3()) ?? matrix === null));
+  const color = material.color ?? { r: 0.8, g: 0.8, b: 0.8 };
+  return {
+    mesh: where.meshes,
+    primitive: where.primitives,
+    name: mesh.name,
+    materialName: material.name,
+    arrays,
+    normalMap,
+    // That of y is negated by the loader where there are no tangents.
+    normalScale: material.normalScale?.x ?? 1,
+    color: new Vector3(color.r, color.g, color.b),
+    colorMap,
+    colorUvs: isSame ? null : uvsOf(mesh.geometry, colorChannel, colorMatrix),
+    alphaTest: material.alphaTest ?? 0,
+    isDoubleSided: material.side === 2,
+    places: [],
+  };
+}
+
+/** Where in the file a geometry is from: instanced meshes are made anew by the loader, and share that alone. */
+function originsOf(gltf: GLTF): Map<BufferGeometry, Origin> {
+  const origins = new Map<BufferGeometry, Origin>();
+  for (const [object, where] of gltf.parser.associations) {
+    const { meshes, primitives = 0 } = where as { meshes?: number; primitives?: number };
+    if (object instanceof Mesh && meshes !== undefined) origins.set(object.geometry as BufferGeometry, { meshes, primitives });
+  }
+  return origins;
+}
+
+/** Where a mesh is drawn: of many instances the first ones. */
+function placesOf(mesh: Mesh): Matrix4[] {
+  if (!(mesh instanceof InstancedMesh)) return [mesh.matrixWorld.clone()];
+  return Array.from({ length: Math.min(mesh.count, kMostInstances) }, (_, i) => {
+    const place = new Matrix4();
+    mesh.getMatrixAt(i, place);
+    return place.premultiply(mesh.matrixWorld);
+  });
+}
+
+async function sceneOf(gltf: GLTF, remarks: string[]): Promise<Object3D[]> {
+  const roots: Object3D[] = gltf.scene ? [gltf.scene] : gltf.scenes;
+  let hasMesh = false;
+  for (const root of roots) root.traverse((object) => (hasMesh ||= object instanceof Mesh));
+  if (hasMesh) return roots;
+  const meshes = (await gltf.parser.getDependencies("mesh")) as (Group | Mesh)[];
+  if (meshes.length > 0) remarks.push("No node of the scene draws these meshes; they are shown where they lie.");
+  return meshes;
+}
+
+export async function loadModel(model: ModelFiles): Promise<Model> {
+  const urls: string[] = [];
+  const remarks: string[] = [];
+  const loader = new GLTFLoader(managerFor(model, urls));
+  try {
+    const buffer = model.bytes.buffer.slice(model.bytes.byteOffset, model.bytes.byteOffset + model.bytes.byteLength);
+    const isText = /\.gltf$/i.test(model.name);
+    const gltf = await loader.parseAsync(isText ? new TextDecoder().decode(buffer) : buffer, "");
+    const parts = new Map<string, Part>();
+    const origins = originsOf(gltf);
+    let corners = 0, left = 0, isSkinned = false;
+    for (const root of await sceneOf(gltf, remarks)) {
+      root.updateMatrixWorld(true);
+      root.traverse((object) => {
+        const where = object instanceof Mesh ? origins.get(object.geometry as BufferGeometry) : undefined;
+        if (!(object instanceof Mesh) || !where) return;
+        const key = `${where.meshes}/${where.primitives}/${(object.material as Material).uuid}`;
+        const known = parts.get(key) ?? partOf(object, where);
+        if (!known) return;
+        corners += known.arrays.indices?.length ?? known.arrays.positions.length / 3;
+        if (corners > kMostCorners) return void (left += 1);
+        isSkinned ||= object instanceof SkinnedMesh;
+        parts.set(key, known);
+        known.places.push(...placesOf(object));
+      });
+    }
+    if (left > 0) remarks.push(`${left} of its parts are not drawn: the picture ends at ${kMostCorners / 3 / 1e6} million triangles.`);
+    if (isSkinned) remarks.push("Skinned meshes are shown as they lie in the file, without their bones.");
+    return { parts: [...parts.values()], remarks };
+  } finally {
+    for (const url of urls) URL.revokeObjectURL(url);
+  }
+}

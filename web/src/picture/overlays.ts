@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// What lies over the picture: T, B and N as lines, and the outlines of triangles that a finding names.
+import { BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, Vector3 } from "three";
+import type { Drawn, Scene } from "./scene.js";
+
+export type Axis = "t" | "b" | "n";
+
+const kMostLines = 40_000;
+const colors: Record<Axis, number> = { t: 0xe5484d, b: 0x30a46c, n: 0x3e8ef7 };
+const lineMaterials = Object.fromEntries(Object.entries(colors).map(([axis, color]) => [axis, new LineBasicMaterial({ color })])) as Record<Axis, LineBasicMaterial>;
+
+function vectorAt(drawn: Drawn, tangents: Float32Array | null, corner: number, axis: Axis, out: Vector3): boolean {
+  const n = drawn.corners.normals, i = 3 * corner, k = 4 * corner;
+  if (axis === "n") out.set(n[i], n[i + 1], n[i + 2]);
+  else if (!tangents) return false;
+  else if (axis === "t") out.set(tangents[k], tangents[k + 1], tangents[k + 2]);
+  else out.set(n[i], n[i + 1], n[i + 2]).cross(new Vector3(tangents[k], tangents[k + 1], tangents[k + 2])).multiplyScalar(tangents[k + 3]);
+  return Number.isFinite(out.x + out.y + out.z);
+}
+
+/** One corner of each vertex that has another frame, at most so many. */
+function shownCorners(drawn: Drawn, isRight: boolean, most: number): number[] {
+  const indices = drawn.part.arrays.indices, count = drawn.corners.positions.length / 3;
+  if (isRight || !indices) {
+    const step = Math.max(1, Math.ceil(count / most));
+    return Array.from({ length: Math.floor(count / step) }, (_, i) => i * step);
+  }
+  const seen = new Uint8Array(drawn.part.arrays.positions.length / 3), corners: number[] = [];
+  for (let corner = 0; corner < count; ++corner) {
+    if (!seen[indices[corner]]) corners.push(corner);
+    seen[indices[corner]] = 1;
+  }
+  const step = Math.max(1, Math.ceil(corners.length / most));
+  return corners.filter((_, i) => i % step === 0);
+}
+
+/** T, B, N of the file's frames, or of the right ones, as lines of the given length. */
+export function frameLines(scene: Scene, axes: Axis[], isRight: boolean, length: number): Group {
+  const group = new Group();
+  const most = Math.ceil(kMostLines / Math.max(1, scene.drawn.length));
+  const v = new Vector3(), p = new Vector3(), turned = new Vector3();
+  for (const drawn of scene.drawn) {
+    const tangents = isRight ? (drawn.frames?.tangents ?? null) : drawn.corners.tangents;
+    const corners = shownCorners(drawn, isRight, most);
+    for (const place of drawn.part.places) {
+      for (const axis of axes) {
+        const ends: number[] = [];
+        for (const corner of corners) {
+          if (!vectorAt(drawn, tangents, corner, axis, v)) continue;
+          p.fromArray(drawn.corners.positions, 3 * corner).applyMatrix4(place);
+          turned.copy(v).transformDirection(place).multiplyScalar(length * Math.min(4, v.length()));
+          ends.push(p.x, p.y, p.z, p.x + turned.x, p.y + turned.y, p.z + turned.z);
+        }
+        const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(ends), 3));
+        const lines = new LineSegments(geometry, lineMaterials[axis]);
+        lines.frustumCulled = false;
+        group.add(lines);
+      }
+    }
+  }
+  return group;
+}
+
+/** Mean length of a triangle's edge, as it is drawn. */
+export function usualEdge(scene: Scene): number {
+  let sum = 0, count = 0;
+  const a = new Vector3(), b = new Vector3();
+  for (const { corners, part } of scene.drawn) {
+    const scale = part.places[0]?.getMaxScaleOnAxis() ?? 1, triangles = corners.positions.length / 9;
+    const step = Math.max(1, Math.floor(triangles / 500));
+    for (let t = 0; t < triangles; t += step) {
+      const edge = a.fromArray(corners.positions, 9 * t).distanceTo(b.fromArray(corners.positions, 9 * t + 3)) * scale;
+      if (Number.isFinite(edge) && edge > 0) (sum += edge), (count += 1);
+    }
+  }
+  return count > 0 ? sum / count : 1;
+}
+
+const outlineMaterial = new LineBasicMaterial({ color: 0xff2d6f, depthTest: false, transparent: true });
+const fillMaterial = new MeshBasicMaterial({ color: 0xff2d6f, transparent: true, opacity: 0.28, depthTest: false, side: 2 });
+
+export interface Place {
+  outline: Group;
+  center: Vector3;
+  radius: number;
+  /** The way out of the surface. */
+  normal: Vector3;
+}
+
+/** Outlines of some triangles of a part, at its first place. */
+export function outlineTriangles(drawn: Drawn, triangles: number[]): Place {
+  const p = drawn.corners.positions, n = drawn.corners.normals;
+  const edges: number[] = [], faces: number[] = [], points: Vector3[] = [];
+  const matrix = drawn.part.places[0] ?? new Matrix4();
+  const normal = new Vector3(), own = new Vector3();
+  for (const triangle of triangles) {
+    const corner = [0, 1, 2].map((k) => new Vector3().fromArray(p, 9 * triangle + 3 * k).applyMatrix4(matrix));
+    if (!corner.every((c) => Number.isFinite(c.x + c.y + c.z))) continue;
+    corner.forEach((c, k) => {
+      const next = corner[(k + 1) % 3];
+      edges.push(c.x, c.y, c.z, next.x, next.y, next.z);
+      faces.push(c.x, c.y, c.z);
+      if (Number.isFinite(own.fromArray(n, 9 * triangle + 3 * k).x)) normal.add(own.transformDirection(matrix));
+    });
+    points.push(...corner);
+  }
+  const outline = new Group();
+  const geometry = (data: number[]) => new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(data), 3));
+  for (const object of [new Mesh(geometry(faces), fillMaterial), new LineSegments(geometry(edges), outlineMaterial)]) {
+    object.frustumCulled = false;
+    outline.add(object);
+  }
+  const center = points.reduce((sum, point) => sum.add(point), new Vector3()).divideScalar(Math.max(1, points.length));
+  const radius = Math.max(...points.map((point) => point.distanceTo(center)), 0);
+  return { outline, center, radius, normal };
+}
+
+const kMostOutlined = 3000;
+
+/** Triangles that use one of these vertices of the primitive. */
+export function trianglesAt(drawn: Drawn, vertices: number[]): number[] {
+  const wanted = new Set(vertices), indices = drawn.part.arrays.indices, found: number[] = [];
+  const count = drawn.corners.positions.length / 3;
+  for (let corner = 0; corner < count && found.length < kMostOutlined; ++corner) {
+    const triangle = Math.floor(corner / 3);
+    if (wanted.has(indices ? indices[corner] : corner) && found[found.length - 1] !== triangle) found.push(triangle);
+  }
+  return found;
+}

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// The parts of a model as drawable objects. Each place of a part is an object of its own; all share one geometry.
+import { BufferAttribute, BufferGeometry, DataTexture, Group, Matrix3, Matrix4, Mesh, Sphere, Vector3, type RawShaderMaterial } from "three";
+import type { Part } from "../model/part.js";
+import type { Corners, Frames } from "../work/protocol.js";
+import { makeMaterial } from "./shader.js";
+
+export interface Drawn {
+  /** What the worker calls it. */
+  number: number;
+  part: Part;
+  corners: Corners;
+  frames: Frames | null;
+  geometry: BufferGeometry;
+  material: RawShaderMaterial;
+  meshes: Mesh[];
+  /** Number of its first triangle among all that are drawn, per place. */
+  firstTriangles: number[];
+}
+
+const empty = new DataTexture(new Uint8Array([128, 128, 255, 255]), 1, 1);
+empty.needsUpdate = true;
+const identity = new Matrix3();
+
+function colorUvs(part: Part, corners: Corners): Float32Array<ArrayBuffer> | null {
+  if (!part.colorUvs) return corners.uvs;
+  const count = corners.positions.length / 3, indices = part.arrays.indices;
+  const out = new Float32Array(2 * count);
+  for (let corner = 0; corner < count; ++corner) {
+    const vertex = indices ? indices[corner] : corner;
+    out.set(part.colorUvs.subarray(2 * vertex, 2 * vertex + 2), 2 * corner);
+  }
+  return out;
+}
+
+function draw(number: number, part: Part, corners: Corners): Drawn {
+  const geometry = new BufferGeometry();
+  const count = corners.positions.length / 3;
+  const set = (name: string, data: Float32Array<ArrayBuffer> | null, size: number) =>
+    geometry.setAttribute(name, new BufferAttribute(data ?? new Float32Array(size * count), size));
+  set("position", corners.positions, 3);
+  set("normal", corners.normals, 3);
+  set("uv", corners.uvs, 2);
+  set("tangent", corners.tangents, 4);
+  set("island", corners.islands, 2);
+  set("right", null, 4);
+  set("error", new Float32Array(2 * count).fill(-1), 2);
+  const own = colorUvs(part, corners);
+  geometry.setAttribute("colorUv", part.colorUvs ? new BufferAttribute(own!, 2) : geometry.getAttribute("uv"));
+  const material = makeMaterial(
+    { normalMap: corners.uvs && part.normalMap, colorMap: corners.uvs && part.colorMap, scale: part.normalScale, color: part.color, alphaTest: part.alphaTest, hasTangents: corners.tangents !== null, side: part.isDoubleSided ? 2 : 0 },
+    empty,
+    identity,
+  );
+  return { number, part, corners, frames: null, geometry, material, meshes: [], firstTriangles: [] };
+}
+
+/** What is shown, and where in it a triangle lies. */
+export class Scene {
+  readonly root = new Group();
+  readonly drawn: Drawn[] = [];
+  #triangles = 0;
+
+  add(number: number, part: Part, corners: Corners): Drawn {
+    const drawn = draw(number, part, corners);
+    for (const place of part.places) {
+      const mesh = new Mesh(drawn.geometry, drawn.material);
+      mesh.matrixAutoUpdate = false;
+      mesh.matrix.copy(place);
+      mesh.matrixWorldNeedsUpdate = true;
+      mesh.frustumCulled = false;
+      const first = this.#triangles;
+      this.#triangles += corners.positions.length / 9;
+      drawn.firstTriangles.push(first);
+      mesh.onBeforeRender = () => {
+        drawn.material.uniforms.uFirst.value = first;
+        drawn.material.uniforms.uNormalMatrix.value.getNormalMatrix(place);
+        drawn.material.uniformsNeedUpdate = true;
+      };
+      drawn.meshes.push(mesh);
+      this.root.add(mesh);
+    }
+    this.drawn.push(drawn);
+    return drawn;
+  }
+
+  setFrames(drawn: Drawn, frames: Frames): void {
+    drawn.frames = frames;
+    drawn.geometry.setAttribute("right", new BufferAttribute(frames.tangents, 4));
+    drawn.geometry.setAttribute("error", new BufferAttribute(frames.errors, 2));
+    drawn.material.uniforms.uHasRight.value = true;
+  }
+
+  find(mesh: number, primitive: number): Drawn | undefined {
+    return this.drawn.find(({ part }) => part.mesh === mesh && part.primitive === primitive);
+  }
+
+  /** Which part shows a triangle of the picture, where, and which of its triangles it is. */
+  at(triangle: number): { drawn: Drawn; place: Matrix4; triangle: number } | null {
+    for (const drawn of this.drawn) {
+      const size = drawn.corners.positions.length / 9;
+      for (let i = 0; i < drawn.firstTriangles.length; ++i) {
+        const own = triangle - drawn.firstTriangles[i];
+        if (own >= 0 && own < size) return { drawn, place: drawn.part.places[i], triangle: own };
+      }
+    }
+    return null;
+  }
+
+  /** A sphere around all that is finite. */
+  sphere(): Sphere {
+    const points: Vector3[] = [];
+    for (const { corners, part } of this.drawn) {
+      const low = new Vector3(Infinity, Infinity, Infinity), high = new Vector3(-Infinity, -Infinity, -Infinity), p = new Vector3();
+      for (let i = 0; i < corners.positions.length; i += 3) {
+        p.fromArray(corners.positions, i);
+        if (Number.isFinite(p.x + p.y + p.z)) low.min(p), high.max(p);
+      }
+      if (low.x > high.x) continue;
+      for (const place of part.places) {
+        for (let k = 0; k < 8; ++k) points.push(new Vector3(k & 1 ? low.x : high.x, k & 2 ? low.y : high.y, k & 4 ? low.z : high.z).applyMatrix4(place));
+      }
+    }
+    const sphere = new Sphere();
+    if (points.length > 0) sphere.setFromPoints(points);
+    if (!(Number.isFinite(sphere.radius) && sphere.radius > 0)) sphere.set(new Vector3(), 1);
+    return sphere;
+  }
+
+  dispose(): void {
+    for (const { geometry, material, part } of this.drawn) {
+      geometry.dispose();
+      material.dispose();
+      part.normalMap?.dispose();
+      part.colorMap?.dispose();
+    }
+    this.root.clear();
+  }
+}

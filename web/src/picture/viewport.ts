@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+// The picture: camera, controls, light, and drawing when something has changed and not otherwise.
+import { Color, Matrix4, NoBlending, PerspectiveCamera, Scene as ThreeScene, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget, type Object3D } from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { Scene } from "./scene.js";
+import { setValues, type Look, type PictureValues } from "./shader.js";
+
+export interface Settings {
+  look: Look;
+  map: 0 | 1 | 2;
+  isWire: boolean;
+  usesColors: boolean;
+  /** 0 to 1 from the left: where frames of the file end and right ones begin. */
+  split: number;
+  errorEnd: number;
+}
+
+export interface Hit {
+  drawnTriangle: number;
+  x: number;
+  y: number;
+}
+
+const kStep = Math.PI / 24;
+
+export class Viewport {
+  readonly canvas: HTMLCanvasElement;
+  readonly settings: Settings = { look: "lit", map: 1, isWire: false, usesColors: true, split: 0.5, errorEnd: 10 };
+  readonly renderer: WebGLRenderer;
+  readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
+  readonly overlay = new ThreeScene();
+  scene = new Scene();
+  /** Where light comes from, as the camera sees it: x right, y up, z to the eye. */
+  readonly light = new Vector3(-0.45, 0.55, 0.7).normalize();
+  onDrawn: () => void = () => {};
+  #controls: OrbitControls;
+  #world = new ThreeScene();
+  #isAsked = false;
+  #flight: { from: Vector3; to: Vector3; fromTarget: Vector3; toTarget: Vector3; start: number } | null = null;
+  #pickTarget = new WebGLRenderTarget(1, 1, { depthBuffer: true });
+
+  constructor(canvas: HTMLCanvasElement) {
+    this.canvas = canvas;
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: false });
+    this.renderer.setClearColor(0, 0);
+    this.renderer.autoClear = false;
+    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    this.#controls = new OrbitControls(this.camera, canvas);
+    this.#controls.enableDamping = false;
+    this.#controls.addEventListener("change", () => this.ask());
+    this.#controls.mouseButtons.RIGHT = null; // drags the light
+    this.#controls.keyPanSpeed = 24;
+    canvas.addEventListener("keydown", (event) => this.#key(event));
+    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+    canvas.addEventListener("pointermove", (event) => this.#dragLight(event));
+    canvas.addEventListener("webglcontextrestored", () => this.ask());
+    new ResizeObserver(() => this.#resize()).observe(canvas.parentElement!);
+    this.camera.position.set(0, 0, 4);
+    this.#resize();
+  }
+
+  show(scene: Scene): void {
+    this.#world.remove(this.scene.root);
+    this.scene.dispose();
+    this.scene = scene;
+    this.#world.add(scene.root);
+    this.ask();
+  }
+
+  /** Draws in the next frame. */
+  ask(): void {
+    if (this.#isAsked) return;
+    this.#isAsked = true;
+    requestAnimationFrame((now) => {
+      this.#isAsked = false;
+      this.#move(now);
+      this.#draw();
+      this.onDrawn();
+    });
+  }
+
+  setLight(x: number, y: number): void {
+    const length = Math.hypot(x, y), k = length > 1 ? 1 / length : 1;
+    this.light.set(x * k, y * k, Math.sqrt(Math.max(0.0025, 1 - Math.min(1, length) ** 2))).normalize();
+    this.ask();
+  }
+
+  /** Looks at a sphere; from `toward`, where that is given. */
+  fly(center: Vector3, radius: number, toward: Vector3 | null, isInstant = false): void {
+    const angle = (this.camera.fov * Math.PI) / 360, narrow = Math.min(1, this.camera.aspect);
+    const distance = (radius / Math.sin(Math.atan(Math.tan(angle) * narrow))) * 1.08;
+    const direction = (toward ?? this.camera.position.clone().sub(this.#controls.target)).clone().normalize();
+    if (direction.lengthSq() === 0 || !Number.isFinite(direction.x)) direction.set(0.5, 0.4, 1).normalize();
+    // Straight from above, "up" would have no direction.
+    if (Math.abs(direction.y) > 0.985) direction.set(0.12, Math.sign(direction.y), 0.12).normalize();
+    const to = center.clone().addScaledVector(direction, distance);
+    const isCalm = isInstant || matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.#flight = { from: this.camera.position.clone(), to, fromTarget: this.#controls.target.clone(), toTarget: center.clone(), start: isCalm ? -Infinity : performance.now() };
+    const size = this.scene.sphere();
+    const far = size.radius + size.center.distanceTo(center) + distance;
+    this.camera.near = Math.max(far / 5000, distance / 200);
+    this.camera.far = far * 3;
+    this.#controls.maxDistance = far * 2;
+    this.camera.updateProjectionMatrix();
+    this.ask();
+  }
+
+  reset(isInstant = false): void {
+    const { center, radius } = this.scene.sphere();
+    this.fly(center, radius, new Vector3(0.55, 0.42, 1), isInstant);
+  }
+
+  /** The number of the triangle at a place of the canvas, in CSS pixels, or -1. */
+  async pick(x: number, y: number): Promise<number> {
+    const ratio = this.renderer.getPixelRatio(), size = this.renderer.getSize(new Vector2());
+    this.#setUniforms((u) => ((u.uIsPick.value = true), (u.uAlphaTest.value = 0)));
+    this.camera.setViewOffset(size.x * ratio, size.y * ratio, Math.floor(x * ratio), Math.floor(y * ratio), 1, 1);
+    this.renderer.setRenderTarget(this.#pickTarget);
+    this.renderer.clear();
+    this.renderer.render(this.#world, this.camera);
+    this.renderer.setRenderTarget(null);
+    this.camera.clearViewOffset();
+    this.#setUniforms((u) => (u.uIsPick.value = false));
+    const p = new Uint8Array(4);
+    await this.renderer.readRenderTargetPixelsAsync(this.#pickTarget, 0, 0, 1, 1, p);
+    return (p[0] | (p[1] << 8) | (p[2] << 16) | (p[3] << 24)) - 1;
+  }
+
+  /** The UV map of a part as pixels, from the top row down; `area` is scale and offset of UVs. */
+  async drawMap(partIndex: number, look: Look, size: number, area: [number, number, number, number]): Promise<Uint8ClampedArray<ArrayBuffer>> {
+    const target = new WebGLRenderTarget(size, size);
+    const { drawn } = this.scene;
+    const clear = this.renderer.getClearColor(new Color()), alpha = this.renderer.getClearAlpha();
+    drawn.forEach(({ meshes }, i) => meshes.forEach((mesh, k) => (mesh.visible = i === partIndex && k === 0)));
+    const { material } = drawn[partIndex];
+    const { side } = material;
+    setValues(material, { ...this.#values(), look, isWire: false, split: Infinity });
+    material.side = 2;
+    material.depthTest = false;
+    material.blending = NoBlending;
+    material.uniforms.uIsMap.value = true;
+    material.uniforms.uMapArea.value = area;
+    material.uniforms.uSplit.value = 1e9;
+    this.renderer.setRenderTarget(target);
+    this.renderer.setClearColor(0, 0);
+    this.renderer.clear();
+    this.renderer.render(this.#world, this.camera);
+    this.renderer.setRenderTarget(null);
+    this.renderer.setClearColor(clear, alpha);
+    material.uniforms.uIsMap.value = false;
+    material.depthTest = true;
+    material.side = side;
+    for (const { meshes } of drawn) for (const mesh of meshes) mesh.visible = true;
+    const upsideDown = new Uint8ClampedArray(4 * size * size), rows = new Uint8ClampedArray(4 * size * size);
+    await this.renderer.readRenderTargetPixelsAsync(target, 0, 0, size, size, upsideDown);
+    target.dispose();
+    for (let row = 0; row < size; ++row) rows.set(upsideDown.subarray(4 * size * (size - 1 - row), 4 * size * (size - row)), 4 * size * row);
+    return rows;
+  }
+
+  #values(): PictureValues {
+    const light = this.light.clone().transformDirection(this.camera.matrixWorld);
+    const width = this.renderer.domElement.width;
+    return { ...this.settings, split: this.settings.split * width, light, eye: this.camera.position };
+  }
+
+  #setUniforms(change: (uniforms: Record<string, { value: unknown }>) => void): void {
+    for (const { material, part } of this.scene.drawn) {
+      material.uniforms.uAlphaTest.value = part.alphaTest;
+      change(material.uniforms);
+      material.uniformsNeedUpdate = true;
+    }
+  }
+
+  #draw(): void {
+    this.camera.updateMatrixWorld();
+    const values = this.#values();
+    for (const { material } of this.scene.drawn) setValues(material, values);
+    this.renderer.clear();
+    this.renderer.render(this.#world, this.camera);
+    this.renderer.render(this.overlay, this.camera);
+  }
+
+  #move(now: number): void {
+    if (!this.#flight) return;
+    const { from, to, fromTarget, toTarget, start } = this.#flight;
+    const t = Math.min(1, (now - start) / 450), ease = t * t * (3 - 2 * t);
+    this.camera.position.lerpVectors(from, to, ease);
+    this.#controls.target.lerpVectors(fromTarget, toTarget, ease);
+    if (t >= 1) this.#flight = null;
+    this.#controls.update();
+    if (this.#flight) this.ask();
+  }
+
+  #key(event: KeyboardEvent): void {
+    const c = this.#controls;
+    const turn: Record<string, () => void> = {
+      ArrowLeft: () => (event.shiftKey ? c.pan(30, 0) : c.rotateLeft(kStep)),
+      ArrowRight: () => (event.shiftKey ? c.pan(-30, 0) : c.rotateLeft(-kStep)),
+      ArrowUp: () => (event.shiftKey ? c.pan(0, 30) : c.rotateUp(kStep)),
+      ArrowDown: () => (event.shiftKey ? c.pan(0, -30) : c.rotateUp(-kStep)),
+      "+": () => c.dollyIn(0.88),
+      "=": () => c.dollyIn(0.88),
+      "-": () => c.dollyOut(0.88),
+      "0": () => this.reset(),
+      Home: () => this.reset(),
+    };
+    const act = turn[event.key];
+    if (!act || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    this.#flight = null;
+    act();
+    c.update();
+    this.ask();
+  }
+
+  #dragLight(event: PointerEvent): void {
+    if (!(event.buttons & 2)) return;
+    const box = this.canvas.getBoundingClientRect(), radius = Math.min(box.width, box.height) / 2;
+    this.setLight((event.clientX - box.left - box.width / 2) / radius, -(event.clientY - box.top - box.height / 2) / radius);
+    this.canvas.dispatchEvent(new CustomEvent("light"));
+  }
+
+  #resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement!;
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.ask();
+  }
+}
+
+/** Adds to what lies over the picture, and takes it away. */
+export function replaceOverlay(viewport: Viewport, old: Object3D | null, next: Object3D | null): Object3D | null {
+  if (old) {
+    viewport.overlay.remove(old);
+    old.traverse((object) => (object as { geometry?: { dispose(): void } }).geometry?.dispose());
+  }
+  if (next) viewport.overlay.add(next);
+  viewport.ask();
+  return next;
+}
+
+export const inverse = (matrix: Matrix4): Matrix4 => matrix.clone().invert();

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// How the model is looked at: the method of the right frames, the normal map, lines and edges.
+import { checkbox, choice, count, el, replaceChildren, select } from "../dom.js";
+import { frameLines, usualEdge, type Axis } from "../picture/overlays.js";
+import { replaceOverlay, type Viewport } from "../picture/viewport.js";
+import { methods, type Method } from "../work/protocol.js";
+import type { Stage } from "./stage.js";
+import type { Object3D } from "three";
+
+export class LookView {
+  readonly element = el("details", { class: "panel look", open: true }, el("summary", {}, "Look"));
+  method: Method = "mikktspace";
+  #axes = new Set<Axis>();
+  #lines: Object3D | null = null;
+  #isRight = false;
+  #length = 1;
+  #figures = el("p", { class: "quiet figures", "aria-live": "polite" });
+  #viewport: Viewport;
+
+  constructor(private stage: Stage, methodChanged: (method: Method) => void) {
+    const { viewport } = stage;
+    this.#viewport = viewport;
+    const method = select("Right frames by", methods.map((name) => [name, name] as const), this.method, (name) => {
+      this.method = name;
+      stage.setMethod(name);
+      methodChanged(name);
+    });
+    const end = select("Error scale", [["1", "0 to 1°"], ["10", "0 to 10°"], ["45", "0 to 45°"], ["180", "0 to 180°"]] as const, "10", (value) => stage.setErrorEnd(Number(value)));
+    const map = choice("Normal map", [["1", "on"], ["0", "off"], ["2", "green turned"]] as const, "1", (value) => {
+      viewport.settings.map = Number(value) as 0 | 1 | 2;
+      viewport.ask();
+    });
+    const wire = checkbox("Edges", false, (on) => this.#set({ isWire: on }));
+    const colors = checkbox("Colours", true, (on) => this.#set({ usesColors: on }));
+    const axes = (["t", "b", "n"] as const).map((axis) => {
+      const box = checkbox(axis.toUpperCase(), false, (on) => {
+        if (on) this.#axes.add(axis);
+        else this.#axes.delete(axis);
+        this.showLines();
+      });
+      box.element.classList.add(`axis-${axis}`);
+      return box.element;
+    });
+    const whose = choice("Lines of", [["file", "the file"], ["right", "right frames"]] as const, "file", (value) => {
+      this.#isRight = value === "right";
+      this.showLines();
+    });
+    const length = el("input", { type: "range", min: "-10", max: "10", value: "0", "aria-label": "Length of the lines" });
+    length.addEventListener("input", () => {
+      this.#length = 2 ** (Number(length.value) / 4);
+      this.showLines();
+    });
+    this.element.append(
+      el("div", { class: "rows" }, method.element, end.element, this.#figures, map.element,
+        el("div", { class: "row" }, wire.element, colors.element),
+        el("div", { class: "row lines" }, ...axes, length), whose.element));
+  }
+
+  #set(change: Partial<Viewport["settings"]>): void {
+    Object.assign(this.#viewport.settings, change);
+    this.#viewport.ask();
+  }
+
+  /** Draws the lines anew: the model, its frames or the choice have changed. */
+  showLines(): void {
+    const { scene } = this.#viewport;
+    const next = this.#axes.size > 0 ? frameLines(scene, [...this.#axes], this.#isRight, 0.45 * this.#length * usualEdge(scene)) : null;
+    this.#lines = replaceOverlay(this.#viewport, this.#lines, next);
+  }
+
+  /** How far the file's tangents are from the method's. */
+  showFigures(): void {
+    let compared = 0, sum = 0, most = 0, signs = 0;
+    for (const { frames } of this.stage.viewport.scene.drawn) {
+      if (!frames) continue;
+      compared += frames.compared;
+      sum += frames.meanDegrees * frames.compared;
+      most = Math.max(most, frames.maxDegrees);
+      signs += frames.wrongSigns;
+    }
+    replaceChildren(this.#figures, compared === 0
+      ? "There are no tangents in the file to compare."
+      : `Tangents of the file: ${(sum / compared).toFixed(2)}° from ${this.method} on average, ${most.toFixed(1)}° at most; ${count(signs)} of ${count(compared)} corners have another sign.`);
+  }
+}

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Mends the model as `tspace generate` does: what to do, the same as a command line, what changed, and the file.
+import { choice, count, el, plural, replaceChildren, select } from "../dom.js";
+import type { ModelFiles } from "../files.js";
+import type { GenerateFile, GeneratedPrimitive } from "../report.js";
+import { methods, type Method } from "../work/protocol.js";
+
+type Tangents = "repair" | "overwrite" | "missing";
+
+export interface Mended {
+  report: unknown;
+  bytes: Uint8Array<ArrayBuffer>;
+  name: string;
+}
+
+const kMostRows = 200;
+const actions: Record<string, string> = {
+  generated: "added",
+  replaced: "computed anew",
+  unchanged: "computed anew, same bits",
+  kept: "kept",
+  notNeeded: "not needed",
+  notTriangles: "no triangles",
+  impossible: "impossible",
+  removed: "taken away",
+};
+
+export class MendView {
+  readonly element = el("details", { class: "panel mend" }, el("summary", {}, "Mend"));
+  #tangents: Tangents = "repair";
+  #method: Method = "mikktspace";
+  #isTurned = false;
+  #model: ModelFiles | null = null;
+  #command = el("code", { class: "command" });
+  #button = el("button", { type: "button", class: "main" }, "Mend");
+  #result = el("div", { class: "result", "aria-live": "polite" });
+  #signs: HTMLFieldSetElement;
+
+  constructor(private generate: (options: Record<string, unknown>) => Promise<Mended>, private open: (mended: Mended) => void) {
+    const changed = <T>(set: (value: T) => void) => (value: T) => {
+      set(value);
+      this.#refresh();
+    };
+    const tangents = choice("Tangents", [["repair", "repair"], ["overwrite", "all anew"], ["missing", "add missing"]] as const, "repair", changed((v: Tangents) => (this.#tangents = v)));
+    const method = select("Method", methods.map((name) => [name, name] as const), this.#method, changed((v: Method) => (this.#method = v)));
+    const signs = choice("Signs", [["gltf", "as glTF wants"], ["turned", "turned"]] as const, "gltf", changed((v: string) => (this.#isTurned = v === "turned")));
+    this.#signs = signs.element;
+    this.#button.addEventListener("click", () => void this.#mend());
+    this.element.append(el("div", { class: "rows" }, tangents.element, method.element, signs.element, this.#command, this.#button, this.#result));
+    this.#refresh();
+  }
+
+  reset(model: ModelFiles | null): void {
+    this.#model = model;
+    replaceChildren(this.#result);
+    this.#refresh();
+  }
+
+  /** Options of the package, which are those of the tool in camelCase. */
+  #options(): Record<string, unknown> {
+    return {
+      ...(this.#tangents === "repair" && { repair: true }),
+      ...(this.#tangents === "overwrite" && { overwrite: true }),
+      ...(this.#method !== "mikktspace" && { method: this.#method }),
+      ...(this.#tangents === "overwrite" && this.#isTurned && { convention: "opengl" }),
+    };
+  }
+
+  #refresh(): void {
+    // A repair would turn such signs back.
+    this.#signs.disabled = this.#tangents !== "overwrite";
+    const words = Object.entries(this.#options()).map(([name, value]) => `--${name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)}${value === true ? "" : ` ${String(value)}`}`);
+    const name = this.#model?.name ?? "model.glb";
+    this.#command.textContent = ["tspace generate", name, "-o", mendedName(name), ...words].join(" ");
+    this.#button.disabled = this.#model === null;
+  }
+
+  async #mend(): Promise<void> {
+    this.#button.disabled = true;
+    replaceChildren(this.#result, el("p", { class: "quiet" }, "Working…"));
+    try {
+      this.#show(await this.generate(this.#options()));
+    } catch (error) {
+      replaceChildren(this.#result, el("p", { class: "failure", role: "alert" }, error instanceof Error ? error.message : String(error)));
+    } finally {
+      this.#button.disabled = this.#model === null;
+    }
+  }
+
+  #show(mended: Mended): void {
+    const file = mended.report as GenerateFile;
+    const url = URL.createObjectURL(new Blob([mended.bytes], { type: "model/gltf-binary" }));
+    const look = el("button", { type: "button", onclick: () => this.open(mended) }, "Look at it");
+    replaceChildren(this.#result,
+      el("p", { class: file.changed ? "fine" : "quiet" }, file.changed ? `Done: ${count(file.inputBytes)} bytes in, ${count(file.outputBytes)} out.` : "Nothing had to change: the file is the same, byte for byte."),
+      changeTable(file.primitives),
+      ...file.warnings.map((warning) => el("p", { class: "quiet" }, warning)),
+      el("div", { class: "row" }, el("a", { class: "button", href: url, download: mended.name }, `Download ${mended.name}`), look));
+  }
+}
+
+/** `crate.glb` becomes `crate-mended.glb`; what comes out of memory is always GLB. */
+export const mendedName = (name: string): string => `${name.replace(/^.*\//, "").replace(/\.[^.]*$/, "")}-mended.glb`;
+
+function changeTable(primitives: GeneratedPrimitive[]): HTMLElement {
+  const head = el("tr", {}, ...["Part", "Tangents", "Vertices"].map((text) => el("th", { scope: "col" }, text)));
+  const body = el("tbody", {});
+  for (const one of primitives.slice(0, kMostRows)) {
+    const mended = one.mendedVertices > 0 ? `, ${plural(one.mendedVertices, "vertex").replace("vertexs", "vertices")} mended` : "";
+    const vertices = one.verticesBefore === one.verticesAfter ? count(one.verticesBefore) : `${count(one.verticesBefore)} → ${count(one.verticesAfter)}`;
+    body.append(el("tr", { title: [one.reason, ...one.notes].join(" ") },
+      el("td", {}, `${one.mesh}/${one.primitive} ${one.meshName || one.materialName}`),
+      el("td", {}, `${actions[one.action] ?? one.action}${mended}${one.normalsGenerated ? ", normals made" : ""}`),
+      el("td", {}, vertices)));
+  }
+  const rest = primitives.length - kMostRows;
+  if (rest > 0) body.append(el("tr", {}, el("td", { colspan: "3" }, `and ${count(rest)} more`)));
+  return el("table", { class: "changes" }, el("thead", {}, head), body);
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// What is being done, how much of it is, and a button that ends it.
+import { el } from "../dom.js";
+
+export class Progress {
+  readonly element: HTMLElement;
+  #text = el("span", { role: "status" });
+  #bar = el("progress", { max: "1", value: "0", "aria-label": "Progress" });
+  #stop = el("button", { type: "button", class: "stop" }, "Stop");
+
+  constructor(stop: () => void) {
+    this.#stop.addEventListener("click", stop);
+    this.element = el("div", { class: "progress" }, this.#text, this.#bar, this.#stop);
+    this.done("");
+  }
+
+  at(text: string, share: number): void {
+    this.#text.textContent = text;
+    this.#bar.value = share;
+    this.element.classList.add("busy");
+    this.#bar.hidden = this.#stop.hidden = false;
+  }
+
+  done(text: string): void {
+    this.#text.textContent = text;
+    this.element.classList.remove("busy");
+    this.#bar.hidden = this.#stop.hidden = true;
+  }
+}

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// The middle of the page: the picture, what is to be seen in it, the slider between both frames, and the light.
+import { choice, el } from "../dom.js";
+import type { Look } from "../picture/shader.js";
+import { Viewport } from "../picture/viewport.js";
+import { Legend } from "./legend.js";
+
+const lookNames: readonly (readonly [Look, string])[] = [
+  ["lit", "Lit"],
+  ["normals", "Normals"],
+  ["signs", "Signs"],
+  ["mirrored", "Mirrored"],
+  ["error", "Error"],
+  ["islands", "Islands"],
+];
+
+const hasSplit = (look: Look): boolean => look === "lit" || look === "normals" || look === "signs";
+
+export class Stage {
+  readonly element: HTMLElement;
+  readonly viewport: Viewport;
+  readonly canvas = el("canvas", {
+    tabindex: "0",
+    role: "img",
+    "aria-label": "The model. Arrow keys turn it, with Shift they move it, plus and minus come nearer or go away, 0 shows all of it.",
+  });
+  #legend = new Legend();
+  #split = el("input", { type: "range", min: "0", max: "1000", value: "500", class: "split", "aria-label": "Frames of the file on the left, right frames on the right" });
+  #line = el("div", { class: "split-line", "aria-hidden": "true" });
+  #leftLabel = el("span", { class: "side left" }, "as the file is");
+  #rightLabel = el("span", { class: "side right" }, "right frames");
+  #light = el("div", { class: "light", tabindex: "0", role: "slider", "aria-label": "Light", "aria-valuemin": "-1", "aria-valuemax": "1" }, el("i"));
+  #remark = el("p", { class: "remark", role: "status", hidden: true });
+  #looks;
+  #method = "mikktspace";
+
+  constructor() {
+    const frame = el("div", { class: "frame" }, this.canvas, this.#line, this.#leftLabel, this.#rightLabel, this.#legend.element, this.#light, this.#remark);
+    this.#looks = choice("Look", lookNames, "lit", (look) => this.setLook(look));
+    this.element = el("section", { class: "stage", "aria-label": "Picture" }, this.#looks.element, frame, this.#split);
+    this.viewport = new Viewport(this.canvas);
+    this.#split.addEventListener("input", () => this.setSplit(Number(this.#split.value) / 1000));
+    this.canvas.addEventListener("light", () => this.#showLight());
+    this.#light.addEventListener("pointerdown", (event) => this.#light.setPointerCapture(event.pointerId));
+    this.#light.addEventListener("pointermove", (event) => event.buttons && this.#dragLight(event));
+    this.#light.addEventListener("keydown", (event) => this.#turnLight(event));
+    this.#showLight();
+    this.setSplit(0.5);
+    this.#refresh();
+  }
+
+  setLook(look: Look): void {
+    this.viewport.settings.look = look;
+    this.#looks.set(look);
+    this.#refresh();
+  }
+
+  /** What the picture leaves out, or why there is none. */
+  say(sentence: string): void {
+    this.#remark.textContent = sentence;
+    this.#remark.hidden = sentence === "";
+  }
+
+  setMethod(method: string): void {
+    this.#method = method;
+    this.#refresh();
+  }
+
+  setErrorEnd(degrees: number): void {
+    this.viewport.settings.errorEnd = degrees;
+    this.#refresh();
+  }
+
+  setSplit(share: number): void {
+    this.viewport.settings.split = share;
+    this.#split.value = String(Math.round(share * 1000));
+    this.#line.style.left = `${share * 100}%`;
+    this.#leftLabel.style.opacity = share > 0.12 ? "1" : "0";
+    this.#rightLabel.style.opacity = share < 0.88 ? "1" : "0";
+    this.viewport.ask();
+  }
+
+  #refresh(): void {
+    const { look, errorEnd } = this.viewport.settings;
+    const isSplit = hasSplit(look);
+    for (const element of [this.#split, this.#line, this.#leftLabel, this.#rightLabel]) element.hidden = !isSplit;
+    this.#rightLabel.textContent = `right frames (${this.#method})`;
+    this.#legend.show(look, errorEnd, this.#method);
+    this.viewport.ask();
+  }
+
+  #dragLight(event: PointerEvent): void {
+    const box = this.#light.getBoundingClientRect();
+    this.viewport.setLight(((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2);
+    this.#showLight();
+  }
+
+  #turnLight(event: KeyboardEvent): void {
+    const step: Record<string, [number, number]> = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] };
+    if (!step[event.key]) return;
+    event.preventDefault();
+    const { x, y } = this.viewport.light;
+    this.viewport.setLight(x + step[event.key][0], y + step[event.key][1]);
+    this.#showLight();
+  }
+
+  #showLight(): void {
+    const { x, y } = this.viewport.light;
+    const dot = this.#light.firstElementChild as HTMLElement;
+    dot.style.left = `${50 + 42 * x}%`;
+    dot.style.top = `${50 - 42 * y}%`;
+    this.#light.setAttribute("aria-valuenow", x.toFixed(2));
+    this.#light.setAttribute("aria-valuetext", `${x.toFixed(1)} to the right, ${y.toFixed(1)} up`);
+  }
+}

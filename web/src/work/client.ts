@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The page's side of the worker. A call into WebAssembly cannot be interrupted, so to stop is to end the worker; the next call
+// starts a new one.
+import type { Answer, Call, Calls } from "./protocol.js";
+import Worker from "./worker.js?worker&inline";
+
+/** What the library says is wrong, or that a person has stopped it (`code` is "stopped"). */
+export class WorkError extends Error {
+  constructor(readonly code: string, message: string) {
+    super(message);
+  }
+}
+
+interface Waiting {
+  done(answer: unknown): void;
+  failed(error: WorkError): void;
+}
+
+export class Work {
+  #worker: globalThis.Worker | undefined;
+  #waiting = new Map<number, Waiting>();
+  #next = 0;
+
+  run<K extends Call>(call: K, ask: Calls[K]["ask"], transfer: Transferable[] = []): Promise<Calls[K]["answer"]> {
+    const worker = (this.#worker ??= this.#start());
+    const id = this.#next++;
+    return new Promise((done, failed) => {
+      this.#waiting.set(id, { done: done as (answer: unknown) => void, failed });
+      worker.postMessage({ id, call, ask }, transfer);
+    });
+  }
+
+  /** Makes way for another model: ends what is running, or else only forgets its parts. */
+  forget(): void {
+    if (this.#waiting.size > 0) this.stop();
+    else if (this.#worker) this.run("forget", {}).catch(() => {}); // stopped meanwhile: it has forgotten all
+  }
+
+  /** Ends all that is running. What the worker knew of parts is gone. */
+  stop(code = "stopped", message = "Stopped."): void {
+    this.#worker?.terminate();
+    this.#worker = undefined;
+    const waiting = [...this.#waiting.values()];
+    this.#waiting.clear();
+    for (const one of waiting) one.failed(new WorkError(code, message));
+  }
+
+  #start(): globalThis.Worker {
+    const worker = new Worker();
+    worker.onmessage = ({ data }: MessageEvent<Answer>) => {
+      const waiting = this.#waiting.get(data.id);
+      this.#waiting.delete(data.id);
+      if ("code" in data) waiting?.failed(new WorkError(data.code, data.message));
+      else waiting?.done(data.answer);
+    };
+    worker.onerror = (event) => this.stop("internal", `The worker ended: ${event.message || "out of memory, perhaps"}`);
+    return worker;
+  }
+}

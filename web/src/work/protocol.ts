@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// What the page and its worker say to each other.
+import type { ModelFiles } from "../files.js";
+
+export const methods = ["mikktspace", "best", "fast", "angle", "area", "uniform", "lengyel", "flat"] as const;
+export type Method = (typeof methods)[number];
+
+/** The arrays of a primitive as its file has them. */
+export interface Arrays {
+  positions: Float32Array<ArrayBuffer>;
+  normals: Float32Array<ArrayBuffer> | null;
+  /** As the normal map reads them: its set, through its transform. */
+  uvs: Float32Array<ArrayBuffer> | null;
+  tangents: Float32Array<ArrayBuffer> | null;
+  indices: Uint32Array<ArrayBuffer> | null;
+}
+
+/** The same per corner, three corners a triangle, for the picture. */
+export interface Corners {
+  positions: Float32Array<ArrayBuffer>;
+  normals: Float32Array<ArrayBuffer>;
+  uvs: Float32Array<ArrayBuffer> | null;
+  tangents: Float32Array<ArrayBuffer> | null;
+  /** Per corner: number of the UV island, and 1 where the triangle shows its texture mirrored, 0 where not, 0.5 without UV area. */
+  islands: Float32Array<ArrayBuffer>;
+  islandCount: number;
+  mirroredCount: number;
+  normalsMade: boolean;
+}
+
+/** Frames by a method, and how far those of the file are from them. */
+export interface Frames {
+  /** Four numbers per corner. */
+  tangents: Float32Array<ArrayBuffer>;
+  /** Two per corner: degrees between the tangents, -1 where there is nothing to compare; 1 where the signs differ. */
+  errors: Float32Array<ArrayBuffer>;
+  compared: number;
+  meanDegrees: number;
+  maxDegrees: number;
+  wrongSigns: number;
+}
+
+export type Verb = "inspect" | "check" | "identify";
+
+export interface Calls {
+  report: { ask: { verb: Verb; model: ModelFiles }; answer: unknown };
+  generate: { ask: { model: ModelFiles; options: Record<string, unknown> }; answer: { report: unknown; bytes: Uint8Array<ArrayBuffer> } };
+  corners: { ask: { part: number; arrays: Arrays }; answer: Corners };
+  frames: { ask: { part: number; method: Method }; answer: Frames };
+  forget: { ask: Record<string, never>; answer: null };
+}
+export type Call = keyof Calls;
+
+export type Question = { [K in Call]: { id: number; call: K; ask: Calls[K]["ask"] } }[Call];
+export type Answer = { id: number; answer: unknown } | { id: number; code: string; message: string };

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Everything that takes time: reports on files, and frames of the parts that the page shows.
+import { computeFrames, cornersOf } from "./corners.js";
+import { generateModel, reportOn } from "./model_calls.js";
+import type { Answer, Arrays, Question } from "./protocol.js";
+
+const parts = new Map<number, Arrays>();
+let turn = Promise.resolve();
+
+async function answerTo(question: Question): Promise<{ answer: unknown; transfer?: Transferable[] }> {
+  switch (question.call) {
+    case "report":
+      return { answer: await reportOn(question.ask.verb, question.ask.model) };
+    case "generate":
+      return { answer: await generateModel(question.ask.model, question.ask.options) };
+    case "corners": {
+      parts.set(question.ask.part, question.ask.arrays);
+      const answer = await cornersOf(question.ask.arrays);
+      const buffers = [answer.positions, answer.normals, answer.islands, answer.uvs, answer.tangents].map((array) => array?.buffer);
+      return { answer, transfer: [...new Set(buffers)].filter((buffer) => buffer !== undefined) };
+    }
+    case "frames": {
+      const arrays = parts.get(question.ask.part);
+      if (!arrays) throw Object.assign(new Error("the part is not known any more"), { code: "unknownPart" });
+      const answer = await computeFrames(arrays, question.ask.method);
+      return { answer, transfer: [answer.tangents.buffer, answer.errors.buffer] };
+    }
+    case "forget":
+      parts.clear();
+      return { answer: null };
+  }
+}
+
+async function serve(question: Question): Promise<void> {
+  try {
+    const { answer, transfer = [] } = await answerTo(question);
+    self.postMessage({ id: question.id, answer } satisfies Answer, { transfer });
+  } catch (error) {
+    const code = String((error as { code?: unknown }).code ?? "internal");
+    const message = error instanceof Error ? error.message : String(error);
+    self.postMessage({ id: question.id, code, message } satisfies Answer);
+  }
+}
+
+self.onmessage = ({ data }: MessageEvent<Question>) => {
+  turn = turn.then(() => serve(data));
+};

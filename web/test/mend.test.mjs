@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// What the page mends is, byte for byte, what the tool writes.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { test } from "node:test";
+import { choose, missing, noTool, settled, shoot, tool, withPage } from "./support.mjs";
+
+async function mended(tab) {
+  await tab.locator(".mend .main").click();
+  await tab.waitForSelector(".result a", { timeout: 60_000 });
+  const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(".result a").click()]);
+  return readFileSync(await download.path());
+}
+
+test("repairing the broken crate leaves no finding, and shows what changed", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    await tab.locator(".mend summary").click();
+    await mended(tab);
+    assert.match(await tab.locator(".changes").textContent(), /vertices mended/);
+    await tab.locator(".result").scrollIntoViewIfNeeded();
+    await shoot(tab, "mended");
+    await tab.getByRole("button", { name: "Look at it" }).click();
+    assert.equal(await settled(tab), "ready");
+    assert.match(await tab.locator(".findings .fine").textContent(), /Nothing is wrong/);
+    assert.equal(await tab.locator(".model-name").textContent(), "crate-signs-lost-mended.glb");
+  });
+});
+
+test("downloads are byte for byte the files that the tool writes with the command line that stands there", { skip: noTool }, async () => {
+  const folder = mkdtempSync(join(tmpdir(), "tspace-mend-"));
+  try {
+    await withPage(async (tab) => {
+      await tab.locator(".mend summary").click();
+      const cases = [
+        async () => {},
+        async () => choose(tab, "all anew", ".mend"),
+        async () => tab.locator(".mend select").selectOption("best"),
+        async () => choose(tab, "turned", ".mend"),
+      ];
+      for (const name of ["Crate, broken", "Ring"]) {
+        await tab.getByRole("button", { name, exact: true }).click();
+        await settled(tab);
+        const model = await tab.evaluate(() => window.tspaceView.model.name);
+        writeFileSync(join(folder, model), Uint8Array.from(await tab.evaluate(() => [...window.tspaceView.model.bytes])));
+        for (const act of name === "Ring" ? cases.slice(0, 1) : cases) {
+          await act();
+          const bytes = await mended(tab);
+          const [program, ...words] = (await tab.locator(".command").textContent()).split(" ");
+          assert.equal(program, "tspace");
+          execFileSync(tool, [...words, "--quiet"], { cwd: folder });
+          assert.ok(bytes.equals(readFileSync(join(folder, words[words.indexOf("-o") + 1]))), words.join(" "));
+        }
+      }
+    });
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+  }
+});

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// The page itself: samples and their findings, each look, keyboard, light, contrast, widths.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { test } from "node:test";
+import { gzipSync } from "node:zlib";
+import { choose, drawn, missing, page, settled, shares, shoot, withPage } from "./support.mjs";
+
+const blue = [66, 133, 210], amber = [240, 168, 56], red = [214, 32, 60];
+const codes = (tab) => tab.locator(".finding").evaluateAll((items) => items.map((item) => item.dataset.code));
+const sample = async (tab, name) => {
+  await tab.getByRole("button", { name, exact: true }).click();
+  return settled(tab);
+};
+
+test("the page is one file of at most 1 MB gzipped", () => {
+  assert.ok(gzipSync(readFileSync(page), { level: 9 }).length <= 1 << 20);
+});
+
+test("the broken crate is shown at once: wrong signs are found, and its triangles are outlined", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "drawn");
+    assert.deepEqual(await codes(tab), ["signsWrong"]);
+    assert.match(await tab.locator(".verdict").textContent(), /mikktspace/);
+    await shoot(tab, "broken-crate");
+    await tab.locator(".finding").click();
+    await drawn(tab);
+    assert.equal(await tab.locator(".finding").getAttribute("aria-expanded"), "true");
+    assert.ok(Number(await tab.locator(".frame canvas").getAttribute("data-outlined")) > 0);
+    assert.match(await tab.locator(".details").textContent(), /Mend:.*tspace generate/);
+    const outlined = await shares(tab, { outline: [255, 45, 111] });
+    assert.ok(outlined.outline > 0.0001, JSON.stringify(outlined));
+    await shoot(tab, "finding");
+  });
+});
+
+test("signs, mirrored parts, errors and islands have the colours of their legends", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    await choose(tab, "Mirrored");
+    await drawn(tab);
+    let seen = await shares(tab, { blue, amber });
+    assert.ok(seen.blue > 0.03 && seen.amber > 0.03, `one half is mirrored: ${JSON.stringify(seen)}`);
+    await shoot(tab, "mirrored");
+    await choose(tab, "Signs");
+    await tab.locator(".split").fill("1000");
+    await drawn(tab);
+    seen = await shares(tab, { blue, amber, red });
+    assert.ok(seen.red > 0.01 && seen.amber < 0.002, `the file has +1 everywhere, wrong on the mirrored half: ${JSON.stringify(seen)}`);
+    await tab.locator(".split").fill("0");
+    await drawn(tab);
+    seen = await shares(tab, { blue, amber, red });
+    assert.ok(seen.red < 0.002 && seen.amber > 0.03, `right frames have both signs: ${JSON.stringify(seen)}`);
+    await tab.locator(".split").fill("500");
+    await shoot(tab, "signs");
+    await choose(tab, "Error");
+    await drawn(tab);
+    seen = await shares(tab, { none: [38, 24, 92], red });
+    assert.ok(seen.none > 0.05 && seen.red > 0.01, `no angle, but other signs: ${JSON.stringify(seen)}`);
+    await shoot(tab, "error-signs");
+    await tab.locator(".look select").first().selectOption("flat");
+    await tab.locator(".figures", { hasText: "from flat" }).waitFor();
+    seen = await shares(tab, { far: [252, 230, 140], middle: [196, 56, 94], low: [116, 32, 128] });
+    assert.ok(seen.far + seen.middle + seen.low > 0.003, `flat differs on bevels: ${JSON.stringify(seen)}`);
+    await shoot(tab, "error-flat");
+    await choose(tab, "Islands");
+    await drawn(tab);
+    await shoot(tab, "islands");
+    await choose(tab, "Normals");
+    await drawn(tab);
+    await shoot(tab, "normals");
+  });
+});
+
+test("the sound crate has no findings, and the ring has no tangents", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    await sample(tab, "Crate");
+    assert.deepEqual(await codes(tab), []);
+    assert.match(await tab.locator(".findings .fine").textContent(), /Nothing is wrong/);
+    await shoot(tab, "crate");
+    await sample(tab, "Ring");
+    const found = await codes(tab);
+    assert.ok(found.includes("tangentsMissing"), found.join());
+    await shoot(tab, "ring");
+  });
+});
+
+test("lines, edges, the UV map and the texel under the pointer are shown", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    for (const axis of ["T", "B", "N"]) await choose(tab, axis, ".lines");
+    await choose(tab, "Edges");
+    await tab.locator(".uv summary").click();
+    await tab.locator(".mend summary").click();
+    const box = await tab.locator(".frame canvas").boundingBox();
+    await tab.mouse.move(box.x + box.width * 0.4, box.y + box.height * 0.55);
+    await tab.waitForSelector(".texel dl");
+    const text = await tab.locator(".texel").textContent();
+    assert.match(text, /Texel\d+, \d+: \d+ \d+ \d+/);
+    assert.match(text, /Angle\d+\.\d\d°/);
+    assert.match(await tab.locator(".uv .quiet").last().textContent(), /4 islands; 576 triangles of 1,728 mirrored/);
+    assert.ok(await tab.locator(".marker").isVisible());
+    await drawn(tab);
+    await shoot(tab, "lines-and-texel");
+    await tab.locator(".uv").screenshot({ path: `${process.env.TSPACE_SCREENSHOTS}/uv-map.png` });
+  });
+});
+
+test("everything works by keyboard, and the light follows mouse and keys", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    const before = await tab.locator(".frame canvas").screenshot();
+    await tab.locator(".frame canvas").focus();
+    for (const key of ["ArrowLeft", "ArrowLeft", "ArrowUp", "+"]) await tab.keyboard.press(key);
+    await drawn(tab);
+    const turned = await tab.locator(".frame canvas").screenshot();
+    assert.ok(!before.equals(turned), "arrow keys turn the model");
+    await tab.keyboard.press("0");
+    await tab.locator(".light").focus();
+    const light = await tab.locator(".light").getAttribute("aria-valuetext");
+    for (let i = 0; i < 8; ++i) await tab.keyboard.press("ArrowRight");
+    assert.notEqual(await tab.locator(".light").getAttribute("aria-valuetext"), light);
+    const box = await tab.locator(".frame canvas").boundingBox();
+    await tab.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await tab.mouse.down({ button: "right" });
+    await tab.mouse.move(box.x + box.width * 0.2, box.y + box.height / 2);
+    await tab.mouse.up({ button: "right" });
+    assert.match(await tab.locator(".light").getAttribute("aria-valuetext"), /^-/);
+    // Each control can be reached by Tab, and what has the focus is outlined.
+    const reached = new Set();
+    await tab.evaluate(() => document.activeElement.blur());
+    for (let i = 0; i < 60; ++i) {
+      await tab.keyboard.press("Tab");
+      reached.add(await tab.evaluate(() => {
+        const element = document.activeElement;
+        return element.getAttribute("aria-label") ?? element.closest("fieldset")?.querySelector("legend")?.textContent ?? element.textContent.slice(0, 20);
+      }));
+    }
+    for (const name of ["Open model…", "Crate, broken", "Look", "Light", "Normal map", "Lines of"]) assert.ok([...reached].some((text) => text.startsWith(name)), `${name} among ${[...reached].join(" | ")}`);
+    assert.ok([...reached].some((text) => text.startsWith("signsWrong")), "findings");
+  });
+});
+
+/** The least contrast of text against what lies behind it, by the formula of WCAG 2. */
+const leastContrast = (tab) => tab.evaluate(() => {
+  const numbers = (color) => color.match(/[\d.]+/g).map(Number);
+  const luminance = ([r, g, b]) => [r, g, b].map((c) => c / 255).map((c) => (c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)).reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
+  const ground = (element) => {
+    for (let at = element; at; at = at.parentElement) {
+      const color = numbers(getComputedStyle(at).backgroundColor);
+      if (color.length === 3 || color[3] > 0.8) return color;
+    }
+    return [255, 255, 255];
+  };
+  let least = { ratio: 21, text: "" };
+  for (const element of document.querySelectorAll("body *")) {
+    const own = [...element.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim() !== "");
+    if (!own || !element.checkVisibility() || element.closest(":disabled")) continue;
+    const [a, b] = [luminance(numbers(getComputedStyle(element).color)), luminance(ground(element))].sort((x, y) => y - x);
+    const ratio = (a + 0.05) / (b + 0.05);
+    if (ratio < least.ratio) least = { ratio, text: `${element.className}: ${element.textContent.slice(0, 40)}` };
+  }
+  return least;
+});
+
+for (const scheme of ["light", "dark"]) {
+  for (const [width, height] of [[1280, 800], [390, 844]]) {
+    test(`the page fits ${width} pixels, ${scheme}, and its text has a contrast of 4.5 and more`, { skip: missing }, async () => {
+      await withPage(async (tab) => {
+        await tab.evaluate(() => document.querySelectorAll("details").forEach((details) => (details.open = true)));
+        const { ratio, text } = await leastContrast(tab);
+        assert.ok(ratio >= 4.5, `${ratio} at ${text}`);
+        assert.ok(await tab.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "nothing is cut off at the side");
+        await shoot(tab, `page-${width}-${scheme}`, { fullPage: true });
+      }, { width, height, scheme });
+    });
+  }
+}
+
+test("hostile names are text", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    const name = '<img src=x onerror="document.title=1">.glb';
+    await tab.evaluate((name) => {
+      const { bytes } = window.tspaceView.model;
+      void window.tspaceView.open(async () => ({ name, bytes, others: new Map() }));
+    }, name);
+    await settled(tab);
+    assert.equal(await tab.locator(".model-name").textContent(), name);
+    assert.equal(await tab.locator("img").count(), 0);
+  });
+});
+
+test("a stopped run says so, and the next model works", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    await tab.evaluate(() => {
+      const { model } = window.tspaceView;
+      void window.tspaceView.open(async () => model);
+      setTimeout(() => window.tspaceView.stop(), 0);
+      queueMicrotask(() => queueMicrotask(() => window.tspaceView.stop()));
+    });
+    assert.equal(await settled(tab), "stopped");
+    assert.match(await tab.locator("footer").textContent(), /Stopped/);
+    assert.equal(await sample(tab, "Crate"), "ready");
+  });
+});

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// The page in headless Chromium, opened from disk, and what tests ask of it.
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join, relative } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
+const playwright = await import("playwright-core").catch(() => null);
+export const page = process.env.TSPACE_PAGE;
+export const shared = process.env.TSPACE_SHARED;
+export const tool = process.env.TSPACE_TOOL;
+export const screenshots = process.env.TSPACE_SCREENSHOTS;
+export const missing = (!chromium && "no Chromium here: scripts/web --all") || (!playwright && "playwright-core is not installed") || false;
+export const noShared = missing || (!(shared && existsSync(shared)) && "no shared models here");
+export const noTool = noShared || (!tool && "the tool is not built");
+
+/** Runs `test(tab)` with the page open. Any request, error or message of the console fails it. */
+export async function withPage(test, { width = 1280, height = 800, scheme = "light", url = pathToFileURL(page).href, allowMessages = false } = {}) {
+  const home = mkdtempSync(join(tmpdir(), "tspace-home-"));
+  const browser = await playwright.chromium.launch({
+    executablePath: chromium,
+    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+    env: { ...process.env, HOME: home, XDG_RUNTIME_DIR: home },
+  });
+  try {
+    const tab = await browser.newPage({ viewport: { width, height }, colorScheme: scheme, reducedMotion: "reduce" });
+    const faults = [], requests = [];
+    tab.on("pageerror", (error) => faults.push(`${error.message} ${error.stack ?? ""}`));
+    tab.on("console", (message) => !allowMessages && ["error", "warning"].includes(message.type()) && !/GPU stall|GL Driver/.test(message.text()) && faults.push(message.text()));
+    tab.on("request", (request) => !/^(data|blob):/.test(request.url()) && requests.push(request.url()));
+    await tab.goto(url);
+    await settled(tab);
+    const result = await test(tab, requests);
+    if (requests.length !== 1) throw new Error(`requests after the page itself: ${requests.slice(1).join(", ")}`);
+    if (faults.length > 0) throw new Error(faults.join("\n"));
+    return result;
+  } finally {
+    await browser.close();
+    rmSync(home, { recursive: true, force: true });
+  }
+}
+
+/** Waits until the model is judged, or has failed, or was stopped; gives the state. */
+export async function settled(tab, timeout = 60_000) {
+  await tab.waitForSelector("html:is([data-state=ready], [data-state=failed], [data-state=stopped])", { state: "attached", timeout });
+  return tab.evaluate(() => document.documentElement.dataset.state);
+}
+
+/** Opens a file, with those beside it that it may name, as if it had been dropped. */
+export async function openFile(tab, path, { name = path.split("/").pop(), others = {}, timeout } = {}) {
+  const files = Object.fromEntries(Object.entries(others).map(([key, file]) => [key, readFileSync(file).toString("base64")]));
+  await tab.evaluate(([name, model, files]) => {
+    const decode = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    const others = new Map(Object.entries(files).map(([key, text]) => [key, decode(text)]));
+    void window.tspaceView.open(async () => ({ name, bytes: decode(model), others }));
+  }, [name, readFileSync(path).toString("base64"), files]);
+  return settled(tab, timeout);
+}
+
+/** Files that a .gltf names, by their paths as it writes them, decoded. */
+export function named(path) {
+  if (!path.endsWith(".gltf")) return {};
+  const found = {};
+  try {
+    const json = JSON.parse(readFileSync(path, "utf8"));
+    for (const { uri } of [...(json.buffers ?? []), ...(json.images ?? [])]) {
+      if (typeof uri !== "string" || /^[a-z]+:/i.test(uri)) continue;
+      const file = join(dirname(path), decodeURIComponent(uri));
+      if (!relative(dirname(path), file).startsWith("..") && existsSync(file) && statSync(file).isFile()) found[decodeURIComponent(uri)] = file;
+    }
+  } catch {
+    // Broken files name what they like.
+  }
+  return found;
+}
+
+export function filesBelow(folder, pattern) {
+  return readdirSync(folder, { recursive: true }).filter((name) => pattern.test(name)).map((name) => join(folder, name)).sort();
+}
+
+/** Waits until what was changed is drawn. */
+export const drawn = (tab) => tab.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))));
+
+export async function shoot(tab, name, options = {}) {
+  await drawn(tab);
+  mkdirSync(screenshots, { recursive: true });
+  return tab.screenshot({ path: join(screenshots, `${name}.png`), ...options });
+}
+
+/** Chooses a look, a method's frame or anything else that is a radio button. */
+export const choose = (tab, label, scope = "body") => tab.locator(`${scope} label`, { hasText: new RegExp(`^${label}$`) }).locator("input").check({ force: true });
+
+/** Shares of the picture's pixels that are nearest to each of the named colours; what is far from all counts as "other". */
+export async function shares(tab, colors, area = { left: 0, top: 0, right: 1, bottom: 1 }) {
+  await drawn(tab);
+  const png = (await tab.locator(".frame canvas").screenshot()).toString("base64");
+  return tab.evaluate(async ([png, colors, area]) => {
+    const bytes = Uint8Array.from(atob(png), (c) => c.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+    const canvas = new OffscreenCanvas(image.width, image.height), context = canvas.getContext("2d");
+    context.drawImage(image, 0, 0);
+    const x = Math.floor(image.width * area.left), y = Math.floor(image.height * area.top);
+    const { data } = context.getImageData(x, y, Math.ceil(image.width * area.right) - x, Math.ceil(image.height * area.bottom) - y);
+    const counts = Object.fromEntries([...Object.keys(colors), "other"].map((name) => [name, 0]));
+    for (let i = 0; i < data.length; i += 4) {
+      // Shading makes colours darker, so only their hue and saturation count.
+      const most = Math.max(data[i], data[i + 1], data[i + 2], 1);
+      let best = "other", nearest = 0.12;
+      for (const [name, color] of Object.entries(colors)) {
+        const top = Math.max(...color);
+        const distance = Math.hypot(...color.map((c, k) => c / top - data[i + k] / most));
+        if (distance < nearest && most > 30) [best, nearest] = [name, distance];
+      }
+      counts[best] += 1;
+    }
+    for (const name of Object.keys(counts)) counts[name] /= data.length / 4;
+    return counts;
+  }, [png, colors, area]);
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// The page becomes one file: scripts, styles, the worker, WebAssembly and samples are all in index.html.
+import { createHash } from "node:crypto";
+import { defineConfig, type Plugin } from "vite";
+
+/** What the page may do: run its own script and worker, and read what it holds itself. No server is named anywhere. */
+function policy(script: string): string {
+  const hash = createHash("sha256").update(script).digest("base64");
+  return [
+    "default-src 'none'",
+    `script-src 'sha256-${hash}' 'wasm-unsafe-eval' blob:`,
+    "worker-src blob:",
+    "style-src 'unsafe-inline'",
+    "img-src data: blob:",
+    "connect-src data: blob:",
+    "base-uri 'none'",
+    "form-action 'none'",
+  ].join("; ");
+}
+
+/** Puts the script and the style sheet into the HTML, and a policy that allows this very script. */
+function oneFile(): Plugin {
+  return {
+    name: "one-file",
+    enforce: "post",
+    generateBundle(_, bundle) {
+      const files = Object.values(bundle);
+      const page = files.find((file) => file.fileName === "index.html");
+      const script = files.find((file) => file.type === "chunk");
+      const style = files.find((file) => file.fileName.endsWith(".css"));
+      if (page?.type !== "asset" || script?.type !== "chunk") throw new Error("no page, or no script");
+      // "</script" inside of a string would end the script.
+      const code = script.code.replaceAll("</script", "<\\/script");
+      const css = style?.type === "asset" ? String(style.source) : "";
+      const head = `<meta http-equiv="Content-Security-Policy" content="${policy(code)}" />\n    <style>${css}</style>`;
+      const html = String(page.source)
+        .replace(/<script type="module"[^>]*><\/script>/, "")
+        .replace(/<link rel="stylesheet"[^>]*>/, "")
+        .replace('<meta charset="utf-8" />', () => `<meta charset="utf-8" />\n    ${head}`)
+        .replace("</body>", () => `<!-- model -->\n    <script type="module">${code}</script>\n  </body>`);
+      page.source = html;
+      for (const file of files) if (file !== page) delete bundle[file.fileName];
+    },
+  };
+}
+
+export default defineConfig({
+  base: "./",
+  assetsInclude: ["**/*.glb"],
+  build: { target: "es2022", assetsInlineLimit: 1 << 30, cssCodeSplit: false, modulePreload: false, chunkSizeWarningLimit: 8000 },
+  worker: { format: "iife" },
+  plugins: [oneFile()],
+});
