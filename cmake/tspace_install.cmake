@@ -37,6 +37,9 @@ foreach(program tspace_tool tspace_import)
     endif()
 endforeach()
 
+# The page that tspace view writes, where scripts/web has built it.
+install(FILES "${PROJECT_SOURCE_DIR}/build/web/view.html" DESTINATION "${CMAKE_INSTALL_DATADIR}/tspace" COMPONENT tspace_tool OPTIONAL)
+
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/tspace" COMPONENT tspace_core)
 
 # The library is static, so a C program has to name the C++ runtime as well.

@@ -14,6 +14,7 @@
 #include "tspace/identify.h"
 #include "tspace/map_convert_file.h"
 #include "tspace/render.h"
+#include "view/view_page.h"
 
 namespace tspace::report {
 
@@ -42,6 +43,7 @@ std::string diffJson(const std::string& a, const std::string& b, double toleranc
 std::string flipGreenJson(const Outcome<FlipGreenReport>& outcome, ExitCode exit_code);
 std::string renderJson(const Outcome<RenderReport>& outcome, ExitCode exit_code);
 std::string convertMapJson(const Outcome<ConvertMapFileReport>& outcome, ExitCode exit_code);
+std::string viewJson(const Outcome<ViewReport>& outcome, ExitCode exit_code);
 
 /// null, or the error as docs/json.md describes it.
 Json errorJson(const Error* error);

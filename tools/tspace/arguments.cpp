@@ -67,6 +67,7 @@ Arguments parseArguments(int argc, char** argv) {
     if (command->name == "flip-green") return std::move(all.flip_green);
     if (command->name == "render") return std::move(all.render);
     if (command->name == "convert-map") return std::move(all.convert_map);
+    if (command->name == "view") return std::move(all.view);
     return runHelp(tool, all.help_topic);
 }
 

@@ -107,9 +107,18 @@ struct ConvertMapArguments {
     bool quiet = false;
 };
 
+struct ViewArguments {
+    std::string input = {};
+    std::string output = {};
+    FileOptions file = {};
+    bool json = false;
+    bool quiet = false;
+};
+
 /// Nothing to run: help was printed, or the command line is wrong and the error line was printed.
 using Arguments = std::variant<ExitCode, GenerateArguments, InspectArguments, CheckArguments, DiffArguments,
-                               IdentifyArguments, FlipGreenArguments, RenderArguments, ConvertMapArguments>;
+                               IdentifyArguments, FlipGreenArguments, RenderArguments, ConvertMapArguments,
+                               ViewArguments>;
 
 Arguments parseArguments(int argc, char** argv);
 

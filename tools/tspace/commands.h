@@ -14,5 +14,6 @@ ExitCode runCheck(const CheckArguments& arguments);
 ExitCode runFlipGreen(const FlipGreenArguments& arguments);
 ExitCode runRender(const RenderArguments& arguments);
 ExitCode runConvertMap(const ConvertMapArguments& arguments);
+ExitCode runView(const ViewArguments& arguments);
 
 }  // namespace tspace::tool

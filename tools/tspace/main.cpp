@@ -46,6 +46,7 @@ ExitCode run(int argc, char** argv) {
     if (const auto* flip = std::get_if<FlipGreenArguments>(&arguments)) return runFlipGreen(*flip);
     if (const auto* render = std::get_if<RenderArguments>(&arguments)) return runRender(*render);
     if (const auto* convert = std::get_if<ConvertMapArguments>(&arguments)) return runConvertMap(*convert);
+    if (const auto* view = std::get_if<ViewArguments>(&arguments)) return runView(*view);
     return std::get<ExitCode>(arguments);
 }
 

@@ -90,7 +90,8 @@ ToolTable toolTable(AllArguments& arguments) {
     tool.commands = {generateCommand(arguments.generate), diffCommand(arguments.diff),
                      identifyCommand(arguments.identify), inspectCommand(arguments.inspect),
                      checkCommand(arguments.check),       flipGreenCommand(arguments.flip_green),
-                     renderCommand(arguments.render),     convertMapCommand(arguments.convert_map)};
+                     renderCommand(arguments.render),     convertMapCommand(arguments.convert_map),
+                     viewCommand(arguments.view)};
     tool.commands.push_back(helpCommand(arguments.help_topic, tool.commands));
     Option help = helpOption();
     help.group = "Options";

@@ -18,6 +18,7 @@ struct AllArguments {
     FlipGreenArguments flip_green = {};
     RenderArguments render = {};
     ConvertMapArguments convert_map = {};
+    ViewArguments view = {};
     std::string help_topic = {};  ///< of `tspace help`
 };
 
@@ -29,6 +30,7 @@ Command identifyCommand(IdentifyArguments& arguments);
 Command flipGreenCommand(FlipGreenArguments& arguments);
 Command renderCommand(RenderArguments& arguments);
 Command convertMapCommand(ConvertMapArguments& arguments);
+Command viewCommand(ViewArguments& arguments);
 
 /// All commands, in the order in which help lists them.
 ToolTable toolTable(AllArguments& arguments);

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// The files of a model as blocks of data in the page. A script whose type is no language is never run.
+#include "view/view_page.h"
+
+#include <algorithm>
+#include <map>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "asset/atomic_output.h"
+#include "asset/file_error.h"
+#include "asset/file_io.h"
+
+namespace tspace {
+namespace {
+
+constexpr std::string_view kPlaceOfModel = "<!-- model -->";
+
+struct EmbeddedFile {
+    std::string name;
+    Bytes bytes;
+};
+
+void appendBase64(std::string& out, std::span<const std::uint8_t> bytes) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    out.reserve(out.size() + (bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t here = std::min<std::size_t>(3, bytes.size() - i);
+        std::uint32_t word = 0;
+        for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (k < here ? bytes[i + k] : 0U);
+        for (std::size_t k = 0; k < 4; ++k) out += k <= here ? digits[word >> (18 - 6 * k) & 63] : '=';
+    }
+}
+
+/// Fit for an attribute in quotation marks. Bytes that are no UTF-8 are for the browser to replace.
+std::string escaped(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            default:
+                out += c;
+        }
+    }
+    return out;
+}
+
+/// The model, then each file that it names. A GLB made of it asks for all of them.
+std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options) {
+    const std::string extension = lowerExtension(input);
+    if (extension != ".glb" && extension != ".gltf" && extension != ".obj") {
+        failFile(ErrorCode::unsupportedFile,
+                 "the page shows .glb, .gltf and .obj; make a GLB of it first, by tspace generate IN -o OUT.glb");
+    }
+    const std::string& path = input.string();
+    std::vector<EmbeddedFile> files;
+    files.push_back({path.substr(path.rfind('/') + 1), readFile(input)});
+    const Bytes model = files.front().bytes;
+    std::map<std::string, Bytes> found;
+    GenerateOptions ask;
+    ask.file = options;
+    ask.file.content = model;
+    ask.file.find_file = [&](const std::string& name) {
+        return atFileBorder([&]() -> Result<std::span<const std::uint8_t>> {
+            auto known = found.find(name);
+            if (known == found.end()) known = found.emplace(name, readFile(folderOf(input) / name)).first;
+            return std::span<const std::uint8_t>(known->second);
+        });
+    };
+    ask.sink = [](std::span<const std::uint8_t>) { return true; };
+    valueOrThrow(generateFile(files.front().name, "view.glb", ask));
+    for (auto& [name, bytes] : found) files.push_back({name, std::move(bytes)});
+    return files;
+}
+
+}  // namespace
+
+Result<ViewReport> writeViewPage(const Path& input, const Path& output, const Path& page, const FileOptions& options) {
+    return atFileBorder([&]() -> Result<ViewReport> {
+        const Bytes html = readFile(page);
+        const std::string_view text(reinterpret_cast<const char*>(html.data()), html.size());
+        const std::size_t place = text.find(kPlaceOfModel);
+        if (place == std::string_view::npos)
+            failFile(ErrorCode::unsupportedFile, "the page " + pathInQuotes(page) + " has no place for a model");
+        ViewReport report;
+        std::string made(text.substr(0, place));
+        for (const EmbeddedFile& file : filesOf(input, options)) {
+            made += "<script type=\"application/octet-stream\" data-name=\"" + escaped(file.name) + "\">";
+            appendBase64(made, file.bytes);
+            made += "</script>\n";
+            report.files.push_back(file.name);
+        }
+        made += text.substr(place + kPlaceOfModel.size());
+        AtomicOutput target;
+        target.add(output, std::span(reinterpret_cast<const std::uint8_t*>(made.data()), made.size()));
+        target.commit();
+        report.output_bytes = target.byteCount();
+        return report;
+    });
+}
+
+}  // namespace tspace

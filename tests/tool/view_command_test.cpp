@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// tspace view: one file of the page and a model. The page lies beside the tool, so the tool is copied beside one.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "run_tool.h"
+
+namespace tspace::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder with an installed tool, and a page where there is one.
+class Installed {
+  public:
+    explicit Installed(const std::string& page) {
+        fs::create_directories(folder_.path() / "bin");
+        fs::copy_file(TSPACE_TOOL, folder_.path() / "bin" / "tspace");
+        if (!page.empty()) folder_.write("share/tspace/view.html", page);
+        writeFoldedObj(folder_, "a.obj");
+        writeBumpMap(folder_);
+    }
+    /// The words go to `env`, which starts the copy, after the tool that runTool starts.
+    [[nodiscard]] ToolRun run(const std::string& arguments) const {
+        return runTool(folder_, arguments, R"(sh -c 'shift 0; exec ./bin/tspace "$@"')");
+    }
+    [[nodiscard]] const TempFolder& folder() const { return folder_; }
+
+  private:
+    TempFolder folder_ = {};
+};
+
+constexpr const char* kPage = "<body><!-- model --><script>1</script></body>";
+
+TEST(ViewCommand, PutsTheModelAndWhatItNamesIntoThePage) {
+    const Installed installed(kPage);
+    const ToolRun run = installed.run("view a.obj -o a.html");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::string page = installed.folder().read("a.html");
+    EXPECT_EQ(page.rfind("<body><script type=\"application/octet-stream\" data-name=\"a.obj\">", 0), 0U) << page;
+    EXPECT_NE(page.find("data-name=\"folded.mtl\">bmV3bXRsIHNraW4KbWFwX0J1bXAgYnVtcC5wbmcK</script>"),
+              std::string::npos)
+        << page;
+    EXPECT_NE(page.find("data-name=\"bump.png\">iVBORw0KGgo"), std::string::npos) << page;
+    EXPECT_TRUE(page.ends_with("<script>1</script></body>"));
+}
+
+TEST(ViewCommand, NamesAreNoMarkup) {
+    const Installed installed(kPage);
+    ASSERT_EQ(installed.run("generate a.obj -o '\"><b&.glb'").exit_code, 0);
+    ASSERT_EQ(installed.run("view '\"><b&.glb' -o a.html").exit_code, 0);
+    EXPECT_NE(installed.folder().read("a.html").find("data-name=\"&quot;&gt;&lt;b&amp;.glb\""), std::string::npos);
+}
+
+TEST(ViewCommand, PrintsJson) {
+    const Installed installed(kPage);
+    const auto json = nlohmann::json::parse(installed.run("view --json a.obj -o a.html").out);
+    EXPECT_EQ(json["schema"], "tspace.view/1");
+    EXPECT_EQ(json["files"], nlohmann::json({"a.obj", "bump.png", "folded.mtl"}));
+    EXPECT_EQ(json["outputBytes"], installed.folder().read("a.html").size());
+}
+
+TEST(ViewCommand, RefusesWithOneLineAndWritesNothing) {
+    const Installed installed(kPage);
+    installed.folder().write("broken.glb", "glTF");
+    installed.folder().write("a.fbx", "Kaydara");
+    for (const auto& [arguments, exit_code] : {std::pair("view a.obj", 2),
+                                               {"view a.obj -o a.obj", 2},
+                                               {"view none.glb -o x.html", 4},
+                                               {"view broken.glb -o x.html", 3},
+                                               {"view a.fbx -o x.html", 3},
+                                               {"view a.obj -o a.obj/x.html", 4}}) {
+        const ToolRun run = installed.run(arguments);
+        EXPECT_EQ(run.exit_code, exit_code) << arguments << ": " << run.err;
+        EXPECT_EQ(run.errorLines(), 1) << run.err;
+        EXPECT_FALSE(fs::exists(installed.folder().path() / "x.html"));
+    }
+    const ToolRun without = Installed("").run("view a.obj -o x.html");
+    EXPECT_EQ(without.exit_code, 4);
+    EXPECT_NE(without.err.find("scripts/web builds it"), std::string::npos) << without.err;
+}
+
+}  // namespace
+}  // namespace tspace::test

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// tspace view: a page with the model in it.
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "commands.h"
+#include "console.h"
+#include "report.h"
+
+namespace tspace::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Beside an installed tool, or in the build folder; empty: it was not built.
+std::string pagePath() {
+    std::error_code failed;
+    const fs::path folder = fs::read_symlink("/proc/self/exe", failed).parent_path();
+    for (const char* place : {"../share/tspace/view.html", "../../web/view.html"}) {
+        fs::path page = (folder / place).lexically_normal();
+        if (!failed && fs::exists(page, failed)) return page.string();
+    }
+    return {};
+}
+
+Result<ViewReport> view(const ViewArguments& arguments) {
+    const std::string page = pagePath();
+    if (page.empty())
+        return Error{ErrorCode::cannotRead, "the page was not built with this tool: scripts/web builds it"};
+    return writeViewPage(arguments.input, arguments.output, page, arguments.file);
+}
+
+}  // namespace
+
+ExitCode runView(const ViewArguments& arguments) {
+    std::error_code ignored;
+    if (fs::equivalent(arguments.input, arguments.output, ignored))
+        return printUsageError("the output " + arguments.output + " is the input");
+    const report::Outcome<ViewReport> outcome{
+        .input = arguments.input, .output = arguments.output, .result = view(arguments)};
+    const ExitCode exit_code = outcome.result ? ExitCode::done : printError(arguments.input, outcome.result.error());
+    std::string text;
+    if (arguments.json) {
+        text = report::viewJson(outcome, exit_code);
+    } else if (!arguments.quiet && outcome.result) {
+        text = fmt::format("{} -> {}: {}, {}\n", printable(arguments.input), printable(arguments.output),
+                           counted(outcome.result->files.size(), "file"), byteText(outcome.result->output_bytes));
+    }
+    return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+}
+
+}  // namespace tspace::tool
