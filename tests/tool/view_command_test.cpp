@@ -22,9 +22,9 @@ class Installed {
         writeFoldedObj(folder_, "a.obj");
         writeBumpMap(folder_);
     }
-    /// The words go to `env`, which starts the copy, after the tool that runTool starts.
+    /// In place of the tool that was built, the copy.
     [[nodiscard]] ToolRun run(const std::string& arguments) const {
-        return runTool(folder_, arguments, R"(sh -c 'shift 0; exec ./bin/tspace "$@"')");
+        return runTool(folder_, arguments, R"(sh -c 'exec ./bin/tspace "$@"')");
     }
     [[nodiscard]] const TempFolder& folder() const { return folder_; }
 
