@@ -116,9 +116,9 @@ struct ViewArguments {
 };
 
 /// Nothing to run: help was printed, or the command line is wrong and the error line was printed.
-using Arguments = std::variant<ExitCode, GenerateArguments, InspectArguments, CheckArguments, DiffArguments,
-                               IdentifyArguments, FlipGreenArguments, RenderArguments, ConvertMapArguments,
-                               ViewArguments>;
+using Arguments =
+    std::variant<ExitCode, GenerateArguments, InspectArguments, CheckArguments, DiffArguments, IdentifyArguments,
+                 FlipGreenArguments, RenderArguments, ConvertMapArguments, ViewArguments>;
 
 Arguments parseArguments(int argc, char** argv);
 
