@@ -3,7 +3,9 @@
 #pragma once
 
 #include "tspace/flip_green.h"
+#include "tspace/map_bake.h"
 #include "tspace/map_convert.h"
+#include "tspace/map_error.h"
 #include "tspace/map_image.h"
 #include "tspace/map_reading.h"
 #include "tspace/texture_wrap.h"

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Baking: a normal map that makes a low poly look like a high poly. CMake target tspace::maps.
+//
+// Rays go along the interpolated normals of the low poly, both ways, to the nearest front-facing triangle. The map is right
+// for the frames that the low poly has, read as the options say; its error is measured (map_error.h).
+#pragma once
+
+#include "tspace/map_error.h"
+
+namespace tspace {
+
+/// How texels are found.
+enum class MapFit : std::uint32_t {
+    /// All together, so that the bilinear-filtered map is right at 3 x 3 points a texel: least squares, counted across the
+    /// wanted direction. Integers are chosen so too: with 8 bits with any length
+    /// from 0.7 to 1.
+    solve = 0,
+    texel = 1,  ///< each alone: right at its centre
+};
+
+struct BakeOptions {
+    std::uint32_t width = 1024, height = 1024;  ///< 1 to 16384
+    unsigned bits = 16;                         ///< of a channel: 8 or 16
+    MapSpace space = MapSpace::tangent;
+    MapReading reading = {};  ///< what the map is made for. With two channels all texels have length 1
+    MapFit fit = MapFit::solve;
+    std::uint32_t padding = 16;  ///< texels around the triangles that continue them; 0 to 256
+    double reach = 0;            ///< as MapErrorOptions::reach
+    bool heat = false;           ///< MapError::heat
+    Execution execution = {};
+    MapProgress progress = {};
+    std::function<bool()> stop = {};  ///< as MapErrorOptions::stop
+    /// Most memory that the call may take: bakeBytes is compared with it before any work (tooLarge). 0: no limit.
+    std::uint64_t memory_limit_bytes = 0;
+};
+
+/// What a texel of a baked map is.
+enum class TexelOrigin : std::uint8_t {
+    background = 0,  ///< no triangle is near: flat
+    padding = 1,     ///< continues the nearest triangle
+    hit = 2,         ///< its centre lies in a triangle, and the line through it met the high poly
+    missed = 3,      ///< its centre lies in a triangle, and the line met nothing: filled from its neighbours
+};
+
+struct BakedMap {
+    std::uint32_t width = 0, height = 0;
+    unsigned bits = 16;
+    std::vector<Vec3> texels = {};          ///< channels n / (2^bits - 1), n whole; row 0 is v = 0
+    std::vector<TexelOrigin> origins = {};  ///< one per texel
+    std::vector<bool> overlaps = {};        ///< one per texel: its centre lies inside of several triangles
+    std::uint64_t hit_count = 0, missed_count = 0, padding_count = 0;  ///< texels
+    std::uint64_t overlap_count = 0;  ///< texels whose centre lies inside of several triangles
+    std::uint64_t conflict_count =
+        0;  ///< those of them that the triangles want over 2 degrees apart; they get the mean
+    std::uint64_t degenerate_uv_count = 0;  ///< triangles without UV area, or whose UVs are not finite: nothing drawn
+    MapError error = {};                    ///< against the high poly, as shaded
+};
+
+/// What a bake takes at its peak, about.
+std::uint64_t bakeBytes(const BakeOptions& options, std::uint64_t low_triangles, std::uint64_t high_triangles);
+
+/// Bakes one image. UVs outside of 0 to 1 wrap. The same texels for any thread count. Time: rays, about 1 microsecond
+/// each, 1 or 9 a texel, and 1 to 3 microseconds a texel for `solve`. Errors as measureMap;
+/// tooLarge; missingAttribute also where no line meets the high poly, or the UVs cover no texel. Thread-safe.
+Result<BakedMap> bakeMap(const LowPoly& low, const HighPoly& high, const BakeOptions& options = {});
+
+}  // namespace tspace

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "tspace/map_bake.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/border.h"
+#include "maps/map_calls.h"
+#include "maps/map_stop.h"
+#include "maps/quantize.h"
+#include "maps/solve_texels.h"
+#include "maps/trace_texels.h"
+
+namespace tspace {
+
+namespace {
+
+constexpr std::uint32_t kMostSide = 16384;
+constexpr std::uint32_t kMostPadding = 256;
+/// So much around a triangle is read by the filter inside of it.
+constexpr std::uint32_t kFilterTexels = 2;
+/// Smaller images have texels that are their own neighbours.
+constexpr std::uint32_t kLeastSolved = 4;
+constexpr unsigned kIntegerRounds = 3;
+
+class Baking {
+  public:
+    Baking(const LowPoly& low, const HighPoly& high, const BakeOptions& options)
+        : low_(low),
+          high_(high),
+          options_(options),
+          allocator_(options.execution.allocator),
+          parallel_(options.execution) {}
+
+    Result<BakedMap> run() {
+        Result<MapSurfaces> surfaces = MapSurfaces::make(low_, high_, options_.reach, options_.execution);
+        if (!surfaces) return std::move(surfaces).error();
+        const LowUvs uvs(low_, allocator_);
+        const std::uint32_t padding = std::max(options_.padding, kFilterTexels);
+        const std::optional<TexelTriangles> triangles =
+            findTexelTriangles(uvs.triangles(), options_.width, options_.height, padding, parallel_, allocator_);
+        if (!triangles)
+            return makeError(ErrorCode::tooLarge, kNoElement,
+                             "the triangles of the low poly cover the image too often");
+        if (triangles->counts.inside == 0)
+            return makeError(ErrorCode::missingAttribute, kNoElement, "the UVs of the low poly cover no texel");
+        std::optional<TexelSystem> system;
+        if (solves()) system.emplace(allocator_, options_.width, options_.height);
+        if (!traceTexels(*surfaces, *triangles, options_, parallel_, traced_, system ? &*system : nullptr))
+            return stoppedError();
+        if (Error error = countOrigins(*triangles); error.code != ErrorCode::ok) return error;
+        fillFromNeighbours(traced_, options_.width, options_.height);
+        if (options_.stop && options_.stop()) return stoppedError();
+        if (options_.progress) options_.progress("fitting", 0, 1);
+        fit(system ? &*system : nullptr);
+        writeTexels();
+        return measured(*surfaces);
+    }
+
+  private:
+    [[nodiscard]] bool solves() const {
+        return options_.fit == MapFit::solve && std::min(options_.width, options_.height) >= kLeastSolved;
+    }
+
+    Error countOrigins(const TexelTriangles& triangles) {
+        for (const TexelOrigin origin : traced_.origins) {
+            map_.hit_count += origin == TexelOrigin::hit ? 1 : 0;
+            map_.missed_count += origin == TexelOrigin::missed ? 1 : 0;
+            map_.padding_count += origin == TexelOrigin::padding ? 1 : 0;
+        }
+        map_.overlaps.assign(triangles.overlaps.begin(), triangles.overlaps.end());
+        map_.overlap_count = triangles.counts.overlapping;
+        map_.conflict_count = traced_.conflict_count;
+        map_.degenerate_uv_count =
+            triangles.counts.without_area + triangles.counts.not_finite + triangles.counts.too_far;
+        if (map_.hit_count > 0) return {ErrorCode::ok};
+        return makeError(ErrorCode::missingAttribute, kNoElement, "no line from the low poly meets the high poly");
+    }
+
+    void fit(const TexelSystem* system) {
+        const std::span<Vec3> texels(traced_.wanted.data(), traced_.wanted.size());
+        IntegerChoice choice;
+        choice.is_two_channel = options_.reading.two_channels;
+        if (options_.bits == 16) {
+            if (system == nullptr) return;
+            solveTexels(*system, texels, parallel_, allocator_);
+            choice.most = 65535;
+            choice.most_steps = 0;
+        }
+        if (system != nullptr) {
+            chooseIntegers(*system, choice, texels, kIntegerRounds, parallel_, allocator_);
+        } else {
+            const IntegerVectors numbers{.most = choice.most,
+                                         .least_length = static_cast<double>(choice.least_length),
+                                         .is_two_channel = choice.is_two_channel};
+            parallel_.forRanges(texels.size(), 64, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i)
+                    texels[i] = toFloat(nearestIntegers(numbers, toDouble(texels[i])));
+            });
+        }
+    }
+
+    void writeTexels() {
+        map_.width = options_.width;
+        map_.height = options_.height;
+        map_.bits = options_.bits;
+        map_.texels.resize(traced_.wanted.size());
+        const double most = options_.bits == 8 ? 255 : 65535;
+        parallel_.forRanges(map_.texels.size(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
+            const auto rounded = [&](double channel) {
+                return static_cast<float>(std::floor(std::clamp(channel, 0.0, 1.0) * most + 0.5) / most);
+            };
+            for (std::size_t i = begin; i < end; ++i) {
+                const DVec3 texel = encodeTexel(toDouble(traced_.wanted[i]), options_.reading);
+                map_.texels[i] = {rounded(texel.x), rounded(texel.y), rounded(texel.z)};
+            }
+        });
+        map_.origins.assign(traced_.origins.begin(), traced_.origins.end());
+    }
+
+    Result<BakedMap> measured(const MapSurfaces& surfaces) {
+        const MapErrorOptions options{.space = options_.space,
+                                      .reading = options_.reading,
+                                      .execution = options_.execution,
+                                      .progress = options_.progress,
+                                      .stop = options_.stop};
+        const std::optional<MeasurePoints> points =
+            MeasurePoints::spread(surfaces, options.point_count, parallel_, options);
+        if (!points) return stoppedError();
+        const MapImage image{map_.width, map_.height, map_.texels};
+        const MapCandidate candidate{options_.space, options_.reading, {}};
+        map_.error = points->measure(image, surfaces, candidate, parallel_);
+        if (options_.heat) {
+            map_.error.heat = heatOf(image, surfaces, candidate, parallel_, options);
+            if (map_.error.heat.empty()) return stoppedError();
+        }
+        return std::move(map_);
+    }
+
+    LowPoly low_;
+    HighPoly high_;
+    const BakeOptions& options_;
+    const Allocator* allocator_;
+    Parallel parallel_;
+    TracedTexels traced_ = {};
+    BakedMap map_ = {};
+};
+
+}  // namespace
+
+Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, std::size_t high_triangles) {
+    const auto wrong = [](const char* what) { return makeError(ErrorCode::invalidOption, kNoElement, "%s", what); };
+    if (options.width == 0 || options.height == 0 || options.width > kMostSide || options.height > kMostSide)
+        return makeError(ErrorCode::invalidOption, kNoElement, "a map has 1 to %u texels in a row or column",
+                         kMostSide);
+    if (options.bits != 8 && options.bits != 16) return wrong("a channel has 8 or 16 bits");
+    if (options.padding > kMostPadding) return wrong("the padding is at most 256 texels");
+    if (options.reading.scale != 1) return wrong("maps are baked for a scale of 1");
+    if (options.space == MapSpace::object && options.reading.two_channels)
+        return wrong("normals of the object need three channels");
+    const std::uint64_t bytes = bakeBytes(options, low_triangles, high_triangles);
+    if (options.memory_limit_bytes != 0 && bytes > options.memory_limit_bytes) {
+        return makeError(ErrorCode::tooLarge, kNoElement,
+                         "a map of %u x %u texels takes %zu MB, and the limit is %zu MB", options.width, options.height,
+                         static_cast<std::size_t>(bytes >> 20),
+                         static_cast<std::size_t>(options.memory_limit_bytes >> 20));
+    }
+    return {ErrorCode::ok};
+}
+
+std::uint64_t bakeBytes(const BakeOptions& options, std::uint64_t low_triangles, std::uint64_t high_triangles) {
+    // TexelTriangles, the vectors and their votes, the result; and the system with what solving it needs.
+    constexpr std::uint64_t kPlain = 26 + 16 + 13, kSolve = sizeof(TexelRow) + 36, kHeat = 6;
+    const std::uint64_t texel = kPlain + (options.fit == MapFit::solve ? kSolve : 0) + (options.heat ? kHeat : 0);
+    // Boxes of Embree; points of the measure.
+    constexpr std::uint64_t kLow = 120, kHigh = 200, kPoints = 100000 * 64;
+    return texel * options.width * options.height + kLow * low_triangles + kHigh * high_triangles + kPoints;
+}
+
+Result<BakedMap> bakeMap(const LowPoly& low, const HighPoly& high, const BakeOptions& options) {
+    return atBorder([&]() -> Result<BakedMap> {
+        Error error = checkBakeOptions(options, low.positions.count / 3, high.corners.size() / 3);
+        if (error.code == ErrorCode::ok) error = checkSurfaces(low, high, options.space == MapSpace::tangent);
+        if (error.code != ErrorCode::ok) return error;
+        return Baking(low, high, options).run();
+    });
+}
+
+}  // namespace tspace

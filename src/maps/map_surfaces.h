@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// A low poly, the high poly that it stands for, and the lines between them.
+#pragma once
+
+#include <memory>
+
+#include "core/memory.h"
+#include "maps/rays.h"
+#include "maps/shading.h"
+#include "maps/uv_coverage.h"
+#include "tspace/map_error.h"
+
+namespace tspace {
+
+/// What the calls of map_error.h and map_bake.h ask of meshes. An Error with code ok when all is well.
+Error checkSurfaces(const LowPoly& low, const HighPoly& high, bool needs_tangents);
+
+class MapSurfaces {
+  public:
+    /// Checked meshes, which must stay. `reach`: 0 chooses. Errors: unsupportedFile, outOfMemory, invalidOption (a reach
+    /// that is no length), missingAttribute (meshes that are nowhere near each other).
+    static Result<MapSurfaces> make(const LowPoly& low, const HighPoly& high, double reach, const Execution& execution);
+
+    [[nodiscard]] const LowPoly& low() const { return low_; }
+    [[nodiscard]] double reach() const { return reach_; }
+    [[nodiscard]] std::size_t triangleCount() const { return low_.positions.count / 3; }
+
+    /// The unit normal of the high poly, as shaded, where the line through a point of the low poly meets it. `guess` as
+    /// RaySurface::nearest; begin with 0. Threads may call at the same time.
+    bool truthAt(std::size_t triangle, const std::array<double, 3>& weights, double& guess, DVec3& normal) const;
+
+    [[nodiscard]] CornerFrames corners(std::size_t triangle, const StridedSpan<const Vec4>& tangents) const;
+
+  private:
+    LowPoly low_ = {};
+    HighPoly high_ = {};
+    double reach_ = 0;
+    std::unique_ptr<const RaySurface> rays_ = {};
+
+    [[nodiscard]] DVec3 normalOf(const RayHit& hit) const;
+};
+
+/// The UVs of a low poly as a list of triangles.
+struct LowUvs {
+    explicit LowUvs(const LowPoly& low, const Allocator* allocator);
+    [[nodiscard]] UvTriangles triangles() const {
+        return {.corners = {corners.data(), corners.size()}, .uvs = {uvs.data(), uvs.size()}};
+    }
+
+    Buffer<std::uint32_t> corners;
+    Buffer<Vec2> uvs;
+};
+
+}  // namespace tspace

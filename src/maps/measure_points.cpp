@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "maps/measure_points.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include "core/hash.h"
+#include "maps/sample_bands.h"
+#include "maps/texture_sample.h"
+
+namespace tspace {
+
+namespace {
+
+constexpr std::size_t kPointsOfTask = 1024;
+
+std::uint64_t bitsOf(float value) { return std::bit_cast<std::uint32_t>(value == 0 ? 0.0F : value); }
+
+/// The same for both directions of an edge.
+std::uint64_t hashEdge(const LowPoly& low, std::size_t a, std::size_t b) {
+    const auto hashEnd = [&](std::size_t corner) {
+        const Vec2& uv = low.uvs[corner];
+        return foldHash(hashPosition(low.positions[corner]), bitsOf(uv.x) | bitsOf(uv.y) << 32);
+    };
+    const std::uint64_t x = hashEnd(a), y = hashEnd(b);
+    return foldHash(std::min(x, y), std::max(x, y));
+}
+
+Vec2 uvAt(const LowPoly& low, std::size_t triangle, const std::array<double, 3>& weights) {
+    double u = 0, v = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        u += weights[i] * low.uvs[3 * triangle + i].x;
+        v += weights[i] * low.uvs[3 * triangle + i].y;
+    }
+    return {static_cast<float>(u), static_cast<float>(v)};
+}
+
+double areaOf(const LowPoly& low, std::size_t triangle) {
+    const DVec3 first = toDouble(low.positions[3 * triangle]);
+    const double area = length(
+        cross(toDouble(low.positions[3 * triangle + 1]) - first, toDouble(low.positions[3 * triangle + 2]) - first));
+    const Vec2 a = low.uvs[3 * triangle], b = low.uvs[3 * triangle + 1], c = low.uvs[3 * triangle + 2];
+    const bool shows = std::isfinite(a.x + a.y + b.x + b.y + c.x + c.y);
+    return std::isfinite(area) && shows ? area : 0;
+}
+
+double squaredDistanceTo(const DVec3& point, const DVec3& a, const DVec3& b) {
+    const DVec3 edge = b - a, from = point - a;
+    const double squared = dot(edge, edge);
+    const double part = squared > 0 ? std::clamp(dot(from, edge) / squared, 0.0, 1.0) : 0.0;
+    const DVec3 away = from - part * edge;
+    return dot(away, away);
+}
+
+}  // namespace
+
+DVec3 shadedAt(const MapImage& map, const MapCandidate& candidate, const CornerFrames& corners,
+               const std::array<double, 3>& weights, const Vec2& uv) {
+    const TextureShape shape{map.width, map.height, map.wrap_u, map.wrap_v};
+    DVec3 vector = decodeTexel(sampleBilinear(shape, map.texels, uv), candidate.reading);
+    if (candidate.space == MapSpace::object) return normalize(vector) ? vector : DVec3{};
+    return shadedNormal(shadingFrame(corners, weights, candidate.reading), vector);
+}
+
+std::optional<MeasurePoints> MeasurePoints::spread(const MapSurfaces& surfaces, std::uint32_t count, Parallel& parallel,
+                                                   const MapErrorOptions& options) {
+    MeasurePoints made;
+    made.findBorders(surfaces.low());
+    std::vector<double> ends(surfaces.triangleCount());
+    double total = 0;
+    for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = total += areaOf(surfaces.low(), i);
+    if (!(total > 0)) return made;
+    made.points_.resize(count);
+    const auto spreadTask = [&](std::size_t task) {
+        double guess = 0;
+        const std::size_t end = std::min<std::size_t>(count, (task + 1) * kPointsOfTask);
+        for (std::size_t i = task * kPointsOfTask; i < end; ++i) {
+            // Evenly over the area, and inside of a triangle by a hash of the number.
+            Point& point = made.points_[i];
+            const double at = total * (static_cast<double>(i) + 0.5) / count;
+            const auto triangle = std::upper_bound(ends.begin(), ends.end(), at) - ends.begin();
+            point.triangle = static_cast<std::uint32_t>(std::min<std::ptrdiff_t>(triangle, std::ssize(ends) - 1));
+            const std::uint64_t bits = mixBits(i + 1);
+            double s = static_cast<double>(bits >> 40) / 16777216.0,
+                   t = static_cast<double>(bits & 0xffffff) / 16777216.0;
+            if (s + t > 1) {
+                s = 1 - s;
+                t = 1 - t;
+            }
+            point.weights = {static_cast<float>(s), static_cast<float>(t)};
+            const std::array<double, 3> weights{1.0 - point.weights[0] - point.weights[1], point.weights[0],
+                                                point.weights[1]};
+            DVec3 normal;
+            point.is_hit = surfaces.truthAt(point.triangle, weights, guess, normal);
+            if (point.is_hit) point.normal = toFloat(normal);
+        }
+    };
+    const std::size_t tasks = (count + kPointsOfTask - 1) / kPointsOfTask;
+    if (!forTasksTold(parallel, tasks, "measuring", options.progress, options.stop, spreadTask)) return std::nullopt;
+    return made;
+}
+
+void MeasurePoints::findBorders(const LowPoly& low) {
+    const std::size_t count = low.positions.count;
+    std::vector<std::uint64_t> edges(count);
+    for (std::size_t corner = 0; corner < count; ++corner) {
+        edges[corner] = hashEdge(low, corner, corner % 3 == 2 ? corner - 2 : corner + 1);
+    }
+    std::vector<std::uint64_t> sorted = edges;
+    std::sort(sorted.begin(), sorted.end());
+    borders_.assign(count / 3, 0);
+    for (std::size_t corner = 0; corner < count; ++corner) {
+        const auto [from, to] = std::equal_range(sorted.begin(), sorted.end(), edges[corner]);
+        if (to - from == 1) borders_[corner / 3] |= static_cast<std::uint8_t>(1U << corner % 3);
+    }
+}
+
+bool MeasurePoints::isNearBorder(const MapImage& map, const LowPoly& low, const Point& point, const Vec2& uv) const {
+    const unsigned borders = borders_[point.triangle];
+    const auto inTexels = [&](const Vec2& at) {
+        return DVec3{static_cast<double>(at.x) * map.width, static_cast<double>(at.y) * map.height, 0};
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+        if ((borders >> i & 1) == 0) continue;
+        const std::size_t corner = 3 * std::size_t{point.triangle};
+        if (squaredDistanceTo(inTexels(uv), inTexels(low.uvs[corner + i]), inTexels(low.uvs[corner + (i + 1) % 3])) <=
+            1)
+            return true;
+    }
+    return false;
+}
+
+MapError MeasurePoints::measure(const MapImage& map, const MapSurfaces& surfaces, const MapCandidate& candidate,
+                                Parallel& parallel) const {
+    MapError error;
+    error.reach = surfaces.reach();
+    const LowPoly& low = surfaces.low();
+    const StridedSpan<const Vec4>& tangents = candidate.tangents.empty() ? low.tangents : candidate.tangents;
+    std::vector<float> angles(points_.size());
+    std::vector<std::uint8_t> near_border(points_.size());
+    parallel.forRanges(points_.size(), kPointsOfTask, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Point& point = points_[i];
+            if (!point.is_hit) continue;
+            const std::array<double, 3> weights{1.0 - point.weights[0] - point.weights[1], point.weights[0],
+                                                point.weights[1]};
+            const Vec2 uv = uvAt(low, point.triangle, weights);
+            const DVec3 shaded = shadedAt(map, candidate, surfaces.corners(point.triangle, tangents), weights, uv);
+            const double angle = degreesBetween(shaded, toDouble(point.normal));
+            // A point that shades nothing is as wrong as can be.
+            angles[i] = dot(shaded, shaded) > 0 && std::isfinite(angle) ? static_cast<float>(angle) : 180.0F;
+            near_border[i] = isNearBorder(map, low, point, uv) ? 1 : 0;
+        }
+    });
+    std::vector<float> compared;
+    double at_seams = 0, inside = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        if (!points_[i].is_hit) continue;
+        compared.push_back(angles[i]);
+        (near_border[i] != 0 ? at_seams : inside) += static_cast<double>(angles[i]);
+        error.seam_point_count += near_border[i];
+    }
+    error.point_count = compared.size();
+    error.missed_count = points_.size() - compared.size();
+    if (compared.empty()) return error;
+    const auto count = static_cast<double>(compared.size());
+    error.mean_deg = (at_seams + inside) / count;
+    const std::size_t inside_count = compared.size() - error.seam_point_count;
+    if (error.seam_point_count > 0) error.seam_mean_deg = at_seams / static_cast<double>(error.seam_point_count);
+    if (inside_count > 0) error.inside_mean_deg = inside / static_cast<double>(inside_count);
+    const auto place = compared.begin() + static_cast<std::ptrdiff_t>((compared.size() - 1) * 99 / 100);
+    std::nth_element(compared.begin(), place, compared.end());
+    error.p99_deg = static_cast<double>(*place);
+    error.max_deg = static_cast<double>(*std::max_element(place, compared.end()));
+    return error;
+}
+
+std::vector<float> heatOf(const MapImage& map, const MapSurfaces& surfaces, const MapCandidate& candidate,
+                          Parallel& parallel, const MapErrorOptions& options) {
+    constexpr std::uint32_t kSide = 2;  // points of a texel in a row
+    const Allocator* const allocator = options.execution.allocator;
+    const LowUvs uvs(surfaces.low(), allocator);
+    const SampleBands bands(uvs.triangles(), map.width, map.height, kSide, 0, allocator);
+    const StridedSpan<const Vec4>& tangents = candidate.tangents.empty() ? surfaces.low().tangents : candidate.tangents;
+    std::vector<float> heat(std::size_t{map.width} * map.height, 0);
+    std::vector<std::uint16_t> counts(heat.size(), 0);
+    const auto fillBand = [&](std::size_t band) {
+        double guess = 0;
+        const std::size_t first_row = band * SampleBands::kBandTexels;
+        bands.forSamples(band, [&](const BandSample& sample) {
+            const std::size_t texel =
+                (first_row + static_cast<std::size_t>(sample.row) / kSide) * map.width + sample.column / kSide;
+            DVec3 truth;
+            if (counts[texel] == 0xffff || !surfaces.truthAt(sample.triangle, sample.weights, guess, truth)) return;
+            const DVec3 shaded = shadedAt(map, candidate, surfaces.corners(sample.triangle, tangents), sample.weights,
+                                          uvAt(surfaces.low(), sample.triangle, sample.weights));
+            const double angle = degreesBetween(shaded, truth);
+            heat[texel] += std::isfinite(angle) ? static_cast<float>(angle) : 180.0F;
+            ++counts[texel];
+        });
+    };
+    if (!forTasksTold(parallel, bands.bandCount(), "drawing the error", options.progress, options.stop, fillBand))
+        return {};
+    for (std::size_t i = 0; i < heat.size(); ++i) heat[i] = counts[i] > 0 ? heat[i] / counts[i] : -1;
+    return heat;
+}
+
+}  // namespace tspace

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+#include "maps/rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#ifdef TSPACE_HAS_EMBREE
+#include <dlfcn.h>
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+#endif
+
+#include "core/border.h"
+
+namespace tspace {
+
+#ifdef TSPACE_HAS_EMBREE
+
+namespace {
+
+/// The functions of Embree that are used, from the library that is there at run time.
+struct Embree {
+    decltype(&rtcNewDevice) newDevice = nullptr;
+    decltype(&rtcReleaseDevice) releaseDevice = nullptr;
+    decltype(&rtcGetDeviceError) getDeviceError = nullptr;
+    decltype(&rtcNewScene) newScene = nullptr;
+    decltype(&rtcReleaseScene) releaseScene = nullptr;
+    decltype(&rtcSetSceneFlags) setSceneFlags = nullptr;
+    decltype(&rtcCommitScene) commitScene = nullptr;
+    decltype(&rtcNewGeometry) newGeometry = nullptr;
+    decltype(&rtcReleaseGeometry) releaseGeometry = nullptr;
+    decltype(&rtcSetSharedGeometryBuffer) setSharedGeometryBuffer = nullptr;
+    decltype(&rtcSetGeometryIntersectFilterFunction) setGeometryIntersectFilterFunction = nullptr;
+    decltype(&rtcCommitGeometry) commitGeometry = nullptr;
+    decltype(&rtcAttachGeometry) attachGeometry = nullptr;
+    decltype(&rtcIntersect1) intersect1 = nullptr;
+    bool is_loaded = false;
+
+    Embree() {
+        void* library = dlopen(TSPACE_EMBREE_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+        if (library == nullptr) return;
+        is_loaded = true;
+        const auto load = [&](auto& function, const char* name) {
+            function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
+            if (function == nullptr) is_loaded = false;
+        };
+        load(newDevice, "rtcNewDevice");
+        load(releaseDevice, "rtcReleaseDevice");
+        load(getDeviceError, "rtcGetDeviceError");
+        load(newScene, "rtcNewScene");
+        load(releaseScene, "rtcReleaseScene");
+        load(setSceneFlags, "rtcSetSceneFlags");
+        load(commitScene, "rtcCommitScene");
+        load(newGeometry, "rtcNewGeometry");
+        load(releaseGeometry, "rtcReleaseGeometry");
+        load(setSharedGeometryBuffer, "rtcSetSharedGeometryBuffer");
+        load(setGeometryIntersectFilterFunction, "rtcSetGeometryIntersectFilterFunction");
+        load(commitGeometry, "rtcCommitGeometry");
+        load(attachGeometry, "rtcAttachGeometry");
+        load(intersect1, "rtcIntersect1");
+    }
+};
+
+const Embree& embree() {
+    static const Embree loaded;
+    return loaded;
+}
+
+#if RTC_VERSION_MAJOR >= 4
+using QueryContext = RTCRayQueryContext;
+#else
+using QueryContext = RTCIntersectContext;
+#endif
+
+/// A point of a triangle's plane.
+struct PlanePoint {
+    double distance = 0;
+    std::array<double, 3> weights = {};
+};
+
+}  // namespace
+
+struct RaySurface::State {
+    StridedSpan<const Vec3> positions;
+    std::span<const std::uint32_t> corners, groups;
+    // For Embree the surface is moved and scaled into the unit cube: it drops what is very large, and its boxes round.
+    DVec3 centre = {};
+    double scale = 1;
+    std::vector<Vec4> placed = {};  // 16 bytes each: Embree reads them so
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+
+    ~State() {
+        if (scene != nullptr) embree().releaseScene(scene);
+        if (device != nullptr) embree().releaseDevice(device);
+    }
+
+    /// Where the line meets the plane of a triangle whose front faces against `direction`.
+    bool meet(std::uint32_t triangle, const DVec3& from, const DVec3& direction, PlanePoint& point) const {
+        std::array<DVec3, 3> corner{};
+        for (std::size_t i = 0; i < 3; ++i) corner[i] = toDouble(positions[corners[3 * triangle + i]]) - from;
+        const DVec3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+        const double slope = dot(normal, direction);
+        if (!(slope < 0)) return false;
+        point.distance = dot(normal, corner[0]) / slope;
+        double sum = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double volume = dot(direction, cross(corner[(i + 1) % 3], corner[(i + 2) % 3]));
+            point.weights[i] = std::max(0.0, -volume);
+            sum += point.weights[i];
+        }
+        if (!(sum > 0)) return false;
+        for (double& weight : point.weights) weight /= sum;
+        return std::isfinite(point.distance);
+    }
+};
+
+namespace {
+
+/// One line and what was met nearest to where it comes from. Embree's part comes first: the filter gets a pointer to it.
+struct Query {
+    QueryContext context;
+    const RaySurface::State* surface;
+    DVec3 from, direction;
+    double most;
+    std::uint32_t group;
+    bool is_hit;
+    RayHit best;
+};
+
+/// Sees each triangle that the line meets and refuses it, so that Embree goes on to all of them.
+void collectHit(const RTCFilterFunctionNArguments* arguments) {
+    arguments->valid[0] = 0;
+    auto& query = *reinterpret_cast<Query*>(arguments->context);
+    const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
+    if (!query.surface->groups.empty() && query.surface->groups[triangle] != query.group) return;
+    PlanePoint point;
+    if (!query.surface->meet(triangle, query.from, query.direction, point)) return;
+    const double away = std::fabs(point.distance);
+    if (!(away <= query.most)) return;
+    const double nearest = query.is_hit ? std::fabs(query.best.distance) : 0;
+    if (query.is_hit && !(away < nearest || (away == nearest && triangle < query.best.triangle))) return;
+    query.is_hit = true;
+    query.best = {triangle, point.weights, point.distance};
+}
+
+/// Sets centre and scale from the finite positions.
+void findPlace(RaySurface::State& state) {
+    DVec3 least{1e300, 1e300, 1e300}, most = -1.0 * least;
+    for (std::size_t i = 0; i < state.positions.count; ++i) {
+        const Vec3& at = state.positions[i];
+        if (!isFinite(at)) continue;
+        least = {std::fmin(least.x, at.x), std::fmin(least.y, at.y), std::fmin(least.z, at.z)};
+        most = {std::fmax(most.x, at.x), std::fmax(most.y, at.y), std::fmax(most.z, at.z)};
+    }
+    if (!(least.x <= most.x)) return;
+    state.centre = 0.5 * (least + most);
+    const double size = std::max({most.x - least.x, most.y - least.y, most.z - least.z});
+    state.scale = size > 0 ? 1 / size : 1;
+}
+
+}  // namespace
+
+RaySurface::RaySurface(std::unique_ptr<State> state) : state_(std::move(state)) {}
+RaySurface::~RaySurface() = default;
+
+Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec3> positions,
+                                                           std::span<const std::uint32_t> corners,
+                                                           std::span<const std::uint32_t> groups, unsigned threads) {
+    const Embree& api = embree();
+    if (!api.is_loaded)
+        return makeError(ErrorCode::unsupportedFile, kNoElement, "rays need Embree: %s cannot be loaded",
+                         TSPACE_EMBREE_LIBRARY);
+    auto state = std::make_unique<State>();
+    state->positions = positions;
+    state->corners = corners;
+    state->groups = groups;
+    findPlace(*state);
+    state->placed.resize(positions.count);
+    for (std::size_t i = 0; i < positions.count; ++i) {
+        const Vec3 at = toFloat(state->scale * (toDouble(positions[i]) - state->centre));
+        state->placed[i] = {at.x, at.y, at.z, 0};
+    }
+    char settings[32];
+    std::snprintf(settings, sizeof settings, "threads=%u", threads);
+    state->device = api.newDevice(settings);
+    if (state->device == nullptr) return makeError(ErrorCode::unsupportedFile, kNoElement, "Embree does not start");
+    state->scene = api.newScene(state->device);
+    api.setSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST);
+    const RTCGeometry geometry = api.newGeometry(state->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    api.setSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, state->placed.data(), 0,
+                                sizeof(Vec4), state->placed.size());
+    api.setSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, corners.data(), 0,
+                                3 * sizeof(std::uint32_t), corners.size() / 3);
+    api.setGeometryIntersectFilterFunction(geometry, collectHit);
+    api.commitGeometry(geometry);
+    api.attachGeometry(state->scene, geometry);
+    api.releaseGeometry(geometry);
+    api.commitScene(state->scene);
+    const RTCError error = api.getDeviceError(state->device);
+    if (error == RTC_ERROR_OUT_OF_MEMORY)
+        return makeError(ErrorCode::outOfMemory, kNoElement, "out of memory for the rays");
+    if (error != RTC_ERROR_NONE)
+        return makeError(ErrorCode::internal, kNoElement, "Embree fails with code %u", static_cast<unsigned>(error));
+    return std::unique_ptr<const RaySurface>(new RaySurface(std::move(state)));
+}
+
+namespace {
+
+/// Finds what the line meets between `begin` and `end`, nearest to `from`.
+bool shoot(const RaySurface::State& state, const DVec3& from, const DVec3& direction, double begin, double end,
+           std::uint32_t group, RayHit& hit) {
+    Query query;
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(&query.context);
+#else
+    rtcInitIntersectContext(&query.context);
+#endif
+    query.surface = &state;
+    query.from = from;
+    query.direction = direction;
+    query.most = std::max(std::fabs(begin), std::fabs(end));
+    query.group = group;
+    query.is_hit = false;
+    const Vec3 origin = toFloat(state.scale * (from + begin * direction - state.centre));
+    RTCRayHit ray{};
+    ray.ray.org_x = origin.x;
+    ray.ray.org_y = origin.y;
+    ray.ray.org_z = origin.z;
+    const Vec3 along = toFloat(direction);
+    ray.ray.dir_x = along.x;
+    ray.ray.dir_y = along.y;
+    ray.ray.dir_z = along.z;
+    ray.ray.tfar = static_cast<float>(state.scale * (end - begin));
+    ray.ray.mask = ~0u;
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR >= 4
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &query.context;
+    embree().intersect1(state.scene, &ray, &arguments);
+#else
+    embree().intersect1(state.scene, &query.context, &ray);
+#endif
+    if (query.is_hit) hit = query.best;
+    return query.is_hit;
+}
+
+}  // namespace
+
+bool RaySurface::nearest(const DVec3& from, const DVec3& outward, double reach, std::uint32_t group, double& guess,
+                         RayHit& hit) const {
+    const DVec3 inward = -1.0 * outward;
+    for (double half = std::clamp(guess, reach / 1024, reach);; half = std::min(4 * half, reach)) {
+        if (shoot(*state_, from, inward, -half, half, group, hit)) {
+            hit.distance = -hit.distance;
+            guess = 2 * std::fabs(hit.distance);
+            return true;
+        }
+        if (half == reach) return false;
+    }
+}
+
+bool RaySurface::first(const DVec3& from, const DVec3& inward, double most, std::uint32_t group, RayHit& hit) const {
+    return shoot(*state_, from, inward, 0, most, group, hit);
+}
+
+#else
+
+struct RaySurface::State {};
+RaySurface::RaySurface(std::unique_ptr<State> state) : state_(std::move(state)) {}
+RaySurface::~RaySurface() = default;
+
+Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec3>, std::span<const std::uint32_t>,
+                                                           std::span<const std::uint32_t>, unsigned) {
+    return makeError(ErrorCode::unsupportedFile, kNoElement, "rays need Embree, and this build has none");
+}
+bool RaySurface::nearest(const DVec3&, const DVec3&, double, std::uint32_t, double&, RayHit&) const { return false; }
+bool RaySurface::first(const DVec3&, const DVec3&, double, std::uint32_t, RayHit&) const { return false; }
+
+#endif
+
+}  // namespace tspace

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Where lines meet a surface. The one place that knows Embree, which is loaded when the first surface is made: it and what
+// it needs are 60 MB, and most runs shoot no ray.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "core/vec_math.h"
+#include "tspace/result.h"
+#include "tspace/span.h"
+
+namespace tspace {
+
+struct RayHit {
+    std::uint32_t triangle = 0;
+    std::array<double, 3> weights = {};  ///< of its corners
+    double distance = 0;                 ///< along the direction; negative on the other side
+};
+
+/// The triangles of a surface, ordered for rays. Const calls are thread-safe. Embree only says which triangles a line may
+/// meet: places are computed here, in double, and do not depend on the order in which triangles are found.
+class RaySurface {
+  public:
+    /// `positions`, `corners` and `groups` (one per triangle, or empty) must stay. Triangles that are not finite, or have no
+    /// area, are not met. Errors: unsupportedFile (no Embree), outOfMemory.
+    static Result<std::unique_ptr<const RaySurface>> make(StridedSpan<const Vec3> positions,
+                                                          std::span<const std::uint32_t> corners,
+                                                          std::span<const std::uint32_t> groups, unsigned threads);
+    ~RaySurface();
+    RaySurface(const RaySurface&) = delete;
+    RaySurface& operator=(const RaySurface&) = delete;
+
+    /// The triangle nearest to `from` on the line along `outward` (unit), at most `reach` away on either side, whose front
+    /// faces `outward`. Of equally near ones the first. `guess`: how near it may be, which changes the time alone; it is
+    /// set for the next call nearby. Of the triangles of `group` alone, where there are groups.
+    bool nearest(const DVec3& from, const DVec3& outward, double reach, std::uint32_t group, double& guess,
+                 RayHit& hit) const;
+
+    /// The first triangle from `from` along `inward` (unit) whose front faces `from`, within `most`.
+    bool first(const DVec3& from, const DVec3& inward, double most, std::uint32_t group, RayHit& hit) const;
+
+    struct State;
+
+  private:
+    explicit RaySurface(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace tspace

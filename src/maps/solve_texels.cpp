@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: MIT
+#include "maps/solve_texels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/unit.h"
+
+namespace tspace {
+
+namespace {
+
+/// Sums over rows are added in the order of rows, so that they do not depend on threads.
+class RowSums {
+  public:
+    RowSums(const Allocator* allocator, std::uint32_t height) : of_rows_(allocator, height, 0.0) {}
+    double& operator[](std::uint32_t row) { return of_rows_[row]; }
+    [[nodiscard]] double total() const {
+        double sum = 0;
+        for (const double of_row : of_rows_) sum += of_row;
+        return sum;
+    }
+
+  private:
+    Buffer<double> of_rows_;
+};
+
+/// The inverse of a texel's block with itself, for the preconditioner.
+SymmetricBlock inverseOf(SymmetricBlock m) {
+    m[0] += kHold;
+    m[3] += kHold;
+    m[5] += kHold;
+    const float xx = m[3] * m[5] - m[4] * m[4], xy = m[2] * m[4] - m[1] * m[5], xz = m[1] * m[4] - m[2] * m[3];
+    const float factor = 1 / (m[0] * xx + m[1] * xy + m[2] * xz);
+    return {factor * xx,
+            factor * xy,
+            factor * xz,
+            factor * (m[0] * m[5] - m[2] * m[2]),
+            factor * (m[1] * m[2] - m[0] * m[4]),
+            factor * (m[0] * m[3] - m[1] * m[1])};
+}
+
+/// Conjugate gradients for what is to be added to the texels, so that numbers are small and floats do.
+class Gradients {
+  public:
+    Gradients(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator)
+        : system_(system),
+          texels_(texels),
+          parallel_(parallel),
+          residual_(allocator, texels.size()),
+          direction_(allocator, texels.size()),
+          image_(allocator, texels.size()),
+          first_(allocator, system.height()),
+          second_(allocator, system.height()) {}
+
+    void run() {
+        // Each step takes the error down by a factor of about 2; what is left after these is far below a 16-bit step.
+        constexpr int kMostSteps = 24;
+        constexpr double kSmall = 1e-10;
+        begin();
+        double product = first_.total();
+        const double enough = kSmall * product;
+        for (int step = 0; step < kMostSteps && product > enough; ++step) {
+            multiply();
+            const double curvature = first_.total();
+            if (!(curvature > 0)) return;
+            advance(static_cast<float>(product / curvature));
+            const double next = second_.total();
+            turn(static_cast<float>(next / product));
+            product = next;
+        }
+    }
+
+  private:
+    template <class Body>
+    void forRows(Body body) {
+        parallel_.forRanges(system_.height(), 8, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t y = begin; y < end; ++y) body(static_cast<std::uint32_t>(y));
+        });
+    }
+
+    static double product(const Vec3& a, const Vec3& b) { return static_cast<double>(dot(a, b)); }
+
+    void begin() {
+        forRows([&](std::uint32_t y) {
+            double sum = 0;
+            for (std::uint32_t x = 0; x < system_.width(); ++x) {
+                const std::size_t at = std::size_t{y} * system_.width() + x;
+                const TexelRow& row = system_.row(y)[x];
+                residual_[at] =
+                    row.side - blockTimes(row.blocks[0], texels_[at]) - system_.aroundTexel(texels_.data(), x, y);
+                direction_[at] = blockTimes(inverseOf(row.blocks[0]), residual_[at]);
+                sum += product(residual_[at], direction_[at]);
+            }
+            first_[y] = sum;
+        });
+    }
+
+    /// image = system times direction
+    void multiply() {
+        forRows([&](std::uint32_t y) {
+            double sum = 0;
+            for (std::uint32_t x = 0; x < system_.width(); ++x) {
+                const std::size_t at = std::size_t{y} * system_.width() + x;
+                const Vec3& own = direction_[at];
+                image_[at] = blockTimes(system_.row(y)[x].blocks[0], own) + kHold * own +
+                             system_.aroundTexel(direction_.data(), x, y);
+                sum += product(own, image_[at]);
+            }
+            first_[y] = sum;
+        });
+    }
+
+    void advance(float length) {
+        forRows([&](std::uint32_t y) {
+            double sum = 0;
+            for (std::uint32_t x = 0; x < system_.width(); ++x) {
+                const std::size_t at = std::size_t{y} * system_.width() + x;
+                texels_[at] = texels_[at] + length * direction_[at];
+                residual_[at] = residual_[at] - length * image_[at];
+                image_[at] = blockTimes(inverseOf(system_.row(y)[x].blocks[0]), residual_[at]);
+                sum += product(residual_[at], image_[at]);
+            }
+            second_[y] = sum;
+        });
+    }
+
+    void turn(float kept) {
+        forRows([&](std::uint32_t y) {
+            for (std::uint32_t x = 0; x < system_.width(); ++x) {
+                const std::size_t at = std::size_t{y} * system_.width() + x;
+                direction_[at] = image_[at] + kept * direction_[at];
+            }
+        });
+    }
+
+    const TexelSystem& system_;
+    std::span<Vec3> texels_;
+    Parallel& parallel_;
+    Buffer<Vec3> residual_, direction_, image_;
+    RowSums first_, second_;
+};
+
+}  // namespace
+
+void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator) {
+    Gradients(system, texels, parallel, allocator).run();
+    parallel.forRanges(texels.size(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const float size = length(texels[i]);
+            if (size > 1) texels[i] = (1 / size) * texels[i];
+        }
+    });
+}
+
+namespace {
+
+/// One texel: q that minimises q.Mq + 2 q.h.
+class IntegerTexel {
+  public:
+    IntegerTexel(const IntegerChoice& choice, const SymmetricBlock& m, const Vec3& h)
+        : choice_(choice), step_(2.0f / static_cast<float>(choice.most)), m_(m), h_(h) {}
+
+    Vec3 best(const Vec3& start) {
+        best_ = start;
+        least_ = INFINITY;
+        settle(start.z);
+        if (choice_.is_two_channel) {
+            tryPlane(start.z);
+            return best_;
+        }
+        // z of a vector of the least and the most length that points as the start does, and some around.
+        const float size = std::max(length(start), 1e-6F), slope = start.z / size;
+        const float a = slope * choice_.least_length, b = slope * choice_.most_length;
+        const int near = indexOf(start.z), most = static_cast<int>(choice_.most);
+        const int first = std::max({0, indexOf(std::min(a, b)) - 1, near - choice_.most_steps});
+        const int last = std::min({most, indexOf(std::max(a, b)) + 1, near + choice_.most_steps});
+        for (int z = first; z <= last; ++z) tryPlane(valueOf(z));
+        return best_;
+    }
+
+  private:
+    [[nodiscard]] int indexOf(float value) const { return static_cast<int>(std::floor((value + 1) / step_ + 0.5f)); }
+    [[nodiscard]] float valueOf(int index) const { return static_cast<float>(index) * step_ - 1; }
+
+    /// The best real numbers x and y beside this z.
+    [[nodiscard]] Vec3 bestBeside(float z) const {
+        const float hx = h_.x + m_[2] * z, hy = h_.y + m_[4] * z;
+        const float determinant = m_[0] * m_[3] - m_[1] * m_[1];
+        return {(m_[1] * hy - m_[3] * hx) / determinant, (m_[1] * hx - m_[0] * hy) / determinant, z};
+    }
+    [[nodiscard]] float valueAt(const Vec3& q) const { return dot(q, blockTimes(m_, q)) + 2 * dot(q, h_); }
+
+    /// The value is a sum of squares but for what the texels around add, which only they change. It is taken for so much
+    /// that real numbers would leave next to nothing.
+    void settle(float z) {
+        constexpr float kLeftOver = 2e-6F;  // squared, of a sample that the texel is half of
+        rest_ = kLeftOver * (m_[0] + m_[3] + m_[5]) / 8 - valueAt(bestBeside(z));
+    }
+
+    /// The four integers around the best x and y beside this z.
+    void tryPlane(float z) {
+        const Vec3 real = bestBeside(z);
+        const float low_x = std::floor((real.x + 1) / step_), low_y = std::floor((real.y + 1) / step_);
+        const auto most = static_cast<float>(choice_.most);
+        if (!(low_x > -1 && low_x <= most && low_y > -1 && low_y <= most)) return;
+        const float value = valueAt(real) + rest_;
+        for (int i = 0; i < 4; ++i) {
+            const float column = low_x + static_cast<float>(i & 1), row = low_y + static_cast<float>(i >> 1);
+            if (column > most || row > most) continue;
+            const Vec3 q{column * step_ - 1, row * step_ - 1, z};
+            const float dx = q.x - real.x, dy = q.y - real.y;
+            take(q, value, dx * (m_[0] * dx + 2 * m_[1] * dy) + m_[3] * dy * dy);
+        }
+    }
+
+    /// `more`: what is added to the value of its z, which may be far larger.
+    void take(const Vec3& q, float value, float more) {
+        const float flat = q.x * q.x + q.y * q.y, squared = flat + q.z * q.z;
+        if (choice_.is_two_channel) {
+            if (flat > 1) return;
+        } else if (squared < choice_.least_length * choice_.least_length ||
+                   squared > choice_.most_length * choice_.most_length) {
+            return;
+        }
+        // Angles are errors in parts of the length.
+        const float score = choice_.most_steps == 0 || choice_.is_two_channel ? more : (value + more) / squared;
+        if (!(score < least_)) return;
+        least_ = score;
+        best_ = q;
+        if (choice_.is_two_channel) best_.z = std::sqrt(1 - flat);
+    }
+
+    const IntegerChoice& choice_;
+    float step_;
+    SymmetricBlock m_;
+    Vec3 h_;
+    float rest_ = 0;
+    Vec3 best_ = {};
+    float least_ = INFINITY;
+};
+
+/// What an integer vector is held to where nothing else is asked.
+FitSample holdAt(const IntegerChoice& choice, const Vec3& wanted) {
+    return choice.is_two_channel ? twoChannelSample(wanted) : acrossSample(wanted, 1e-6F, 0.95F);
+}
+
+}  // namespace
+
+void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, unsigned rounds,
+                    Parallel& parallel, const Allocator* allocator) {
+    const std::uint32_t width = system.width(), height = system.height();
+    Buffer<Vec3> wanted(allocator, texels.size());
+    std::copy(texels.begin(), texels.end(), wanted.begin());
+    const auto chooseRow = [&](std::uint32_t y) {
+        for (std::uint32_t x = 0; x < width; ++x) {
+            const std::size_t at = std::size_t{y} * width + x;
+            const TexelRow& row = system.row(y)[x];
+            // Held to its direction a little, for texels that no sample asks anything of.
+            DVec3 unit_wanted = toDouble(wanted[at]);
+            if (!normalize(unit_wanted)) continue;
+            const FitSample hold = holdAt(choice, toFloat(unit_wanted));
+            SymmetricBlock block = row.blocks[0];
+            for (std::size_t i = 0; i < block.size(); ++i) block[i] += kHold * hold.metric[i];
+            const Vec3 rest = system.aroundTexel(texels.data(), x, y) - row.side - kHold * hold.side;
+            texels[at] = IntegerTexel(choice, block, rest).best(wanted[at]);
+        }
+    };
+    // Texels of every second row have no sample in common; the last of an odd number goes alone.
+    for (unsigned round = 0; round < rounds; ++round) {
+        for (std::uint32_t first = 0; first < 3; ++first) {
+            const std::uint32_t even = height / 2;
+            if (first == 2) {
+                if (height % 2 == 1) chooseRow(height - 1);
+                continue;
+            }
+            parallel.forRanges(even, 4, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) chooseRow(static_cast<std::uint32_t>(2 * i) + first);
+            });
+        }
+    }
+}
+
+}  // namespace tspace

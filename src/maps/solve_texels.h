@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Texels that solve a TexelSystem: as real numbers, or as integers of 8 or 16 bits.
+#pragma once
+
+#include <span>
+
+#include "core/parallel.h"
+#include "maps/texel_system.h"
+
+namespace tspace {
+
+/// How strongly texels are held to where they were, in parts of what one sample at the texel's centre asks. It decides
+/// where samples say next to nothing: at the rim of a chart.
+inline constexpr float kHold = 0.004F;
+
+/// Moves `texels` (width * height) to the least squares, by conjugate gradients. The same bits for any number of threads.
+void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator);
+
+/// What integers stand for: n from 0 to `most` for 2 n / most - 1.
+struct IntegerChoice {
+    unsigned most = 255;
+    float least_length = 0.7F, most_length = 1;  ///< of vectors
+    int most_steps = 255;                        ///< how far z may go from where it is
+    bool is_two_channel = false;                 ///< z follows from x and y, whose vector is unit
+};
+
+/// Makes of `texels` vectors that integers stand for, one after the other, such that what the samples ask is met as well as
+/// it can be with those around; `rounds` times. The same bits for any number of threads.
+void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, unsigned rounds,
+                    Parallel& parallel, const Allocator* allocator);
+
+}  // namespace tspace

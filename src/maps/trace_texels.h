@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Rays for the texels of a map: what its samples ask, and the vector wanted at each texel's centre.
+#pragma once
+
+#include "maps/measure_points.h"
+#include "maps/texel_system.h"
+#include "maps/texel_triangles.h"
+#include "tspace/map_bake.h"
+
+namespace tspace {
+
+/// What rays said of the texels. All vectors are unit, along T, B and N, or of the object.
+struct TracedTexels {
+    Buffer<Vec3> wanted = {};  ///< at the centre; the mean where several triangles show it. Zero: not known
+    Buffer<TexelOrigin> origins = {};
+    std::uint64_t conflict_count = 0;  ///< texels whose triangles want over 2 degrees different vectors
+};
+
+/// Traces all samples; those of `system`, where it is not null, are 3 x 3 a texel. Texels beside triangles get their
+/// own rays. False when stopped.
+bool traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
+                 Parallel& parallel, TracedTexels& traced, TexelSystem* system);
+
+/// Gives texels that have an origin but no vector the mean of their neighbours, ring by ring, and flat ones where there is
+/// none.
+void fillFromNeighbours(TracedTexels& traced, std::uint32_t width, std::uint32_t height);
+
+}  // namespace tspace

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: MIT
+// Baked maps: how near they are to the surface, and what becomes of bad input.
+#include "tspace/map_bake.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "bake_cases.h"
+#include "core/vec_math.h"
+#include "support/thread_team.h"
+
+namespace tspace::test {
+namespace {
+
+using bench::Charts;
+using bench::HighMesh;
+using bench::LowMesh;
+
+const accuracy::Surface& surfaceNamed(const char* name) {
+    for (const accuracy::Surface& surface : accuracy::surfaces()) {
+        if (std::strcmp(surface.name, name) == 0) return surface;
+    }
+    return accuracy::surfaces().front();
+}
+
+class MapBake : public testing::Test {
+  protected:
+    void SetUp() override {
+        const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
+        const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 8, false);
+        const Result<BakedMap> map = bakeMap(low.view(), high.view(), {.width = 4, .height = 4});
+        if (!map && map.error().code == ErrorCode::unsupportedFile) GTEST_SKIP() << map.error().message;
+    }
+
+    static BakedMap baked(const LowPoly& low, const HighPoly& high, const BakeOptions& options) {
+        const Result<BakedMap> map = bakeMap(low, high, options);
+        EXPECT_TRUE(map) << map.error().message;
+        return map ? *map : BakedMap{};
+    }
+    static BakeOptions sized(std::uint32_t size, unsigned bits = 16, MapFit fit = MapFit::solve) {
+        return {.width = size, .height = size, .bits = bits, .fit = fit};
+    }
+};
+
+TEST_F(MapBake, SolvingHalvesTheErrorOfAReliefWith16Bits) {
+    for (const Charts charts : {Charts::one, Charts::four}) {
+        const LowMesh low = bench::makeLow(surfaceNamed("saddle"), charts);
+        const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 192, true);
+        const MapError exact = baked(low.view(), high.view(), sized(192, 16, MapFit::texel)).error;
+        const MapError solved = baked(low.view(), high.view(), sized(192)).error;
+        EXPECT_LT(solved.mean_deg, 0.57 * exact.mean_deg);
+        EXPECT_LT(solved.p99_deg, 0.7 * exact.p99_deg);
+        EXPECT_LT(solved.seam_mean_deg, 1.2 * exact.inside_mean_deg);
+    }
+}
+
+TEST_F(MapBake, SolvedIntegersBeatPlainRoundingWith8Bits) {
+    for (const bool relief : {false, true}) {
+        const LowMesh low = bench::makeLow(surfaceNamed("torus"), Charts::one);
+        const HighMesh high = bench::makeHigh(surfaceNamed("torus"), 128, relief);
+        BakedMap exact = baked(low.view(), high.view(), sized(160, 16, MapFit::texel));
+        for (Vec3& texel : exact.texels) {
+            texel = {std::floor(texel.x * 255 + 0.5F) / 255, std::floor(texel.y * 255 + 0.5F) / 255,
+                     std::floor(texel.z * 255 + 0.5F) / 255};
+        }
+        const Result<MapError> plain = measureMap({160, 160, exact.texels}, low.view(), high.view());
+        ASSERT_TRUE(plain);
+        const MapError solved = baked(low.view(), high.view(), sized(160, 8)).error;
+        EXPECT_LT(solved.mean_deg, 0.7 * plain->mean_deg) << (relief ? "relief" : "smooth");
+        EXPECT_LT(solved.p99_deg, plain->p99_deg);
+    }
+}
+
+TEST_F(MapBake, GivesTheSameTexelsForAnyNumberOfThreads) {
+    const LowMesh low = bench::makeLow(surfaceNamed("bumpy"), Charts::four);
+    const HighMesh high = bench::makeHigh(surfaceNamed("bumpy"), 64, true);
+    for (const unsigned bits : {8U, 16U}) {
+        // An odd size, so that rows are not all in pairs.
+        BakeOptions options = sized(61, bits);
+        options.heat = true;
+        const BakedMap one = baked(low.view(), high.view(), options);
+        for (const unsigned threads : {2U, 5U}) {
+            options.execution.executor = threadTeam(threads);
+            const BakedMap more = baked(low.view(), high.view(), options);
+            EXPECT_TRUE(one.texels == more.texels);
+            EXPECT_TRUE(one.origins == more.origins);
+            EXPECT_EQ(one.error.mean_deg, more.error.mean_deg);
+            EXPECT_EQ(one.error.heat, more.error.heat);
+        }
+    }
+}
+
+TEST_F(MapBake, MirroredHalvesOnSharedTexelsAreAsNearAsOneHalf) {
+    const LowMesh low = bench::makeLow(surfaceNamed("cube-sphere"), Charts::mirrored);
+    const HighMesh high = bench::makeHigh(surfaceNamed("cube-sphere"), 128, false);
+    const BakedMap map = baked(low.view(), high.view(), sized(128));
+    EXPECT_GT(map.overlap_count, 1000U);
+    EXPECT_EQ(map.conflict_count, 0U);
+    const LowMesh apart = bench::makeLow(surfaceNamed("cube-sphere"), Charts::one);
+    EXPECT_LT(map.error.mean_deg, 1.3 * baked(apart.view(), high.view(), sized(128)).error.mean_deg);
+}
+
+TEST_F(MapBake, HalvesThatWantDifferentNormalsAreCounted) {
+    const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::mirrored);
+    const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 64, true);
+    const BakedMap map = baked(low.view(), high.view(), sized(64));
+    EXPECT_GT(map.conflict_count, map.overlap_count / 2);
+}
+
+TEST_F(MapBake, WhatMissesIsCountedAndFilledFromAround) {
+    const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
+    HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 64, false);
+    // A hole in the middle.
+    std::vector<std::uint32_t> kept;
+    for (std::size_t i = 0; i < high.corners.size(); i += 3) {
+        const Vec3& at = high.positions[high.corners[i]];
+        if (at.x * at.x + at.y * at.y < 0.04F) continue;
+        kept.insert(kept.end(), high.corners.begin() + static_cast<std::ptrdiff_t>(i),
+                    high.corners.begin() + static_cast<std::ptrdiff_t>(i) + 3);
+    }
+    high.corners = kept;
+    for (const unsigned bits : {8U, 16U}) {
+        const BakedMap map = baked(low.view(), high.view(), sized(64, bits));
+        EXPECT_GT(map.missed_count, 50U);
+        EXPECT_GT(map.error.missed_count, 100U);
+        for (std::size_t i = 0; i < map.texels.size(); ++i) {
+            if (map.origins[i] != TexelOrigin::missed) continue;
+            EXPECT_GT(map.texels[i].z, 0.8F) << "black, or on its side";
+        }
+    }
+}
+
+TEST_F(MapBake, ReachDecidesHowFarItLooks) {
+    const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
+    HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 32, false);
+    for (Vec3& position : high.positions) position.z += 0.05F;
+    BakeOptions options = sized(32);
+    EXPECT_EQ(baked(low.view(), high.view(), options).missed_count, 0U);
+    options.reach = 0.01;
+    const Result<BakedMap> near = bakeMap(low.view(), high.view(), options);
+    ASSERT_FALSE(near);
+    EXPECT_EQ(near.error().code, ErrorCode::missingAttribute);
+}
+
+TEST_F(MapBake, ACageSaysWhereRaysBegin) {
+    LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
+    HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 32, false);
+    // Another layer further out, which the nearest hit never sees.
+    const std::size_t count = high.positions.size(), corner_count = high.corners.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        high.positions.push_back(high.positions[i] + Vec3{0, 0, 0.2F});
+        high.normals.push_back({1, 0, 0});
+    }
+    for (std::size_t i = 0; i < corner_count; ++i)
+        high.corners.push_back(high.corners[i] + static_cast<std::uint32_t>(count));
+    std::vector<Vec3> cage = low.positions;
+    for (Vec3& position : cage) position.z += 0.3F;
+    BakeOptions options = sized(32);
+    options.space = MapSpace::object;
+    EXPECT_LT(baked(low.view(), high.view(), options).error.mean_deg, 1);
+    LowPoly caged = low.view();
+    caged.cage = cage;
+    const BakedMap map = baked(caged, high.view(), options);
+    for (std::size_t i = 0; i < map.texels.size(); ++i) {
+        if (map.origins[i] == TexelOrigin::hit) {
+            EXPECT_GT(map.texels[i].x, 0.95F);
+        }
+    }
+}
+
+TEST_F(MapBake, GroupsSeeTheirOwnTrianglesAlone) {
+    const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
+    const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 32, false);
+    const std::vector<std::uint32_t> ones(low.positions.size() / 3, 1);
+    std::vector<std::uint32_t> numbers(high.corners.size() / 3, 1);
+    LowPoly low_view = low.view();
+    HighPoly high_view = high.view();
+    low_view.groups = ones;
+    high_view.groups = numbers;
+    EXPECT_EQ(baked(low_view, high_view, sized(16)).missed_count, 0U);
+    numbers.assign(numbers.size(), 2);
+    EXPECT_FALSE(bakeMap(low_view, high_view, sized(16)));
+    high_view.groups = {};
+    EXPECT_EQ(bakeMap(low_view, high_view, sized(16)).error().code, ErrorCode::countMismatch);
+}
+
+TEST_F(MapBake, TwoChannelMapsHaveUnitTexels) {
+    const LowMesh low = bench::makeLow(surfaceNamed("torus"), Charts::one);
+    const HighMesh high = bench::makeHigh(surfaceNamed("torus"), 96, true);
+    const MapReading unity = *findMapReading("unity");
+    for (const unsigned bits : {8U, 16U}) {
+        BakeOptions options = sized(96, bits);
+        options.reading = unity;
+        const BakedMap solved = baked(low.view(), high.view(), options);
+        for (const Vec3& texel : solved.texels) {
+            const Vec3 vector{2 * texel.x - 1, 2 * texel.y - 1, 2 * texel.z - 1};
+            EXPECT_NEAR(static_cast<double>(length(vector)), 1, bits == 8 ? 0.02 : 1e-4);
+        }
+        options.fit = MapFit::texel;
+        EXPECT_LT(solved.error.mean_deg, baked(low.view(), high.view(), options).error.mean_deg);
+    }
+}
+
+TEST_F(MapBake, TheReadingThatTheMapWasMadeForExplainsItBest) {
+    const LowMesh low = bench::makeLow(surfaceNamed("torus"), Charts::four);
+    const HighMesh high = bench::makeHigh(surfaceNamed("torus"), 96, true);
+    std::vector<MapCandidate> candidates;
+    for (const char* name : {"gltf", "directx", "three"}) candidates.push_back({.reading = *findMapReading(name)});
+    for (std::size_t made = 0; made < candidates.size(); ++made) {
+        BakeOptions options = sized(256);
+        options.reading = candidates[made].reading;
+        const BakedMap map = baked(low.view(), high.view(), options);
+        const Result<std::vector<MapError>> errors =
+            measureReadings({256, 256, map.texels}, low.view(), high.view(), candidates);
+        ASSERT_TRUE(errors);
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            if (i == made) {
+                EXPECT_EQ((*errors)[i].mean_deg, map.error.mean_deg) << "a bake says the error that is measured";
+            } else {
+                EXPECT_GT((*errors)[i].mean_deg, 1.3 * map.error.mean_deg) << made << ' ' << i;
+            }
+        }
+    }
+}
+
+TEST_F(MapBake, ObjectSpaceNeedsNoTangents) {
+    const LowMesh low = bench::makeLow(surfaceNamed("torus"), Charts::one);
+    const HighMesh high = bench::makeHigh(surfaceNamed("torus"), 96, false);
+    LowPoly view = low.view();
+    view.tangents = {};
+    EXPECT_EQ(bakeMap(view, high.view(), sized(32)).error().code, ErrorCode::missingAttribute);
+    BakeOptions options = sized(96);
+    options.space = MapSpace::object;
+    EXPECT_LT(baked(view, high.view(), options).error.mean_deg, 0.1);
+}
+
+TEST_F(MapBake, BrokenTrianglesLeaveNoNan) {
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
+    LowMesh low = bench::makeLow(surfaceNamed("bumpy"), Charts::one);
+    HighMesh high = bench::makeHigh(surfaceNamed("bumpy"), 48, true);
+    low.positions[30] = {kNan, 0, 0};
+    low.normals[63] = {0, 0, 0};
+    low.normals[90] = {kInfinity, 0, 0};
+    low.tangents[120] = {kNan, 0, 0, 1};
+    low.tangents[150] = low.tangents[151] = low.tangents[152] = {};
+    low.uvs[183] = {kNan, 0};
+    low.uvs[210] = low.uvs[211] = low.uvs[212];
+    high.positions[100] = {kNan, kNan, kNan};
+    high.positions[200] = {kInfinity, 0, 0};
+    high.normals[300] = {kNan, 0, 0};
+    high.normals[400] = {};
+    for (const unsigned bits : {8U, 16U}) {
+        for (const MapFit fit : {MapFit::solve, MapFit::texel}) {
+            const BakedMap map = baked(low.view(), high.view(), sized(64, bits, fit));
+            EXPECT_GE(map.degenerate_uv_count, 2U);
+            for (const Vec3& texel : map.texels) {
+                ASSERT_TRUE(isFinite(texel));
+                ASSERT_GE(std::min({texel.x, texel.y, texel.z}), 0.0F);
+                ASSERT_LE(std::max({texel.x, texel.y, texel.z}), 1.0F);
+            }
+            EXPECT_TRUE(std::isfinite(map.error.mean_deg));
+        }
+    }
+}
+
+TEST_F(MapBake, SmallImagesWork) {
+    const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
+    const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 16, false);
+    for (const std::uint32_t width : {1U, 2U, 3U, 4U, 5U, 17U}) {
+        for (const std::uint32_t height : {1U, 4U, 33U}) {
+            for (const unsigned bits : {8U, 16U}) {
+                const BakedMap map = baked(low.view(), high.view(), {.width = width, .height = height, .bits = bits});
+                EXPECT_EQ(map.texels.size(), std::size_t{width} * height);
+                EXPECT_LT(map.error.mean_deg, 60);
+            }
+        }
+    }
+}
+
+TEST_F(MapBake, SaysWhatIsWrongWithOptionsAndMeshes) {
+    const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
+    const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 8, false);
+    const auto codeOf = [&](const BakeOptions& options) {
+        const Result<BakedMap> map = bakeMap(low.view(), high.view(), options);
+        return map ? ErrorCode::ok : map.error().code;
+    };
+    EXPECT_EQ(codeOf({.width = 0}), ErrorCode::invalidOption);
+    EXPECT_EQ(codeOf({.width = 65536, .height = 65536}), ErrorCode::invalidOption);
+    EXPECT_EQ(codeOf({.bits = 12}), ErrorCode::invalidOption);
+    EXPECT_EQ(codeOf({.padding = 257}), ErrorCode::invalidOption);
+    EXPECT_EQ(codeOf({.reach = -1}), ErrorCode::invalidOption);
+    EXPECT_EQ(codeOf({.width = 4096, .height = 4096, .memory_limit_bytes = 1 << 26}), ErrorCode::tooLarge);
+    EXPECT_EQ(codeOf({.stop = [] { return true; }}), ErrorCode::cannotWrite);
+    LowPoly without_uvs = low.view();
+    without_uvs.uvs = {};
+    EXPECT_EQ(bakeMap(without_uvs, high.view(), sized(8)).error().code, ErrorCode::missingAttribute);
+    HighMesh far = high;
+    for (Vec3& position : far.positions) position.x += 100;
+    EXPECT_EQ(bakeMap(low.view(), far.view(), sized(8)).error().code, ErrorCode::missingAttribute);
+    HighMesh broken = high;
+    broken.corners[5] = static_cast<std::uint32_t>(broken.positions.size());
+    EXPECT_EQ(bakeMap(low.view(), broken.view(), sized(8)).error().code, ErrorCode::indexOutOfRange);
+    LowMesh one_point = low;
+    for (Vec2& uv : one_point.uvs) uv = {0.5F, 0.5F};
+    EXPECT_EQ(bakeMap(one_point.view(), high.view(), sized(8)).error().code, ErrorCode::missingAttribute);
+}
+
+TEST_F(MapBake, HeatIsTheErrorOfEachTexel) {
+    const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::four);
+    const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 64, true);
+    BakeOptions options = sized(64, 8);
+    options.heat = true;
+    const BakedMap map = baked(low.view(), high.view(), options);
+    ASSERT_EQ(map.error.heat.size(), map.texels.size());
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < map.texels.size(); ++i) {
+        if (map.origins[i] == TexelOrigin::background) {
+            EXPECT_EQ(map.error.heat[i], -1);
+        }
+        if (map.error.heat[i] < 0) continue;
+        sum += static_cast<double>(map.error.heat[i]);
+        ++count;
+    }
+    EXPECT_NEAR(sum / static_cast<double>(count), map.error.mean_deg, 0.3 * map.error.mean_deg);
+}
+
+}  // namespace
+}  // namespace tspace::test

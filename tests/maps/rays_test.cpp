@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Rays against all triangles one by one.
+#include "maps/rays.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "core/unit.h"
+
+namespace tspace::test {
+namespace {
+
+struct Soup {
+    std::vector<Vec3> positions = {};
+    std::vector<std::uint32_t> corners = {};
+};
+
+Soup randomSoup(std::mt19937& random, float scale, float offset) {
+    std::uniform_real_distribution<float> place(-1, 1);
+    Soup soup;
+    for (std::uint32_t i = 0; i < 300; ++i) {
+        const Vec3 middle{place(random), place(random), place(random)};
+        for (int k = 0; k < 3; ++k) {
+            const Vec3 from{place(random), place(random), place(random)};
+            const Vec3 at = middle + 0.3F * from;
+            soup.positions.push_back({scale * at.x + offset, scale * at.y, scale * at.z});
+            soup.corners.push_back(3 * i + static_cast<std::uint32_t>(k));
+        }
+    }
+    return soup;
+}
+
+/// The distance of the nearest front-facing triangle on both sides, or nothing.
+double nearestByHand(const Soup& soup, const DVec3& from, const DVec3& outward, double reach) {
+    double best = INFINITY;
+    for (std::size_t i = 0; i < soup.corners.size(); i += 3) {
+        const DVec3 a = toDouble(soup.positions[soup.corners[i]]), b = toDouble(soup.positions[soup.corners[i + 1]]),
+                    c = toDouble(soup.positions[soup.corners[i + 2]]);
+        const DVec3 normal = cross(b - a, c - a);
+        const double slope = dot(normal, outward);
+        if (!(slope > 0)) continue;
+        const double distance = dot(normal, a - from) / slope;
+        const DVec3 at = from + distance * outward;
+        const bool inside = dot(normal, cross(b - a, at - a)) >= 0 && dot(normal, cross(c - b, at - b)) >= 0 &&
+                            dot(normal, cross(a - c, at - c)) >= 0;
+        if (inside && std::fabs(distance) <= reach && std::fabs(distance) < std::fabs(best)) best = distance;
+    }
+    return best;
+}
+
+TEST(Rays, FindTheNearestFrontFacingTriangleOnBothSides) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> direction(0, 1);
+    for (const auto& [scale, offset] : {std::pair(1.0F, 0.0F), {1e-12F, 0.0F}, {1e12F, 0.0F}, {1.0F, 1000.0F}}) {
+        const Soup soup = randomSoup(random, scale, offset);
+        const auto rays = RaySurface::make(soup.positions, soup.corners, {}, 1);
+        if (!rays) GTEST_SKIP() << rays.error().message;
+        int hits = 0, misses = 0;
+        double guess = 0;
+        for (int i = 0; i < 2000; ++i) {
+            DVec3 outward{direction(random), direction(random), direction(random)};
+            normalize(outward);
+            const DVec3 from{scale * direction(random) * 0.5 + offset, scale * direction(random) * 0.5,
+                             scale * direction(random) * 0.5};
+            const double reach = scale * 0.7, expected = nearestByHand(soup, from, outward, reach);
+            RayHit hit;
+            const bool is_hit = (*rays)->nearest(from, outward, reach, 0, guess, hit);
+            // At the very edge of a triangle Embree may see one that lies beside.
+            if (is_hit != std::isfinite(expected)) {
+                ++misses;
+                continue;
+            }
+            if (!is_hit) continue;
+            ++hits;
+            if (std::fabs(hit.distance - expected) > 1e-4 * scale) ++misses;
+            EXPECT_NEAR(hit.weights[0] + hit.weights[1] + hit.weights[2], 1, 1e-9);
+        }
+        EXPECT_GT(hits, 300);
+        EXPECT_LE(misses, 3);
+    }
+}
+
+TEST(Rays, MissNothingThroughEdgesAndVertices) {
+    // A grid seen along its normals, at its vertices and along its edges.
+    Soup soup;
+    constexpr std::uint32_t kSide = 9;
+    for (std::uint32_t y = 0; y < kSide; ++y) {
+        for (std::uint32_t x = 0; x < kSide; ++x)
+            soup.positions.push_back({0.37F * static_cast<float>(x), 0.53F * static_cast<float>(y), 0});
+    }
+    for (std::uint32_t y = 0; y + 1 < kSide; ++y) {
+        for (std::uint32_t x = 0; x + 1 < kSide; ++x) {
+            const std::uint32_t a = y * kSide + x;
+            for (const std::uint32_t vertex : {a, a + 1, a + kSide + 1, a, a + kSide + 1, a + kSide})
+                soup.corners.push_back(vertex);
+        }
+    }
+    const auto rays = RaySurface::make(soup.positions, soup.corners, {}, 1);
+    if (!rays) GTEST_SKIP() << rays.error().message;
+    double guess = 0;
+    RayHit hit;
+    for (std::uint32_t y = 2; y < 4 * (kSide - 1) - 1; ++y) {
+        for (std::uint32_t x = 2; x < 4 * (kSide - 1) - 1; ++x) {
+            const DVec3 from{0.37 * x / 4, 0.53 * y / 4, 0.2};
+            ASSERT_TRUE((*rays)->nearest(from, {0, 0, 1}, 1, 0, guess, hit)) << x << ' ' << y;
+            EXPECT_NEAR(hit.distance, -0.2, 1e-6);
+            EXPECT_FALSE((*rays)->nearest(from, {0, 0, -1}, 1, 0, guess, hit)) << "seen from behind";
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tspace::test

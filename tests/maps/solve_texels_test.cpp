@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// Texels under the bilinear filter.
+#include "maps/solve_texels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "core/unit.h"
+#include "support/thread_team.h"
+
+namespace tspace::test {
+namespace {
+
+struct Sample {
+    std::uint32_t x = 0, y = 0;
+    float fx = 0, fy = 0;
+    Vec3 wanted = {};
+};
+
+/// 3 x 3 samples a texel of waves, over an image that repeats.
+std::vector<Sample> waves(std::uint32_t width, std::uint32_t height) {
+    std::vector<Sample> samples;
+    for (std::uint32_t y = 0; y < height; ++y) {
+        for (std::uint32_t x = 0; x < width; ++x) {
+            for (int i = 0; i < 9; ++i) {
+                const float fx = static_cast<float>(i % 3) / 3, fy = static_cast<float>(i / 3) / 3;
+                const double u = 6.28318 * (x + static_cast<double>(fx)) / width,
+                             v = 6.28318 * (y + static_cast<double>(fy)) / height;
+                DVec3 wanted{0.4 * std::sin(3 * u + v), 0.3 * std::cos(2 * v - u), 1};
+                normalize(wanted);
+                samples.push_back({x, y, fx, fy, toFloat(wanted)});
+            }
+        }
+    }
+    return samples;
+}
+
+TexelSystem systemOf(const std::vector<Sample>& samples, std::uint32_t width, std::uint32_t height, float along) {
+    TexelSystem system(nullptr, width, height);
+    for (const Sample& sample : samples) {
+        addSample(system.row(sample.y), system.row(system.below(sample.y)), sample.x, system.right(sample.x), sample.fx,
+                  sample.fy, acrossSample(sample.wanted, along, 0.98F));
+    }
+    return system;
+}
+
+/// The mean of what is wrong at the samples.
+double errorOf(const TexelSystem& system, const std::vector<Sample>& samples, const std::vector<Vec3>& texels) {
+    double sum = 0;
+    for (const Sample& s : samples) {
+        const auto at = [&](std::uint32_t x, std::uint32_t y) { return texels[std::size_t{y} * system.width() + x]; };
+        const std::uint32_t right = system.right(s.x), below = system.below(s.y);
+        const Vec3 filtered = ((1 - s.fx) * (1 - s.fy)) * at(s.x, s.y) + (s.fx * (1 - s.fy)) * at(right, s.y) +
+                              ((1 - s.fx) * s.fy) * at(s.x, below) + (s.fx * s.fy) * at(right, below);
+        sum += static_cast<double>(length(cross(filtered, s.wanted)) / length(filtered));
+    }
+    return sum / static_cast<double>(samples.size());
+}
+
+std::vector<Vec3> centres(const std::vector<Sample>& samples) {
+    std::vector<Vec3> texels;
+    for (const Sample& sample : samples) {
+        if (sample.fx == 0 && sample.fy == 0) texels.push_back(sample.wanted);
+    }
+    return texels;
+}
+
+TEST(SolveTexels, TheFilteredImageIsNearerThanThatOfExactTexels) {
+    constexpr std::uint32_t kWidth = 22, kHeight = 17;
+    const std::vector<Sample> samples = waves(kWidth, kHeight);
+    const TexelSystem system = systemOf(samples, kWidth, kHeight, 0.02F);
+    std::vector<Vec3> texels = centres(samples);
+    const double exact = errorOf(system, samples, texels);
+    for (const unsigned threads : {1U, 3U}) {
+        std::vector<Vec3> solved = centres(samples);
+        Parallel parallel({.executor = threadTeam(threads)});
+        solveTexels(system, solved, parallel, nullptr);
+        EXPECT_LT(errorOf(system, samples, solved), 0.6 * exact);
+        if (threads == 1) texels = solved;
+        EXPECT_TRUE(texels == solved) << "threads change nothing";
+    }
+}
+
+TEST(SolveTexels, IntegersCancelEachOthersErrors) {
+    constexpr std::uint32_t kWidth = 40, kHeight = 33;
+    const std::vector<Sample> samples = waves(kWidth, kHeight);
+    const TexelSystem system = systemOf(samples, kWidth, kHeight, 0);
+    std::vector<Vec3> rounded = centres(samples), chosen = rounded;
+    for (Vec3& texel : rounded) {
+        const auto round = [](float value) { return std::floor((value + 1) * 127.5F + 0.5F) / 127.5F - 1; };
+        texel = {round(texel.x), round(texel.y), round(texel.z)};
+    }
+    Parallel parallel({.thread_count = 1});
+    chooseIntegers(system, {}, chosen, 3, parallel, nullptr);
+    EXPECT_LT(errorOf(system, samples, chosen), 0.9 * errorOf(system, samples, rounded));
+    for (const Vec3& texel : chosen) {
+        for (const float value : {texel.x, texel.y, texel.z}) {
+            const float integer = (value + 1) * 127.5F;
+            EXPECT_NEAR(integer, std::round(integer), 1e-3F);
+        }
+        EXPECT_GE(length(texel), 0.69F);
+        EXPECT_LE(length(texel), 1.0001F);
+    }
+}
+
+TEST(SolveTexels, TexelsWithoutSamplesStay) {
+    const TexelSystem system(nullptr, 8, 8);
+    std::vector<Vec3> texels(64, Vec3{0.6F, 0, 0.8F});
+    Parallel parallel({.thread_count = 1});
+    solveTexels(system, texels, parallel, nullptr);
+    for (const Vec3& texel : texels) EXPECT_LT(length(texel - Vec3{0.6F, 0, 0.8F}), 1e-6F);
+    chooseIntegers(system, {}, texels, 2, parallel, nullptr);
+    for (const Vec3& texel : texels)
+        EXPECT_LT(length(cross(texel, {0.6F, 0, 0.8F})) / length(texel), 0.0055F)
+            << "no further than plain rounding may be";
+}
+
+}  // namespace
+}  // namespace tspace::test
