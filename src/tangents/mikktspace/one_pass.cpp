@@ -317,8 +317,8 @@ class OnePass {
         return chosen;
     }
 
-    /// The same as finishNode for four nodes, where each has one fan of one orientation and only tangents are asked for;
-    /// leave(node) for complex ones. Returns whether that is so; else nothing is done.
+    /// The same as finishNode for four nodes, where each has one fan of one orientation; leave(node) for complex ones. Returns
+    /// whether that is so; else nothing is done.
     template <class Leave>
     bool finishFour(std::size_t n, const Leave& leave) {
         constexpr std::uint64_t kOnes = 0x0001000100010001u;
@@ -332,7 +332,7 @@ class OnePass {
         NodeSum* const sum = sums_.nodes.data() + n;
         const std::uint32_t second_paths =
             sum[0].fan.leaves[1] & sum[1].fan.leaves[1] & sum[2].fan.leaves[1] & sum[3].fan.leaves[1];
-        if (second_paths != Fan::kFree || estimates_ || !sums_.rest.empty()) return false;
+        if (second_paths != Fan::kFree || estimates_) return false;
         const std::uint16_t* const at = sums_.marks.data() + n;
         const Mask4 marks = {at[0], at[1], at[2], at[3]};
         Float4 x = loadFloat4(sum[0].s), y = loadFloat4(sum[1].s), z = loadFloat4(sum[2].s), w = loadFloat4(sum[3].s);
@@ -350,6 +350,7 @@ class OnePass {
                 if ((clear_bits >> i & 1) == 0) leave(n + i);
             }
         }
+        for (std::size_t i = 0; !sums_.rest.empty() && i < 4; ++i) finishRest(n + i, false, sum[i].s[3]);
         const Float4 inverse = splat(1) / sqrt4(square);
         const Mask4 down = ~marks << 31;  // the bit of kFacesUp becomes that of the sign
         w = select4(clear, std::bit_cast<Float4>(std::bit_cast<Mask4>(splat(sign_factor_)) ^ down),
