@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Figure 4: the light in tangent space, and its dot product with the texel.
+
+import { generateTangents } from "tspace";
+import { Figure, Numbers, type Plane } from "./figure";
+import { add, cross, dot, scale, text, tuple, unit, type Vec2, type Vec3 } from "./vector";
+
+const kLight: Plane = { origin: [100, 125], unit: 80 };
+const kFrame: Plane = { origin: [300, 125], unit: 80 };
+const kTexel: Plane = { origin: [500, 125], unit: 80 };
+const kCanvas = 120;
+
+/** A direction from its place on a disc: the hemisphere above it. */
+const onHemisphere = ([x, y]: Vec2): Vec3 => {
+  const most = 0.98, size = Math.hypot(x, y), k = size > most ? most / size : 1;
+  return [k * x, k * y, Math.sqrt(1 - k * k * size * size)];
+};
+
+/** The normal map of a round bump, as a function of the place on it, -1 to 1. */
+function bump(x: number, y: number): Vec3 {
+  const r = Math.hypot(x, y);
+  return r < 0.75 ? unit([0.95 * x, 0.95 * y, Math.sqrt(Math.max(0.05, 0.75 - r * r))]) : [0, 0, 1];
+}
+
+export function showLight(host: HTMLElement, rows: HTMLElement, canvas: HTMLCanvasElement) {
+  const figure = new Figure(host, 600, 260, "The light, a frame, and a texel");
+  const numbers = new Numbers(rows);
+  let light: Vec2 = [-0.45, 0.6], turn: Vec2 = [0.8, 0.4], texel: Vec2 = [0.3, 0.35];
+  canvas.width = canvas.height = kCanvas;
+  const pixels = canvas.getContext("2d");
+
+  /** The bump on a surface with this frame: each pixel is the dot product of its texel and the light in tangent space. */
+  const shade = (inTangentSpace: Vec3, tangent: Vec3, bitangent: Vec3) => {
+    if (!pixels) return;
+    const image = pixels.createImageData(kCanvas, kCanvas);
+    for (let i = 0; i < kCanvas * kCanvas; ++i) {
+      const at: Vec3 = [((i % kCanvas) + 0.5) / kCanvas * 2 - 1, 1 - (Math.floor(i / kCanvas) + 0.5) / kCanvas * 2, 0];
+      const lit = Math.max(0, dot(bump(dot(at, tangent), dot(at, bitangent)), inTangentSpace));
+      const grey = Math.round(255 * Math.sqrt(0.04 + 0.9 * lit));
+      image.data.set([grey, grey, grey, 255], 4 * i);
+    }
+    pixels.putImageData(image, 0, 0);
+  };
+
+  figure.show(() => {
+    // A square whose texture is turned: u runs along the handle.
+    const angle = Math.atan2(turn[1], turn[0]), c = Math.cos(angle), s = Math.sin(angle);
+    const corners: Vec2[] = [[-1, -1], [1, -1], [1, 1], [-1, 1]];
+    const made = generateTangents(
+      { positions: new Float32Array(corners.flatMap(([x, y]) => [x, y, 0])), normals: new Float32Array(corners.flatMap(() => [0, 0, 1])),
+        uvs: new Float32Array(corners.flatMap(([x, y]) => [c * x + s * y, c * y - s * x])), faceSizes: new Uint32Array([4]) },
+      { convention: "opengl" });
+    const normal: Vec3 = [0, 0, 1], tangent: Vec3 = [made[0]!, made[1]!, made[2]!];
+    const bitangent = scale(made[3]!, cross(normal, tangent));
+    const l = onHemisphere(light), n = onHemisphere(texel);
+    const inTangentSpace: Vec3 = [dot(tangent, l), dot(bitangent, l), dot(normal, l)];
+    const inSpace = add(add(scale(n[0], tangent), scale(n[1], bitangent)), scale(n[2], normal));
+    const colour = n.map((v) => Math.round(255 * (0.5 * v + 0.5)));
+
+    for (const [plane, words] of [[kLight, "light, from above"], [kFrame, "frame: turn the texture"], [kTexel, "texel"]] as const) {
+      const [cx, cy] = Figure.at(plane, [0, 0]);
+      const disc = figure.add("circle", { class: "face", cx, cy, r: plane.unit });
+      if (plane === kTexel) disc.setAttribute("style", `fill: rgb(${colour.join(",")})`);
+      figure.word(plane, [0, -1.25], words);
+    }
+    figure.arrow(kLight, [0, 0], [l[0], l[1]], "light", "L");
+    figure.arrow(kFrame, [0, 0], [0.8 * tangent[0], 0.8 * tangent[1]], "tangent", "T");
+    figure.arrow(kFrame, [0, 0], [0.8 * bitangent[0], 0.8 * bitangent[1]], "bitangent", "B");
+    figure.arrow(kFrame, [0, 0], [0.8 * inSpace[0], 0.8 * inSpace[1]], "normal", "n");
+    figure.arrow(kTexel, [0, 0], [n[0], n[1]], "part");
+    shade(inTangentSpace, tangent, bitangent);
+
+    const one = dot(inTangentSpace, n), other = dot(l, inSpace);
+    numbers.set("light in tangent space", `l = (T\u00b7L, B\u00b7L, N\u00b7L) = ${tuple(inTangentSpace)}`);
+    numbers.set("texel", `rgb(${colour.join(", ")}) = (n + 1) / 2, n = ${tuple(n)}`);
+    numbers.set("brightness", `max(0, n\u00b7l) = ${text(Math.max(0, one), 3)}`);
+    numbers.set("the other way round", `n in space = x T + y B + z N = ${tuple(inSpace)}, and its dot product with L is ${text(Math.max(0, other), 3)} as well`);
+  });
+  const disc: [Vec2, Vec2] = [[-1, 1], [-1, 1]];
+  figure.handle(kLight, "the light", () => onHemisphere(light).slice(0, 2) as unknown as Vec2, (to) => (light = to), disc, "light");
+  figure.handle(kFrame, "how the texture is turned", () => {
+    const size = Math.hypot(...turn) || 1;
+    return [turn[0] / size, turn[1] / size];
+  }, (to) => (turn = Math.hypot(...to) > 0.05 ? to : turn), disc);
+  figure.handle(kTexel, "the texel", () => onHemisphere(texel).slice(0, 2) as unknown as Vec2, (to) => (texel = to), disc);
+  figure.redraw();
+}

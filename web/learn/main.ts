@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// The lesson: five figures, made when the library is there.
+
+import { ready } from "tspace";
+import { showAverage } from "./average";
+import { showLight } from "./light";
+import { showMethods } from "./methods";
+import { showMirror } from "./mirror";
+import { showTriangle } from "./triangle";
+
+function find<Type extends Element>(selector: string, type: new () => Type): Type {
+  const found = document.querySelector(selector);
+  if (!(found instanceof type)) throw new Error(`the page has no ${selector}`);
+  return found;
+}
+
+const figure = (name: string) => find(`#${name} .drawing`, HTMLElement);
+const numbers = (name: string) => find(`#${name} .numbers`, HTMLElement);
+
+try {
+  await ready;
+  showTriangle(figure("triangle"), numbers("triangle"));
+  showAverage(figure("average"), numbers("average"));
+  showMirror(figure("mirror"), numbers("mirror"), find("#dropped", HTMLInputElement));
+  showLight(figure("light"), numbers("light"), find("#light canvas", HTMLCanvasElement));
+  showMethods(figure("methods"), find("#methods tbody", HTMLTableSectionElement), find("#surface", HTMLSelectElement));
+  document.documentElement.dataset["state"] = "ready";
+} catch (error) {
+  const line = find("#trouble", HTMLElement);
+  line.hidden = false;
+  line.textContent = `The figures cannot be shown: ${error instanceof Error ? error.message : String(error)}`;
+}

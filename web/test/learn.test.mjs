@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// The lesson, in headless Chromium: what its figures say is so, also after something was dragged.
+import assert from "node:assert/strict";
+import { existsSync, mkdirSync, mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { after, before, it } from "node:test";
+
+const lesson = process.env.TSPACE_LESSON;  // learn.html, one file
+const pictures = process.env.TSPACE_SCREENSHOTS;
+const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
+const playwright = await import("playwright-core").catch(() => null);
+const skip = (!chromium && "no Chromium here") || (!playwright && "playwright-core is not installed") || (!lesson && "the lesson was not built");
+
+let browser, home;
+before(async () => {
+  if (skip) return;
+  home = mkdtempSync(join(tmpdir(), "tspace-home-"));
+  if (pictures) mkdirSync(pictures, { recursive: true });
+  browser = await playwright.chromium.launch({ executablePath: chromium, args: ["--no-sandbox", "--disable-gpu"], env: { ...process.env, HOME: home, XDG_RUNTIME_DIR: home } });
+});
+after(async () => {
+  await browser?.close();
+  if (home) rmSync(home, { recursive: true, force: true });
+});
+
+async function open(options = {}) {
+  const tab = await browser.newPage({ viewport: { width: 1280, height: 900 }, ...options });
+  tab.faults = [];
+  tab.on("pageerror", (error) => tab.faults.push(String(error)));
+  tab.on("request", (request) => request.url().startsWith("http") && tab.faults.push(`asked for ${request.url()}`));
+  await tab.goto(pathToFileURL(lesson).href);
+  await tab.waitForSelector("html[data-state=ready]", { timeout: 60_000 }).catch(async () => assert.fail([...tab.faults, await tab.textContent("#trouble")].join("\n")));
+  return tab;
+}
+
+/** What stands behind the name in a figure's numbers. */
+const number = (tab, figure, name) =>
+  tab.$$eval(`#${figure} .numbers div`, (rows, wanted) => rows.find((row) => row.querySelector("dt").textContent === wanted)?.querySelector("dd").textContent, name);
+const press = async (tab, label, key, times) => {
+  await tab.focus(`[aria-label="${label}"]`);
+  for (let i = 0; i < times; ++i) await tab.keyboard.press(key);
+};
+const errors = (tab) =>
+  tab.$$eval("#methods tbody tr", (rows) => Object.fromEntries(rows.map((row) => [row.cells[0].textContent, [...row.cells].slice(1).map((cell) => Number(cell.textContent))])));
+
+it("turns the sign when a triangle's UVs turn over", { skip }, async () => {
+  const tab = await open();
+  assert.match(await number(tab, "triangle", "the library"), /sign = \+1/);
+  await press(tab, "UV of corner 2", "Shift+ArrowDown", 9);
+  assert.match(await number(tab, "triangle", "determinant"), /= \u2212/);
+  assert.match(await number(tab, "triangle", "the library"), /sign = \u22121/);
+  assert.match(await number(tab, "triangle", "which means"), /mirrored/);
+  assert.deepEqual(tab.faults, []);
+});
+
+it("gives the library's T of Lengyel's formula, wherever vertices and normal are", { skip }, async () => {
+  const tab = await open();
+  for (const [label, key] of [["outer vertex 1", "ArrowLeft"], ["outer vertex 3", "ArrowUp"], ["the normal", "ArrowRight"], ["outer vertex 5", "Shift+ArrowDown"]]) {
+    await press(tab, label, key, 5);
+    const degrees = (await number(tab, "average", "the library")).match(/([\d.]+) degrees/);
+    assert.ok(Number(degrees[1]) < 0.01, degrees[0]);
+  }
+});
+
+it("lights both halves from the top, until the sign is forgotten", { skip }, async () => {
+  const tab = await open();
+  assert.match(await number(tab, "mirror", "left half"), /sign = \u22121.*up$/);
+  assert.match(await number(tab, "mirror", "right half"), /sign = \+1.*up$/);
+  await tab.check("#dropped");
+  assert.match(await number(tab, "mirror", "left half"), /down$/);
+  assert.match(await number(tab, "mirror", "right half"), /up$/);
+  await press(tab, "u at the left end", "Shift+ArrowLeft", 19);
+  assert.match(await number(tab, "mirror", "left half"), /sign = \+1.*up$/);
+});
+
+it("shades the same in tangent space and in space, however the texture is turned", { skip }, async () => {
+  const tab = await open();
+  const pixels = () => tab.$eval("#light canvas", (canvas) => [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data]);
+  const before = await pixels();
+  await press(tab, "how the texture is turned", "Shift+ArrowUp", 7);
+  const after = await pixels();
+  assert.ok(before.every((value, i) => Math.abs(value - after[i]) <= 2));
+  assert.ok(new Set(before).size > 50, "there is a bump");
+  const one = (await number(tab, "light", "brightness")).match(/[\d.]+$/)[0];
+  assert.match(await number(tab, "light", "the other way round"), new RegExp(`is ${one.replace(".", "\\.")} as well`));
+  await press(tab, "the light", "Shift+ArrowRight", 5);
+  assert.ok((await pixels()).some((value, i) => Math.abs(value - after[i]) > 20), "the light is seen");
+});
+
+it("measures methods against the true surface", { skip }, async () => {
+  const tab = await open();
+  const sheet = await errors(tab);
+  assert.ok(sheet.best[0] < 0.5 * sheet.lengyel[0] && sheet.best[0] < 0.5 * sheet.mikktspace[0], JSON.stringify(sheet));
+  await tab.selectOption("#surface", "mirrored");
+  const seam = await errors(tab);
+  assert.ok(seam.lengyel[1] > 80 && seam.mikktspace[1] < 10, JSON.stringify(seam));
+  await tab.selectOption("#surface", "bevel");
+  const bevel = await errors(tab);
+  assert.ok(Object.values(bevel).every(([mean, worst]) => mean <= worst && worst < 60), JSON.stringify(bevel));
+  assert.ok(bevel.best[0] <= bevel.lengyel[0] + 1, JSON.stringify(bevel));
+});
+
+it("is reached by the keyboard, fits a telephone, and prints", { skip }, async () => {
+  const tab = await open({ viewport: { width: 390, height: 844 } });
+  assert.ok(await tab.$$eval(".handle", (all) => all.length >= 16 && all.every((knob) => knob.tabIndex === 0 && knob.getAttribute("aria-label") && knob.getAttribute("aria-valuetext"))));
+  assert.ok(await tab.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+  await tab.emulateMedia({ media: "print" });
+  assert.equal(await tab.$eval("#triangle svg", (svg) => svg.getBoundingClientRect().height > 50), true);
+  assert.equal(await tab.$eval(".handles", (knobs) => getComputedStyle(knobs).display), "none");
+});
+
+for (const [name, options] of [["wide", {}], ["dark", { colorScheme: "dark" }], ["narrow", { viewport: { width: 390, height: 844 } }]])
+  it(`leaves a picture: ${name}`, { skip: skip || (!pictures && "no folder for pictures") }, async () => {
+    const tab = await open(options);
+    const picture = await tab.screenshot({ path: join(pictures, `learn-${name}.png`), fullPage: true });
+    assert.ok(picture.length > 20_000);
+  });
