@@ -5,9 +5,9 @@
 #include "asset/atomic_output.h"
 #include "asset/file_error.h"
 #include "asset/read/read_scene.h"
-#include "maps/float_image.h"
 #include "picture/legend.h"
 #include "render/model_picture.h"
+#include "render/picture_file.h"
 
 namespace tspace {
 
@@ -78,18 +78,6 @@ RgbImage drawModel(const ModelPicture& model, const RenderOptions& options, Rend
     return std::move(picture.image);
 }
 
-std::vector<std::uint8_t> pngOf(const RgbImage& image) {
-    FloatImage values{.width = image.width, .height = image.height};
-    for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
-        const std::uint8_t* c = image.rgb.data() + i;
-        const auto value = [](std::uint8_t byte) { return static_cast<float>(byte) / 255; };
-        values.texels.push_back({value(c[0]), value(c[1]), value(c[2])});
-    }
-    std::optional<std::vector<std::uint8_t>> png = encodePng(values, 8);
-    if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
-    return *std::move(png);
-}
-
 bool showsTangents(RenderShow show) {
     return show == RenderShow::tangents || show == RenderShow::sign || show == RenderShow::error;
 }
@@ -117,7 +105,7 @@ RenderReport renderModel(const std::string& input, const std::string& output, co
             !drawn.scene.primitives[i].corners.empty() && choice.always && surface.shown.tangents.empty();
     }
     report.warnings.insert(report.warnings.end(), textures.warnings.begin(), textures.warnings.end());
-    const std::vector<std::uint8_t> png = pngOf(image);
+    const std::vector<std::uint8_t> png = encodePicture(image);
     AtomicOutput files(options.sink, options.dry_run);
     files.add(output, std::span<const std::uint8_t>(png));
     files.commit();

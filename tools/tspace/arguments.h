@@ -60,6 +60,7 @@ struct CheckArguments {
     std::vector<std::string> inputs = {};
     options::CheckRequest request = {};
     std::string sarif = {};  ///< a file for the findings in SARIF; empty: none
+    std::string html = {};   ///< a file for the findings as a page; empty: none
     Color color = Color::automatic;
     BatchArguments batch = {};
     bool json = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // tspace check
 #include "commands.h"
+#include "page/check_page.h"
 #include "read_files.h"
 #include "standard_input.h"
 #include "text_file.h"
@@ -40,6 +41,10 @@ ExitCode runCheck(const CheckArguments& arguments) {
     if (!arguments.sarif.empty() && !sarif_to_stdout) {
         const Result<Done> written = writeTextFile(arguments.sarif, checkSarif(files.outcomes, exit_code));
         if (!written) exit_code = worse(exit_code, printError(arguments.sarif, written.error()));
+    }
+    if (!arguments.html.empty()) {
+        const Result<Done> written = writeTextFile(arguments.html, checkPage(files.outcomes, options.file));
+        if (!written) exit_code = worse(exit_code, printError(arguments.html, written.error()));
     }
     std::string last;
     if (sarif_to_stdout) {

@@ -17,6 +17,11 @@ void addCheckReporting(Command& command, CheckArguments& arguments) {
                                                  "Write the findings to this file as SARIF 2.1.0, which CI systems "
                                                  "show beside the code; '-': to stdout, in place of the text."));
     sarif.is_file = true;
+    command
+        .add(kReporting, text("--html", "FILE", arguments.html,
+                              "Write the findings to this file as a page for people, with pictures of their places, "
+                              "before and after. It needs no other file."))
+        .is_file = true;
     command.add(kReporting, choice("--color", "WHEN", kColors, arguments.color,
                                    "Colour severities: always, never, or auto: on a terminal, unless the environment "
                                    "variable NO_COLOR is set."));
@@ -37,7 +42,8 @@ Command checkCommand(CheckArguments& arguments) {
             "nothing.",
         .examples = {"tspace check helmet.glb", "tspace check --fail-on warning --jobs 0 models/",
                      "tspace check --json models/ > findings.json",
-                     "tspace check --quiet --sarif findings.sarif models/"},
+                     "tspace check --quiet --sarif findings.sarif models/",
+                     "tspace check --html report.html helmet.glb"},
         .finish = [&arguments](const Given&) -> std::string {
             return arguments.json && arguments.sarif == "-" ? "--json and --sarif - both want stdout" : "";
         },
