@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // tspace check --html.
-#include "support/scene_file.h"
+#include "render/drawn.h"
+#include "support/temp_folder.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {
@@ -12,12 +13,16 @@ std::size_t countOf(const std::string& text, const std::string& part) {
     return count;
 }
 
-/// A sheet whose signs are inverted; its mesh has a name that means harm.
-void writeInverted(const TempFolder& folder, const std::string& name) {
-    ModelData data = withTangents(bentSheet(8), Method::mikktspace, 1);
-    data.name = "<script>alert('&')</script>";
-    writeModel(folder, name, {data});
+/// A square with a normal map, and a name that means harm.
+void writeSquare(const TempFolder& folder, const std::string& name, float sign) {
+    SquareModel model;
+    for (std::size_t i = 3; i < model.tangents.size(); i += 4) model.tangents[i] = sign;
+    GltfBuilder builder = model.build();
+    builder.json()["meshes"][0]["name"] = "<script>alert('&')</script>";
+    builder.json()["materials"][0]["normalTexture"] = {{"index", addTexture(builder, plainImage(200, 128, 220))}};
+    folder.write(name, std::span<const std::uint8_t>(builder.glb()));
 }
+void writeInverted(const TempFolder& folder, const std::string& name) { writeSquare(folder, name, -1); }
 
 TEST(CheckPage, ShowsEachFindingBeforeAndAfter) {
     const TempFolder folder;
@@ -46,7 +51,7 @@ TEST(CheckPage, TextOfFilesIsText) {
 TEST(CheckPage, SeveralFilesHaveAnOverview) {
     const TempFolder folder;
     writeInverted(folder, "models/wrong.glb");
-    writeModel(folder, "models/right.glb", {withTangents(bentSheet(4), Method::mikktspace)});
+    writeSquare(folder, "models/right.glb", 1);
     folder.write("models/broken.glb", std::string("glTF"));
     runTool(folder, "check -q models --html report.html");
     const std::string page = folder.read("report.html");
