@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A model for the eye, by the loader of three.js. What it thinks of a file counts for the picture alone; verdicts are tspace's.
-import { InstancedMesh, LoadingManager, Matrix3, Matrix4, Mesh, type BufferGeometry, SkinnedMesh, Vector3, type Group, type Material, type MeshStandardMaterial, type Object3D, type Texture } from "three";
+import { InstancedMesh, LoadingManager, Matrix3, Matrix4, Mesh, SkinnedMesh, Vector3, type Group, type Material, type MeshStandardMaterial, type Object3D, type Texture } from "three";
 import { GLTFLoader, type GLTF } from "three/examples/jsm/loaders/GLTFLoader.js";
 import type { ModelFiles } from "../files.js";
 import { arraysOf, uvsOf } from "./arrays.js";
@@ -75,14 +75,15 @@ function partOf(mesh: Mesh, where: Origin): Part | null {
   };
 }
 
-/** Where in the file a geometry is from: instanced meshes are made anew by the loader, and share that alone. */
-function originsOf(gltf: GLTF): Map<BufferGeometry, Origin> {
-  const origins = new Map<BufferGeometry, Origin>();
-  for (const [object, where] of gltf.parser.associations) {
-    const { meshes, primitives = 0 } = where as { meshes?: number; primitives?: number };
-    if (object instanceof Mesh && meshes !== undefined) origins.set(object.geometry as BufferGeometry, { meshes, primitives });
-  }
-  return origins;
+/** Where in the file a mesh is from. Instanced ones are made anew by the loader, which then knows their node alone. */
+function originOf(mesh: Mesh, gltf: GLTF): Origin | null {
+  type Known = { meshes?: number; primitives?: number; nodes?: number } | undefined;
+  const known = (object: Object3D | null) => (object ? (gltf.parser.associations.get(object) as Known) : undefined);
+  const own = known(mesh);
+  if (own?.meshes !== undefined) return { meshes: own.meshes, primitives: own.primitives ?? 0 };
+  const above = own?.nodes === undefined ? known(mesh.parent)?.nodes : undefined;
+  const meshes = gltf.parser.json.nodes?.[own?.nodes ?? above ?? -1]?.mesh as number | undefined;
+  return meshes === undefined ? null : { meshes, primitives: above === undefined ? 0 : mesh.parent!.children.indexOf(mesh) };
 }
 
 /** Where a mesh is drawn: of many instances the first ones. */
@@ -114,12 +115,11 @@ export async function loadModel(model: ModelFiles): Promise<Model> {
     const isText = /\.gltf$/i.test(model.name);
     const gltf = await loader.parseAsync(isText ? new TextDecoder().decode(buffer) : buffer, "");
     const parts = new Map<string, Part>();
-    const origins = originsOf(gltf);
     let corners = 0, left = 0, isSkinned = false;
     for (const root of await sceneOf(gltf, remarks)) {
       root.updateMatrixWorld(true);
       root.traverse((object) => {
-        const where = object instanceof Mesh ? origins.get(object.geometry as BufferGeometry) : undefined;
+        const where = object instanceof Mesh ? originOf(object, gltf) : null;
         if (!(object instanceof Mesh) || !where) return;
         const key = `${where.meshes}/${where.primitives}/${(object.material as Material).uuid}`;
         const known = parts.get(key) ?? partOf(object, where);
