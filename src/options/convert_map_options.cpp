@@ -17,18 +17,6 @@ constexpr Named<BitangentPlace> kBitangents[] = {
 };
 constexpr Named<unsigned> kBitCounts[] = {{"16", 16}, {"8", 8}};
 
-/// The names of findMapReading.
-Option reading(const char* name, MapReading& target, std::string help) {
-    const auto take = [&target](const std::string& value) {
-        target = *findMapReading(value.c_str());
-        return std::string();
-    };
-    Option chosen = option(name, "NAME", take, std::move(help));
-    chosen.choices = {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot", "three"};
-    chosen.default_text = "gltf";
-    return chosen;
-}
-
 }  // namespace
 
 OptionList convertMapOptions(ConvertMapFileOptions& options) {
@@ -51,8 +39,9 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
     const char* group = "Map";
     add(list, group, choice("--from", "SPACE", kSpaces, options.from, "What the map's vectors are told in."));
     add(list, group, choice("--to", "SPACE", kSpaces, options.to, "What those of the output are to be told in."));
-    add(list, group, reading("--from-convention", options.from_reading, "The program that the map was made for."));
-    add(list, group, reading("--to-convention", options.to_reading, "The program that will show the output."));
+    add(list, group,
+        readingOption("--from-convention", options.from_reading, "The program that the map was made for."));
+    add(list, group, readingOption("--to-convention", options.to_reading, "The program that will show the output."));
     add(list, group,
         choice("--from-bitangent", "WHERE", kBitangents, options.from_reading.bitangent,
                "Where that program computes bitangents. Default: as its convention says; pixel for gltf."))

@@ -25,6 +25,17 @@ bool parseMemory(const std::string& text, std::uint64_t& bytes) {
 
 }  // namespace
 
+Option readingOption(const char* names, MapReading& target, std::string help) {
+    const auto take = [&target](const std::string& value) {
+        target = *findMapReading(value.c_str());
+        return std::string();
+    };
+    Option chosen = option(names, "NAME", take, std::move(help));
+    chosen.choices = {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot", "three"};
+    chosen.default_text = "gltf";
+    return chosen;
+}
+
 void addAllowExternal(OptionList& list, FileOptions& file) {
     add(list, kInputAndOutput,
         flag(

@@ -7,6 +7,7 @@
 
 #include "options/option_table.h"
 #include "tspace/asset.h"
+#include "tspace/map_reading.h"
 
 namespace tspace::options {
 
@@ -30,6 +31,8 @@ inline constexpr Named<Faces> kFaces[] = {
 inline constexpr const char* kInputAndOutput = "Input and output";
 inline constexpr const char* kRunning = "Running";
 
+/// A program whose reading of normal maps is meant: the names of findMapReading.
+Option readingOption(const char* names, MapReading& target, std::string help);
 void addAllowExternal(OptionList& list, FileOptions& file);
 void addThreads(OptionList& list, Execution& execution, std::string help);
 /// Only the first of the limits: for what needs no importer.

@@ -8,6 +8,7 @@
 
 #include "options/option_table.h"
 #include "tspace/asset.h"
+#include "tspace/bake_file.h"
 #include "tspace/check.h"
 #include "tspace/diff.h"
 #include "tspace/flip_green.h"
@@ -36,6 +37,8 @@ OptionList identifyOptions(IdentifyOptions& options);
 OptionList inspectOptions(FileOptions& options);
 OptionList flipGreenOptions(FlipGreenOptions& options);
 OptionList renderOptions(RenderOptions& options);
+OptionList bakeOptions(BakeFileOptions& options);
+OptionList mapErrorOptions(MapErrorFileOptions& options);
 OptionList convertMapOptions(ConvertMapFileOptions& options);
 
 /// What options of generate mean together, once all are given. Returns what makes no sense, or nothing.

@@ -8,6 +8,7 @@
 #include "json/json.h"
 #include "report/exit_code.h"
 #include "tspace/asset.h"
+#include "tspace/bake_file.h"
 #include "tspace/check.h"
 #include "tspace/diff.h"
 #include "tspace/flip_green.h"
@@ -40,6 +41,10 @@ std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_c
 /// Of the models `a` and `b`.
 std::string diffJson(const std::string& a, const std::string& b, double tolerance_deg, const Result<FrameDiff>& diff,
                      ExitCode exit_code);
+std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code);
+/// Of the map `outcome`.input.
+std::string mapErrorJson(const Outcome<MapErrorFileReport>& outcome, const std::string& low, const std::string& high,
+                         ExitCode exit_code);
 std::string flipGreenJson(const Outcome<FlipGreenReport>& outcome, ExitCode exit_code);
 std::string renderJson(const Outcome<RenderReport>& outcome, ExitCode exit_code);
 std::string convertMapJson(const Outcome<ConvertMapFileReport>& outcome, ExitCode exit_code);

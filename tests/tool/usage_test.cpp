@@ -79,7 +79,7 @@ TEST(Usage, AnOutputIsAskedForInWords) {
 }
 
 TEST(Usage, ACommandThatDoesNotExistIsNamed) {
-    for (const std::string name : {"a.glb", "bake", "x"}) {
+    for (const std::string name : {"a.glb", "polish", "x"}) {
         EXPECT_EQ(runTool(TempFolder(), name).err, "tspace: there is no command '" + name + "' (see tspace --help)\n");
     }
 }

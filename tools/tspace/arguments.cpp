@@ -47,7 +47,8 @@ ExitCode runHelp(const ToolTable& tool, const std::string& topic) {
 Arguments parseArguments(int argc, char** argv) {
     AllArguments all;
     for (FileOptions* file : {&all.generate.options.file, &all.diff.request.options.file, &all.identify.options.file,
-                              &all.inspect.file, &all.check.request.options.file, &all.render.options.file}) {
+                              &all.inspect.file, &all.check.request.options.file, &all.render.options.file,
+                              &all.bake.options.file, &all.map_error.options.file}) {
         file->importer = importerPath();
     }
     const ToolTable tool = toolTable(all);
@@ -68,6 +69,8 @@ Arguments parseArguments(int argc, char** argv) {
     if (command->name == "render") return std::move(all.render);
     if (command->name == "convert-map") return std::move(all.convert_map);
     if (command->name == "view") return std::move(all.view);
+    if (command->name == "bake") return std::move(all.bake);
+    if (command->name == "map-error") return std::move(all.map_error);
     return runHelp(tool, all.help_topic);
 }
 

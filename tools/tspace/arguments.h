@@ -116,10 +116,25 @@ struct ViewArguments {
     bool quiet = false;
 };
 
+struct BakeArguments {
+    std::string low = {}, high = {}, output = {};
+    std::string report = {};  ///< a file for the JSON; empty: none
+    BakeFileOptions options = {};
+    bool json = false;
+    bool quiet = false;
+};
+
+struct MapErrorArguments {
+    std::string map = {}, low = {}, high = {};
+    MapErrorFileOptions options = {};
+    bool json = false;
+    bool quiet = false;
+};
+
 /// Nothing to run: help was printed, or the command line is wrong and the error line was printed.
-using Arguments =
-    std::variant<ExitCode, GenerateArguments, InspectArguments, CheckArguments, DiffArguments, IdentifyArguments,
-                 FlipGreenArguments, RenderArguments, ConvertMapArguments, ViewArguments>;
+using Arguments = std::variant<ExitCode, GenerateArguments, InspectArguments, CheckArguments, DiffArguments,
+                               IdentifyArguments, FlipGreenArguments, RenderArguments, ConvertMapArguments,
+                               ViewArguments, BakeArguments, MapErrorArguments>;
 
 Arguments parseArguments(int argc, char** argv);
 

@@ -11,6 +11,8 @@ ExitCode runDiff(const DiffArguments& arguments);
 ExitCode runIdentify(const IdentifyArguments& arguments);
 ExitCode runInspect(const InspectArguments& arguments);
 ExitCode runCheck(const CheckArguments& arguments);
+ExitCode runBake(const BakeArguments& arguments);
+ExitCode runMapError(const MapErrorArguments& arguments);
 ExitCode runFlipGreen(const FlipGreenArguments& arguments);
 ExitCode runRender(const RenderArguments& arguments);
 ExitCode runConvertMap(const ConvertMapArguments& arguments);

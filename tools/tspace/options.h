@@ -19,6 +19,8 @@ struct AllArguments {
     RenderArguments render = {};
     ConvertMapArguments convert_map = {};
     ViewArguments view = {};
+    BakeArguments bake = {};
+    MapErrorArguments map_error = {};
     std::string help_topic = {};  ///< of `tspace help`
 };
 
@@ -27,6 +29,8 @@ Command inspectCommand(InspectArguments& arguments);
 Command checkCommand(CheckArguments& arguments);
 Command diffCommand(DiffArguments& arguments);
 Command identifyCommand(IdentifyArguments& arguments);
+Command bakeCommand(BakeArguments& arguments);
+Command mapErrorCommand(MapErrorArguments& arguments);
 Command flipGreenCommand(FlipGreenArguments& arguments);
 Command renderCommand(RenderArguments& arguments);
 Command convertMapCommand(ConvertMapArguments& arguments);

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Normal maps of model files: baked from a high poly, and measured against it. CMake target tspace::asset.
+//
+// A low poly is taken with the frames that are in its file; missing ones are made as generateFile makes them. Meshes stand
+// where the nodes of their files put them: a low poly at the first place, a high poly at all of them. Models of more than one
+// mesh are matched by name where all names fit: NAME, NAME_low and NAME_lp with NAME, NAME_high and NAME_hp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tspace/asset.h"
+#include "tspace/map_bake.h"
+
+namespace tspace {
+
+struct BakeFileOptions {
+    /// Its progress and stop serve the whole call. Its limit on memory is that of `file`, or 16 GB, where it is 0.
+    BakeOptions map = {};
+    /// Frames that the low poly lacks: as GenerateOptions has them.
+    TangentOptions tangents{.convention = conventions::gltf};
+    NormalOptions normals{.weighting = NormalWeighting::flat};
+    FileOptions file = {};
+    std::string cage = {};    ///< a model with the low poly's triangles, moved to where rays begin; empty: none
+    std::string misses = {};  ///< where to write a picture of what each texel is; empty: nowhere
+    std::string heat = {};    ///< where to write a picture of the error; empty: nowhere
+    bool udim = false;        ///< a file per tile of UVs: NAME.1001.png. Without it UVs outside of 0 to 1 wrap
+};
+
+/// One image.
+struct BakedFile {
+    std::string path = {};
+    std::string material = {};  ///< its name; may be empty
+    std::uint32_t tile = 0;     ///< 1001 and on with `udim`, else 0
+    std::uint64_t triangle_count = 0;
+    BakedMap map = {};        ///< without texels
+    double heat_top_deg = 0;  ///< what the brightest colour of the heat map stands for
+};
+
+struct BakeFileReport {
+    std::vector<BakedFile> files = {};
+    bool frames_made = false;      ///< the low poly had no tangents, or no normals, in part at least
+    bool matched_by_name = false;  ///< each mesh of the low poly saw its own mesh of the high poly alone
+    std::uint64_t low_triangle_count = 0, high_triangle_count = 0;
+    std::vector<std::string> output_files = {};  ///< everything that was written
+    std::vector<std::string> warnings = {};      ///< one sentence each
+};
+
+/// Bakes the normal map of `low` from `high` into `output`, a PNG. A low poly of several materials gives a file each:
+/// NAME.MATERIAL.png. All files appear at once or not at all. Errors: those of bakeMap, and cannotRead, invalidFile,
+/// unsupportedFile (also a build that writes no PNG), forbiddenPath, tooLarge, cannotWrite.
+Result<BakeFileReport> bakeFile(const std::string& low, const std::string& high, const std::string& output,
+                                const BakeFileOptions& options = {});
+
+struct MapErrorFileOptions {
+    /// What the map is taken for, and how it is measured. Its progress and stop serve the whole call.
+    MapErrorOptions map = {};
+    TangentOptions tangents{.convention = conventions::gltf};  ///< as BakeFileOptions
+    NormalOptions normals{.weighting = NormalWeighting::flat};
+    FileOptions file = {};
+    std::string cage = {};
+    std::string material = {};  ///< only triangles of the material with this name; empty: all
+    std::string heat = {};      ///< where to write a picture of the error; empty: nowhere
+};
+
+/// One way to read a map, and the error that it has then.
+struct ExplainedReading {
+    std::string frames =
+        {};  ///< "file", a method, "quads" (mikktspace on quads), or "object" (no frames: object space)
+    MapReading reading = {};
+    MapError error = {};
+};
+
+struct MapErrorFileReport {
+    std::uint32_t width = 0, height = 0;
+    unsigned bits = 8;
+    MapError error = {};                          ///< as asked for, without heat
+    std::vector<ExplainedReading> readings = {};  ///< all that were tried, the best first
+    bool fits = false;                            ///< no other reading is much better
+    std::string verdict = {};                     ///< one sentence for an artist
+    bool frames_made = false, matched_by_name = false;
+    double heat_top_deg = 0;
+    std::vector<std::string> warnings = {};
+};
+
+/// Measures a normal map of a low poly against its high poly, and finds which way to read it explains it best: green up or down,
+/// the frames that are in the file or those of a method, on triangles or quads, a bitangent per pixel or per vertex, tangent
+/// or object space. Errors as bakeFile; also those of readers of images.
+Result<MapErrorFileReport> mapErrorFile(const std::string& map, const std::string& low, const std::string& high,
+                                        const MapErrorFileOptions& options = {});
+
+}  // namespace tspace

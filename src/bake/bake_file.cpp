@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "tspace/bake_file.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "asset/atomic_output.h"
+#include "asset/file_error.h"
+#include "asset/file_io.h"
+#include "bake/map_pictures.h"
+#include "bake/model_surfaces.h"
+#include "maps/float_image.h"
+#include "maps/map_calls.h"
+
+namespace tspace {
+
+namespace {
+
+std::vector<std::uint8_t> pngOf(std::uint32_t width, std::uint32_t height, std::vector<Vec3> texels, unsigned bits) {
+    std::optional<std::vector<std::uint8_t>> png =
+        encodePng({.width = width, .height = height, .bits = bits, .texels = std::move(texels)}, bits);
+    if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
+    return *std::move(png);
+}
+
+/// A name of a material, fit to be a part of a file's name.
+std::string fileWord(const std::string& name) {
+    std::string word;
+    for (const char letter : name) {
+        const bool is_plain = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
+                              (letter >= '0' && letter <= '9') || letter == '-' || letter == '_';
+        word += is_plain ? letter : '_';
+    }
+    return word.empty() ? "material" : word;
+}
+
+/// "dir/name.WORD.png" of "dir/name.png".
+std::string withWord(const std::string& path, const std::string& word) {
+    if (path.empty() || word.empty()) return path;
+    const std::size_t slash = path.find_last_of('/'), dot = path.find_last_of('.');
+    const bool has_extension = dot != std::string::npos && (slash == std::string::npos || dot > slash);
+    const std::size_t at = has_extension ? dot : path.size();
+    return path.substr(0, at) + "." + word + path.substr(at);
+}
+
+/// The UDIM tile that most of a triangle lies in; 0: none (not finite, or outside of tiles 1001 to 9999).
+std::uint32_t tileOf(const Vec2* uvs) {
+    const double u = (static_cast<double>(uvs[0].x) + uvs[1].x + uvs[2].x) / 3;
+    // Tiles go upwards, and v runs down.
+    const double v = 1 - (static_cast<double>(uvs[0].y) + uvs[1].y + uvs[2].y) / 3;
+    if (!(u >= 0 && u < 10 && v >= 0 && v < 899)) return 0;
+    return 1001 + static_cast<std::uint32_t>(u) + 10 * static_cast<std::uint32_t>(v);
+}
+
+class FileBaking {
+  public:
+    FileBaking(const std::string& output, const BakeFileOptions& options) : output_(output), options_(options) {
+        // An image is as large as it was asked for: what a file may take by its own size says nothing here.
+        constexpr std::uint64_t kUsualLimit = std::uint64_t{16} << 30;
+        std::uint64_t& limit = options_.map.memory_limit_bytes;
+        if (limit == 0) limit = options_.file.memory_limit_bytes;
+        if (limit == 0) limit = kUsualLimit;
+    }
+
+    BakeFileReport run(const std::string& low, const std::string& high) {
+        if (lowerExtension(output_) != ".png")
+            failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(output_) + " does not end in .png");
+        if (Error error = checkBakeOptions(options_.map, 0, 0); error.code != ErrorCode::ok) throw FileError{error};
+        models_ = readBakeModels(low, high, options_);
+        report_.frames_made = models_.low.frames_made;
+        report_.matched_by_name = models_.matched_by_name;
+        report_.low_triangle_count = models_.low.triangleCount();
+        report_.high_triangle_count = models_.high.corners.size() / 3;
+        report_.warnings = models_.low.warnings;
+        report_.warnings.insert(report_.warnings.end(), models_.high.warnings.begin(), models_.high.warnings.end());
+        for (const LowModel::Image& image : models_.low.images) {
+            const std::string word = models_.low.images.size() > 1 ? freshWord(fileWord(image.material)) : "";
+            bakeTiles(image, word);
+        }
+        files_.commit();
+        report_.output_files = files_.files();
+        return std::move(report_);
+    }
+
+  private:
+    std::string freshWord(const std::string& word) {
+        std::string fresh = word;
+        for (int i = 2; !words_.insert(fresh).second; ++i) fresh = word + "_" + std::to_string(i);
+        return fresh;
+    }
+
+    void bakeTiles(const LowModel::Image& image, const std::string& word) {
+        if (!options_.udim) {
+            bakeImage(image.material, word, 0, image.part);
+            return;
+        }
+        std::map<std::uint32_t, LowPart> tiles;
+        std::uint64_t outside = 0;
+        for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {
+            const std::uint32_t tile = tileOf(&image.part.uvs[3 * i]);
+            if (tile == 0) {
+                ++outside;
+                continue;
+            }
+            LowPart& part = tiles[tile];
+            part.addTriangle(image.part, i);
+            for (auto uv = part.uvs.end() - 3; uv != part.uvs.end(); ++uv) {
+                uv->x -= static_cast<float>((tile - 1001) % 10);
+                uv->y += static_cast<float>((tile - 1001) / 10);
+            }
+        }
+        if (outside > 0)
+            report_.warnings.push_back(std::to_string(outside) + " triangles lie in no tile, and are left out");
+        if (tiles.empty()) failFile(ErrorCode::missingAttribute, "the UVs of the low poly lie in no tile");
+        for (const auto& [tile, part] : tiles) {
+            const std::string number = std::to_string(tile);
+            bakeImage(image.material, word.empty() ? number : word + "." + number, tile, part);
+        }
+    }
+
+    void bakeImage(const std::string& material, const std::string& word, std::uint32_t tile, const LowPart& part) {
+        BakeOptions options = options_.map;
+        options.heat = options.heat || !options_.heat.empty();
+        BakedFile file{.path = withWord(output_, word),
+                       .material = material,
+                       .tile = tile,
+                       .triangle_count = part.triangleCount(),
+                       .map = valueOrThrow(bakeMap(part.view(), models_.high.view(), options))};
+        BakedMap& map = file.map;
+        files_.add(file.path, pngOf(map.width, map.height, std::exchange(map.texels, {}), map.bits));
+        if (!options_.misses.empty())
+            files_.add(withWord(options_.misses, word), pngOf(map.width, map.height, pictureOfOrigins(map), 8));
+        if (!options_.heat.empty()) {
+            file.heat_top_deg = map.error.p99_deg;
+            files_.add(withWord(options_.heat, word),
+                       pngOf(map.width, map.height, pictureOfHeat(map.error.heat, file.heat_top_deg), 8));
+        }
+        map.origins = {};
+        map.overlaps = {};
+        map.error.heat = {};
+        report_.files.push_back(std::move(file));
+    }
+
+    const std::string& output_;
+    BakeFileOptions options_;
+    BakeModels models_ = {};
+    AtomicOutput files_;
+    std::set<std::string> words_ = {};
+    BakeFileReport report_ = {};
+};
+
+}  // namespace
+
+Result<BakeFileReport> bakeFile(const std::string& low, const std::string& high, const std::string& output,
+                                const BakeFileOptions& options) {
+    return atFileBorder([&]() -> Result<BakeFileReport> { return FileBaking(output, options).run(low, high); });
+}
+
+}  // namespace tspace

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+#include "bake/model_surfaces.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+
+#include "asset/file_error.h"
+#include "asset/file_io.h"
+#include "asset/read/read_scene.h"
+#include "core/unit.h"
+
+namespace tspace {
+
+namespace {
+
+/// The first thing that needs tangents says which UVs the map follows.
+const SharedArray<Vec2>* mapUvs(const ScenePrimitive& primitive) {
+    const std::size_t set = primitive.uses.empty() ? 0 : primitive.uses.front().uv_set;
+    if (set >= primitive.uv_sets.size() || primitive.uv_sets[set].empty()) return nullptr;
+    return &primitive.uv_sets[set];
+}
+
+bool needsFrames(const Scene& scene) {
+    return std::any_of(scene.primitives.begin(), scene.primitives.end(), [](const ScenePrimitive& primitive) {
+        return !primitive.corners.empty() && (primitive.normals.empty() || primitive.tangents.empty());
+    });
+}
+
+/// The model as a GLB in memory, with all frames.
+DrawnScene readGenerated(const std::string& low, const BakeFileOptions& options, ExistingTangents existing,
+                         Faces faces) {
+    std::vector<std::uint8_t> glb;
+    GenerateOptions generate;
+    generate.all = true;
+    generate.existing = existing;
+    generate.faces = faces;
+    generate.tangents = options.tangents;
+    generate.tangents.execution = options.map.execution;
+    generate.normals = options.normals;
+    generate.normals.execution = options.map.execution;
+    generate.file = options.file;
+    generate.progress = options.map.progress;
+    generate.sink = [&](std::span<const std::uint8_t> bytes) {
+        glb.insert(glb.end(), bytes.begin(), bytes.end());
+        return true;
+    };
+    valueOrThrow(generateFile(low, "low.glb", generate));
+    FileOptions in_memory = options.file;
+    in_memory.content = glb;
+    return readDrawnScene("low.glb", in_memory, false);
+}
+
+DrawnScene readWithFrames(const std::string& low, const BakeFileOptions& options, bool& made) {
+    DrawnScene scene = readDrawnScene(low, options.file, false);
+    // OBJ has no tangents, and reading it gives normals that it lacks.
+    made = needsFrames(scene.scene);
+    return made ? readGenerated(low, options, ExistingTangents::keep, Faces::triangles) : std::move(scene);
+}
+
+/// "Body" of "Body_low", "BODY_HP" and so on, in lower case.
+std::string nameStem(std::string name) {
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    for (const char* end : {"_low", "_lp", "_high", "_hp", "-low", "-high", ".low", ".high"}) {
+        const std::string_view ending = end;
+        if (name.size() > ending.size() && name.ends_with(ending)) return name.substr(0, name.size() - ending.size());
+    }
+    return name;
+}
+
+/// Numbers of names, in the order in which they came.
+class MeshNames {
+  public:
+    std::uint32_t numberOf(const std::string& name) {
+        return numbers_.emplace(nameStem(name), static_cast<std::uint32_t>(numbers_.size())).first->second;
+    }
+    [[nodiscard]] const std::uint32_t* find(const std::string& name) const {
+        const auto found = numbers_.find(nameStem(name));
+        return found != numbers_.end() ? &found->second : nullptr;
+    }
+    [[nodiscard]] std::size_t count() const { return numbers_.size(); }
+
+  private:
+    std::map<std::string, std::uint32_t> numbers_ = {};
+};
+
+/// Meshes are matched where there are several, and each of one model has one of the other.
+bool matchNames(const Scene& low, const Scene& high, MeshNames& names) {
+    for (const ScenePrimitive& primitive : low.primitives) {
+        if (!primitive.corners.empty()) names.numberOf(primitive.mesh_name);
+    }
+    const std::size_t count = names.count();
+    if (count < 2) return false;
+    MeshNames seen;
+    for (const ScenePrimitive& primitive : high.primitives) {
+        if (primitive.corners.empty()) continue;
+        if (names.find(primitive.mesh_name) == nullptr) return false;
+        seen.numberOf(primitive.mesh_name);
+    }
+    return seen.count() == count;
+}
+
+/// A vector that a place turns, as long as it was.
+Vec3 turnedVector(const Vec3& before, DVec3 after) {
+    const double size = length(toDouble(before));
+    return normalize(after) ? toFloat(size * after) : before;
+}
+
+/// The order of the corners of a triangle at a place, which may mirror.
+std::size_t placedCorner(const Affine& place, std::size_t i) {
+    constexpr std::size_t kMirrored[3] = {0, 2, 1};
+    return place.determinant() < 0 ? i - i % 3 + kMirrored[i % 3] : i;
+}
+
+/// Where a primitive stands first.
+Affine firstPlace(const DrawnScene& drawn, std::size_t primitive) {
+    for (const ScenePlacement& placement : drawn.placements) {
+        if (placement.primitive == primitive) return placement.to_world;
+    }
+    return {};
+}
+
+void addPrimitive(const ScenePrimitive& primitive, const Affine& place, std::uint32_t group, LowPart& part) {
+    const SharedArray<Vec2>& uvs = *mapUvs(primitive);
+    const float sign = place.determinant() < 0 ? -1 : 1;
+    for (std::size_t i = 0; i < primitive.corners.size(); ++i) {
+        const std::uint32_t vertex = primitive.corners[placedCorner(place, i)];
+        part.positions.push_back(toFloat(place.point(toDouble(primitive.positions[vertex]))));
+        const Vec3 normal = primitive.normals.empty() ? Vec3{} : primitive.normals[vertex];
+        const Vec4 tangent = primitive.tangents.empty() ? Vec4{} : primitive.tangents[vertex];
+        part.normals.push_back(turnedVector(normal, place.normal(toDouble(normal))));
+        const Vec3 direction = turnedVector(xyz(tangent), place.direction(toDouble(xyz(tangent))));
+        part.tangents.push_back({direction.x, direction.y, direction.z, sign * tangent.w});
+        part.uvs.push_back(uvs[vertex]);
+    }
+    part.groups.insert(part.groups.end(), primitive.corners.size() / 3, group);
+}
+
+void addCage(const ScenePrimitive& cage, const Affine& place, LowPart& part) {
+    for (std::size_t i = 0; i < cage.corners.size(); ++i)
+        part.cage.push_back(toFloat(place.point(toDouble(cage.positions[cage.corners[placedCorner(place, i)]]))));
+}
+
+LowModel lowModel(const DrawnScene& drawn, const DrawnScene* cage, const MeshNames* names, const std::string& path) {
+    const Scene& scene = drawn.scene;
+    LowModel model;
+    std::size_t without_uvs = 0;
+    std::map<std::string, std::size_t> images;
+    for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
+        const ScenePrimitive& primitive = scene.primitives[i];
+        if (primitive.corners.empty()) continue;
+        if (mapUvs(primitive) == nullptr) {
+            ++without_uvs;
+            continue;
+        }
+        const auto [image, is_new] = images.emplace(primitive.material_name, model.images.size());
+        if (is_new) model.images.push_back({.material = primitive.material_name});
+        const std::uint32_t group = names != nullptr ? *names->find(primitive.mesh_name) : 0;
+        LowPart& part = model.images[image->second].part;
+        addPrimitive(primitive, firstPlace(drawn, i), group, part);
+        if (cage != nullptr) addCage(cage->scene.primitives[i], firstPlace(*cage, i), part);
+    }
+    if (model.images.empty()) {
+        failFile(ErrorCode::missingAttribute, without_uvs > 0
+                                                  ? "the low poly " + pathInQuotes(path) + " has no UVs"
+                                                  : "the low poly " + pathInQuotes(path) + " has no triangles");
+    }
+    if (without_uvs > 0)
+        model.warnings.push_back(std::to_string(without_uvs) +
+                                 " primitives of the low poly have no UVs, and are left out");
+    for (LowModel::Image& image : model.images) {
+        if (names == nullptr) image.part.groups.clear();
+    }
+    return model;
+}
+
+/// Fails where a cage is not the low poly with other positions.
+void checkCage(const Scene& low, const Scene& cage) {
+    bool fits = low.primitives.size() == cage.primitives.size();
+    for (std::size_t i = 0; fits && i < low.primitives.size(); ++i)
+        fits = low.primitives[i].corners.size() == cage.primitives[i].corners.size();
+    if (!fits) failFile(ErrorCode::countMismatch, "the cage has other triangles than the low poly");
+}
+
+/// One vertex per corner where triangles are flat: their normals are their own.
+void addFlat(const ScenePrimitive& primitive, const Affine& place, HighModel& model) {
+    for (std::size_t i = 0; i < primitive.corners.size(); i += 3) {
+        std::array<Vec3, 3> at{};
+        for (std::size_t k = 0; k < 3; ++k)
+            at[k] = toFloat(place.point(toDouble(primitive.positions[primitive.corners[placedCorner(place, i + k)]])));
+        // Without a direction the triangle's own is taken where a ray meets it.
+        const Vec3 normal = cross(at[1] - at[0], at[2] - at[0]);
+        for (const Vec3& corner : at) {
+            model.corners.push_back(static_cast<std::uint32_t>(model.positions.size()));
+            model.positions.push_back(corner);
+            model.normals.push_back(normal);
+        }
+    }
+}
+
+void addSmooth(const ScenePrimitive& primitive, std::span<const Vec3> normals, const Affine& place, HighModel& model) {
+    const auto first = static_cast<std::uint32_t>(model.positions.size());
+    for (const Vec3& position : primitive.positions)
+        model.positions.push_back(toFloat(place.point(toDouble(position))));
+    for (const Vec3& normal : normals) model.normals.push_back(turnedVector(normal, place.normal(toDouble(normal))));
+    for (std::size_t i = 0; i < primitive.corners.size(); ++i)
+        model.corners.push_back(first + primitive.corners[placedCorner(place, i)]);
+}
+
+/// Smooth normals, one per vertex.
+std::vector<Vec3> smoothNormals(const ScenePrimitive& primitive, const BakeFileOptions& options) {
+    std::vector<Vec3> of_corners(primitive.corners.size()), normals(primitive.positions.size());
+    const MeshView mesh{.positions = primitive.positions.span(), .indices = {primitive.corners.span()}};
+    valueOrThrow(generateNormals(
+        mesh,
+        {.weighting = NormalWeighting::angle, .convention = conventions::gltf, .execution = options.map.execution},
+        of_corners));
+    for (std::size_t i = 0; i < of_corners.size(); ++i) normals[primitive.corners[i]] = of_corners[i];
+    return normals;
+}
+
+HighModel highModel(const DrawnScene& drawn, const MeshNames* names, const std::string& path,
+                    const BakeFileOptions& options) {
+    HighModel model;
+    std::size_t made = 0;
+    // What glTF and OBJ leave out is flat; meshes of scanners and sculptors are meant to be smooth.
+    const std::string extension = lowerExtension(path);
+    const bool is_flat = extension == ".glb" || extension == ".gltf" || extension == ".obj";
+    for (const ScenePlacement& placement : drawn.placements) {
+        const ScenePrimitive& primitive = drawn.scene.primitives[placement.primitive];
+        const Affine& place = placement.to_world;
+        if (primitive.corners.empty()) continue;
+        if (!primitive.normals.empty()) {
+            addSmooth(primitive, primitive.normals.span(), place, model);
+        } else {
+            ++made;
+            if (is_flat) {
+                addFlat(primitive, place, model);
+            } else {
+                addSmooth(primitive, smoothNormals(primitive, options), place, model);
+            }
+        }
+        if (names != nullptr)
+            model.groups.insert(model.groups.end(), primitive.corners.size() / 3, *names->find(primitive.mesh_name));
+    }
+    if (model.corners.empty())
+        failFile(ErrorCode::missingAttribute, "the high poly " + pathInQuotes(path) + " has no triangles");
+    if (made > 0)
+        model.warnings.push_back(std::string("the high poly has no normals; its triangles are taken as ") +
+                                 (is_flat ? "flat, as glTF says" : "smooth"));
+    return model;
+}
+
+}  // namespace
+
+void LowPart::addTriangle(const LowPart& from, std::size_t triangle) {
+    const auto add = [&](auto& to, const auto& values) {
+        if (values.empty()) return;
+        const auto first = values.begin() + static_cast<std::ptrdiff_t>(3 * triangle);
+        to.insert(to.end(), first, first + 3);
+    };
+    add(positions, from.positions);
+    add(normals, from.normals);
+    add(tangents, from.tangents);
+    add(uvs, from.uvs);
+    add(cage, from.cage);
+    if (!from.groups.empty()) groups.push_back(from.groups[triangle]);
+}
+
+std::size_t LowModel::triangleCount() const {
+    std::size_t count = 0;
+    for (const Image& image : images) count += image.part.triangleCount();
+    return count;
+}
+
+std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOptions& options, Faces faces,
+                                    const LowModel& known) {
+    const DrawnScene scene = readGenerated(low, options, ExistingTangents::replace, faces);
+    LowModel model = lowModel(scene, nullptr, nullptr, low);
+    bool fits = model.images.size() == known.images.size();
+    for (std::size_t i = 0; fits && i < model.images.size(); ++i)
+        fits = model.images[i].part.positions == known.images[i].part.positions;
+    return fits ? std::optional(std::move(model)) : std::nullopt;
+}
+
+BakeModels readBakeModels(const std::string& low, const std::string& high, const BakeFileOptions& options) {
+    BakeModels models;
+    bool frames_made = false;
+    const DrawnScene low_scene = readWithFrames(low, options, frames_made);
+    DrawnScene cage_scene;
+    if (!options.cage.empty()) {
+        cage_scene = readDrawnScene(options.cage, options.file, false);
+        checkCage(low_scene.scene, cage_scene.scene);
+    }
+    const DrawnScene high_scene = readDrawnScene(high, options.file, false);
+    MeshNames names;
+    models.matched_by_name = matchNames(low_scene.scene, high_scene.scene, names);
+    const MeshNames* const used = models.matched_by_name ? &names : nullptr;
+    models.low = lowModel(low_scene, options.cage.empty() ? nullptr : &cage_scene, used, low);
+    models.low.frames_made = frames_made;
+    models.high = highModel(high_scene, used, high, options);
+    return models;
+}
+
+}  // namespace tspace

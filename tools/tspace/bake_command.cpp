@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// tspace bake: one low poly, one high poly.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include "commands.h"
+#include "console.h"
+#include "interrupt.h"
+#include "report.h"
+#include "text_file.h"
+
+namespace tspace::tool {
+namespace {
+
+/// Thrown out of the library's progress callback: it unwinds, and takes its temporary files away.
+struct BakeInterrupted {};
+
+std::string degreesText(double degrees) { return fmt::format("{:.4f}", degrees); }
+
+void addFile(const BakedFile& file, Table& table) {
+    const BakedMap& map = file.map;
+    table.addRow({"map", fmt::format("{}, {} x {}, {} bits", printable(file.path), map.width, map.height, map.bits)});
+    table.addRow({"texels", fmt::format("{} baked, {} around them", map.hit_count, map.padding_count)});
+    table.addRow({"error", fmt::format("mean {} degrees, 99 % below {}, largest {}; at seams {} in the mean",
+                                       degreesText(map.error.mean_deg), degreesText(map.error.p99_deg),
+                                       degreesText(map.error.max_deg), degreesText(map.error.seam_mean_deg))});
+    table.addRow({"reach", fmt::format("{:.4g}", map.error.reach)});
+    if (map.missed_count > 0)
+        table.addRow(
+            {"warning", fmt::format("{} met no high poly and {} filled from around; --reach looks further, "
+                                    "--misses shows where",
+                                    counted(map.missed_count, "texel"), map.missed_count == 1 ? "is" : "are")});
+    if (map.overlap_count > 0)
+        table.addRow({map.conflict_count > 0 ? "warning" : "note",
+                      fmt::format("{} shown by several triangles{}", counted(map.overlap_count, "texel"),
+                                  map.conflict_count > 0
+                                      ? fmt::format(", which want different normals in {} of them", map.conflict_count)
+                                      : std::string())});
+    if (map.degenerate_uv_count > 0)
+        table.addRow({"note", fmt::format("{} without UV area", counted(map.degenerate_uv_count, "triangle"))});
+}
+
+std::string textOf(const BakeArguments& arguments, const BakeFileReport& done) {
+    Table table;
+    for (const BakedFile& file : done.files) addFile(file, table);
+    if (done.frames_made) table.addRow({"note", "the low poly lacks frames; they were made as generate makes them"});
+    if (done.matched_by_name) table.addRow({"note", "meshes were matched by their names"});
+    for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
+    return fmt::format("{} -> {}\n{}", printable(arguments.low), printable(arguments.output), table.text("  "));
+}
+
+Result<BakeFileReport> bake(const BakeArguments& arguments) {
+    BakeFileOptions options = arguments.options;
+    ProgressLine progress(1, !arguments.quiet);
+    options.map.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
+        if (wasInterrupted()) throw BakeInterrupted{};
+        progress.update(arguments.low, what, done, total);
+    };
+    options.map.stop = wasInterrupted;
+    return bakeFile(arguments.low, arguments.high, arguments.output, options);
+}
+
+/// An output that is an input is refused; so are two outputs that are one.
+std::string wrongFiles(const BakeArguments& arguments) {
+    const std::string outputs[] = {arguments.output, arguments.options.misses, arguments.options.heat,
+                                   arguments.report};
+    for (const std::string& output : outputs) {
+        if (output.empty()) continue;
+        std::error_code ignored;
+        for (const std::string& input : {arguments.low, arguments.high, arguments.options.cage}) {
+            if (!input.empty() && (output == input || std::filesystem::equivalent(output, input, ignored)))
+                return "the output " + output + " is an input";
+        }
+        if (std::count(std::begin(outputs), std::end(outputs), output) > 1) return "two outputs are " + output;
+    }
+    return {};
+}
+
+}  // namespace
+
+ExitCode runBake(const BakeArguments& arguments) {
+    if (const std::string wrong = wrongFiles(arguments); !wrong.empty()) return printUsageError(wrong);
+    catchInterrupts();
+    const auto start = std::chrono::steady_clock::now();
+    const Result<BakeFileReport> result = bake(arguments);
+    if (!result && wasInterrupted()) endByInterrupt();
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    ExitCode exit_code = result ? ExitCode::done : printError(arguments.low, result.error());
+    const report::Outcome<BakeFileReport> outcome{
+        .input = arguments.low, .output = arguments.output, .result = result, .seconds = took.count()};
+    if (!arguments.report.empty()) {
+        const Result<Done> written =
+            writeTextFile(arguments.report, report::bakeJson(outcome, arguments.high, exit_code));
+        if (!written) exit_code = worse(exit_code, printError(arguments.report, written.error()));
+    }
+    std::string text;
+    if (arguments.json) {
+        text = report::bakeJson(outcome, arguments.high, exit_code);
+    } else if (!arguments.quiet && result) {
+        text = textOf(arguments, *result);
+    }
+    return printResult(text) ? exit_code : ExitCode::cannotReadOrWrite;
+}
+
+}  // namespace tspace::tool
