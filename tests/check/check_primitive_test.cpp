@@ -343,7 +343,7 @@ TEST(Check, LetsTrianglesWithoutUvAreaVoteInNothing) {
 }
 
 TEST(Check, HoldsNothingAgainstWhatGenerateGives) {
-    rc::check([] {
+    EXPECT_TRUE(rc::check([] {
         ScenePrimitive patch = goodPatch(Seam::none);
         // Few UVs, so that many triangles have no area, fold over or overlap.
         edit(patch.uv_sets[0], [](auto& uvs) {
@@ -374,7 +374,7 @@ TEST(Check, HoldsNothingAgainstWhatGenerateGives) {
         for (const Finding& finding : findingsOf(patch)) {
             RC_ASSERT(finding.code == FindingCode::uvsDegenerate);
         }
-    });
+    }));
 }
 
 /// A mesh of text with a second set that nobody unwrapped.
@@ -503,7 +503,7 @@ TEST(ExamineTangents, SurvivesASeamWithATangentThatIsNotFinite) {
 }
 
 TEST(ExamineTangents, SurvivesGarbage) {
-    rc::check([] {
+    EXPECT_TRUE(rc::check([] {
         ScenePrimitive patch = goodPatch(Seam::turned);
         const float largest = std::numeric_limits<float>::max();
         const float garbage[] = {0, kNan, largest, -largest, std::numeric_limits<float>::infinity(), 1e-40f, -1};
@@ -524,7 +524,7 @@ TEST(ExamineTangents, SurvivesGarbage) {
             RC_ASSERT(finding.surface_share >= 0 && finding.surface_share <= 1);
             RC_ASSERT(std::isfinite(finding.worst_deg));
         }
-    });
+    }));
 }
 
 }  // namespace

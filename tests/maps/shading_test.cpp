@@ -38,35 +38,34 @@ std::array<double, 3> anyWeights() {
 }
 
 TEST(Shading, AgreesWithTheFunctionOfOneFrame) {
-    rc::check([] {
+    EXPECT_TRUE(rc::check([] {
         const CornerFrames corners = anyCorners();
         const Vec3 texel = anyVector();
         const DVec3 normal = shadedNormal(shadingFrame(corners, {1, 0, 0}, {}), toDouble(texel));
         const Vec3 expected = objectNormalMikktspace(corners.normals[0], corners.tangents[0], texel);
         RC_PRE(length(normal) > 0.5);
         RC_ASSERT(degreesBetween(normal, toDouble(expected)) < 1e-3);
-    });
+    }));
 }
 
 TEST(Shading, WhatIsEncodedShadesAsWanted) {
-    rc::check([] {
-        const MapReading reading = anyReading();
+    EXPECT_TRUE(rc::check([] {
+        MapReading reading = anyReading();
+        if (reading.two_channels) reading.scale = 1;
         const ShadingFrame frame = shadingFrame(anyCorners(), anyWeights(), reading);
-        const Vec3 wanted = anyVector();
-        const DVec3 vector = vectorFor(frame, toDouble(wanted));
-        RC_PRE(length(toDouble(wanted)) > 0.1 && vector.z > 0.2);
-        const DVec3 texel = encodeTexel(vector, reading);
-        RC_PRE(reading.scale == 1.0f || !reading.two_channels);
-        RC_ASSERT(degreesBetween(shadedNormal(frame, decodeTexel(toFloat(texel), reading)), toDouble(wanted)) < 1e-3);
-    });
+        const Vec3 any = anyVector();
+        const DVec3 wanted = shadedNormal(frame, {any.x, any.y, 0.3 + std::abs(any.z)});
+        const DVec3 texel = encodeTexel(vectorFor(frame, wanted), reading);
+        RC_ASSERT(degreesBetween(shadedNormal(frame, decodeTexel(toFloat(texel), reading)), wanted) < 1e-3);
+    }));
 }
 
 TEST(Shading, TurnedGreenIsOneMinusGreen) {
-    rc::check([] {
+    EXPECT_TRUE(rc::check([] {
         const DVec3 vector = toDouble(anyVector());
         const DVec3 up = encodeTexel(vector, {}), down = encodeTexel(vector, {.green = Green::down});
         RC_ASSERT(up.x == down.x && up.z == down.z && std::abs(up.y + down.y - 1) < 1e-15);
-    });
+    }));
 }
 
 TEST(Shading, BitangentPerVertexIsAnotherNormalOnCoarseMeshesOnly) {
@@ -127,7 +126,7 @@ TEST(BilinearTaps, TheImageGoesOnAsTheModeSays) {
 }
 
 TEST(BilinearTaps, AnyUvReadsTexelsOfTheImage) {
-    rc::check([](float u, float v) {
+    EXPECT_TRUE(rc::check([](float u, float v) {
         for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::mirror, TextureWrap::clamp}) {
             const BilinearTaps taps = bilinearTaps({3, 5, wrap, wrap}, {u, v});
             float sum = 0;
@@ -137,7 +136,7 @@ TEST(BilinearTaps, AnyUvReadsTexelsOfTheImage) {
             }
             RC_ASSERT(std::abs(sum - 1) < 1e-6f);
         }
-    });
+    }));
     EXPECT_EQ(bilinearTaps({3, 5}, {std::nanf(""), 1e30f}).weights[0], 1);
 }
 

@@ -53,17 +53,17 @@ TEST(UvCoverage, RepeatsMirrorsOrClampsOutsideOfTheImage) {
 }
 
 TEST(UvCoverage, LeavesNoGapBetweenTrianglesThatShareAnEdge) {
-    rc::check([] {
+    EXPECT_TRUE(rc::check([] {
         const auto coordinate = [] { return static_cast<float>(*rc::gen::inRange(0, 1000)) / 999.0f; };
         const Vec2 a{0, 0}, b{1, 0}, c{1, 1}, d{0, 1}, middle{coordinate(), coordinate()};
         const auto size = *rc::gen::inRange<std::uint32_t>(1, 90);
         const TexelMask mask = cover({a, b, middle, b, c, middle, c, d, middle, d, a, middle}, size, size);
         RC_ASSERT(count(mask) == std::uint64_t{size} * size);
-    });
+    }));
 }
 
 TEST(UvCoverage, TakesNothingThatIsClearlyOutside) {
-    rc::check([] {
+    EXPECT_TRUE(rc::check([] {
         const auto coordinate = [] { return static_cast<float>(*rc::gen::inRange(-3000, 3000)) / 1000.0f; };
         std::array<Vec2, 3> uv;
         for (Vec2& point : uv) point = {coordinate(), coordinate()};
@@ -94,7 +94,7 @@ TEST(UvCoverage, TakesNothingThatIsClearlyOutside) {
                 if (best < -kRounding) RC_ASSERT(!mask.has(x, y));
             }
         }
-    });
+    }));
 }
 
 TEST(UvCoverage, LeavesOutUvsThatMeanNothing) {
