@@ -11,10 +11,12 @@
 
 namespace tspace {
 
-/// PNG files; empty: there is none.
 struct FindingPicture {
-    std::vector<std::uint8_t> before = {};  ///< the place as the file is, its triangles outlined
-    std::vector<std::uint8_t> after = {};   ///< the same with what the remedy gives, where that can be shown
+    std::vector<std::uint8_t> before =
+        {};  ///< a PNG of the place as the file is; empty: there is none, and nothing else
+    std::vector<std::uint8_t> after = {};  ///< the same place of what the remedy's command makes of the file
+    std::string command = {};              ///< that command; empty: the remedy names none
+    std::string why_no_after = {};         ///< where there is a command: a sentence
 };
 
 /// A model that was checked.
@@ -27,7 +29,8 @@ class FindingPictures {
     FindingPictures& operator=(const FindingPictures&) = delete;
 
     /// The camera stands over the triangles of the finding's vertices, or sees all of a primitive where it names none. No
-    /// picture where the file's scene does not draw it. Throws FileError.
+    /// picture where the file's scene does not draw it. A command is run once for all findings that name it. Throws
+    /// FileError.
     FindingPicture draw(const Finding& finding);
 
   private:

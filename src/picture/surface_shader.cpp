@@ -75,10 +75,12 @@ DVec3 plainNormal(const ShownSurface& surface, const Affine& to_world, const Sur
     return worldNormal(to_world, normal, point.is_back);
 }
 
-ShadingFrame frameAt(const ShownSurface& surface, const CornerValues<Vec4>& tangents, const SurfacePoint& point) {
+ShadingFrame frameAt(const ShownSurface& surface, const CornerValues<Vec3>& normals, const CornerValues<Vec4>& tangents,
+                     const SurfacePoint& point) {
     const ShownTriangle triangle = shownTriangle(surface, point.triangle);
-    return shadingFrame({valuesAt(surface.normals, triangle), valuesAt(tangents, triangle)}, point.weights,
-                        surface.reading);
+    CornerFrames frames{.normals = valuesAt(normals, triangle)};
+    if (!tangents.empty()) frames.tangents = valuesAt(tangents, triangle);
+    return shadingFrame(frames, point.weights, surface.reading);
 }
 
 /// A little darker where the surface turns away, so that its shape is seen.
@@ -105,7 +107,7 @@ Vec3 litColor(const ShownSurface& surface, const Affine& to_world, const Lightin
 
 Vec3 tangentColor(const ShownSurface& surface, const Affine& to_world, const SurfacePoint& point) {
     if (surface.tangents.empty()) return kNothingKnown;
-    DVec3 tangent = frameAt(surface, surface.tangents, point).tangent;
+    DVec3 tangent = frameAt(surface, surface.normals, surface.tangents, point).tangent;
     normalize(tangent);
     DVec3 world = to_world.direction(tangent);
     return normalize(world) ? vectorColor(toFloat(world)) : kNothingKnown;
@@ -162,18 +164,28 @@ bool isThere(const ShownSurface& surface, std::size_t triangle, const Weights& w
 DVec3 mappedNormal(const ShownSurface& surface, const Affine& to_world, const SurfacePoint& point) {
     if (surface.normal_map.image == nullptr || surface.tangents.empty()) return plainNormal(surface, to_world, point);
     const Vec3 texel = sampleAt(surface.normal_map, shownTriangle(surface, point.triangle), point.weights);
-    const DVec3 normal = shadedNormal(frameAt(surface, surface.tangents, point), decodeTexel(texel, surface.reading));
+    const DVec3 normal =
+        shadedNormal(frameAt(surface, surface.normals, surface.tangents, point), decodeTexel(texel, surface.reading));
     return worldNormal(to_world, normal, point.is_back);
 }
 
 double frameError(const ShownSurface& surface, const SurfacePoint& point) {
-    if (surface.tangents.empty() || surface.expected.empty()) return std::numeric_limits<double>::quiet_NaN();
-    const ShadingFrame has = frameAt(surface, surface.tangents, point),
-                       expected = frameAt(surface, surface.expected, point);
-    for (const DVec3* vector : {&has.tangent, &has.bitangent, &expected.tangent, &expected.bitangent}) {
-        if (!(dot(*vector, *vector) > 0)) return std::numeric_limits<double>::quiet_NaN();
-    }
-    return std::max(degreesBetween(has.tangent, expected.tangent), degreesBetween(has.bitangent, expected.bitangent));
+    constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+    const bool has_normals = !surface.expected_normals.empty(), has_tangents = !surface.tangents.empty();
+    if (has_tangents == surface.expected.empty() || !(has_tangents || has_normals)) return kMissing;
+    const ShadingFrame has = frameAt(surface, surface.normals, surface.tangents, point),
+                       expected = frameAt(surface, has_normals ? surface.expected_normals : surface.normals,
+                                          surface.expected, point);
+    double worst = 0;
+    const auto compare = [&](const DVec3& a, const DVec3& b) {
+        const bool is_there = dot(a, a) > 0 && dot(b, b) > 0;
+        const double degrees = is_there ? degreesBetween(a, b) : kMissing;
+        if (!std::isnan(worst) && !(degrees <= worst)) worst = degrees;
+    };
+    if (has_normals) compare(has.normal, expected.normal);
+    if (has_tangents) compare(has.tangent, expected.tangent);
+    if (has_tangents) compare(has.bitangent, expected.bitangent);
+    return worst;
 }
 
 Vec3 shadePoint(RenderShow show, const ShownSurface& surface, const Affine& to_world, const Lighting& lighting,

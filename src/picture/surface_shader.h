@@ -43,6 +43,7 @@ struct ShownSurface {
     CornerValues<Vec3> normals = {};
     CornerValues<Vec4> tangents = {};                ///< empty: none
     CornerValues<Vec4> expected = {};                ///< those that `error` compares with; empty: none
+    CornerValues<Vec3> expected_normals = {};        ///< likewise; empty: `normals`, which are not compared then
     std::span<const UvSide> sides = {};              ///< one per triangle; empty: all unknown
     std::span<const std::uint32_t> islands = {};     ///< one per triangle, for `uv`
     std::array<float, 4> base_color = {1, 1, 1, 1};  ///< linear
@@ -76,7 +77,8 @@ Vec3 shadePoint(RenderShow show, const ShownSurface& surface, const Affine& to_w
 /// The unit normal in the world that `lit` shades; zero where there is none. A surface seen from behind has it turned round.
 DVec3 mappedNormal(const ShownSurface& surface, const Affine& to_world, const SurfacePoint& point);
 
-/// The larger of the angles between T and T, and B and B, at a point, in degrees; NaN where one is missing.
+/// The largest of the angles between T and T, B and B, and N and N where these are compared, at a point, in degrees; NaN
+/// where one is missing. Surfaces without any tangents have their normals compared alone.
 double frameError(const ShownSurface& surface, const SurfacePoint& point);
 
 }  // namespace tspace

@@ -241,6 +241,9 @@ void ModelPicture::prepareFrames(std::size_t primitive) {
     if (shows_stored) shown.tangents = {source.tangents.span(), false};
     if (!shows_stored && may_compute) shown.tangents = computed;
     if (choice_.compare) shown.expected = computed;
+    if (choice_.others.empty()) return;
+    shown.expected = {choice_.others[primitive].tangents, true};
+    shown.expected_normals = {choice_.others[primitive].normals, true};
 }
 
 void ModelPicture::place() {

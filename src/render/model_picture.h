@@ -15,12 +15,20 @@
 
 namespace tspace {
 
+/// Frames that those of a primitive are compared with, one per corner; zero: there is none. Empty: nothing is compared.
+struct OtherFrames {
+    std::vector<Vec3> normals = {};
+    std::vector<Vec4> tangents = {};
+};
+
 /// Which tangents a picture needs, and where from.
 struct FrameChoice {
     RenderFrames frames = RenderFrames::automatic;
     Method method = Method::mikktspace;
     bool always = false;   ///< also where no normal map is read with them
     bool compare = false;  ///< those of the method too
+    /// One per primitive, or none. What `error` compares with, in place of those of the method.
+    std::span<const OtherFrames> others = {};
     Execution execution = {};
 };
 

@@ -5,8 +5,8 @@
 #include "asset/atomic_output.h"
 #include "asset/file_error.h"
 #include "asset/read/read_scene.h"
-#include "picture/legend.h"
-#include "render/model_picture.h"
+#include "core/unit.h"
+#include "render/draw_model.h"
 #include "render/picture_file.h"
 
 namespace tspace {
@@ -35,49 +35,6 @@ void checkRenderOptions(const RenderOptions& options) {
         failFile(ErrorCode::invalidOption, "the scale of the normal map is not a number");
 }
 
-/// Twice: for the camera's direction, and for its distance.
-void visitPoints(const ModelPicture& model, Effort& effort, bool is_uv,
-                 const std::function<void(const DVec3&)>& visit) {
-    for (const DrawnMesh& mesh : model.meshes()) {
-        effort.spend(1 + 2 * mesh.corners.size());
-        for (const std::uint32_t vertex : mesh.corners) visit(mesh.to_world.point(toDouble(mesh.positions[vertex])));
-    }
-    if (!is_uv) return;
-    visit({0, 0, 0});
-    visit({1, -1, 0});
-}
-
-RgbImage drawModel(const ModelPicture& model, const RenderOptions& options, RenderReport& report) {
-    const bool is_uv = options.show == RenderShow::uv;
-    // Under the heat map stands its scale.
-    const std::uint32_t scale_rows = options.show == RenderShow::error ? heatScaleRows(options.width) : 0;
-    const std::uint32_t height = scale_rows + 16 <= options.height ? options.height - scale_rows : options.height;
-    const std::uint64_t samples = std::uint64_t{options.width} * options.samples * options.height * options.samples;
-    constexpr std::uint64_t kSteps = std::uint64_t{1} << 28, kMostLayers = 100, kCornerSteps = 64;
-    Effort effort(kSteps + kMostLayers * samples + kCornerSteps * model.cornerCount());
-    const ViewAngles angles = is_uv ? ViewAngles{} : ViewAngles{options.yaw_deg, options.pitch_deg};
-    const Camera camera = Camera::around(
-        [&](const std::function<void(const DVec3&)>& visit) { visitPoints(model, effort, is_uv, visit); }, angles,
-        is_uv ? 0 : options.field_of_view_deg, options.width * options.samples, height * options.samples);
-    const DVec3 light = toDouble(options.to_light);
-    DVec3 to_light = light.x * camera.right() + light.y * camera.up() + light.z * camera.back();
-    normalize(to_light);
-    Parallel parallel(options.execution);
-    SurfacePicture picture = drawSurfaces(options.show, model.meshes(), model.surfaces(), camera, to_light,
-                                          {options.width, height, options.samples}, effort, parallel);
-    if (height != options.height) {
-        picture.image.height = options.height;
-        picture.image.rgb.resize(std::size_t{3} * options.width * options.height);
-        drawHeatScale(picture.image);
-    }
-    if (is_uv) drawUvSquare(picture.image, camera, options.samples);
-    report.error_sample_count = picture.errors.count;
-    report.max_error_deg = picture.errors.max_deg;
-    if (picture.errors.count > 0)
-        report.mean_error_deg = picture.errors.sum_deg / static_cast<double>(picture.errors.count);
-    return std::move(picture.image);
-}
-
 bool showsTangents(RenderShow show) {
     return show == RenderShow::tangents || show == RenderShow::sign || show == RenderShow::error;
 }
@@ -96,7 +53,11 @@ RenderReport renderModel(const std::string& input, const std::string& output, co
     RenderReport report{.show = options.show, .width = options.width, .height = options.height};
     report.primitive_count = drawn.scene.primitives.size();
     report.warnings = drawn.scene.warnings;
-    const RgbImage image = drawModel(model, options, report);
+    const SurfacePicture picture = drawModel(model, options);
+    report.error_sample_count = picture.errors.count;
+    report.max_error_deg = picture.errors.max_deg;
+    if (picture.errors.count > 0)
+        report.mean_error_deg = picture.errors.sum_deg / static_cast<double>(picture.errors.count);
     for (const DrawnMesh& mesh : model.meshes()) report.triangle_count += mesh.corners.size() / 3;
     for (std::size_t i = 0; i < drawn.scene.primitives.size(); ++i) {
         const ModelSurface& surface = model.surfaceOf(i);
@@ -105,7 +66,7 @@ RenderReport renderModel(const std::string& input, const std::string& output, co
             !drawn.scene.primitives[i].corners.empty() && choice.always && surface.shown.tangents.empty();
     }
     report.warnings.insert(report.warnings.end(), textures.warnings.begin(), textures.warnings.end());
-    const std::vector<std::uint8_t> png = encodePicture(image);
+    const std::vector<std::uint8_t> png = encodePicture(picture.image);
     AtomicOutput files(options.sink, options.dry_run);
     files.add(output, std::span<const std::uint8_t>(png));
     files.commit();

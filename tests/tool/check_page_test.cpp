@@ -33,7 +33,7 @@ TEST(CheckPage, ShowsEachFindingBeforeAndAfter) {
     EXPECT_NE(page.find("signsInverted"), std::string::npos);
     EXPECT_NE(page.find("Mend: "), std::string::npos);
     EXPECT_GE(countOf(page, "src=\"data:image/png;base64,"), 2U);
-    EXPECT_EQ(countOf(page, "<figcaption>mended</figcaption>"), 1U);
+    EXPECT_EQ(countOf(page, "<figcaption>after tspace generate --repair</figcaption>"), 1U);
     EXPECT_LT(page.size(), 2000000U);
 }
 

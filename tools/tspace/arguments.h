@@ -71,6 +71,7 @@ struct DiffArguments {
     std::string a = {};
     std::string b = {};
     options::DiffRequest request = {};
+    std::string html = {};  ///< a file for the comparison as a page; empty: none
     bool json = false;
     bool quiet = false;
 };

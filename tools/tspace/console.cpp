@@ -68,18 +68,6 @@ std::string printable(std::string_view text) {
     return clean;
 }
 
-std::string counted(std::uint64_t count, const char* noun) {
-    std::string plural = noun;
-    if (count != 1) {
-        if (plural == "vertex") {
-            plural = "vertices";
-        } else {
-            plural += plural.ends_with("sh") ? "es" : "s";
-        }
-    }
-    return fmt::format("{} {}", count, plural);
-}
-
 std::string byteText(std::uint64_t bytes) {
     if (bytes < 1000) return fmt::format("{} B", bytes);
     const double kilo = static_cast<double>(bytes) / 1e3;

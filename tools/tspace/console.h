@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "arguments.h"
+#include "report/counted.h"
 #include "tspace/asset.h"
 
 namespace tspace::tool {
@@ -35,8 +36,7 @@ bool wantsColor(Color color);
 /// terminal.
 std::string printable(std::string_view text);
 
-/// "1 corner", "2 corners".
-std::string counted(std::uint64_t count, const char* noun);
+using report::counted;
 /// "318 B", "6.8 MB".
 std::string byteText(std::uint64_t bytes);
 

@@ -2,7 +2,9 @@
 // tspace diff: two models, corner by corner.
 #include "commands.h"
 #include "console.h"
+#include "page/diff_page.h"
 #include "report.h"
+#include "text_file.h"
 
 namespace tspace::tool {
 
@@ -14,6 +16,11 @@ ExitCode runDiff(const DiffArguments& arguments) {
         if (!arguments.json) return exit_code;
     } else if (!diff->isWithin(arguments.request.tolerance_deg)) {
         exit_code = ExitCode::findings;
+    }
+    if (diff && !arguments.html.empty()) {
+        const Result<Done> written =
+            writeTextFile(arguments.html, diffPage(arguments.a, arguments.b, *diff, arguments.request.options));
+        if (!written) exit_code = worse(exit_code, printError(arguments.html, written.error()));
     }
     std::string text;
     if (arguments.json) {

@@ -52,11 +52,18 @@ Command diffCommand(DiffArguments& arguments) {
             "split, merged or in another order, and prints the angles between their tangents (T), normals (N) and "
             "rebuilt bitangents (B), signs that differ, and the worst places. Changes nothing.",
         .examples = {"tspace diff before.glb after.glb",
-                     "tspace diff mine.glb theirs.gltf --tolerance 0.5 --json > diff.json"},
+                     "tspace diff mine.glb theirs.gltf --tolerance 0.5 --json > diff.json",
+                     "tspace diff --html report.html before.glb after.glb"},
     };
     command.add(kInputAndOutput, operand("A", arguments.a, "A model file."));
     command.add(kInputAndOutput, operand("B", arguments.b, "Another one."));
     command.add(diffOptions(arguments.request));
+    command
+        .add(kReporting,
+             text("--html", "FILE", arguments.html,
+                  "Write the comparison to this file as a page for people, with a heat map of the angles and "
+                  "pictures of the worst places. It needs no other file."))
+        .is_file = true;
     addReporting(command, arguments.json, arguments.quiet);
     return command;
 }

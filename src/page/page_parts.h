@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// What pages for people have in common: one HTML file each that loads nothing.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tspace {
+
+/// Pictures of one model take no more than this, as they stand in the page, and those of a page no more than that.
+inline constexpr std::size_t kMostModelBytes = 1500000, kMostPageBytes = 12000000;
+/// Of a place, in pixels.
+inline constexpr std::uint32_t kPlaceWidth = 320, kPlaceHeight = 240;
+
+/// From the first line up to what stands inside of <main>. `title`: no text of files.
+std::string pageHead(std::string_view title);
+std::string pageEnd();
+
+/// Text from a file or of a user, fit to stand in HTML.
+std::string htmlText(std::string_view text);
+
+/// A picture with words below it, which are also for those who do not see it. `caption`: text. Nothing where `png` is empty.
+std::string figureHtml(const std::vector<std::uint8_t>& png, std::uint32_t width, std::uint32_t height,
+                       std::string_view caption);
+/// What stands where there is no picture. `sentence`: text.
+std::string noFigureHtml(std::string_view sentence);
+/// Figures side by side; nothing for none.
+std::string figuresHtml(const std::string& figures);
+
+}  // namespace tspace

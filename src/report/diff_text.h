@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// A comparison in words and tables for people, on a terminal or a page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tspace/diff.h"
+
+namespace tspace::report {
+
+/// Rows of cells, the first one of them heads; empty: there is nothing to show.
+using TextTable = std::vector<std::vector<std::string>>;
+
+/// Names from files stand in it as they are there.
+struct DiffText {
+    std::string summary = {};               ///< "A against B: ..."
+    std::vector<std::string> remarks = {};  ///< further sentences
+    TextTable angles = {};                  ///< of the whole file
+    TextTable primitives = {};
+    TextTable worst = {};
+};
+
+/// `a`, `b`: what the files are called.
+DiffText diffText(const std::string& a, const std::string& b, const FrameDiff& diff);
+
+/// "up to 0.1": what a bin of kAngleBins holds.
+std::string binText(std::size_t bin);
+
+}  // namespace tspace::report
