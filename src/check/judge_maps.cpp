@@ -3,6 +3,7 @@
 #include "check/judge_maps.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "asset/file_error.h"
 #include "check/check_images.h"
@@ -72,10 +73,14 @@ Bytes flipImage(std::span<const std::uint8_t> bytes, const MemoryBudget& budget,
         why = "it " + budget.whyNot(work_bytes);
         return {};
     }
-    const Result<FlippedImage> flipped = flipGreen(bytes, {.memory_limit_bytes = kNoMemoryLimit});
-    if (flipped) return {flipped->bytes.begin(), flipped->bytes.end()};
-    if (flipped.error().code == ErrorCode::outOfMemory) throw FileError{flipped.error()};
-    why = flipped.error().message;
+    Bytes made;
+    const std::optional<Error> failure = tryFile([&] {
+        const FlippedImage flipped = valueOrThrow(flipGreen(bytes, {.memory_limit_bytes = kNoMemoryLimit}));
+        made.assign(flipped.bytes.begin(), flipped.bytes.end());
+    });
+    if (!failure) return made;
+    if (failure->code == ErrorCode::outOfMemory) throw FileError{*failure};
+    why = failure->message;
     return {};
 }
 

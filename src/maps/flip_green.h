@@ -30,6 +30,8 @@ ChannelImage readWebpPixels(ByteSpan bytes);
 std::vector<std::uint8_t> writePng(const ChannelImage& image);
 /// `like`: the JPEG whose Exif data, profile and comments it gets.
 std::vector<std::uint8_t> writeJpeg(const ChannelImage& image, int quality, ByteSpan like);
+/// `packed`, which begins as JPEG files do, with those of `like`.
+std::vector<std::uint8_t> joinJpeg(ByteSpan packed, ByteSpan like);
 /// Without loss, also where it is transparent.
 std::vector<std::uint8_t> writeWebp(const ChannelImage& image);
 

@@ -1,24 +1,11 @@
 // SPDX-License-Identifier: MIT
 // PNG by libspng.
-#include <algorithm>
 #include <memory>
 
 #include "maps/codecs.h"
 #include "maps/png_context.h"
 
 namespace tspace {
-
-ImageClaim claimOfPng(ByteSpan bytes) {
-    constexpr std::size_t kWidthAt = 16, kHeightAt = 20;  // of the header chunk, which is the first
-    if (bytes.size() < kHeightAt + 4) return {};
-    const auto number = [&](std::size_t at) {
-        std::uint32_t value = 0;
-        for (std::size_t i = 0; i < 4; ++i) value = value << 8 | bytes[at + i];
-        return std::min(value, std::uint32_t{1} << 30);  // no product overflows
-    };
-    const ImageSize size{number(kWidthAt), number(kHeightAt)};
-    return {size, 3 * size.pixels() + 64 * std::uint64_t{size.width}};
-}
 
 std::optional<RgbImage> decodePng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
     constexpr std::size_t kMostChunkBytes = std::size_t{64} << 20;
