@@ -16,18 +16,64 @@ export type Resources =
   | ReadonlyMap<string, Bytes>
   | ((path: string) => Bytes | null | undefined);
 
+/** MeshoptDecoder and MeshoptEncoder of npm's meshoptimizer, both ready. */
+export interface Meshopt {
+  decoder: { decodeGltfBuffer(target: Uint8Array, count: number, size: number, source: Uint8Array, mode: string, filter?: string): void };
+  encoder?: { encodeGltfBuffer(source: Uint8Array, count: number, size: number, mode: string, version?: number): Uint8Array };
+}
+
+/** What `createDecoderModule` and `createEncoderModule` of npm's draco3d resolve to. */
+export interface Draco {
+  decoder: object;
+  encoder?: object;
+}
+
+/** Four numbers for each pixel, the top row first: as the file has them, neither multiplied by alpha nor changed by a colour profile. */
+export interface Pixels {
+  width: number;
+  height: number;
+  /** A Uint16Array for 16 bits. */
+  rgba: Uint8Array | Uint8ClampedArray | Uint16Array;
+}
+
+/** What an image becomes that is written. */
+export interface PixelsToEncode {
+  width: number;
+  height: number;
+  /** Numbers for each pixel. The file must have as many, and as many bits. */
+  channels: 3 | 4;
+  bits: 8 | 16;
+  data: Uint8Array | Uint16Array;
+  /** Of a JPEG: 1 to 100. */
+  quality: number;
+}
+
+export type ImageType = "image/png" | "image/jpeg" | "image/webp";
+
 /** Options are those of the tool (docs/tool.md), in camelCase: --memory-limit is memoryLimit. */
 export interface ModelOptions {
   /** What reports call the model. */
   name?: string;
   resources?: Resources;
+  /** For models compressed by meshopt; `generate` needs the encoder too where the output is compressed. */
+  meshopt?: Meshopt;
+  /** For models compressed by Draco, in the same way. */
+  draco?: Draco;
   /** Memory that working on the model may take, such as "2G"; 0: by its size. */
   memoryLimit?: string | number;
   /** Also ask for files outside of the model's folder. */
   allowExternal?: boolean;
 }
 
-export interface GenerateOptions extends ModelOptions {
+/** Nothing, or an error thrown: the image is not looked at, and the report says so. */
+export type DecodeImage = (file: Uint8Array, type: ImageType) => Pixels | null | undefined;
+
+export interface ImageOptions {
+  /** Decodes normal maps, at once. {@link decodeImages} makes one of a function that takes its time. */
+  decodeImage?: DecodeImage;
+}
+
+export interface GenerateOptions extends ModelOptions, ImageOptions {
   /** Also where the material needs no tangents. */
   all?: boolean;
   /** Keep tangents that are there (the default), compute them anew, or mend what is wrong with them. */
@@ -53,13 +99,20 @@ export interface GenerateOptions extends ModelOptions {
   normals?: "flat" | "uniform" | "area" | "angle" | "angle-area" | "max" | "best";
   /** Degrees. */
   crease?: number | string;
+  /** How geometry is packed: as it came (the default), not at all, or by a codec, which must be given. */
+  compress?: "keep" | "none" | "meshopt" | "draco";
+  /** Inverts the green channel of normal maps whose green points down, or of all of them. Needs decodeImage and encodeImage. */
+  flipGreen?: boolean;
+  flipGreenAll?: boolean;
+  /** The image as a file of this type, without loss but for a JPEG. */
+  encodeImage?: (pixels: PixelsToEncode, type: ImageType) => Uint8Array;
   noSanitize?: boolean;
   orthogonalize?: boolean;
   /** Nothing is made, but the report says what would be. */
   dryRun?: boolean;
 }
 
-export interface CheckOptions extends ModelOptions {
+export interface CheckOptions extends ModelOptions, ImageOptions {
   /** Findings from this severity on make exitCode 1. */
   failOn?: Severity;
   /** Findings below it are left out. */
@@ -180,3 +233,18 @@ export function identify(model: Bytes, options?: IdentifyOptions): IdentifyRepor
 
 /** Compares the frames of two models that show the same surface. Resources are those of both. */
 export function diff(a: Bytes, b: Bytes, options?: DiffOptions): DiffReport;
+
+/**
+ * Decodes the normal maps of a model by a function that may give promises, before a call that cannot wait for them:
+ * `check(model, { decodeImage: await decodeImages(model, decodeByCanvas) })`.
+ * @param options those of the call; `resources`, `meshopt`, `draco`, `allowExternal` and `memoryLimit` count
+ * @returns the option decodeImage of calls with this model
+ */
+export function decodeImages(
+  model: Bytes,
+  decode: (file: Uint8Array, type: ImageType) => Pixels | null | undefined | Promise<Pixels | null | undefined>,
+  options?: ModelOptions & Record<string, unknown>,
+): Promise<DecodeImage>;
+
+/** Decodes by what browsers and their workers have (createImageBitmap, OffscreenCanvas): 8 bits a channel, exact where nothing is transparent. */
+export function decodeByCanvas(file: Uint8Array, type: ImageType): Promise<Pixels>;

@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: MIT
 // The entry "tspace/gltf": models as bytes. Options and reports are those of the tool and its JSON.
 import { bytes, fail, object } from "./check.js";
+import { Codecs, codecsOf } from "./codecs.js";
 import { textAt, Wasm } from "./wasm.js";
 
 export { TspaceError } from "./error.js";
 
-/** The call that runs, and where each of its models gets the files that it names. */
+/** The call that runs: where each of its models gets the files that it names, and its codecs. */
 let current;
 
 const wasm = new Wasm(new URL("./gltf.wasm", import.meta.url), {
-  findFile: (model, path, data, size) => current.findFile(model, path, data, size),
+  findFile: (model, path, data, size) => current.files.findFile(model, path, data, size),
+  hasCodec: (number) => current.codecs.hasCodec(number),
+  decodeMeshopt: (...given) => current.codecs.decodeMeshopt(...given),
+  encodeMeshopt: (...given) => current.codecs.encodeMeshopt(...given),
+  decodeDraco: (...given) => current.codecs.decodeDraco(...given),
+  encodeDraco: (...given) => current.codecs.encodeDraco(...given),
+  decodeImage: (data, size, type, ...given) => current.codecs.decodeImage(data, size, textAt(wasm.exports, type), ...given),
+  encodeImage: (pixels, type, ...given) => current.codecs.encodeImage(pixels, textAt(wasm.exports, type), ...given),
+  takeImage: (data, size, type) => current.codecs.takeImage(data, size, textAt(wasm.exports, type)),
   parseNumber: (text) => Number(textAt(wasm.exports, text)),
   now: () => performance.now(),
 });
@@ -69,26 +78,34 @@ class Files {
   }
 }
 
-/** Output and report of a function of the C API. */
-function run(verb, models, { resources, ...options }) {
+/** body(call, places of models, place of the options) of a call, and its codecs. */
+function run(models, { resources, meshopt, draco, decodeImage, encodeImage, ...options }, body) {
   const text = textOfOptions(options);
   const finder = finderOf(resources);
-  if (current !== undefined) fail("invalidOption", "resources must not call tspace/gltf");
+  const codecs = codecsOf({ meshopt, draco, decodeImage, encodeImage });
+  if (current !== undefined) fail("invalidOption", "what a call asks for must not call tspace/gltf");
   return wasm.run((call) => {
-    current = new Files(call, models.map(() => finder));
+    current = { files: new Files(call, models.map(() => finder)), codecs: new Codecs(call, codecs) };
     try {
-      const table = call.allocate(16 * models.length + 16);
+      const table = call.allocate(16 * models.length);
       const words = models.flatMap(({ data, name }) => [call.put(data, Uint8Array), data.length, call.put(utf8.encode(`${name}\0`)), finder ? 1 : 0]);
       const given = call.put(utf8.encode(`${text}\0`));
-      new Uint32Array(call.wasm.memory.buffer, table, words.length + 4).set([...words, 0, 0, 0, 0]);
-      const results = table + 4 * words.length;
-      call.check(call.wasm.callFiles(verbs.indexOf(verb), table, given, results));
-      const [output, outputBytes, report, reportBytes] = call.get(Uint32Array, results, 4);
-      const made = output === 0 ? new Uint8Array(0) : call.take(Uint8Array, output, outputBytes);
-      return { bytes: made, report: JSON.parse(textDecoder.decode(call.take(Uint8Array, report, reportBytes))) };
+      new Uint32Array(call.wasm.memory.buffer, table, words.length).set(words);
+      return body(call, table, given, current.codecs);
     } finally {
       current = undefined;
     }
+  });
+}
+
+/** Output and report of a function of the C API. */
+function callFiles(verb, models, options) {
+  return run(models, options, (call, table, given) => {
+    const results = call.put(new Uint32Array(4));
+    call.check(call.wasm.callFiles(verbs.indexOf(verb), table, given, results));
+    const [output, outputBytes, report, reportBytes] = call.get(Uint32Array, results, 4);
+    const made = output === 0 ? new Uint8Array(0) : call.take(Uint8Array, output, outputBytes);
+    return { bytes: made, report: JSON.parse(textDecoder.decode(call.take(Uint8Array, report, reportBytes))) };
   });
 }
 
@@ -103,7 +120,7 @@ const ofFile = ({ files, exitCode }) => ({ ...files[0], exitCode });
 
 function ask(verb, data, options) {
   const { name, ...others } = object(options, "options");
-  const made = run(verb, [modelOf(data, name)], others);
+  const made = callFiles(verb, [modelOf(data, name)], others);
   return { ...made, report: ofFile(made.report) };
 }
 
@@ -112,4 +129,38 @@ export const check = (data, options = {}) => ask("check", data, options).report;
 export const inspect = (data, options = {}) => ask("inspect", data, options).report;
 export const identify = (data, options = {}) => ask("identify", data, options).report;
 export const diff = (a, b, options = {}) =>
-  run("diff", [modelOf(a, "a", "the first model"), modelOf(b, "b", "the second model")], object(options, "options")).report;
+  callFiles("diff", [modelOf(a, "a", "the first model"), modelOf(b, "b", "the second model")], object(options, "options")).report;
+
+const isSame = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[i]);
+
+/** An option decodeImage for this model, of a decode(bytes, mimeType) that may give promises. */
+export async function decodeImages(data, decode, options = {}) {
+  if (typeof decode !== "function") fail("wrongType", "decode is not a function");
+  const { resources, meshopt, draco, memoryLimit, allowExternal, name } = object(options, "options");
+  const files = run([modelOf(data, name)], { resources, meshopt, draco, memoryLimit, allowExternal }, (call, table, given, codecs) => {
+    call.wasm.findImages(table, given);
+    return codecs.images;
+  });
+  const images = await Promise.all(files.map(async ({ bytes: file, mimeType }) => {
+    try {
+      return { file, image: await decode(file, mimeType) };
+    } catch (error) {
+      return { file, error };
+    }
+  }));
+  return (file) => {
+    const found = images.find((one) => isSame(one.file, file));
+    if (found?.error !== undefined) throw found.error;
+    return found?.image;
+  };
+}
+
+/** A decode function by what browsers and their workers have. Of 16 bits it gives 8, and colours that are transparent are not exact. */
+export async function decodeByCanvas(file, mimeType) {
+  const bitmap = await createImageBitmap(new Blob([file], { type: mimeType }), { colorSpaceConversion: "none", premultiplyAlpha: "none" });
+  const { width, height } = bitmap;
+  const context = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
+  context.drawImage(bitmap, 0, 0);
+  bitmap.close();
+  return { width, height, rgba: context.getImageData(0, 0, width, height).data };
+}

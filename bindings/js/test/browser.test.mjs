@@ -7,6 +7,7 @@ import { tmpdir } from "node:os";
 import { extname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { it } from "node:test";
+import { gridModel } from "./models.mjs";
 
 const project = fileURLToPath(new URL("..", import.meta.url));
 const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
@@ -17,12 +18,13 @@ const missing =
   (!(vite && playwright) && "Vite or playwright-core is not installed, or this node is too old for them") ||
   (!(golden && existsSync(golden)) && "no golden meshes here");
 
-const page = `
+const page = `const GRID = ${JSON.stringify(gridModel({ image: "IMAGE" }).model.toString())};
 import { generateTangents, ready } from "tspace";
 import * as small from "tspace/mikktspace";
 import * as files from "tspace/gltf";
 import { differences, readGolden } from "./golden.mjs";
 await Promise.all([ready, small.ready, files.ready]);
+const gridModel = (image) => new TextEncoder().encode(GRID.replace("IMAGE", image));
 const names = await (await fetch("/golden/")).json();
 let compared = 0;
 const wrong = [];
@@ -40,7 +42,20 @@ let refused;
 try { files.check(new TextEncoder().encode("{")); } catch (error) { refused = error.code; }
 const model = new TextEncoder().encode(JSON.stringify({ asset: { version: "2.0" }, scenes: [] }));
 const made = files.generate(model);
-window.result = { compared, wrong, code, refused, glb: made.bytes.length, found: files.check(made.bytes).findings.length };
+const canvas = new OffscreenCanvas(64, 64);
+const context = canvas.getContext("2d", { alpha: false });
+for (let y = 0; y < 64; ++y) for (let x = 0; x < 64; ++x) {
+  context.fillStyle = "rgb(" + 4 * x + " " + 4 * y + " " + (x ^ y) + ")";
+  context.fillRect(x, y, 1, 1);
+}
+const png = new Uint8Array(await (await canvas.convertToBlob()).arrayBuffer());
+const image = "data:image/png;base64," + btoa(String.fromCharCode(...png));
+const mapped = gridModel(image);
+const noted = (options) => files.check(mapped, options).findings.some(({ code }) => code === "normalMapUnreadable");
+const decoded = await files.decodeByCanvas(png, "image/png");
+const exact = decoded.rgba.every((value, i) => value === [4 * ((i >> 2) % 64), 4 * (i >> 8), ((i >> 2) % 64) ^ (i >> 8), 255][i % 4]);
+const images = [noted({}), noted({ decodeImage: await files.decodeImages(mapped, files.decodeByCanvas) }), exact];
+window.result = { images,  compared, wrong, code, refused, glb: made.bytes.length, found: files.check(made.bytes).findings.length };
 `;
 
 it("gives the same bits in Chromium, bundled by Vite", { skip: missing, timeout: 300_000 }, async () => {
@@ -71,7 +86,8 @@ it("gives the same bits in Chromium, bundled by Vite", { skip: missing, timeout:
     tab.on("pageerror", (error) => messages.push(String(error)));
     await tab.goto(`http://127.0.0.1:${server.address().port}/`);
     await tab.waitForFunction("window.result", undefined, { timeout: 120_000 }).catch((error) => assert.fail([...messages, error].join("\n")));
-    const { compared, wrong, code, refused, glb, found } = await tab.evaluate("window.result");
+    const { images, compared, wrong, code, refused, glb, found } = await tab.evaluate("window.result");
+    assert.deepEqual(images, [true, false, true]); // the note is gone once pixels are there, and they are the right ones
     assert.ok(compared > 300);
     assert.deepEqual(wrong, []);
     assert.equal(code, "invalidOption");

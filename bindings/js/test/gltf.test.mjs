@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The entry "tspace/gltf": on models that are made here, on those of ../shared beside the tool, and on broken ones.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { basename, dirname, join } from "node:path";
+import { basename, join } from "node:path";
 import { describe, it } from "node:test";
 import { check, diff, generate, identify, inspect, ready, TspaceError } from "tspace/gltf";
 import { gridModel } from "./models.mjs";
+import { besideOf, filesIn, hasModels, ofTool, plain, shared, skip } from "./tool.mjs";
 
 await ready;
 
@@ -110,36 +110,9 @@ describe("models in memory", () => {
   });
 });
 
-const shared = process.env.TSPACE_SHARED;
-const tool = process.env.TSPACE_TOOL;
-const models = shared && existsSync(join(shared, "models"));
-
-function filesIn(folder, wanted) {
-  return readdirSync(folder, { withFileTypes: true }).flatMap((entry) =>
-    entry.isDirectory() ? filesIn(join(folder, entry.name), wanted) : wanted.test(entry.name) ? [join(folder, entry.name)] : []).sort();
-}
-/** The files in a model's folder. */
-const besideOf = (path) => (name) => {
-  const file = join(dirname(path), name);
-  return existsSync(file) && statSync(file).isFile() ? readFileSync(file) : undefined;
-};
-/** What the tool prints as JSON, whatever its exit code. */
-function ofTool(...args) {
-  try {
-    return JSON.parse(execFileSync(tool, [...args, "--json"], { maxBuffer: 1 << 28, stdio: "pipe" }));
-  } catch (error) {
-    return JSON.parse(error.stdout);
-  }
-}
-/** Without times, and what only files have: paths. */
-function plain(report) {
-  const { seconds, output, outputFiles, inputFiles, exitCode, input, ...rest } = report;
-  return rest;
-}
-
-describe("the tool", { skip: (!models && "no ../shared here") || (!tool && "no tool here: build the preset release") }, () => {
-  const paths = models ? filesIn(join(shared, "models"), /\.(glb|gltf)$/).filter((path) => statSync(path).size < 300e3) : [];
-  const missing = /Draco|meshoptimizer/;
+describe("the tool", { skip }, () => {
+  const paths = hasModels ? filesIn(join(shared, "models"), /\.(glb|gltf)$/).filter((path) => statSync(path).size < 300e3) : [];
+  const missing = /the option (draco|meshopt) takes/;
 
   for (const [verb, call] of [["check", check], ["inspect", inspect], ["identify", identify]]) {
     it(`${verb}s as this does`, () => {

@@ -24,8 +24,9 @@ const fileRooms = [
 /// Threads, memory of an operating system, the disk, and readers of other formats; only_memory.cpp is in the place of some.
 const notHere = new Set([
   "core/parallel.cpp", "core/arena.cpp", "asset/atomic_output_disk.cpp", "asset/file_io.cpp", "asset/resolve_uri.cpp",
-  "asset/temporary_name.cpp", "generate_file/generate_obj.cpp", "inspect/inspect_obj.cpp", "maps/flip_png.cpp", "maps/jpeg.cpp",
-  "maps/png.cpp", "maps/webp.cpp",
+  "asset/temporary_name.cpp", "asset/gltf/codecs/draco_library.cpp", "asset/gltf/codecs/meshopt_library.cpp",
+  "generate_file/generate_obj.cpp", "inspect/inspect_obj.cpp", "maps/float_image.cpp", "maps/jpeg.cpp", "maps/png.cpp",
+  "maps/png_pixels.cpp", "maps/rays.cpp", "maps/webp.cpp",
 ]);
 const hot = /mikktspace\/corner_terms_kernel|^pack\//;
 
@@ -36,9 +37,13 @@ const modules = {
   },
   pack: { sources: ["memory.cpp", "pack.cpp"], isFast: true, defines: [], rooms: ["core", "pack"], kernels: ["pack"] },
   gltf: {
-    sources: ["heap.cpp", "c_library.cpp", "throw.cpp", "only_memory.cpp", "gltf.cpp"], isFast: false, defines: ["TSPACE_THROWS_END_CALL"],
+    sources: ["heap.cpp", "c_library.cpp", "throw.cpp", "only_memory.cpp", "codecs.cpp", "images.cpp", "gltf.cpp"], isFast: false,
+    defines: ["TSPACE_THROWS_END_CALL", "TSPACE_HAS_IMAGES", "TSPACE_HAS_WEBP"],
     rooms: [...rooms, "pack", ...fileRooms], more: ["c_api/c_convert.cpp"], kernels: ["normals", "tangents", "pack"], throws: true,
-    imports: ["attempt", "endCall", "findFile", "now", "parseNumber"],
+    imports: [
+      "attempt", "decodeDraco", "decodeImage", "decodeMeshopt", "encodeDraco", "encodeImage", "encodeMeshopt", "endCall", "findFile",
+      "hasCodec", "now", "parseNumber", "takeImage",
+    ],
   },
 };
 

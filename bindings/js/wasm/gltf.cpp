@@ -2,7 +2,12 @@
 // The module of the entry "tspace/gltf": the C API of files, on bytes, behind one function.
 #include <cstdlib>
 
+#include "asset/read/read_scene.h"
+#include "c_files/c_call.h"
+#include "codecs.h"
 #include "exports.h"
+#include "maps/image.h"
+#include "options/request.h"
 #include "tspace/tspace_files.h"
 
 using namespace tspace;
@@ -11,8 +16,11 @@ using namespace tspace::js;
 extern "C" {
 /// Asks JavaScript for a file that a model names: fills in two words, place and size of bytes that stay until the call is
 /// over. Returns an error code. It may throw, which ends the call, and the instance with it.
-__attribute__((import_module("env"), import_name("findFile"))) tspace_ErrorCode tspace_js_findFile(
-    std::size_t model, const char* path, const std::uint8_t** data, std::size_t* size);
+TSPACE_JS_IMPORT(findFile)
+tspace_ErrorCode tspace_js_findFile(std::size_t model, const char* path, const std::uint8_t** data, std::size_t* size);
+/// Takes a copy of an image file.
+TSPACE_JS_IMPORT(takeImage)
+void tspace_js_takeImage(const std::uint8_t* data, std::size_t bytes, const char* mime_type);
 }
 
 namespace {
@@ -72,6 +80,19 @@ std::uint32_t callFiles(std::uint32_t verb, const ModelWords* models, const char
         error.element = failure.element;
     }
     return code;
+}
+
+/// Calls takeImage for each normal map of a model. What is wrong with it ends the call.
+TSPACE_JS_EXPORT(findImages) void findImages(const ModelWords* model, const char* text) {
+    FileOptions options;
+    const tspace_Model given = modelOf(*model, 0);
+    c_files::openModel(&given, options);
+    options::Given names;
+    c_files::readOptions(options::inspectOptions(options), text, names);
+    for (const SceneImage& image : readScene(c_files::nameOf(given), options, true).images) {
+        const char* type = mimeType(imageFormat(image.bytes));
+        if (!image.bytes.empty()) tspace_js_takeImage(image.bytes.data(), image.bytes.size(), type);
+    }
 }
 
 }  // extern "C"

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// What callers of "tspace/gltf" may hand in beside the model: codecs from npm, and what decodes images. The module asks for
+// them while a call runs.
+import { fail, object } from "./check.js";
+import { decodeDraco, encodeDraco } from "./draco.js";
+
+/** In the order of the module's numbers (wasm/codecs.h). */
+const codecs = ["meshoptDecoder", "meshoptEncoder", "dracoDecoder", "dracoEncoder", "decodeImage", "encodeImage"];
+
+/** In the order of tspace's enumerations. */
+const modes = ["ATTRIBUTES", "TRIANGLES", "INDICES"];
+const filters = ["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"];
+
+const isMissing = (value) => value === undefined || value === null;
+
+/** Codecs by the names above, out of an option { decoder, encoder }. */
+function pairOf(option, value, { decoder: decoding, encoder: encoding }, from) {
+  if (isMissing(value)) return {};
+  const { decoder, encoder } = object(value, option);
+  if (isMissing(decoder)) fail("wrongType", `${option} has no decoder: ${from}`);
+  if (typeof decoder[decoding] !== "function") fail("wrongType", `${option}.decoder has no ${decoding}: it is not ${from}`);
+  if (!isMissing(encoder) && typeof encoder[encoding] !== "function")
+    fail("wrongType", `${option}.encoder has no ${encoding}: it is not ${from}`);
+  return { [`${option}Decoder`]: decoder, [`${option}Encoder`]: encoder };
+}
+
+function functionOf(option, value) {
+  if (!isMissing(value) && typeof value !== "function") fail("wrongType", `${option} is not a function`);
+  return { [option]: value };
+}
+
+/** Checks these options. */
+export const codecsOf = ({ meshopt, draco, decodeImage, encodeImage }) => ({
+  ...pairOf("meshopt", meshopt, { decoder: "decodeGltfBuffer", encoder: "encodeGltfBuffer" }, "that of npm's meshoptimizer"),
+  ...pairOf("draco", draco, { decoder: "Decoder", encoder: "ExpertEncoder" }, "a module of npm's draco3d, made by its create...Module()"),
+  ...functionOf("decodeImage", decodeImage),
+  ...functionOf("encodeImage", encodeImage),
+});
+
+/** Why the pixels that the caller gave cannot be taken; undefined where they can. */
+function faultOfPixels(image, width, height, sampleBytes) {
+  if (typeof image?.then === "function")
+    fail("wrongType", "decodeImage gave a Promise; decodeImages(model, decode, options) waits for those before the call");
+  if (isMissing(image)) return "decodeImage gave nothing for it";
+  const pixels = object(image, "what decodeImage gives").rgba;
+  if (![Uint8Array, Uint8ClampedArray, Uint16Array].some((Type) => pixels instanceof Type))
+    fail("wrongType", "what decodeImage gives has no rgba that is a Uint8Array, a Uint8ClampedArray or a Uint16Array");
+  if (image.width !== width || image.height !== height)
+    return `decodeImage gave ${image.width} x ${image.height} pixels for ${width} x ${height}`;
+  if (pixels.length !== 4 * width * height)
+    fail("countMismatch", `decodeImage gave ${pixels.length} numbers for ${width} x ${height} pixels: 4 each are needed`);
+  if (sampleBytes === 2 && !(pixels instanceof Uint16Array)) return "it has 16 bits, of which decodeImage gave 8";
+  return undefined;
+}
+
+/** The imports of the module, for one call. Views are made anew each time, since memory moves when it grows. */
+export class Codecs {
+  constructor(call, given) {
+    this.call = call;
+    this.given = given;
+    this.images = [];
+  }
+
+  #view(Type, place, count) {
+    return new Type(this.call.wasm.memory.buffer, place >>> 0, count);
+  }
+
+  /** A copy in the module's memory, which the module releases. `size`: where its number of bytes goes. */
+  #give(bytes, size) {
+    const place = this.call.wasm.allocate(bytes.byteLength + 1) >>> 0;
+    if (place === 0) fail("outOfMemory", "out of memory");
+    this.#view(Uint8Array, place, bytes.byteLength).set(new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength));
+    this.#view(Uint8Array, place + bytes.byteLength, 1)[0] = 0;
+    if (size !== undefined) this.#view(Uint32Array, size, 1)[0] = bytes.byteLength;
+    return place;
+  }
+
+  #giveText(text) {
+    return this.#give(new TextEncoder().encode(text.replace(/\s+/g, " ")));
+  }
+
+  hasCodec(number) {
+    return isMissing(this.given[codecs[number]]) ? 0 : 1;
+  }
+
+  decodeMeshopt(data, bytes, to, count, stride, mode, filter) {
+    const rows = new Uint8Array(count * stride);
+    try {
+      this.given.meshoptDecoder.decodeGltfBuffer(rows, count, stride, this.#view(Uint8Array, data, bytes), modes[mode], filters[filter]);
+    } catch (error) {
+      if (error instanceof TypeError) fail("notReady", `meshopt.decoder is not ready: ${error.message}`);
+      return 0; // it throws for data that are broken
+    }
+    this.#view(Uint8Array, to, rows.length).set(rows);
+    return 1;
+  }
+
+  encodeMeshopt(rows, count, stride, mode, isKhr, size) {
+    const source = this.#view(Uint8Array, rows, count * stride).slice();
+    return this.#give(this.given.meshoptEncoder.encodeGltfBuffer(source, count, stride, modes[mode], isKhr), size);
+  }
+
+  /** A mesh, as the structs of wasm/codecs.cpp say. */
+  #readMesh(place) {
+    const [corners, cornerCount, pointCount, count, first] = this.#view(Uint32Array, place, 5);
+    const attributes = Array.from({ length: count }, (_, i) => {
+      const words = this.#view(Uint32Array, first + 60 * i, 15), numbers = this.#view(Float32Array, first + 60 * i, 15);
+      return {
+        id: words[0], kind: words[1], component: words[2], componentCount: words[3], normalized: words[4] !== 0,
+        values: this.#view(Uint8Array, words[5], words[6]).slice(),
+        rounding: { bits: words[7], isOctahedral: words[8] !== 0, origin: [...numbers.slice(10, 10 + words[9])], range: numbers[14] },
+      };
+    });
+    return { first, pointCount, corners: this.#view(Uint32Array, corners, cornerCount).slice(), attributes };
+  }
+
+  decodeDraco(data, bytes, isEdgebreaker, corners, points, place) {
+    const { dracoDecoder, dracoEncoder } = this.given;
+    const { first, attributes } = this.#readMesh(place);
+    const source = this.#view(Uint8Array, data, bytes).slice();
+    const limits = { corners: corners >>> 0, points: points >>> 0 };
+    const mesh = decodeDraco(dracoDecoder, source, isEdgebreaker !== 0, limits, attributes, !isMissing(dracoEncoder));
+    if (mesh.fault) return this.#giveText(mesh.fault);
+    const at = this.#give(mesh.corners);
+    this.#view(Uint32Array, place, 3).set([at, mesh.corners.length, mesh.pointCount]);
+    mesh.attributes.forEach(({ values, rounding }, i) => {
+      const words = first + 60 * i, valuesAt = this.#give(values);
+      this.#view(Uint32Array, words + 20, 2).set([valuesAt, values.byteLength]);
+      if (!rounding) return;
+      this.#view(Uint32Array, words + 28, 3).set([rounding.bits, rounding.isOctahedral ? 1 : 0, rounding.origin.length]);
+      this.#view(Float32Array, words + 40, 5).set([...rounding.origin, 0, 0, 0, 0].slice(0, 4).concat(rounding.range));
+    });
+    return 0;
+  }
+
+  encodeDraco(place, size) {
+    const mesh = this.#readMesh(place);
+    const encoded = encodeDraco(this.given.dracoEncoder, mesh);
+    if (!encoded) return 0;
+    encoded.ids.forEach((id, i) => (this.#view(Uint32Array, mesh.first + 60 * i, 1)[0] = id));
+    return this.#give(encoded.data, size);
+  }
+
+  /** Pixels of so many channels, of 8 bits, or of 16. */
+  decodeImage(data, bytes, mimeType, width, height, channels, sampleBytes, to) {
+    const file = this.#view(Uint8Array, data, bytes).slice();
+    let image;
+    try {
+      image = this.given.decodeImage(file, mimeType);
+    } catch (error) {
+      return this.#giveText(`decodeImage threw: ${error?.message ?? error}`);
+    }
+    const fault = faultOfPixels(image, width, height, sampleBytes);
+    if (fault) return this.#giveText(fault);
+    const { rgba } = image;
+    const count = channels * width * height;
+    const pixels = sampleBytes === 2 ? this.#view(Uint16Array, to, count) : this.#view(Uint8Array, to, count);
+    const shift = rgba instanceof Uint16Array && sampleBytes === 1 ? 8 : 0;
+    for (let from = 0, i = 0; i < count; from += 4) for (let c = 0; c < channels; ++c) pixels[i++] = rgba[from + c] >> shift;
+    return 0;
+  }
+
+  takeImage(data, bytes, mimeType) {
+    this.images.push({ bytes: this.#view(Uint8Array, data, bytes).slice(), mimeType });
+  }
+
+  encodeImage(pixels, mimeType, width, height, channels, sampleBytes, quality, size) {
+    const count = channels * width * height;
+    const Type = sampleBytes === 2 ? Uint16Array : Uint8Array;
+    const data = this.#view(Type, pixels, count).slice();
+    const image = { width, height, channels, bits: 8 * sampleBytes, data, quality };
+    const file = this.given.encodeImage(image, mimeType);
+    if (!(file instanceof Uint8Array)) fail("wrongType", "encodeImage gave no Uint8Array");
+    return this.#give(file, size);
+  }
+}

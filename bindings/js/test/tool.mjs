@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Models of ../shared, and what the tool says about them.
+import { execFileSync } from "node:child_process";
+import { existsSync, readFileSync, readdirSync, statSync } from "node:fs";
+import { dirname, join } from "node:path";
+
+export const shared = process.env.TSPACE_SHARED;
+export const tool = process.env.TSPACE_TOOL;
+export const hasModels = Boolean(shared) && existsSync(join(shared, "models"));
+/** For tests that compare with the tool. */
+export const skip = (!hasModels && "no ../shared here") || (!tool && "no tool here: build the preset release");
+
+export function filesIn(folder, wanted) {
+  return readdirSync(folder, { withFileTypes: true }).flatMap((entry) =>
+    entry.isDirectory() ? filesIn(join(folder, entry.name), wanted) : wanted.test(entry.name) ? [join(folder, entry.name)] : []).sort();
+}
+/** The files in a model's folder. */
+export const besideOf = (path) => (name) => {
+  const file = join(dirname(path), name);
+  return existsSync(file) && statSync(file).isFile() ? readFileSync(file) : undefined;
+};
+/** What the tool prints as JSON, whatever its exit code. */
+export function ofTool(...args) {
+  try {
+    return JSON.parse(execFileSync(tool, [...args, "--json"], { maxBuffer: 1 << 28, stdio: "pipe" }));
+  } catch (error) {
+    return JSON.parse(error.stdout);
+  }
+}
+/** Without times, and what only files have: paths. */
+export function plain(report) {
+  const { seconds, output, outputFiles, inputFiles, exitCode, input, ...rest } = report;
+  return rest;
+}

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// What the caller may hand in beside the model: codecs from npm, behind functions of JavaScript.
+#pragma once
+
+#define TSPACE_JS_IMPORT(name) __attribute__((import_module("env"), import_name(#name)))
+
+namespace tspace::js {
+
+/// The same numbers are in src/codecs.js.
+enum class Codec { meshoptDecoder, meshoptEncoder, dracoDecoder, dracoEncoder, imageDecoder, imageEncoder };
+
+}  // namespace tspace::js
+
+extern "C" {
+
+/// Whether the caller handed it in.
+TSPACE_JS_IMPORT(hasCodec) int tspace_js_hasCodec(tspace::js::Codec codec);
+
+}  // extern "C"

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// Pixels of images: decoded and encoded by what the caller hands in. What files claim is looked at here, before.
+#include <cstdlib>
+#include <memory>
+#include <string_view>
+
+#include "asset/file_error.h"
+#include "codecs.h"
+#include "maps/codecs.h"
+#include "maps/flip_green.h"
+#include "maps/png_pixels.h"
+
+using namespace tspace::js;
+
+extern "C" {
+
+/// Pixels of so many channels with samples of so many bytes. Null, or a text to be released: why there are none.
+TSPACE_JS_IMPORT(decodeImage)
+char* tspace_js_decodeImage(const std::uint8_t* data, std::size_t bytes, const char* mime_type, std::uint32_t width,
+                            std::uint32_t height, std::uint32_t channels, std::uint32_t sample_bytes, void* to);
+/// The file that they become, to be released; sets its size.
+TSPACE_JS_IMPORT(encodeImage)
+std::uint8_t* tspace_js_encodeImage(const void* pixels, const char* mime_type, std::uint32_t width,
+                                    std::uint32_t height, std::uint32_t channels, std::uint32_t sample_bytes,
+                                    std::uint32_t quality, std::size_t* bytes);
+
+}  // extern "C"
+
+namespace tspace {
+
+namespace {
+
+/// Why there are no pixels; empty where there are.
+std::string decodeInto(ByteSpan bytes, ImageSize size, std::uint32_t channels, std::uint32_t sample_bytes, void* to) {
+    const char* type = mimeType(imageFormat(bytes));
+    const std::unique_ptr<char, decltype(&std::free)> why(
+        tspace_js_decodeImage(bytes.data(), bytes.size(), type, size.width, size.height, channels, sample_bytes, to),
+        &std::free);
+    return why ? why.get() : "";
+}
+
+std::vector<std::uint8_t> encode(const void* pixels, ImageFormat format, ImageSize size, std::uint32_t channels,
+                                 std::uint32_t sample_bytes, int quality) {
+    if (tspace_js_hasCodec(Codec::imageEncoder) == 0)
+        failFile(ErrorCode::unsupportedFile, "the option encodeImage was not given");
+    std::size_t count = 0;
+    const std::unique_ptr<std::uint8_t, decltype(&std::free)> file(
+        tspace_js_encodeImage(pixels, mimeType(format), size.width, size.height, channels, sample_bytes,
+                              static_cast<std::uint32_t>(quality), &count),
+        &std::free);
+    std::vector<std::uint8_t> bytes(file.get(), file.get() + count);
+    if (imageFormat(bytes) != format)
+        failFile(ErrorCode::unsupportedFile, "what encodeImage gave is no " + std::string(formatName(format)));
+    return bytes;
+}
+
+/// Empty, or why nothing is decoded.
+std::string faultOf(ByteSpan bytes, ImageSize size, std::uint64_t most_pixels) {
+    std::string why;
+    if (tspace_js_hasCodec(Codec::imageDecoder) == 0) return "the option decodeImage was not given";
+    if (size.pixels() == 0) return std::string("it is a broken ") + formatName(imageFormat(bytes));
+    isTooLarge(size, bytes.size(), most_pixels, why);
+    return why;
+}
+
+std::optional<RgbImage> decode(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    const ImageSize size = claimedSize(bytes);
+    why = faultOf(bytes, size, most_pixels);
+    if (!why.empty()) return {};
+    RgbImage image{size.width, size.height, std::vector<std::uint8_t>(3 * size.pixels())};
+    why = decodeInto(bytes, size, 3, 1, image.rgb.data());
+    if (!why.empty()) return {};
+    return image;
+}
+
+ChannelImage decodeChannels(ByteSpan bytes, unsigned channels) {
+    const ImageSize size = claimedSize(bytes);
+    std::string why = faultOf(bytes, size, ~std::uint64_t{0});
+    ChannelImage image{size.width, size.height, channels, {}};
+    if (why.empty()) {
+        image.pixels.resize(channels * size.pixels());
+        why = decodeInto(bytes, size, channels, 1, image.pixels.data());
+    }
+    if (!why.empty()) failFile(ErrorCode::unsupportedFile, why);
+    return image;
+}
+
+/// The first chunk of a WebP: what it is, how large, and whether it has alpha or moves.
+struct WebpHead {
+    ImageSize size = {};
+    bool is_lossless = false, has_alpha = false, is_animated = false;
+};
+
+WebpHead webpHead(ByteSpan bytes) {
+    constexpr std::size_t kChunkAt = 12, kHead = 8, kNeeded = 10;
+    if (bytes.size() < kChunkAt + kHead + kNeeded) return {};
+    const std::string_view type(reinterpret_cast<const char*>(bytes.data()) + kChunkAt, 4);
+    const ByteSpan data = bytes.subspan(kChunkAt + kHead);
+    const auto number = [&](std::size_t at, unsigned count) {
+        std::uint32_t value = 0;
+        for (unsigned i = 0; i < count; ++i) value |= std::uint32_t{data[at + i]} << (8 * i);
+        return value;
+    };
+    constexpr std::uint32_t kSizeBits = 0x3fff;
+    if (type == "VP8X") {
+        constexpr std::uint32_t kAlpha = 0x10, kAnimation = 0x02;
+        const std::uint32_t flags = data[0];
+        return {{number(4, 3) + 1, number(7, 3) + 1}, false, (flags & kAlpha) != 0, (flags & kAnimation) != 0};
+    }
+    if (type == "VP8L") {
+        const std::uint32_t bits = number(1, 4);
+        return {{(bits & kSizeBits) + 1, (bits >> 14 & kSizeBits) + 1}, true, (bits >> 28 & 1) != 0, false};
+    }
+    if (type != "VP8 ") return {};
+    return {{number(6, 2) & kSizeBits, number(8, 2) & kSizeBits}, false, false, false};
+}
+
+}  // namespace
+
+ImageClaim claimOfWebp(ByteSpan bytes) {
+    const WebpHead head = webpHead(bytes);
+    return {head.size, (head.is_lossless || head.has_alpha ? 8 : 4) * head.size.pixels()};
+}
+
+std::optional<RgbImage> decodePng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    return decode(bytes, most_pixels, why);
+}
+std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    return decode(bytes, most_pixels, why);
+}
+std::optional<RgbImage> decodeWebp(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    if (!webpHead(bytes).is_animated) return decode(bytes, most_pixels, why);
+    why = "it is an animated WebP";
+    return {};
+}
+
+std::vector<std::uint8_t> packInverted(ByteSpan bytes, const PngHeader& header) {
+    const ImageSize size{header.width, header.height};
+    if (header.bits != 8 && header.bits != 16) failBrokenPng();
+    if (std::string why = faultOf(bytes, size, ~std::uint64_t{0}); !why.empty())
+        failFile(ErrorCode::unsupportedFile, why);
+    const auto channels = static_cast<std::uint32_t>(header.channels());
+    const std::size_t sample_bytes = header.bits / 8;
+    std::vector<std::uint8_t> pixels(size.pixels() * channels * sample_bytes);
+    if (std::string why = decodeInto(bytes, size, channels, static_cast<std::uint32_t>(sample_bytes), pixels.data());
+        !why.empty())
+        failFile(ErrorCode::unsupportedFile, why);
+    invertGreenSamples(pixels, channels * sample_bytes, sample_bytes);
+    std::vector<std::uint8_t> packed =
+        encode(pixels.data(), ImageFormat::png, size, channels, static_cast<std::uint32_t>(sample_bytes), 100);
+    constexpr std::size_t kHeaderAt = 16, kSame = 10;  // width, height, bits and colour type
+    const bool is_same = packed.size() > kHeaderAt + kSame &&
+                         std::equal(packed.begin() + kHeaderAt, packed.begin() + kHeaderAt + kSame,
+                                    bytes.begin() + kHeaderAt);
+    if (!is_same) {
+        failFile(ErrorCode::unsupportedFile,
+                 "encodeImage gave a PNG of another size, or with other channels or bits than it was given");
+    }
+    return packed;
+}
+
+void checkPixels(ByteSpan bytes, const PngHeader&) {
+    std::string why;
+    if (!decode(bytes, ~std::uint64_t{0}, why)) failFile(ErrorCode::unsupportedFile, why);
+}
+
+ChannelImage readJpegPixels(ByteSpan bytes) { return decodeChannels(bytes, 3); }
+ChannelImage readWebpPixels(ByteSpan bytes) {
+    const WebpHead head = webpHead(bytes);
+    if (head.is_animated) failFile(ErrorCode::unsupportedFile, "it is an animated WebP");
+    return decodeChannels(bytes, head.has_alpha ? 4 : 3);
+}
+
+std::vector<std::uint8_t> writePng(const ChannelImage& image) {
+    return encode(image.pixels.data(), ImageFormat::png, {image.width, image.height}, image.channels, 1, 100);
+}
+std::vector<std::uint8_t> writeJpeg(const ChannelImage& image, int quality, ByteSpan like) {
+    const ImageSize size{image.width, image.height};
+    return joinJpeg(encode(image.pixels.data(), ImageFormat::jpeg, size, image.channels, 1, quality), like);
+}
+std::vector<std::uint8_t> writeWebp(const ChannelImage& image) {
+    return encode(image.pixels.data(), ImageFormat::webp, {image.width, image.height}, image.channels, 1, 100);
+}
+
+}  // namespace tspace
