@@ -13,7 +13,7 @@ import type { PlaceView } from "./views/place.js";
 import type { Progress } from "./views/progress.js";
 import type { Stage } from "./views/stage.js";
 import type { UvMapView } from "./views/uv_map.js";
-import { Work, WorkError } from "./work/client.js";
+import { WorkError, type Work } from "./work/client.js";
 import type { Arrays, Method } from "./work/protocol.js";
 
 export interface Views {
@@ -37,12 +37,11 @@ const sentenceOf = (error: unknown): string => (error instanceof Error ? error.m
 const copyOf = (arrays: Arrays): Arrays => structuredClone(arrays);
 
 export class App {
-  readonly work = new Work();
   model: ModelFiles | null = null;
   reports: Reports = {};
   #generation = 0;
 
-  constructor(private views: Views) {}
+  constructor(readonly work: Work, private views: Views) {}
 
   /** Tests and style sheets read it: loading, ready, failed or stopped. */
   #state(state: "loading" | "ready" | "failed" | "stopped"): void {

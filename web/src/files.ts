@@ -21,26 +21,53 @@ interface Named {
   file: File;
 }
 
+/** What a folder holds, by one of the two interfaces that browsers have for it. */
+type Folder = { path: string; handle: FileSystemDirectoryHandle } | { path: string; entry: FileSystemDirectoryEntry };
+
+/** A page opened from disk may read folders in Chromium by handles, and by entries in all others. */
+async function contentsOf(folder: Folder): Promise<(Named | Folder)[]> {
+  const found: (Named | Folder)[] = [];
+  if ("handle" in folder) {
+    for await (const handle of (folder.handle as unknown as { values(): AsyncIterable<FileSystemFileHandle | FileSystemDirectoryHandle> }).values()) {
+      const path = `${folder.path}/${handle.name}`;
+      found.push(handle.kind === "directory" ? { path, handle } : { path, file: await handle.getFile() });
+    }
+    return found;
+  }
+  const reader = folder.entry.createReader();
+  for (;;) {
+    const some = await new Promise<FileSystemEntry[]>((done, failed) => reader.readEntries(done, failed));
+    if (some.length === 0) return found;
+    for (const entry of some) {
+      const path = `${folder.path}/${entry.name}`;
+      if (entry.isDirectory) found.push({ path, entry: entry as FileSystemDirectoryEntry });
+      else found.push({ path, file: await new Promise<File>((done, failed) => (entry as FileSystemFileEntry).file(done, failed)) });
+    }
+  }
+}
+
+/** Items of a drop can be asked for only during its event, so this happens before the first await. */
+function droppedItems(data: DataTransfer): Promise<Named | Folder | null>[] {
+  type Handles = { getAsFileSystemHandle?: () => Promise<FileSystemHandle | null> };
+  return [...data.items].map(async (item) => {
+    const entry = item.webkitGetAsEntry?.(), file = item.getAsFile();
+    if (!entry?.isDirectory) return file && { path: file.name, file };
+    const handle = await (item as Handles).getAsFileSystemHandle?.().catch(() => null);
+    if (handle?.kind === "directory") return { path: handle.name, handle: handle as FileSystemDirectoryHandle };
+    return { path: entry.name, entry: entry as FileSystemDirectoryEntry };
+  });
+}
+
 /** Files of a drop, those in folders too. */
 export async function droppedFiles(data: DataTransfer): Promise<Named[]> {
-  const entries = [...data.items].map((item) => item.webkitGetAsEntry?.()).filter((entry) => entry !== null && entry !== undefined);
-  if (entries.length === 0) return [...data.files].map((file) => ({ path: file.name, file }));
   const found: Named[] = [];
-  const waiting = [...entries];
+  const waiting = await Promise.all(droppedItems(data));
   while (waiting.length > 0) {
-    const entry = waiting.shift()!;
-    if (entry.isFile) {
-      const file = await new Promise<File>((done, failed) => (entry as FileSystemFileEntry).file(done, failed));
-      found.push({ path: entry.fullPath.replace(/^\//, ""), file });
-      if (found.length > kMostFiles) throw new Refusal(`These are more than ${kMostFiles} files. Drop the folder of one model.`);
-    } else {
-      const reader = (entry as FileSystemDirectoryEntry).createReader();
-      for (;;) {
-        const some = await new Promise<FileSystemEntry[]>((done, failed) => reader.readEntries(done, failed));
-        if (some.length === 0) break;
-        waiting.push(...some);
-      }
-    }
+    const one = waiting.shift();
+    if (!one) continue;
+    if ("file" in one) found.push(one);
+    else waiting.push(...(await contentsOf(one)));
+    if (found.length > kMostFiles) throw new Refusal(`These are more than ${kMostFiles} files. Drop the folder of one model.`);
   }
   return found;
 }

@@ -14,7 +14,11 @@ import { Progress } from "./views/progress.js";
 import { Stage } from "./views/stage.js";
 import { TexelView } from "./views/texel.js";
 import { UvMapView } from "./views/uv_map.js";
+import { Work } from "./work/client.js";
 
+// The library is read and compiled by the worker while WebGL starts, which holds this thread up for longer than all else.
+const work = new Work();
+await work.started;
 const stage = new Stage();
 const place = new PlaceView(stage.viewport);
 const findings = new FindingsView((finding) => {
@@ -35,7 +39,7 @@ const mend = new MendView(
   },
   ({ bytes, name }) => void app.open(async () => ({ name, bytes, others: new Map() })),
 );
-const app: App = new App({ stage, findings, look, uvMap, place, progress, opened: showName });
+const app: App = new App(work, { stage, findings, look, uvMap, place, progress, opened: showName });
 
 function showName(model: ModelFiles | null): void {
   mend.reset(model);

@@ -3,15 +3,16 @@
 import assert from "node:assert/strict";
 import { join, relative } from "node:path";
 import { test } from "node:test";
-import { filesBelow, named, noShared, openFile, shared, withPage } from "./support.mjs";
+import { filesBelow, isLong, named, noShared, openFile, shared, withPage } from "./support.mjs";
 
-test("every broken file ends in findings or a sentence", { skip: noShared, timeout: 600_000 }, async () => {
-  const files = filesBelow(join(shared, "bad"), /\.(glb|gltf|obj)$/i);
-  assert.ok(files.length > 300);
+test("every broken file ends in findings or a sentence", { skip: noShared, timeout: 1_200_000 }, async () => {
+  const all = filesBelow(join(shared, "bad"), /\.(glb|gltf|obj)$/i);
+  assert.ok(all.length > 300);
+  const files = all.filter((_, i) => isLong || i % 6 === 0);
   await withPage(async (tab) => {
     let refused = 0;
     for (const path of files) {
-      const state = await openFile(tab, path, { others: named(path), timeout: 30_000 }).catch((error) => assert.fail(`${relative(shared, path)}: ${error.message}`));
+      const state = await openFile(tab, path, { others: named(path) }).catch((error) => assert.fail(`${relative(shared, path)}: ${error.message}`));
       const text = (await tab.locator(".findings .list").textContent()).trim();
       if (state === "failed") {
         refused += 1;
@@ -24,6 +25,6 @@ test("every broken file ends in findings or a sentence", { skip: noShared, timeo
       }
       assert.ok(await tab.locator("h1").isVisible());
     }
-    assert.ok(refused > 50, `${refused} refused`);
+    assert.ok(refused > files.length / 10, `${refused} of ${files.length} refused`);
   }, { allowMessages: true });
 });

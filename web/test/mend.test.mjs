@@ -10,7 +10,7 @@ import { choose, missing, noTool, settled, shoot, tool, withPage } from "./suppo
 
 async function mended(tab) {
   await tab.locator(".mend .main").click();
-  await tab.waitForSelector(".result a", { timeout: 60_000 });
+  await tab.waitForSelector(".result a");
   const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(".result a").click()]);
   return readFileSync(await download.path());
 }

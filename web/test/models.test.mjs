@@ -5,7 +5,7 @@ import { execFileSync } from "node:child_process";
 import { existsSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
 import { test } from "node:test";
-import { named, noShared, noTool, openFile, shared, shoot, tool, withPage } from "./support.mjs";
+import { isLong, kPatience, named, noShared, noTool, openFile, shared, shoot, tool, withPage } from "./support.mjs";
 
 const models = [
   "khronos/NormalTangentTest.glb", "khronos/BoomBoxWithAxes.glb", "khronos/Suzanne/Suzanne.gltf", "khronos/CesiumMan.glb", "khronos/Fox.glb",
@@ -29,8 +29,8 @@ function reportOf(verb, path) {
 
 test("models of each kind are drawn, and their reports are the tool's", { skip: noTool }, async () => {
   await withPage(async (tab) => {
-    const there = models.filter(existsSync);
-    assert.ok(there.length > 10);
+    const there = models.filter((path, i) => existsSync(path) && (isLong || i % 3 === 0));
+    assert.ok(there.length > 4);
     for (const path of there) {
       assert.equal(await openFile(tab, path, { others: named(path) }), "ready", path);
       assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "drawn", path);
@@ -51,12 +51,12 @@ test("an OBJ is shown as the GLB that it becomes", { skip: noShared }, async () 
   }, { allowMessages: true });
 });
 
-test("with 500k triangles the page answers while it works, and can be stopped", { skip: noShared, timeout: 180_000 }, async () => {
+test("with 500k triangles the page answers while it works, and can be stopped", { skip: noShared || (!isLong && "only with --long"), timeout: 4 * kPatience }, async () => {
   const path = join(shared, "models/perf/Market_495k.glb");
   if (!existsSync(path)) return;
   await withPage(async (tab) => {
-    const opened = openFile(tab, path, { timeout: 150_000 });
-    await tab.waitForSelector("html[data-picture=drawn]", { state: "attached", timeout: 120_000 });
+    const opened = openFile(tab, path, { timeout: 3 * kPatience });
+    await tab.waitForSelector("html[data-picture=drawn]", { state: "attached" });
     // A picture is there and work goes on: a click is answered.
     await tab.locator(".look select").nth(1).selectOption("45");
     await shoot(tab, "model-500k");

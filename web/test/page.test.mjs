@@ -2,6 +2,7 @@
 // The page itself: samples and their findings, each look, keyboard, light, contrast, widths.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
+import { loadavg } from "node:os";
 import { test } from "node:test";
 import { gzipSync } from "node:zlib";
 import { choose, drawn, missing, page, settled, shares, shoot, withPage } from "./support.mjs";
@@ -17,8 +18,10 @@ test("the page is one file of at most 1 MB gzipped", () => {
   assert.ok(gzipSync(readFileSync(page), { level: 9 }).length <= 1 << 20);
 });
 
-test("the broken crate is shown at once: wrong signs are found, and its triangles are outlined", { skip: missing }, async () => {
+test("the broken crate is shown at once: wrong signs are found, and its triangles are outlined", { skip: missing }, async (t) => {
   await withPage(async (tab) => {
+    const ms = await tab.evaluate(() => performance.getEntriesByName("first picture")[0].startTime);
+    t.diagnostic(`first picture ${Math.round(ms)} ms after the page was asked for; load of the machine ${loadavg()[0].toFixed(1)}`);
     assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "drawn");
     assert.deepEqual(await codes(tab), ["signsWrong"]);
     assert.match(await tab.locator(".verdict").textContent(), /mikktspace/);

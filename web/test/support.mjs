@@ -15,16 +15,23 @@ export const missing = (!chromium && "no Chromium here: scripts/web --all") || (
 export const noShared = missing || (!(shared && existsSync(shared)) && "no shared models here");
 export const noTool = noShared || (!tool && "the tool is not built");
 
+/** Everything, not only a share of it. */
+export const isLong = process.env.TSPACE_LONG === "1";
+/** Milliseconds after which something hangs: a busy machine must not fail a test. */
+export const kPatience = 120_000;
+
 /** Runs `test(tab)` with the page open. Any request, error or message of the console fails it. */
-export async function withPage(test, { width = 1280, height = 800, scheme = "light", url = pathToFileURL(page).href, allowMessages = false } = {}) {
+export async function withPage(test, { width = 1280, height = 800, scheme = "light", url = pathToFileURL(page).href, allowMessages = false, hasTouch = false } = {}) {
   const home = mkdtempSync(join(tmpdir(), "tspace-home-"));
   const browser = await playwright.chromium.launch({
     executablePath: chromium,
+    timeout: kPatience,
     args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
     env: { ...process.env, HOME: home, XDG_RUNTIME_DIR: home },
   });
   try {
-    const tab = await browser.newPage({ viewport: { width, height }, colorScheme: scheme, reducedMotion: "reduce" });
+    const tab = await browser.newPage({ viewport: { width, height }, colorScheme: scheme, reducedMotion: "reduce", hasTouch });
+    tab.setDefaultTimeout(kPatience);
     const faults = [], requests = [];
     tab.on("pageerror", (error) => faults.push(`${error.message} ${error.stack ?? ""}`));
     tab.on("console", (message) => !allowMessages && ["error", "warning"].includes(message.type()) && !/GPU stall|GL Driver/.test(message.text()) && faults.push(message.text()));
@@ -42,7 +49,7 @@ export async function withPage(test, { width = 1280, height = 800, scheme = "lig
 }
 
 /** Waits until the model is judged, or has failed, or was stopped; gives the state. */
-export async function settled(tab, timeout = 60_000) {
+export async function settled(tab, timeout = kPatience) {
   await tab.waitForSelector("html:is([data-state=ready], [data-state=failed], [data-state=stopped])", { state: "attached", timeout });
   return tab.evaluate(() => document.documentElement.dataset.state);
 }

@@ -36,6 +36,7 @@ export class Viewport {
   #controls: OrbitControls;
   #world = new ThreeScene();
   #isAsked = false;
+  #hasDrawn = false;
   #flight: { from: Vector3; to: Vector3; fromTarget: Vector3; toTarget: Vector3; start: number } | null = null;
   #pickTarget = new WebGLRenderTarget(1, 1, { depthBuffer: true });
 
@@ -179,6 +180,8 @@ export class Viewport {
     this.renderer.clear();
     this.renderer.render(this.#world, this.camera);
     this.renderer.render(this.overlay, this.camera);
+    if (this.scene.drawn.length > 0 && !this.#hasDrawn) performance.mark("first picture");
+    this.#hasDrawn ||= this.scene.drawn.length > 0;
   }
 
   #move(now: number): void {

@@ -17,9 +17,15 @@ interface Waiting {
 }
 
 export class Work {
+  /** The first worker has begun to load the library: what the page does meanwhile takes no time from it. */
+  readonly started: Promise<unknown>;
   #worker: globalThis.Worker | undefined;
   #waiting = new Map<number, Waiting>();
   #next = 0;
+
+  constructor() {
+    this.started = this.run("forget", {}).catch(() => {});
+  }
 
   run<K extends Call>(call: K, ask: Calls[K]["ask"], transfer: Transferable[] = []): Promise<Calls[K]["answer"]> {
     const worker = (this.#worker ??= this.#start());
