@@ -3,7 +3,7 @@
 // that is no longer the current one is dropped.
 import { loadModel } from "./model/load.js";
 import { glbOfObj } from "./model/obj.js";
-import { triangleCount } from "./model/part.js";
+import { triangleCount, type Part } from "./model/part.js";
 import { Refusal, type ModelFiles } from "./files.js";
 import { Scene, type Drawn } from "./picture/scene.js";
 import type { CheckFile, IdentifyFile } from "./report.js";
@@ -14,7 +14,7 @@ import type { Progress } from "./views/progress.js";
 import type { Stage } from "./views/stage.js";
 import type { UvMapView } from "./views/uv_map.js";
 import { WorkError, type Work } from "./work/client.js";
-import type { Arrays, Method } from "./work/protocol.js";
+import { nameOf, type Arrays, type Calls, type Right } from "./work/protocol.js";
 
 export interface Views {
   stage: Stage;
@@ -39,6 +39,8 @@ const copyOf = (arrays: Arrays): Arrays => structuredClone(arrays);
 export class App {
   model: ModelFiles | null = null;
   reports: Reports = {};
+  /** Parts of the file that Mend has made. */
+  #mended: Part[] = [];
   #generation = 0;
 
   constructor(readonly work: Work, private views: Views) {}
@@ -66,6 +68,8 @@ export class App {
   #clear(): void {
     const { stage, look, uvMap, place } = this.views;
     place.clear();
+    this.#mended = [];
+    look.offerMended(false);
     stage.viewport.show(new Scene());
     look.showLines();
     uvMap.reset();
@@ -143,7 +147,7 @@ export class App {
 
   async #judge(model: ModelFiles, isCurrent: () => boolean): Promise<void> {
     const { findings, progress, look } = this.views;
-    await this.compare(look.method, 0.3, 0.6);
+    await this.compare(look.right, 0.3, 0.6);
     if (!isCurrent()) return;
     progress.at("Checking", 0.6);
     this.reports.check = await this.work.run("report", { verb: "check", model });
@@ -167,25 +171,36 @@ export class App {
     }
   }
 
-  /** Frames by another method, for the slider and the error. */
-  async setMethod(method: Method): Promise<void> {
+  /** Puts the file that Mend has made right of the slider: its frames and its normal maps, as they are in it. */
+  async showMended(model: ModelFiles): Promise<void> {
+    const generation = this.#generation;
+    const { parts } = await loadModel(model);
+    if (generation !== this.#generation) return;
+    this.#mended = parts;
+    this.views.look.offerMended(true);
+    await this.setRight("mended");
+  }
+
+  /** Other frames for the slider and the error. */
+  async setRight(right: Right): Promise<void> {
     const generation = this.#generation;
     try {
-      await this.compare(method, 0, 1);
+      await this.compare(right, 0, 1);
       if (generation === this.#generation) this.views.progress.done("");
     } catch (error) {
       if (generation === this.#generation) this.views.progress.done(sentenceOf(error));
     }
   }
 
-  async compare(method: Method, from: number, to: number): Promise<void> {
+  async compare(right: Right, from: number, to: number): Promise<void> {
     const { stage, progress, look, uvMap } = this.views;
     const { scene } = stage.viewport;
     for (const [i, drawn] of scene.drawn.entries()) {
-      progress.at(`Computing frames by ${method}`, from + ((to - from) * i) / scene.drawn.length);
-      const frames = await this.#frames(drawn, method);
-      if (scene !== stage.viewport.scene || look.method !== method) return;
-      if (frames) scene.setFrames(drawn, frames);
+      progress.at(right === "mended" ? "Reading the mended file" : `Computing frames by ${nameOf(right)}`, from + ((to - from) * i) / scene.drawn.length);
+      const mended = right === "mended" ? this.#mended.find(({ mesh, primitive }) => mesh === drawn.part.mesh && primitive === drawn.part.primitive) : undefined;
+      const frames = await this.#frames(drawn, right, mended);
+      if (scene !== stage.viewport.scene || look.right !== right) return;
+      scene.setRight(drawn, frames, (mended ?? drawn.part).normalMap);
       stage.viewport.ask();
     }
     look.showFigures();
@@ -193,16 +208,20 @@ export class App {
     void uvMap.draw();
   }
 
-  /** A stopped worker has forgotten its parts: they are told once more. A part without frames stays as it is. */
-  async #frames(drawn: Drawn, method: Method) {
+  /** A stopped worker has forgotten its parts: they are told once more. A part without frames has none. */
+  async #frames(drawn: Drawn, right: Right, mended: Part | undefined): Promise<Calls["otherFrames"]["answer"]> {
+    const ask = () =>
+      right !== "mended" ? this.work.run("frames", { part: drawn.number, method: right })
+      : mended ? this.work.run("otherFrames", { part: drawn.number, arrays: copyOf(mended.arrays) })
+      : null;
     try {
-      return await this.work.run("frames", { part: drawn.number, method });
+      return await ask();
     } catch (error) {
       if (!(error instanceof WorkError)) throw error;
       if (error.code === "stopped") throw error;
       if (error.code !== "unknownPart") return null;
       await this.work.run("corners", { part: drawn.number, arrays: copyOf(drawn.part.arrays) });
-      return this.work.run("frames", { part: drawn.number, method });
+      return ask();
     }
   }
 }

@@ -26,7 +26,7 @@ const findings = new FindingsView((finding) => {
   stage.canvas.dataset.outlined = String(outlined);
 });
 const progress = new Progress(() => app.stop());
-const look = new LookView(stage, (method) => void app.setMethod(method));
+const look = new LookView(stage, (right) => void app.setRight(right));
 const uvMap = new UvMapView(stage.viewport);
 const texel = new TexelView(stage.viewport, (spot) => uvMap.point(spot));
 const title = el("p", { class: "model-name" });
@@ -35,9 +35,11 @@ const mend = new MendView(
     const { model } = app;
     if (!model) throw new Error("There is no model.");
     const { report, bytes } = await app.generate(model, options);
-    return { report, bytes, name: mendedName(model.name) };
+    const mended = { name: mendedName(model.name), bytes, others: model.others };
+    void app.showMended(mended).catch((error: Error) => stage.say(`The mended file cannot be drawn: ${error.message}`));
+    return { report, ...mended };
   },
-  ({ bytes, name }) => void app.open(async () => ({ name, bytes, others: new Map() })),
+  ({ name, bytes, others }) => void app.open(async () => ({ name, bytes, others })),
 );
 const app: App = new App(work, { stage, findings, look, uvMap, place, progress, opened: showName });
 

@@ -6,6 +6,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
+import { Glb } from "./glb.mjs";
 import { choose, missing, noTool, settled, shoot, tool, withPage } from "./support.mjs";
 
 async function mended(tab) {
@@ -20,12 +21,34 @@ test("repairing the broken crate leaves no finding, and shows what changed", { s
     await tab.locator(".mend summary").click();
     await mended(tab);
     assert.match(await tab.locator(".changes").textContent(), /vertices mended/);
+    // The slider now shows what the download holds.
+    await tab.locator(".figures", { hasText: "the mended file" }).waitFor();
+    assert.equal(await tab.locator(".side.right").textContent(), "mended");
+    assert.match(await tab.locator(".figures").textContent(), /0\.00° from the mended file on average.* 1,728 of 5,184 corners have another sign/);
     await tab.locator(".result").scrollIntoViewIfNeeded();
     await shoot(tab, "mended");
     await tab.getByRole("button", { name: "Look at it" }).click();
     assert.equal(await settled(tab), "ready");
     assert.match(await tab.locator(".findings .fine").textContent(), /Nothing is wrong/);
     assert.equal(await tab.locator(".model-name").textContent(), "crate-signs-lost-mended.glb");
+  });
+});
+
+test("right of the slider are the very tangents of the download, whatever made them", { skip: missing }, async () => {
+  await withPage(async (tab) => {
+    await tab.locator(".mend summary").click();
+    await choose(tab, "all anew", ".mend");
+    for (const method of ["flat", "best"]) {
+      await tab.locator(".mend select").selectOption(method);
+      const glb = new Glb(await mended(tab)), [primitive] = glb.primitives("TANGENT"), tangents = glb.numbers(primitive.attributes.TANGENT);
+      const wanted = [...glb.indices(primitive)].flatMap((vertex) => [...tangents.subarray(4 * vertex, 4 * vertex + 4)]);
+      await tab.waitForFunction((first) => window.tspaceView.views.stage.viewport.scene.drawn[0].frames?.tangents.every((x, i) => x === first[i]), wanted);
+    }
+    // A method is there again when it is asked for, and the mended file after that.
+    await tab.locator(".look select").first().selectOption("lengyel");
+    await tab.locator(".figures", { hasText: "from lengyel" }).waitFor();
+    await tab.locator(".look select").first().selectOption("mended");
+    await tab.locator(".figures", { hasText: "the mended file" }).waitFor();
   });
 });
 

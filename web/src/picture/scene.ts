@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The parts of a model as drawable objects. Each place of a part is an object of its own; all share one geometry.
-import { BufferAttribute, BufferGeometry, DataTexture, Group, Matrix3, Matrix4, Mesh, Sphere, Vector3, type RawShaderMaterial } from "three";
+import { BufferAttribute, BufferGeometry, DataTexture, Group, Matrix3, Matrix4, Mesh, Sphere, Vector3, type RawShaderMaterial, type Texture } from "three";
 import type { Part } from "../model/part.js";
 import type { Corners, Frames } from "../work/protocol.js";
 import { makeMaterial } from "./shader.js";
@@ -11,6 +11,8 @@ export interface Drawn {
   part: Part;
   corners: Corners;
   frames: Frames | null;
+  /** The normal map right of the slider. */
+  rightMap: Texture | null;
   geometry: BufferGeometry;
   material: RawShaderMaterial;
   meshes: Mesh[];
@@ -52,7 +54,7 @@ function draw(number: number, part: Part, corners: Corners): Drawn {
     empty,
     identity,
   );
-  return { number, part, corners, frames: null, geometry, material, meshes: [], firstTriangles: [] };
+  return { number, part, corners, frames: null, rightMap: corners.uvs && part.normalMap, geometry, material, meshes: [], firstTriangles: [] };
 }
 
 /** What is shown, and where in it a triangle lies. */
@@ -84,11 +86,15 @@ export class Scene {
     return drawn;
   }
 
-  setFrames(drawn: Drawn, frames: Frames): void {
+  /** What stands right of the slider. Without frames a renderer makes its own. */
+  setRight(drawn: Drawn, frames: Frames | null, map: Texture | null): void {
+    const corners = drawn.corners.positions.length / 3, { uniforms } = drawn.material;
     drawn.frames = frames;
-    drawn.geometry.setAttribute("right", new BufferAttribute(frames.tangents, 4));
-    drawn.geometry.setAttribute("error", new BufferAttribute(frames.errors, 2));
-    drawn.material.uniforms.uHasRight.value = true;
+    drawn.rightMap = drawn.corners.uvs && map;
+    drawn.geometry.setAttribute("right", new BufferAttribute(frames?.tangents ?? new Float32Array(4 * corners), 4));
+    drawn.geometry.setAttribute("error", new BufferAttribute(frames?.errors ?? new Float32Array(2 * corners).fill(-1), 2));
+    uniforms.uHasRight.value = frames !== null;
+    uniforms.uRightMap.value = drawn.rightMap ?? empty;
   }
 
   find(mesh: number, primitive: number): Drawn | undefined {
@@ -128,10 +134,11 @@ export class Scene {
   }
 
   dispose(): void {
-    for (const { geometry, material, part } of this.drawn) {
+    for (const { geometry, material, part, rightMap } of this.drawn) {
       geometry.dispose();
       material.dispose();
       part.normalMap?.dispose();
+      rightMap?.dispose();
       part.colorMap?.dispose();
     }
     this.root.clear();

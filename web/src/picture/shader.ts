@@ -49,7 +49,7 @@ uniform int uLook, uMap;
 uniform bool uHasTangents, uHasRight, uHasNormalMap, uHasColorMap, uWire, uIsPick, uIsMap, uUseColors;
 uniform float uSplit, uScale, uErrorEnd, uAlphaTest;
 uniform vec3 uColor, uLight, uEye;
-uniform sampler2D uNormalMap, uColorMap;
+uniform sampler2D uNormalMap, uRightMap, uColorMap;
 in vec3 vPlace, vNormal, vTangent, vBitangent, vRightTangent, vRightBitangent, vEdge;
 in vec2 vUv, vColorUv, vError;
 flat in vec2 vIsland;
@@ -81,7 +81,7 @@ vec3 shadingNormal(bool isRight) {
   vec3 n = vNormal;
   if (!gl_FrontFacing) n = -n;
   if (!uHasNormalMap || uMap == 0) return normalize(n);
-  vec3 texel = texture(uNormalMap, vUv).xyz * 2.0 - 1.0;
+  vec3 texel = (isRight ? texture(uRightMap, vUv) : texture(uNormalMap, vUv)).xyz * 2.0 - 1.0;
   texel.xy *= uScale;
   if (uMap == 2) texel.y = -texel.y;
   vec3 t, b;
@@ -185,7 +185,7 @@ export function makeMaterial(options: { normalMap: Texture | null; colorMap: Tex
       uWire: value(false), uIsPick: value(false), uUseColors: value(true), uSplit: value(0), uScale: value(options.scale),
       uErrorEnd: value(10), uAlphaTest: value(options.alphaTest),
       uColor: value(options.color), uLight: value(null), uEye: value(null),
-      uNormalMap: value(options.normalMap ?? empty), uColorMap: value(options.colorMap ?? empty),
+      uNormalMap: value(options.normalMap ?? empty), uRightMap: value(options.normalMap ?? empty), uColorMap: value(options.colorMap ?? empty),
     },
   });
 }

@@ -3,28 +3,27 @@
 import { checkbox, choice, count, el, replaceChildren, select } from "../dom.js";
 import { frameLines, usualEdge, type Axis } from "../picture/overlays.js";
 import { replaceOverlay, type Viewport } from "../picture/viewport.js";
-import { methods, type Method } from "../work/protocol.js";
+import { methods, nameOf, type Right } from "../work/protocol.js";
 import type { Stage } from "./stage.js";
 import type { Object3D } from "three";
 
 export class LookView {
   readonly element = el("details", { class: "panel look", open: true }, el("summary", {}, "Look"));
-  method: Method = "mikktspace";
+  right: Right = "mikktspace";
   #axes = new Set<Axis>();
   #lines: Object3D | null = null;
   #isRight = false;
   #length = 1;
   #figures = el("p", { class: "quiet figures", "aria-live": "polite" });
   #viewport: Viewport;
+  #choice: HTMLSelectElement;
 
-  constructor(private stage: Stage, methodChanged: (method: Method) => void) {
+  constructor(private stage: Stage, private changed: (right: Right) => void) {
     const { viewport } = stage;
     this.#viewport = viewport;
-    const method = select("Right frames by", methods.map((name) => [name, name] as const), this.method, (name) => {
-      this.method = name;
-      stage.setMethod(name);
-      methodChanged(name);
-    });
+    const names = [...methods, "mended"] as const;
+    const frames = select("Right frames by", names.map((name) => [name, nameOf(name)] as const), this.right, (right) => this.#choose(right));
+    this.#choice = frames.input;
     const end = select("Error scale", [["1", "0 to 1°"], ["10", "0 to 10°"], ["45", "0 to 45°"], ["180", "0 to 180°"]] as const, "10", (value) => stage.setErrorEnd(Number(value)));
     const map = choice("Normal map", [["1", "on"], ["0", "off"], ["2", "green turned"]] as const, "1", (value) => {
       viewport.settings.map = Number(value) as 0 | 1 | 2;
@@ -51,9 +50,26 @@ export class LookView {
       this.showLines();
     });
     this.element.append(
-      el("div", { class: "rows" }, method.element, end.element, this.#figures, map.element,
+      el("div", { class: "rows" }, frames.element, end.element, this.#figures, map.element,
         el("div", { class: "row" }, wire.element, colors.element),
         el("div", { class: "row lines" }, ...axes, length), whose.element));
+    this.offerMended(false);
+  }
+
+  #choose(right: Right): void {
+    this.right = right;
+    this.stage.setRight(right);
+    this.changed(right);
+  }
+
+  /** Whether there is a mended file; where there is, it is shown. */
+  offerMended(isThere: boolean): void {
+    const option = this.#choice.lastElementChild as HTMLOptionElement;
+    option.disabled = !isThere;
+    if (isThere) this.right = "mended";
+    else if (this.right === "mended") this.right = "mikktspace";
+    this.#choice.value = this.right;
+    this.stage.setRight(this.right);
   }
 
   #set(change: Partial<Viewport["settings"]>): void {
@@ -80,6 +96,6 @@ export class LookView {
     }
     replaceChildren(this.#figures, compared === 0
       ? "There are no tangents in the file to compare."
-      : `Tangents of the file: ${(sum / compared).toFixed(2)}° from ${this.method} on average, ${most.toFixed(1)}° at most; ${count(signs)} of ${count(compared)} corners have another sign.`);
+      : `Tangents of the file: ${(sum / compared).toFixed(2)}° from ${nameOf(this.right)} on average, ${most.toFixed(1)}° at most; ${count(signs)} of ${count(compared)} corners have another sign.`);
   }
 }

@@ -7,10 +7,8 @@ import { methods, type Method } from "../work/protocol.js";
 
 type Tangents = "repair" | "overwrite" | "missing";
 
-export interface Mended {
+export interface Mended extends ModelFiles {
   report: unknown;
-  bytes: Uint8Array<ArrayBuffer>;
-  name: string;
 }
 
 const kMostRows = 200;

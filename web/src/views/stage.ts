@@ -3,6 +3,7 @@
 import { choice, el } from "../dom.js";
 import type { Look } from "../picture/shader.js";
 import { Viewport } from "../picture/viewport.js";
+import { nameOf, type Right } from "../work/protocol.js";
 import { Legend } from "./legend.js";
 
 const lookNames: readonly (readonly [Look, string])[] = [
@@ -32,7 +33,7 @@ export class Stage {
   #light = el("div", { class: "light", tabindex: "0", role: "slider", "aria-label": "Light", "aria-valuemin": "-1", "aria-valuemax": "1" }, el("i"));
   #remark = el("p", { class: "remark", role: "status", hidden: true });
   #looks;
-  #method = "mikktspace";
+  #right: Right = "mikktspace";
 
   constructor() {
     const frame = el("div", { class: "frame" }, this.canvas, this.#line, this.#leftLabel, this.#rightLabel, this.#legend.element, this.#light, this.#remark);
@@ -61,8 +62,8 @@ export class Stage {
     this.#remark.hidden = sentence === "";
   }
 
-  setMethod(method: string): void {
-    this.#method = method;
+  setRight(right: Right): void {
+    this.#right = right;
     this.#refresh();
   }
 
@@ -84,8 +85,8 @@ export class Stage {
     const { look, errorEnd } = this.viewport.settings;
     const isSplit = hasSplit(look);
     for (const element of [this.#split, this.#line, this.#leftLabel, this.#rightLabel]) element.hidden = !isSplit;
-    this.#rightLabel.textContent = `right frames (${this.#method})`;
-    this.#legend.show(look, errorEnd, this.#method);
+    this.#rightLabel.textContent = this.#right === "mended" ? "mended" : `right frames (${this.#right})`;
+    this.#legend.show(look, errorEnd, nameOf(this.#right));
     this.viewport.ask();
   }
 

@@ -98,9 +98,12 @@ export class TexelView {
     const n = mixed(corners.normals, 3);
     const uv: [number, number] | null = corners.uvs && [mix(corners.uvs, 2, 0), mix(corners.uvs, 2, 1)];
     this.found({ drawn, partIndex: this.viewport.scene.drawn.indexOf(drawn), uv });
-    const texel = uv && part.normalMap ? this.#reader.read(part.normalMap, uv[0], uv[1]) : null;
-    const decoded = new Vector3(0, 0, 1);
-    if (texel) decoded.set(...(texel.rgb.map((x) => (x / 255) * 2 - 1) as [number, number, number])).multiply(new Vector3(part.normalScale, part.normalScale, 1)).normalize();
+    const texelOf = (map: Texture | null) => (uv && map ? this.#reader.read(map, uv[0], uv[1]) : null);
+    const normalOf = (texel: ReturnType<typeof texelOf>) => {
+      const [x, y, z] = texel ? texel.rgb.map((c) => (c / 255) * 2 - 1) : [0, 0, 1];
+      return new Vector3(x * part.normalScale, y * part.normalScale, z).normalize();
+    };
+    const texel = texelOf(part.normalMap), decoded = normalOf(texel);
     const rows: [string, string][] = [];
     const vertices = [0, 1, 2].map((k) => (part.arrays.indices ? part.arrays.indices[3 * triangle + k] : 3 * triangle + k));
     rows.push(["Triangle", `${triangle} (vertices ${vertices.join(", ")})`]);
@@ -108,7 +111,8 @@ export class TexelView {
     if (texel) rows.push(["Texel", `${texel.column}, ${texel.row}: ${texel.rgb.join(" ")}`], ["Its normal", text(decoded)]);
     rows.push(["N", text(n.clone().normalize())]);
     const results: Vector3[] = [];
-    for (const [whose, tangents] of [["file", corners.tangents], ["right", frames?.tangents ?? null]] as const) {
+    const rightNormal = drawn.rightMap === part.normalMap ? decoded : normalOf(texelOf(drawn.rightMap));
+    for (const [whose, tangents, lit] of [["file", corners.tangents, decoded], ["right", frames?.tangents ?? null, rightNormal]] as const) {
       if (!tangents) {
         rows.push([`T, ${whose}`, "none"]);
         continue;
@@ -116,7 +120,7 @@ export class TexelView {
       const t = mixed(tangents, 4), w = mix(tangents, 4, 3);
       const bitangent = n.clone().cross(t).multiplyScalar(w);
       rows.push([`T, ${whose}`, text(t.clone().normalize())], [`B, ${whose}`, `${text(bitangent.clone().normalize())}  (w ${w > 0 ? "+" : "−"}${Math.abs(w).toFixed(w * w === 1 ? 0 : 2)})`]);
-      results.push(decoded.clone().applyMatrix3(new Matrix3().set(t.x, bitangent.x, n.x, t.y, bitangent.y, n.y, t.z, bitangent.z, n.z)).normalize());
+      results.push(lit.clone().applyMatrix3(new Matrix3().set(t.x, bitangent.x, n.x, t.y, bitangent.y, n.y, t.z, bitangent.z, n.z)).normalize());
     }
     const list = el("dl", {});
     for (const [name, value] of rows) list.append(el("dt", {}, name), el("dd", {}, value));

@@ -127,7 +127,18 @@ export async function computeFrames(arrays: Arrays, method: Method): Promise<Fra
     const own = Uint32Array.from(vertices, (_, corner) => corner);
     mesh = { positions: gather(arrays.positions, 3, vertices), normals: generateNormals(mesh, { weighting: "flat" }), uvs: arrays.uvs && gather(arrays.uvs, 2, vertices), indices: own };
   }
-  const tangents = generateTangents(mesh, { convention: "gltf", method: arrays.uvs ? method : "basis" }) as Float32Array<ArrayBuffer>;
+  return compared(generateTangents(mesh, { convention: "gltf", method: arrays.uvs ? method : "basis" }) as Float32Array<ArrayBuffer>, arrays, vertices);
+}
+
+/** Those that another file has for the same triangles. */
+export function otherFrames(arrays: Arrays, others: Arrays): Frames | null {
+  const vertices = cornerVertices(arrays), theirs = cornerVertices(others);
+  if (!others.tangents || theirs.length !== vertices.length) return null;
+  return compared(gather(others.tangents, 4, theirs), arrays, vertices);
+}
+
+/** With what the arrays' own tangents are against them. */
+function compared(tangents: Float32Array<ArrayBuffer>, arrays: Arrays, vertices: Uint32Array): Frames {
   const frames: Frames = { tangents, errors: new Float32Array(2 * vertices.length), compared: 0, meanDegrees: 0, maxDegrees: 0, wrongSigns: 0 };
   for (let corner = 0; corner < vertices.length; ++corner) {
     const stored = arrays.tangents, at = 4 * vertices[corner];

@@ -4,6 +4,9 @@ import type { ModelFiles } from "../files.js";
 
 export const methods = ["mikktspace", "best", "fast", "angle", "area", "uniform", "lengyel", "flat"] as const;
 export type Method = (typeof methods)[number];
+/** What stands right of the slider: frames by a method, or those of the file that Mend has made. */
+export type Right = Method | "mended";
+export const nameOf = (right: Right): string => (right === "mended" ? "the mended file" : right);
 
 /** The arrays of a primitive as its file has them. */
 export interface Arrays {
@@ -28,7 +31,7 @@ export interface Corners {
   normalsMade: boolean;
 }
 
-/** Frames by a method, and how far those of the file are from them. */
+/** Frames by a method or of another file, and how far those of the file are from them. */
 export interface Frames {
   /** Four numbers per corner. */
   tangents: Float32Array<ArrayBuffer>;
@@ -47,6 +50,8 @@ export interface Calls {
   generate: { ask: { model: ModelFiles; options: Record<string, unknown> }; answer: { report: unknown; bytes: Uint8Array<ArrayBuffer> } };
   corners: { ask: { part: number; arrays: Arrays }; answer: Corners };
   frames: { ask: { part: number; method: Method }; answer: Frames };
+  /** Frames of the same part in another file: null where it has none, or has other triangles. */
+  otherFrames: { ask: { part: number; arrays: Arrays }; answer: Frames | null };
   forget: { ask: Record<string, never>; answer: null };
 }
 export type Call = keyof Calls;

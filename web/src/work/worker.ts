@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Everything that takes time: reports on files, and frames of the parts that the page shows.
-import { computeFrames, cornersOf } from "./corners.js";
+import { computeFrames, cornersOf, otherFrames } from "./corners.js";
 import { generateModel, reportOn } from "./model_calls.js";
 import type { Answer, Arrays, Question } from "./protocol.js";
 
 const parts = new Map<number, Arrays>();
 let turn = Promise.resolve();
+
+function known(part: number): Arrays {
+  const arrays = parts.get(part);
+  if (!arrays) throw Object.assign(new Error("the part is not known any more"), { code: "unknownPart" });
+  return arrays;
+}
 
 async function answerTo(question: Question): Promise<{ answer: unknown; transfer?: Transferable[] }> {
   switch (question.call) {
@@ -20,10 +26,12 @@ async function answerTo(question: Question): Promise<{ answer: unknown; transfer
       return { answer, transfer: [...new Set(buffers)].filter((buffer) => buffer !== undefined) };
     }
     case "frames": {
-      const arrays = parts.get(question.ask.part);
-      if (!arrays) throw Object.assign(new Error("the part is not known any more"), { code: "unknownPart" });
-      const answer = await computeFrames(arrays, question.ask.method);
+      const answer = await computeFrames(known(question.ask.part), question.ask.method);
       return { answer, transfer: [answer.tangents.buffer, answer.errors.buffer] };
+    }
+    case "otherFrames": {
+      const answer = otherFrames(known(question.ask.part), question.ask.arrays);
+      return { answer, transfer: answer ? [answer.tangents.buffer, answer.errors.buffer] : [] };
     }
     case "forget":
       parts.clear();
