@@ -9,12 +9,6 @@
 namespace tspace::options {
 namespace {
 
-const Option* findOption(const OptionList& list, const std::string& name) {
-    const auto found =
-        std::find_if(list.begin(), list.end(), [&](const Option& option) { return option.name() == name; });
-    return found != list.end() ? &*found : nullptr;
-}
-
 /// A value as it stands on a command line; of a list, with commas. Empty where it is neither text nor a number.
 std::string wordOf(const Json& value, bool is_list) {
     if (value.is_string()) return value.text();

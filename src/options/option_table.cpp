@@ -110,6 +110,12 @@ std::string checkTogether(const OptionList& list, const Given& given) {
     return {};
 }
 
+const Option* findOption(const OptionList& list, const std::string& name) {
+    const auto found =
+        std::find_if(list.begin(), list.end(), [&](const Option& option) { return option.name() == name; });
+    return found != list.end() ? &*found : nullptr;
+}
+
 std::string unknownOption(const OptionList& list, const std::string& name) {
     std::vector<std::string> names;
     for (const Option& option : list) names.insert(names.end(), option.names.rbegin(), option.names.rend());

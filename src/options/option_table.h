@@ -57,6 +57,8 @@ std::string giveValue(const Option& option, const std::string& value, Given& giv
 /// Returns which options exclude each other or are missing, or nothing.
 std::string checkTogether(const OptionList& list, const Given& given);
 
+/// The option of this long name; null: there is none.
+const Option* findOption(const OptionList& list, const std::string& name);
 /// What to say of a name that no option has.
 std::string unknownOption(const OptionList& list, const std::string& name);
 

@@ -10,47 +10,40 @@
 
 namespace tspace {
 
-namespace {
-
-/// The same model after a command.
-struct MendedModel {
-    MendedModel(const std::string& input, const FileOptions& options, const Scene& before,
-                const GenerateOptions& command)
-        : file(input, options, command),
-          model("mended.glb", file.open()),
-          pairs(pairPrimitives(before, model.scene())) {}
-
-    MendedFile file;
-    PicturedModel model;
-    std::vector<PrimitivePair> pairs;
-};
-
-/// A command that was run: a model, or why there is none.
-struct Mending {
-    std::unique_ptr<MendedModel> model = {};
-    std::string why_not = {};
-};
-
-Mending runCommand(const std::string& input, const FileOptions& options, const Scene& before,
-                   const GenerateOptions& command) {
-    Mending mending;
-    try {
-        mending.model = std::make_unique<MendedModel>(input, options, before, command);
-    } catch (const FileError& failure) {
-        mending.why_not = "It cannot be run here: " + failure.error.message + ".";
-    }
-    return mending;
-}
-
-}  // namespace
-
 struct FindingPictures::Model {
+    /// The same model after a command.
+    struct MendedModel {
+        MendedModel(const std::string& input, const FileOptions& options, const Scene& before,
+                    const GenerateOptions& command)
+            : file(input, options, command),
+              model("mended.glb", file.open()),
+              pairs(pairPrimitives(before, model.scene())) {}
+
+        MendedFile file;
+        PicturedModel model;
+        std::vector<PrimitivePair> pairs;
+    };
+
+    /// A command that was run: a model, or why there is none.
+    struct Mending {
+        std::unique_ptr<MendedModel> model = {};
+        std::string why_not = {};
+    };
+
     Model(std::string path, const FileOptions& options) : input(std::move(path)), file(options), before(input, file) {}
 
     Mending& mendedBy(const RemedyCommand& command) {
-        const auto known = mended.find(command.text);
-        if (known != mended.end()) return known->second;
-        return mended.emplace(command.text, runCommand(input, file, before.scene(), *command.options)).first->second;
+        const auto [mending, is_new] = mended.try_emplace(command.text);
+        if (is_new) run(*command.options, mending->second);
+        return mending->second;
+    }
+
+    void run(const GenerateOptions& command, Mending& mending) {
+        try {
+            mending.model = std::make_unique<MendedModel>(input, file, before.scene(), command);
+        } catch (const FileError& failure) {
+            mending.why_not = "It cannot be run here: " + failure.error.message + ".";
+        }
     }
 
     std::string input;
@@ -81,7 +74,7 @@ FindingPicture FindingPictures::draw(const Finding& finding) {
         result.why_no_after = "It leaves a choice open.";
         return result;
     }
-    const Mending& mending = model_->mendedBy(*command);
+    const Model::Mending& mending = model_->mendedBy(*command);
     if (!mending.model) {
         result.why_no_after = mending.why_not;
         return result;

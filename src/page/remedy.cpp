@@ -22,13 +22,6 @@ std::string_view wordAt(std::string_view text, std::size_t at) {
     return text.substr(at, std::min(end, text.size()) - at);
 }
 
-const options::Option* findOption(const options::OptionList& list, std::string_view name) {
-    const auto found = std::find_if(list.begin(), list.end(), [&](const options::Option& option) {
-        return std::find(option.names.begin(), option.names.end(), name) != option.names.end();
-    });
-    return found == list.end() ? nullptr : &*found;
-}
-
 }  // namespace
 
 std::optional<RemedyCommand> commandIn(const std::string& remedy) {
@@ -44,7 +37,7 @@ std::optional<RemedyCommand> commandIn(const std::string& remedy) {
     const auto nextWord = [&] { return end < text.size() && text[end] == ' ' ? wordAt(text, end + 1) : ""; };
     for (std::string_view word = nextWord(); word.starts_with("--"); word = nextWord()) {
         end += 1 + word.size();
-        const options::Option* option = findOption(list, word);
+        const options::Option* option = options::findOption(list, std::string(word));
         std::string value;
         if (option != nullptr && !option->value.empty()) {
             value = nextWord();
