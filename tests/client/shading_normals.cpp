@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // shading_normals MODEL OUT SIZE: the normals that `tspace render` shades, read as three.js reads normal maps, from the
-// front without perspective: SIZE x SIZE pixels of four floats, the last of which is 1 where there is a surface.
+// front without perspective: SIZE x SIZE pixels of four floats, the last of which is 1 where there is a surface. Corners of
+// triangles are rounded as Chromium's rasteriser in software rounds them, so that the same points of a surface are compared.
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -12,6 +14,21 @@
 using namespace tspace;  // NOLINT: a small program
 
 namespace {
+
+/// SUBPIXEL_BITS of SwiftShader is 4. Where eight texels lie under a pixel, this alone moves normals by 0.2 degrees.
+constexpr double kPixelParts = 16;
+
+/// A triangle as that rasteriser sees it, without perspective.
+SeenTriangle roundedTriangle(const DrawnMesh& mesh, std::size_t triangle, const Camera& camera) {
+    std::array<SeenPoint, 3> points;
+    for (std::size_t k = 0; k < 3; ++k) {
+        SeenPoint& point = points[k];
+        point = camera.see(mesh.to_world.point(toDouble(mesh.positions[mesh.corners[3 * triangle + k]])));
+        point.x = std::floor(point.x * kPixelParts + 0.5) / kPixelParts;
+        point.y = std::floor(point.y * kPixelParts + 0.5) / kPixelParts;
+    }
+    return SeenTriangle(points);
+}
 
 std::vector<float> normalsOf(const std::string& path, std::uint32_t size) {
     const DrawnScene drawn = readDrawnScene(path, {.memory_limit_bytes = kNoMemoryLimit}, true);
@@ -36,8 +53,11 @@ std::vector<float> normalsOf(const std::string& path, std::uint32_t size) {
                 continue;
             }
             const VisibleTriangles::Place place = visible.placeOf(number);
-            const SeenTriangle seen = visible.seen(place);
-            const Affine& to_world = model.meshes()[place.mesh].to_world;
+            const DrawnMesh& mesh = model.meshes()[place.mesh];
+            const SeenTriangle rounded = roundedTriangle(mesh, place.triangle, camera);
+            // Rounding leaves nothing of the thinnest.
+            const SeenTriangle seen = rounded.isSeen() ? rounded : visible.seen(place);
+            const Affine& to_world = mesh.to_world;
             const SurfacePoint point{.triangle = place.triangle,
                                      .weights = seen.weightsAt(x + 0.5, y + 0.5),
                                      .is_back = seen.isFront() == (to_world.determinant() < 0)};

@@ -54,7 +54,9 @@ try {
         renderer.readRenderTargetPixels(target, 0, 0, size, size, pixels);
         await send(`/normals/${name}`, pixels);
     }
-    await send("/done", `three.js ${THREE.REVISION}, ${navigator.userAgent.match(/Chrome\/[\d.]+/)}`);
+    const gl = renderer.getContext();
+    const parts = 2 ** gl.getParameter(gl.SUBPIXEL_BITS);
+    await send("/done", `three.js ${THREE.REVISION}, ${navigator.userAgent.match(/Chrome\/[\d.]+/)}, corners in 1/${parts} pixel`);
 } catch (error) {
     await send("/failed", String(error?.stack ?? error));
 }
