@@ -22,5 +22,7 @@ std::optional<FloatImage> decodeFloatImage(ByteSpan bytes, std::uint64_t most_pi
 /// A PNG of 8 or 16 bits without a word on colours: each channel clamped to 0 to 1, then rounded to the nearest integer
 /// (not finite: 0). Nothing where this build writes no PNG or libspng fails.
 std::optional<std::vector<std::uint8_t>> encodePng(const FloatImage& image, unsigned bits);
+/// The same of bytes.
+std::optional<std::vector<std::uint8_t>> encodePng(const RgbImage& image);
 
 }  // namespace tspace

@@ -23,6 +23,8 @@ struct TextureShape {
 /// The texel that stands at column (or row) `at` of a texture that goes on in all directions. Any number.
 inline std::uint32_t wrappedTexel(std::int64_t at, std::uint32_t size, TextureWrap wrap) {
     const std::int64_t count = size;
+    // Nearly always, and a division takes longer than all else here.
+    if (at >= 0 && at < count) return static_cast<std::uint32_t>(at);
     if (wrap == TextureWrap::clamp) return static_cast<std::uint32_t>(at < 0 ? 0 : at < count ? at : count - 1);
     const std::int64_t period = wrap == TextureWrap::mirror ? 2 * count : count;
     std::int64_t inside = at % period;
@@ -49,8 +51,9 @@ inline BilinearTaps bilinearTaps(const TextureShape& shape, Vec2 uv) {
         return std::size_t{wrappedTexel(static_cast<std::int64_t>(top) + step, shape.height, shape.wrap_v)} *
                shape.width;
     };
+    const std::size_t columns[] = {column(0), column(1)}, rows[] = {row(0), row(1)};
     const auto right = static_cast<float>(x - left), below = static_cast<float>(y - top);
-    return {{row(0) + column(0), row(0) + column(1), row(1) + column(0), row(1) + column(1)},
+    return {{rows[0] + columns[0], rows[0] + columns[1], rows[1] + columns[0], rows[1] + columns[1]},
             {(1 - right) * (1 - below), right * (1 - below), (1 - right) * below, right * below}};
 }
 

@@ -2,6 +2,7 @@
 #include "picture/colors.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace tspace {
 
@@ -14,13 +15,24 @@ double fifthRoot(double a) {
     return root;
 }
 
-/// Where the light of one byte ends and that of the next begins.
-std::array<float, 255> byteBorders() {
-    std::array<float, 255> borders;
-    for (std::size_t i = 0; i < borders.size(); ++i)
-        borders[i] = static_cast<float>(srgbToLight((static_cast<double>(i) + 0.5) / 255));
-    return borders;
-}
+/// From light to bytes: where the light of one byte ends and that of the next begins, and, so that few of these are looked
+/// at, the byte of the darkest light of each of many steps.
+struct ByteBorders {
+    static constexpr std::size_t kSteps = 4096;
+    std::array<float, 256> borders;
+    std::array<std::uint8_t, kSteps + 1> first;
+
+    ByteBorders() {
+        for (std::size_t i = 0; i < 255; ++i)
+            borders[i] = static_cast<float>(srgbToLight((static_cast<double>(i) + 0.5) / 255));
+        borders[255] = std::numeric_limits<float>::infinity();
+        for (std::size_t step = 0; step <= kSteps; ++step) {
+            const float light = static_cast<float>(step) / kSteps;
+            first[step] =
+                static_cast<std::uint8_t>(std::upper_bound(borders.begin(), borders.end(), light) - borders.begin());
+        }
+    }
+};
 
 }  // namespace
 
@@ -40,9 +52,11 @@ std::vector<float> srgbTable(unsigned bits) {
 }
 
 std::uint8_t lightToSrgb(float light) {
-    static const std::array<float, 255> borders = byteBorders();
-    return static_cast<std::uint8_t>(std::upper_bound(borders.begin(), borders.end(), light > 0 ? light : 0.0f) -
-                                     borders.begin());
+    static const ByteBorders table;
+    const float inside = light > 0 ? std::min(light, 1.0f) : 0.0f;
+    std::uint8_t byte = table.first[static_cast<std::size_t>(inside * ByteBorders::kSteps)];
+    while (table.borders[byte] <= inside) ++byte;
+    return byte;
 }
 
 std::uint8_t storedByte(float value) {
