@@ -19,7 +19,8 @@ constexpr const char* kOtherTool =
 constexpr const char* kLookAtTheMap =
     "Look at the normal map. If its green points up, negate every w. If it points down, do both or neither: negate "
     "every "
-    "w and invert the green channel, or leave both as they are.";
+    "w and invert the green channel, or leave both as they are. Where the high poly is at hand, tspace map-error MAP "
+    "MODEL --high HIGH says which, in degrees.";
 
 constexpr const char* kOnlyForItsReaders =
     "Nothing needs to be done for programs that read the packed frames. For others take the model that they were "

@@ -61,11 +61,13 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "Give both textures the same UV set and the same rotation and mirroring; a mesh can hold only one tangent per "
      "vertex."},
     {"greenFlipped",
-     "Look at the map: if it was made for DirectX, invert its green channel: tspace generate --flip-green."},
+     "Look at the map: if it was made for DirectX, invert its green channel: tspace generate --flip-green. Where the "
+     "high poly is at hand, tspace map-error MAP MODEL --high HIGH says which way it points, in degrees."},
     {"normalMapUnreadable", "Convert the image to PNG, JPEG or WebP to have it looked at."},
     {"fileRemark", "Mend the file where that matters. The rest of this report is about what could be read."},
     {"greenMixed",
-     "Bake the map anew, all of it one way; or invert green with an image editor where it points down, and nowhere "
+     "Bake the map anew, all of it one way (tspace bake MODEL --high HIGH -o MAP.png); or invert green with an image "
+     "editor where it points down, and nowhere "
      "else. "
      "To invert the whole map would spoil the other part."},
     {"packedFramesUnreadable", "Pack them anew, in the format that the attribute names: tspace generate --pack."},
