@@ -7,6 +7,7 @@
 #include <cstring>
 #include <vector>
 
+#include "byte_reader.h"
 #include "tspace/indexed_frames.h"
 #include "tspace/normals.h"
 #include "tspace/sanitize.h"
@@ -18,33 +19,15 @@ namespace {
 
 using namespace tspace;
 
-void require(bool holds, const char* what) {
-    if (holds) return;
-    std::fprintf(stderr, "fuzz: this does not hold: %s\n", what);
-    std::abort();
-}
-
-/// Reads values off the input; zeros once it is used up.
-class Reader {
+class Reader : public ByteReader {
   public:
-    Reader(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
+    using ByteReader::ByteReader;
 
-    std::uint8_t byte() { return at_ < size_ ? data_[at_++] : 0; }
-    float any() {
-        std::uint8_t bytes[4] = {byte(), byte(), byte(), byte()};
-        float value = 0;
-        std::memcpy(&value, bytes, sizeof value);
-        return value;
-    }
     /// Few different values, so that corners weld and triangles collapse; now and then any bits at all.
     float value() {
         const std::uint8_t b = byte();
         return b == 255 ? any() : static_cast<float>(b % 7) - 3;
     }
-
-  private:
-    const std::uint8_t* data_;
-    std::size_t size_, at_ = 0;
 };
 
 struct Input {

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Baking and measuring: any low poly, any high poly, any options give an error, or a map whose channels all lie in 0 to 1 and
+// the same for two threads. Without Embree nothing is baked, and nothing is looked for.
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "byte_reader.h"
+#include "tspace/map_bake.h"
+
+namespace {
+
+using namespace tspace;
+
+class BakeReader : public ByteReader {
+  public:
+    using ByteReader::ByteReader;
+
+    /// Mostly small steps, so that surfaces meet; now and then any bits at all.
+    float value() {
+        const std::uint8_t b = byte();
+        return b == 255 ? any() : static_cast<float>(b % 17) / 8 - 1;
+    }
+    Vec3 vector() { return {value(), value(), value()}; }
+};
+
+struct Meshes {
+    std::vector<Vec3> positions = {}, normals = {}, cage = {}, high_positions = {}, high_normals = {};
+    std::vector<Vec4> tangents = {};
+    std::vector<Vec2> uvs = {};
+    std::vector<std::uint32_t> corners = {}, groups = {}, high_groups = {};
+
+    explicit Meshes(BakeReader& in) {
+        const unsigned kinds = in.byte();
+        const std::size_t low_corners = 3 * (1 + in.byte() % 6u);
+        for (std::size_t i = 0; i < low_corners; ++i) {
+            positions.push_back(in.vector());
+            normals.push_back(in.vector());
+            const Vec3 direction = in.vector();
+            tangents.push_back({direction.x, direction.y, direction.z, in.byte() % 2 == 0 ? 1.0F : -1.0F});
+            uvs.push_back({in.value(), in.value()});
+            if ((kinds & 1) != 0) cage.push_back(in.vector());
+        }
+        const std::size_t vertices = 3 + in.byte() % 12u;
+        for (std::size_t i = 0; i < vertices; ++i) {
+            high_positions.push_back(in.vector());
+            if ((kinds & 2) != 0) high_normals.push_back(in.vector());
+        }
+        const std::size_t triangles = in.byte() % 12u;
+        for (std::size_t i = 0; i < 3 * triangles; ++i)
+            corners.push_back(in.byte() % static_cast<std::uint32_t>(vertices + ((kinds & 4) != 0 ? 1 : 0)));
+        if ((kinds & 8) == 0) return;
+        for (std::size_t i = 0; i < low_corners / 3; ++i) groups.push_back(in.byte() % 2);
+        for (std::size_t i = 0; i < triangles; ++i) high_groups.push_back(in.byte() % 2);
+    }
+    [[nodiscard]] LowPoly low() const {
+        return {.positions = positions,
+                .normals = normals,
+                .tangents = tangents,
+                .uvs = uvs,
+                .cage = cage,
+                .groups = groups};
+    }
+    [[nodiscard]] HighPoly high() const {
+        return {.positions = high_positions, .normals = high_normals, .corners = corners, .groups = high_groups};
+    }
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    BakeReader in(data, size);
+    const unsigned flags = in.byte();
+    BakeOptions options{.width = 1 + in.byte() % 24u, .height = 1 + in.byte() % 24u};
+    options.bits = (flags & 1) != 0 ? 8 : 16;
+    options.space = (flags & 2) != 0 ? MapSpace::object : MapSpace::tangent;
+    options.fit = (flags & 4) != 0 ? MapFit::texel : MapFit::solve;
+    options.reading.two_channels = (flags & 8) != 0;
+    options.reading.green = (flags & 16) != 0 ? Green::down : Green::up;
+    options.reading.bitangent = (flags & 32) != 0 ? BitangentPlace::perVertex : BitangentPlace::perPixel;
+    options.reading.unit_vectors = (flags & 64) != 0;
+    options.heat = (flags & 128) != 0;
+    options.padding = in.byte() % 8u;
+    options.execution.thread_count = 1;
+    const Meshes meshes(in);
+    const Result<BakedMap> map = bakeMap(meshes.low(), meshes.high(), options);
+    if (!map) return 0;
+    for (const Vec3& texel : map->texels) {
+        for (const float channel : {texel.x, texel.y, texel.z})
+            require(channel >= 0 && channel <= 1, "a channel lies in 0 to 1");
+    }
+    require(std::isfinite(map->error.mean_deg) && std::isfinite(map->error.max_deg), "errors are finite");
+    require(map->hit_count + map->missed_count + map->padding_count <= map->texels.size(), "texels are counted once");
+    options.execution.thread_count = 2;
+    const Result<BakedMap> again = bakeMap(meshes.low(), meshes.high(), options);
+    require(again && std::memcmp(again->texels.data(), map->texels.data(), map->texels.size() * sizeof(Vec3)) == 0,
+            "two threads give the same texels");
+    return 0;
+}
