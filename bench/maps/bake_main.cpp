@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: MIT
-// tspace_maps_bench: errors of baked maps, in degrees, on surfaces with a formula.
+// tspace_bake_bench: errors of baked maps, in degrees, on surfaces with a formula; and these surfaces as files.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <map>
+#include <fstream>
+#include <string>
+#include <vector>
 
 #include "bake_cases.h"
+#include "core/unit.h"
 
 namespace {
 
 using namespace tspace;
 using namespace tspace::bench;
 
+/// Geometric means over surfaces.
 struct Means {
     double log_mean = 0, log_p99 = 0, log_seam = 0, log_inside = 0;
     int count = 0;
@@ -25,63 +29,154 @@ struct Means {
         log_inside += std::log(error.inside_mean_deg);
         ++count;
     }
-    [[nodiscard]] double of(double sum) const { return std::exp(sum / count); }
+    [[nodiscard]] double mean() const { return std::exp(log_mean / count); }
+    [[nodiscard]] double p99() const { return std::exp(log_p99 / count); }
+    [[nodiscard]] double seam() const { return std::exp((log_seam - log_inside) / count); }
 };
+
+[[noreturn]] void stop(const char* surface, const Error& error) {
+    std::fprintf(stderr, "%s: %s\n", surface, error.message.c_str());
+    std::exit(1);
+}
+
+std::vector<const accuracy::Surface*> chosenSurfaces(bool held_out) {
+    std::vector<const accuracy::Surface*> chosen;
+    for (const accuracy::Surface& surface : held_out ? accuracy::heldOutSurfaces() : accuracy::surfaces()) {
+        bool wanted = held_out && surface.fold < 0 && !surface.is_flat;
+        for (const char* name : {"torus", "saddle", "bumpy", "cube-sphere"})
+            wanted = wanted || (!held_out && std::strcmp(name, surface.name) == 0);
+        if (wanted) chosen.push_back(&surface);
+    }
+    return chosen;
+}
+
+/// What one kind of case gives: maps that are exact at each texel's centre, and solved ones.
+struct CaseMeans {
+    Means exact16, solved16, plain8, solved8;
+    double slowest = 0;
+};
+
+void addSurface(const accuracy::Surface& surface, Charts charts, bool relief, std::uint32_t size, CaseMeans& means) {
+    const LowMesh low = makeLow(surface, charts);
+    const HighMesh high = makeHigh(surface, relief ? 512 : 256, relief);
+    const auto baked = [&](unsigned bits, MapFit fit) {
+        BakeOptions options{.width = size, .height = size, .bits = bits, .fit = fit};
+        options.execution.thread_count = 2;
+        const auto start = std::chrono::steady_clock::now();
+        Result<BakedMap> map = bakeMap(low.view(), high.view(), options);
+        if (!map) stop(surface.name, map.error());
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+        means.slowest = std::max(means.slowest, took.count());
+        return *std::move(map);
+    };
+    const BakedMap exact = baked(16, MapFit::texel);
+    means.exact16.add(exact.error);
+    means.solved16.add(baked(16, MapFit::solve).error);
+    means.solved8.add(baked(8, MapFit::solve).error);
+    // Plain rounding of the same map.
+    std::vector<Vec3> texels = exact.texels;
+    const auto rounded = [](float channel) { return std::floor(channel * 255 + 0.5F) / 255; };
+    for (Vec3& texel : texels) texel = {rounded(texel.x), rounded(texel.y), rounded(texel.z)};
+    const Result<MapError> plain = measureMap({size, size, texels}, low.view(), high.view());
+    if (!plain) stop(surface.name, plain.error());
+    means.plain8.add(*plain);
+}
+
+void printRow(const char* name, unsigned bits, const Means& exact, const Means& solved, const char* asked) {
+    std::printf("| %-22s | %2u | %.4f / %.4f | %.4f / %.4f | %.2f | %.2f | %.2f | %.2f | %s |\n", name, bits,
+                exact.mean(), exact.p99(), solved.mean(), solved.p99(), solved.mean() / exact.mean(),
+                solved.p99() / exact.p99(), exact.seam(), solved.seam(), asked);
+    std::fflush(stdout);
+}
+
+void printTable(std::uint32_t size, bool held_out) {
+    std::printf("%u x %u texels%s. Degrees, mean / p99; geometric means over the surfaces.\n\n", size, size,
+                held_out ? ", surfaces that nothing was tuned on" : "");
+    std::printf(
+        "| case | bits | exact at centres (8 bits: rounded) | solved | mean | p99 | seams, exact | seams, solved | "
+        "asked |\n"
+        "|---|---|---|---|---|---|---|---|---|\n");
+    double slowest = 0;
+    const struct {
+        Charts charts;
+        const char* name;
+    } kinds[] = {{Charts::one, "one chart"}, {Charts::four, "four charts"}, {Charts::mirrored, "mirrored halves"}};
+    for (const auto& kind : kinds) {
+        for (const bool relief : {false, true}) {
+            CaseMeans means;
+            for (const accuracy::Surface* surface : chosenSurfaces(held_out))
+                addSurface(*surface, kind.charts, relief, size, means);
+            const std::string name = std::string(relief ? "relief, " : "smooth, ") + kind.name;
+            printRow(name.c_str(), 16, means.exact16, means.solved16, relief ? ".55, .70" : ".92, .70");
+            printRow(name.c_str(), 8, means.plain8, means.solved8, relief ? ".40, .95" : ".65, .95");
+            slowest = std::max(slowest, means.slowest);
+        }
+    }
+    std::printf("\nSlowest bake: %.1f s (2 threads, on the clock).\n", slowest);
+}
+
+void writeObj(const std::string& path, std::span<const Vec3> positions, std::span<const Vec3> normals,
+              std::span<const Vec2> uvs, std::span<const std::uint32_t> corners) {
+    std::ofstream file(path);
+    file.precision(9);
+    for (const Vec3& at : positions) file << "v " << at.x << ' ' << at.y << ' ' << at.z << '\n';
+    for (const Vec3& normal : normals) file << "vn " << normal.x << ' ' << normal.y << ' ' << normal.z << '\n';
+    // Upwards in OBJ, downwards here.
+    for (const Vec2& uv : uvs) file << "vt " << uv.x << ' ' << 1 - uv.y << '\n';
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (i % 3 == 0) file << (i == 0 ? "f" : "\nf");
+        const std::uint32_t n = corners[i] + 1;
+        file << ' ' << n << '/';
+        if (!uvs.empty()) file << n;
+        file << '/' << n;
+    }
+    file << '\n';
+    if (!file.flush()) {
+        std::fprintf(stderr, "cannot write %s\n", path.c_str());
+        std::exit(1);
+    }
+}
+
+/// low.obj, cage.obj (the low poly moved along its normals by `reach`) and high.obj.
+void writeModels(const std::string& folder, const char* name, bool relief, int cells, double reach) {
+    for (const bool held_out : {false, true}) {
+        for (const accuracy::Surface* surface : chosenSurfaces(held_out)) {
+            if (std::strcmp(surface->name, name) != 0) continue;
+            const LowMesh low = makeLow(*surface, Charts::one);
+            std::vector<std::uint32_t> corners(low.positions.size());
+            std::vector<Vec3> cage = low.positions;
+            for (std::size_t i = 0; i < corners.size(); ++i) {
+                corners[i] = static_cast<std::uint32_t>(i);
+                cage[i] = cage[i] + static_cast<float>(reach) * low.normals[i];
+            }
+            writeObj(folder + "/low.obj", low.positions, low.normals, low.uvs, corners);
+            writeObj(folder + "/cage.obj", cage, low.normals, low.uvs, corners);
+            const HighMesh high = makeHigh(*surface, cells, relief);
+            writeObj(folder + "/high.obj", high.positions, high.normals, {}, high.corners);
+            return;
+        }
+    }
+    std::fprintf(stderr, "no surface is called %s\n", name);
+    std::exit(2);
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    const std::uint32_t size = argc > 1 ? static_cast<std::uint32_t>(std::atoi(argv[1])) : 512;
-    const bool held_out = argc > 2 && std::strcmp(argv[2], "held-out") == 0;
-    const char* const only[] = {"torus", "saddle", "bumpy", "cube-sphere"};
-    for (const Charts charts : {Charts::one, Charts::four, Charts::mirrored}) {
-        for (const bool relief : {false, true}) {
-            std::map<std::string, Means> rows;
-            for (const accuracy::Surface& surface : held_out ? accuracy::heldOutSurfaces() : accuracy::surfaces()) {
-                bool wanted = held_out && surface.fold < 0 && !surface.is_flat;
-                for (const char* name : only) wanted = wanted || std::strcmp(name, surface.name) == 0;
-                if (!wanted) continue;
-                const LowMesh low = makeLow(surface, charts);
-                const HighMesh high = makeHigh(surface, relief ? 512 : 256, relief);
-                for (const unsigned bits : {16U, 8U}) {
-                    for (const MapFit fit : {MapFit::texel, MapFit::solve}) {
-                        BakeOptions options{.width = size, .height = size, .bits = bits, .fit = fit};
-                        options.execution.thread_count = 2;
-                        const auto start = std::chrono::steady_clock::now();
-                        const Result<BakedMap> map = bakeMap(low.view(), high.view(), options);
-                        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-                        if (!map) {
-                            std::printf("%s: %s\n", surface.name, map.error().message.c_str());
-                            return 1;
-                        }
-                        const std::string row = std::to_string(bits) + (fit == MapFit::solve ? " solve" : " texel");
-                        rows[row].add(map->error);
-                        std::printf(
-                            "%-16s %d %s %-8s mean %.4f p99 %.4f max %.3f seam %.4f inside %.4f missed %zu/%zu overlap "
-                            "%zu conflict %zu %.2f s\n",
-                            surface.name, static_cast<int>(charts), relief ? "relief" : "smooth", row.c_str(),
-                            map->error.mean_deg, map->error.p99_deg, map->error.max_deg, map->error.seam_mean_deg,
-                            map->error.inside_mean_deg, map->missed_count, map->error.missed_count, map->overlap_count,
-                            map->conflict_count, took.count());
-                    }
-                    // Plain rounding of the map that is exact at each texel's centre.
-                    BakeOptions options{.width = size, .height = size, .bits = 16, .fit = MapFit::texel};
-                    const Result<BakedMap> map = bakeMap(low.view(), high.view(), options);
-                    std::vector<Vec3> texels = map->texels;
-                    const float most = bits == 8 ? 255 : 65535;
-                    for (Vec3& texel : texels)
-                        texel = {std::floor(texel.x * most + 0.5F) / most, std::floor(texel.y * most + 0.5F) / most,
-                                 std::floor(texel.z * most + 0.5F) / most};
-                    const Result<MapError> plain = measureMap({size, size, texels}, low.view(), high.view());
-                    rows[std::to_string(bits) + " plain"].add(*plain);
-                }
-            }
-            for (const auto& [name, row] : rows) {
-                std::printf("%s charts %d: %-8s mean %.4f p99 %.4f seam/inside %.3f\n", relief ? "relief" : "smooth",
-                            static_cast<int>(charts), name.c_str(), row.of(row.log_mean), row.of(row.log_p99),
-                            row.of(row.log_seam) / row.of(row.log_inside));
-            }
-        }
+    const std::vector<std::string> arguments(argv + 1, argv + argc);
+    if (arguments.size() == 6 && arguments[0] == "--write") {
+        writeModels(arguments[1], arguments[2].c_str(), arguments[3] == "relief", std::atoi(arguments[4].c_str()),
+                    std::atof(arguments[5].c_str()));
+        return 0;
     }
+    if (arguments.size() > 2 || (arguments.size() == 2 && arguments[1] != "held-out")) {
+        std::fprintf(stderr,
+                     "usage: tspace_bake_bench [SIZE [held-out]]\n"
+                     "       tspace_bake_bench --write FOLDER SURFACE smooth|relief CELLS REACH\n");
+        return 2;
+    }
+    const int size = arguments.empty() ? 512 : std::atoi(arguments[0].c_str());
+    if (size < 1 || size > 16384) return 2;
+    printTable(static_cast<std::uint32_t>(size), arguments.size() == 2);
     return 0;
 }

@@ -14,6 +14,9 @@
 
 namespace tspace {
 
+/// Which file an error is about: bakeFile and mapErrorFile tell its number as Error::element, where it is about one.
+enum class BakeInput : std::uint32_t { low = 0, high = 1, cage = 2, map = 3 };
+
 struct BakeFileOptions {
     /// Its progress and stop serve the whole call. Its limit on memory is that of `file`, or 16 GB, where it is 0.
     BakeOptions map = {};
@@ -24,7 +27,14 @@ struct BakeFileOptions {
     std::string cage = {};    ///< a model with the low poly's triangles, moved to where rays begin; empty: none
     std::string misses = {};  ///< where to write a picture of what each texel is; empty: nowhere
     std::string heat = {};    ///< where to write a picture of the error; empty: nowhere
-    bool udim = false;        ///< a file per tile of UVs: NAME.1001.png. Without it UVs outside of 0 to 1 wrap
+    /// Where to write the low poly with the frames that were used and the maps as its normal textures: .glb (holds them) or
+    /// .gltf (names them). As a part of the same whole: all files appear, or none. Not with `udim`, object space or green
+    /// down, which glTF does not have (invalidOption). Empty: nowhere.
+    std::string out_mesh = {};
+    /// Texels of length 1, for formats of two channels, from whose x and y readers make z (BC5, DXT5nm): what
+    /// `map.reading.two_channels` says, whatever the reading.
+    bool unit = false;
+    bool udim = false;  ///< a file per tile of UVs: NAME.1001.png. Without it UVs outside of 0 to 1 wrap
 };
 
 /// One image.
@@ -59,6 +69,7 @@ struct MapErrorFileOptions {
     NormalOptions normals{.weighting = NormalWeighting::flat};
     FileOptions file = {};
     std::string cage = {};
+    bool two_channels = false;  ///< z is made from x and y: `map.reading.two_channels`, whatever the reading
     std::string material = {};  ///< only triangles of the material with this name; empty: all
     std::string heat = {};      ///< where to write a picture of the error; empty: nowhere
 };
@@ -84,8 +95,8 @@ struct MapErrorFileReport {
 };
 
 /// Measures a normal map of a low poly against its high poly, and finds which way to read it explains it best: green up or down,
-/// the frames that are in the file or those of a method, on triangles or quads, a bitangent per pixel or per vertex, tangent
-/// or object space. Errors as bakeFile; also those of readers of images.
+/// the frames that are in the file or those of a method, on triangles or quads, a bitangent per pixel or per vertex, two
+/// channels or three, tangent or object space. Errors as bakeFile; also those of readers of images.
 Result<MapErrorFileReport> mapErrorFile(const std::string& map, const std::string& low, const std::string& high,
                                         const MapErrorFileOptions& options = {});
 

@@ -56,6 +56,7 @@ std::uint32_t tileOf(const Vec2* uvs) {
 class FileBaking {
   public:
     FileBaking(const std::string& output, const BakeFileOptions& options) : output_(output), options_(options) {
+        options_.map.reading.two_channels = options_.map.reading.two_channels || options_.unit;
         // An image is as large as it was asked for: what a file may take by its own size says nothing here.
         constexpr std::uint64_t kUsualLimit = std::uint64_t{16} << 30;
         std::uint64_t& limit = options_.map.memory_limit_bytes;
@@ -66,6 +67,7 @@ class FileBaking {
     BakeFileReport run(const std::string& low, const std::string& high) {
         if (lowerExtension(output_) != ".png")
             failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(output_) + " does not end in .png");
+        checkOutMesh();
         if (Error error = checkBakeOptions(options_.map, 0, 0); error.code != ErrorCode::ok) throw FileError{error};
         models_ = readBakeModels(low, high, options_);
         report_.frames_made = models_.low.frames_made;
@@ -78,12 +80,29 @@ class FileBaking {
             const std::string word = models_.low.images.size() > 1 ? freshWord(fileWord(image.material)) : "";
             bakeTiles(image, word);
         }
+        if (!options_.out_mesh.empty())
+            addModelWithMaps({low, std::move(models_.low_glb), options_.out_mesh, std::move(maps_)}, options_.file,
+                             files_, report_.warnings);
         files_.commit();
         report_.output_files = files_.files();
         return std::move(report_);
     }
 
   private:
+    /// A model that is written reads the map as glTF says.
+    void checkOutMesh() const {
+        if (options_.out_mesh.empty()) return;
+        const std::string ending = lowerExtension(options_.out_mesh);
+        if (ending != ".glb" && ending != ".gltf")
+            failFile(ErrorCode::unsupportedFile,
+                     "the output " + pathInQuotes(options_.out_mesh) + " is neither .glb nor .gltf");
+        if (options_.udim) failFile(ErrorCode::invalidOption, "a glTF model has one image per material, and no tiles");
+        if (options_.map.space == MapSpace::object)
+            failFile(ErrorCode::invalidOption, "normal maps of glTF models are in tangent space");
+        if (options_.map.reading.green == Green::down)
+            failFile(ErrorCode::invalidOption, "green points up in the normal maps of glTF models");
+    }
+
     std::string freshWord(const std::string& word) {
         std::string fresh = word;
         for (int i = 2; !words_.insert(fresh).second; ++i) fresh = word + "_" + std::to_string(i);
@@ -92,7 +111,7 @@ class FileBaking {
 
     void bakeTiles(const LowModel::Image& image, const std::string& word) {
         if (!options_.udim) {
-            bakeImage(image.material, word, 0, image.part);
+            bakeImage(image, word, 0, image.part);
             return;
         }
         std::map<std::uint32_t, LowPart> tiles;
@@ -115,20 +134,27 @@ class FileBaking {
         if (tiles.empty()) failFile(ErrorCode::missingAttribute, "the UVs of the low poly lie in no tile");
         for (const auto& [tile, part] : tiles) {
             const std::string number = std::to_string(tile);
-            bakeImage(image.material, word.empty() ? number : word + "." + number, tile, part);
+            bakeImage(image, word.empty() ? number : word + "." + number, tile, part);
         }
     }
 
-    void bakeImage(const std::string& material, const std::string& word, std::uint32_t tile, const LowPart& part) {
+    void bakeImage(const LowModel::Image& image, const std::string& word, std::uint32_t tile, const LowPart& part) {
         BakeOptions options = options_.map;
         options.heat = options.heat || !options_.heat.empty();
         BakedFile file{.path = withWord(output_, word),
-                       .material = material,
+                       .material = image.material,
                        .tile = tile,
                        .triangle_count = part.triangleCount(),
-                       .map = valueOrThrow(bakeMap(part.view(), models_.high.view(), options))};
+                       .map = aboutInput(BakeInput::low, [&] {
+                           return valueOrThrow(bakeMap(part.view(), models_.high.view(), options));
+                       })};
         BakedMap& map = file.map;
-        files_.add(file.path, pngOf(map.width, map.height, std::exchange(map.texels, {}), map.bits));
+        std::vector<std::uint8_t> png = pngOf(map.width, map.height, std::exchange(map.texels, {}), map.bits);
+        if (options_.out_mesh.empty()) {
+            files_.add(file.path, png);
+        } else {
+            maps_.push_back({file.path, Bytes(png.begin(), png.end()), image.primitives});
+        }
         if (!options_.misses.empty())
             files_.add(withWord(options_.misses, word), pngOf(map.width, map.height, pictureOfOrigins(map), 8));
         if (!options_.heat.empty()) {
@@ -146,6 +172,7 @@ class FileBaking {
     BakeFileOptions options_;
     BakeModels models_ = {};
     AtomicOutput files_;
+    std::vector<ModelMap> maps_ = {};
     std::set<std::string> words_ = {};
     BakeFileReport report_ = {};
 };

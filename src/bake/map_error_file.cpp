@@ -44,6 +44,7 @@ std::string degreesWord(double degrees) {
 class FileMeasuring {
   public:
     explicit FileMeasuring(const MapErrorFileOptions& options) : options_(options) {
+        options_.map.reading.two_channels = options_.map.reading.two_channels || options_.two_channels;
         bake_.map.execution = options.map.execution;
         bake_.map.progress = options.map.progress;
         bake_.tangents = options.tangents;
@@ -53,18 +54,22 @@ class FileMeasuring {
     }
 
     MapErrorFileReport run(const std::string& map, const std::string& low, const std::string& high) {
-        readMap(map);
+        image_ = aboutInput(BakeInput::map, [&] { return readMap(map); });
+        report_.width = image_.width;
+        report_.height = image_.height;
+        report_.bits = image_.bits;
         const BakeModels models = readBakeModels(low, high, bake_);
         report_.frames_made = models.low.frames_made;
         report_.matched_by_name = models.matched_by_name;
         report_.warnings = models.low.warnings;
         report_.warnings.insert(report_.warnings.end(), models.high.warnings.begin(), models.high.warnings.end());
-        const LowPart part = partOfMaterial(models.low, options_.material);
+        const LowPart part = aboutInput(BakeInput::low, [&] { return partOfMaterial(models.low, options_.material); });
         listFrames(low, models.low);
         const MapImage view{image_.width, image_.height, image_.texels};
         listReadings();
-        const std::vector<MapError> errors =
-            valueOrThrow(measureReadings(view, part.view(), models.high.view(), candidates_, options_.map));
+        const std::vector<MapError> errors = aboutInput(BakeInput::low, [&] {
+            return valueOrThrow(measureReadings(view, part.view(), models.high.view(), candidates_, options_.map));
+        });
         for (std::size_t i = 0; i < errors.size(); ++i) report_.readings[i].error = errors[i];
         // The first is what was asked for.
         report_.error = errors.front();
@@ -74,18 +79,15 @@ class FileMeasuring {
     }
 
   private:
-    void readMap(const std::string& path) {
+    [[nodiscard]] FloatImage readMap(const std::string& path) const {
         const Bytes bytes = readFile(path);
         // Images of a usual size are read whatever their files weigh.
         constexpr std::uint64_t kUsualPixels = std::uint64_t{1} << 26, kPixelBytes = 32;
         const std::uint64_t limit = options_.file.memory_limit_bytes;
         std::string why;
         std::optional<FloatImage> image = decodeFloatImage(bytes, limit == 0 ? kUsualPixels : limit / kPixelBytes, why);
-        if (!image) failFile(ErrorCode::invalidFile, "the map " + pathInQuotes(path) + " cannot be read: " + why);
-        image_ = *std::move(image);
-        report_.width = image_.width;
-        report_.height = image_.height;
-        report_.bits = image_.bits;
+        if (!image) failFile(ErrorCode::invalidFile, "the map cannot be read: " + why);
+        return *std::move(image);
     }
 
     /// TriedFrames that the map may have been made for.
@@ -132,6 +134,13 @@ class FileMeasuring {
                 }
             }
         }
+        for (const Green green : {Green::up, Green::down}) {
+            if (in_object) break;
+            MapReading reading = asked;
+            reading.green = green;
+            reading.two_channels = !asked.two_channels;
+            add("file", {MapSpace::tangent, reading, {}});
+        }
         if (!in_object) add("object", {MapSpace::object, {}, {}});
     }
 
@@ -141,7 +150,8 @@ class FileMeasuring {
         constexpr double kTie = 1.02;
         const auto differences = [&](const ExplainedReading& reading) {
             return (reading.frames != asked.frames ? 1 : 0) + (reading.reading.green != asked.reading.green ? 1 : 0) +
-                   (reading.reading.bitangent != asked.reading.bitangent ? 1 : 0);
+                   (reading.reading.bitangent != asked.reading.bitangent ? 1 : 0) +
+                   (reading.reading.two_channels != asked.reading.two_channels ? 1 : 0);
         };
         std::stable_sort(report_.readings.begin(), report_.readings.end(),
                          [](const auto& a, const auto& b) { return a.error.mean_deg < b.error.mean_deg; });
@@ -187,6 +197,9 @@ class FileMeasuring {
             add(best.reading.bitangent == BitangentPlace::perVertex
                     ? "a bitangent per vertex, as three.js and Godot have it"
                     : "a bitangent per pixel");
+        if (best.reading.two_channels != asked.reading.two_channels)
+            add(best.reading.two_channels ? "two channels, whose z is made from x and y (--two-channels reads it so)"
+                                          : "three channels");
         return words;
     }
 
@@ -203,7 +216,7 @@ class FileMeasuring {
         files.commit();
     }
 
-    const MapErrorFileOptions& options_;
+    MapErrorFileOptions options_;
     BakeFileOptions bake_ = {};
     FloatImage image_ = {};
     std::vector<TriedFrames> frames_ = {};

@@ -6,20 +6,21 @@
 #include <cctype>
 #include <map>
 
-#include "asset/file_error.h"
 #include "asset/file_io.h"
 #include "asset/read/read_scene.h"
+#include "check/uv_reading.h"
 #include "core/unit.h"
 
 namespace tspace {
 
 namespace {
 
-/// The first thing that needs tangents says which UVs the map follows.
-const SharedArray<Vec2>* mapUvs(const ScenePrimitive& primitive) {
-    const std::size_t set = primitive.uses.empty() ? 0 : primitive.uses.front().uv_set;
-    if (set >= primitive.uv_sets.size() || primitive.uv_sets[set].empty()) return nullptr;
-    return &primitive.uv_sets[set];
+/// The UVs that the map is read with: those of the normal map that is there, or of the first thing that needs tangents.
+std::vector<Vec2> mapUvs(const ScenePrimitive& primitive) {
+    const TangentUse* const use = mapUse(primitive);
+    const std::size_t set = use == nullptr ? 0 : use->uv_set;
+    if (set >= primitive.uv_sets.size() || primitive.uv_sets[set].empty()) return {};
+    return textureUvs(primitive.uv_sets[set].span(), use == nullptr ? UvTransform{} : use->transform);
 }
 
 bool needsFrames(const Scene& scene) {
@@ -28,10 +29,10 @@ bool needsFrames(const Scene& scene) {
     });
 }
 
-/// The model as a GLB in memory, with all frames.
-DrawnScene readGenerated(const std::string& low, const BakeFileOptions& options, ExistingTangents existing,
-                         Faces faces) {
-    std::vector<std::uint8_t> glb;
+/// The model as a GLB in memory, with all frames. `made`: some were missing.
+Bytes generatedGlb(const std::string& low, const BakeFileOptions& options, ExistingTangents existing, Faces faces,
+                   bool* made = nullptr) {
+    Bytes glb;
     GenerateOptions generate;
     generate.all = true;
     generate.existing = existing;
@@ -46,17 +47,31 @@ DrawnScene readGenerated(const std::string& low, const BakeFileOptions& options,
         glb.insert(glb.end(), bytes.begin(), bytes.end());
         return true;
     };
-    valueOrThrow(generateFile(low, "low.glb", generate));
+    const GenerateReport report = valueOrThrow(generateFile(low, "low.glb", generate));
+    if (made == nullptr) return glb;
+    *made = std::any_of(report.primitives.begin(), report.primitives.end(), [](const PrimitiveReport& primitive) {
+        return primitive.action == PrimitiveAction::generated;
+    });
+    return glb;
+}
+
+DrawnScene readGlb(const Bytes& glb, const BakeFileOptions& options) {
     FileOptions in_memory = options.file;
     in_memory.content = glb;
     return readDrawnScene("low.glb", in_memory, false);
 }
 
-DrawnScene readWithFrames(const std::string& low, const BakeFileOptions& options, bool& made) {
+DrawnScene readWithFrames(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
+    if (!options.out_mesh.empty()) {
+        // What is written is what is baked for.
+        models.low_glb = generatedGlb(low, options, ExistingTangents::keep, Faces::triangles, &models.low.frames_made);
+        return readGlb(models.low_glb, options);
+    }
     DrawnScene scene = readDrawnScene(low, options.file, false);
     // OBJ has no tangents, and reading it gives normals that it lacks.
-    made = needsFrames(scene.scene);
-    return made ? readGenerated(low, options, ExistingTangents::keep, Faces::triangles) : std::move(scene);
+    models.low.frames_made = needsFrames(scene.scene);
+    if (!models.low.frames_made) return scene;
+    return readGlb(generatedGlb(low, options, ExistingTangents::keep, Faces::triangles), options);
 }
 
 /// "Body" of "Body_low", "BODY_HP" and so on, in lower case.
@@ -122,8 +137,8 @@ Affine firstPlace(const DrawnScene& drawn, std::size_t primitive) {
     return {};
 }
 
-void addPrimitive(const ScenePrimitive& primitive, const Affine& place, std::uint32_t group, LowPart& part) {
-    const SharedArray<Vec2>& uvs = *mapUvs(primitive);
+void addPrimitive(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const Affine& place, std::uint32_t group,
+                  LowPart& part) {
     const float sign = place.determinant() < 0 ? -1 : 1;
     for (std::size_t i = 0; i < primitive.corners.size(); ++i) {
         const std::uint32_t vertex = primitive.corners[placedCorner(place, i)];
@@ -143,7 +158,7 @@ void addCage(const ScenePrimitive& cage, const Affine& place, LowPart& part) {
         part.cage.push_back(toFloat(place.point(toDouble(cage.positions[cage.corners[placedCorner(place, i)]]))));
 }
 
-LowModel lowModel(const DrawnScene& drawn, const DrawnScene* cage, const MeshNames* names, const std::string& path) {
+LowModel lowModel(const DrawnScene& drawn, const DrawnScene* cage, const MeshNames* names) {
     const Scene& scene = drawn.scene;
     LowModel model;
     std::size_t without_uvs = 0;
@@ -151,7 +166,8 @@ LowModel lowModel(const DrawnScene& drawn, const DrawnScene* cage, const MeshNam
     for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
         const ScenePrimitive& primitive = scene.primitives[i];
         if (primitive.corners.empty()) continue;
-        if (mapUvs(primitive) == nullptr) {
+        const std::vector<Vec2> uvs = mapUvs(primitive);
+        if (uvs.empty()) {
             ++without_uvs;
             continue;
         }
@@ -159,13 +175,19 @@ LowModel lowModel(const DrawnScene& drawn, const DrawnScene* cage, const MeshNam
         if (is_new) model.images.push_back({.material = primitive.material_name});
         const std::uint32_t group = names != nullptr ? *names->find(primitive.mesh_name) : 0;
         LowPart& part = model.images[image->second].part;
-        addPrimitive(primitive, firstPlace(drawn, i), group, part);
+        const TangentUse* const use = mapUse(primitive);
+        model.images[image->second].primitives.push_back(
+            {.mesh = primitive.mesh,
+             .primitive = primitive.primitive,
+             .had_map = use != nullptr && use->needed_by == "normalTexture" && !use->only_in_variant,
+             .uv_set = use != nullptr ? use->uv_set : 0,
+             .transform = use != nullptr ? use->transform : UvTransform{}});
+        addPrimitive(primitive, uvs, firstPlace(drawn, i), group, part);
         if (cage != nullptr) addCage(cage->scene.primitives[i], firstPlace(*cage, i), part);
     }
     if (model.images.empty()) {
-        failFile(ErrorCode::missingAttribute, without_uvs > 0
-                                                  ? "the low poly " + pathInQuotes(path) + " has no UVs"
-                                                  : "the low poly " + pathInQuotes(path) + " has no triangles");
+        failFile(ErrorCode::missingAttribute,
+                 without_uvs > 0 ? "the low poly has no UVs" : "the low poly has no triangles");
     }
     if (without_uvs > 0)
         model.warnings.push_back(std::to_string(without_uvs) +
@@ -245,8 +267,7 @@ HighModel highModel(const DrawnScene& drawn, const MeshNames* names, const std::
         if (names != nullptr)
             model.groups.insert(model.groups.end(), primitive.corners.size() / 3, *names->find(primitive.mesh_name));
     }
-    if (model.corners.empty())
-        failFile(ErrorCode::missingAttribute, "the high poly " + pathInQuotes(path) + " has no triangles");
+    if (model.corners.empty()) failFile(ErrorCode::missingAttribute, "the high poly has no triangles");
     if (made > 0)
         model.warnings.push_back(std::string("the high poly has no normals; its triangles are taken as ") +
                                  (is_flat ? "flat, as glTF says" : "smooth"));
@@ -254,6 +275,13 @@ HighModel highModel(const DrawnScene& drawn, const MeshNames* names, const std::
 }
 
 }  // namespace
+
+const TangentUse* mapUse(const ScenePrimitive& primitive) {
+    for (const TangentUse& use : primitive.uses) {
+        if (use.needed_by == "normalTexture" && !use.only_in_variant) return &use;
+    }
+    return primitive.uses.empty() ? nullptr : &primitive.uses.front();
+}
 
 void LowPart::addTriangle(const LowPart& from, std::size_t triangle) {
     const auto add = [&](auto& to, const auto& values) {
@@ -277,8 +305,8 @@ std::size_t LowModel::triangleCount() const {
 
 std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOptions& options, Faces faces,
                                     const LowModel& known) {
-    const DrawnScene scene = readGenerated(low, options, ExistingTangents::replace, faces);
-    LowModel model = lowModel(scene, nullptr, nullptr, low);
+    const DrawnScene scene = readGlb(generatedGlb(low, options, ExistingTangents::replace, faces), options);
+    LowModel model = lowModel(scene, nullptr, nullptr);
     bool fits = model.images.size() == known.images.size();
     for (std::size_t i = 0; fits && i < model.images.size(); ++i)
         fits = model.images[i].part.positions == known.images[i].part.positions;
@@ -287,20 +315,25 @@ std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOption
 
 BakeModels readBakeModels(const std::string& low, const std::string& high, const BakeFileOptions& options) {
     BakeModels models;
-    bool frames_made = false;
-    const DrawnScene low_scene = readWithFrames(low, options, frames_made);
+    const DrawnScene low_scene = aboutInput(BakeInput::low, [&] { return readWithFrames(low, options, models); });
+    const bool frames_made = models.low.frames_made;
     DrawnScene cage_scene;
     if (!options.cage.empty()) {
-        cage_scene = readDrawnScene(options.cage, options.file, false);
-        checkCage(low_scene.scene, cage_scene.scene);
+        cage_scene = aboutInput(BakeInput::cage, [&] {
+            DrawnScene read = readDrawnScene(options.cage, options.file, false);
+            checkCage(low_scene.scene, read.scene);
+            return read;
+        });
     }
-    const DrawnScene high_scene = readDrawnScene(high, options.file, false);
+    const DrawnScene high_scene =
+        aboutInput(BakeInput::high, [&] { return readDrawnScene(high, options.file, false); });
     MeshNames names;
     models.matched_by_name = matchNames(low_scene.scene, high_scene.scene, names);
     const MeshNames* const used = models.matched_by_name ? &names : nullptr;
-    models.low = lowModel(low_scene, options.cage.empty() ? nullptr : &cage_scene, used, low);
+    models.low = aboutInput(BakeInput::low,
+                            [&] { return lowModel(low_scene, options.cage.empty() ? nullptr : &cage_scene, used); });
     models.low.frames_made = frames_made;
-    models.high = highModel(high_scene, used, high, options);
+    models.high = aboutInput(BakeInput::high, [&] { return highModel(high_scene, used, high, options); });
     return models;
 }
 

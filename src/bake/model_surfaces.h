@@ -6,10 +6,23 @@
 #include <string>
 #include <vector>
 
+#include "asset/file_error.h"
 #include "asset/scene.h"
+#include "bake/model_maps.h"
 #include "tspace/bake_file.h"
 
 namespace tspace {
+
+/// What `body` returns; where it fails, the error says that it is about this file.
+template <class Body>
+auto aboutInput(BakeInput input, Body&& body) {
+    std::optional<std::invoke_result_t<Body>> made;
+    if (std::optional<Error> error = tryFile([&] { made.emplace(body()); })) {
+        error->element = static_cast<std::uint64_t>(input);
+        throw FileError{*std::move(error)};
+    }
+    return *std::move(made);
+}
 
 /// Triangles of a low poly, three entries each.
 struct LowPart {
@@ -36,6 +49,7 @@ struct LowModel {
     struct Image {
         std::string material = {};
         LowPart part = {};
+        std::vector<MappedPrimitive> primitives = {};
     };
     std::vector<Image> images = {};
     std::vector<std::string> warnings = {};
@@ -59,11 +73,17 @@ struct HighModel {
 struct BakeModels {
     LowModel low = {};
     HighModel high = {};
+    Bytes low_glb = {};  ///< the low poly with its frames, where `out_mesh` asks for it
     bool matched_by_name = false;
 };
 
-/// Reads the models, makes the frames that the low poly lacks, and matches meshes by name. Throws FileError: also where the
-/// low poly has no UVs, where the cage has other triangles, and where one of them has none at all.
+/// How a primitive reads its normal map, or will: the normal map that its own material has, or the first thing that needs
+/// tangents, which they follow. Null: the first UVs, as they are.
+const TangentUse* mapUse(const ScenePrimitive& primitive);
+
+/// Reads the models, makes the frames that the low poly lacks, and matches meshes by name. Throws FileError, which says as
+/// its element which BakeInput it is about: also where the low poly has no UVs, where the cage has other triangles, and
+/// where one of them has none at all.
 BakeModels readBakeModels(const std::string& low, const std::string& high, const BakeFileOptions& options);
 
 /// The low poly with tangents of `options`.tangents computed anew on these faces, in the order that readBakeModels gives. Nothing

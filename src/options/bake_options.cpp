@@ -70,6 +70,11 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
             "Whose shader the map is for. directx and unreal have green down; unity, unreal and godot read two "
             "channels, so that all texels have length 1; godot and three interpolate bitangents."));
     add(list, group,
+        flag("--unit", options.unit,
+             "All texels have length 1, so that z can be made from x and y: for formats of two channels (BC5, DXT5nm). "
+             "The "
+             "error is that of such a reader."));
+    add(list, group,
         choice("--fit", "HOW", kFits, map.fit,
                "solve: all texels together, such that the filtered map is right between texels too; texel: each alone, "
                "right "
@@ -87,6 +92,11 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
 
 OptionList bakeOptions(BakeFileOptions& options) {
     OptionList list;
+    Option out_mesh = fileOption("--out-mesh", "OUT", options.out_mesh,
+                                 "Also write the low poly to this .glb or .gltf, with the frames that were used and "
+                                 "the map as its normal texture.");
+    out_mesh.excludes = {"--udim"};
+    add(list, kInputAndOutput, std::move(out_mesh));
     add(list, kInputAndOutput,
         fileOption(
             "--misses", "PNG", options.misses,
@@ -122,6 +132,9 @@ OptionList mapErrorOptions(MapErrorFileOptions& options) {
                "What the map is taken for: tangent, along the frames of the low poly; object, along the axes of the "
                "scene."));
     add(list, group, readingOption("--convention", options.map.reading, "Whose shader the map is taken to be for."));
+    add(list, group,
+        flag("--two-channels", options.two_channels,
+             "z is made from x and y, as of BC5 and DXT5nm; blue is not read."));
     add(list, "Rays", reachOption(options.map.reach));
     add(list, "Rays", cageOption(options.cage));
     addThreads(list, options.map.execution, "Number of threads; 0: as many as there are cores. Changes no figure.");

@@ -160,5 +160,144 @@ TEST_F(BakeCommand, WhatIsWrongIsOneLineAndNothingIsWritten) {
     }
 }
 
+TEST_F(BakeCommand, AnErrorNamesTheFileThatItIsAbout) {
+    folder.write("broken.glb", "glTF and no more");
+    for (const auto& [arguments, begins] :
+         {std::pair("bake broken.glb --high high.obj -o n.png --size 32", "tspace: broken.glb: "),
+          {"bake low.obj --high broken.glb -o n.png --size 32", "tspace: broken.glb: "},
+          {"bake low.obj --high high.obj --cage broken.glb -o n.png --size 32", "tspace: broken.glb: "},
+          {"bake low.obj --high high.obj --cage high.obj -o n.png --size 32", "tspace: high.obj: "},
+          {"map-error broken.glb low.obj --high high.obj", "tspace: broken.glb: "},
+          {"map-error first.png broken.glb --high high.obj", "tspace: broken.glb: "},
+          {"map-error first.png low.obj --high broken.glb", "tspace: broken.glb: "}}) {
+        const ToolRun run = runTool(folder, arguments);
+        EXPECT_EQ(run.exit_code, 3) << arguments;
+        EXPECT_EQ(run.err.rfind(begins, 0), 0U) << run.err;
+        EXPECT_EQ(run.errorLines(), 1) << run.err;
+    }
+}
+
+/// The low poly as a .gltf whose one material reads a normal map, with this transform.
+std::string withTransform(const TempFolder& folder, const nlohmann::json& transform) {
+    EXPECT_EQ(runTool(folder, "generate low.obj -o plain.gltf --all").exit_code, 0);
+    auto model = nlohmann::json::parse(folder.read("plain.gltf"));
+    model["images"] = {{{"uri", "old.png"}}};
+    model["textures"] = {{{"source", 0}}};
+    model["materials"] = {
+        {{"name", "stone"},
+         {"normalTexture", {{"index", 0}, {"scale", 0.5}, {"extensions", {{"KHR_texture_transform", transform}}}}}}};
+    model["extensionsUsed"] = {"KHR_texture_transform"};
+    for (auto& primitive : model["meshes"][0]["primitives"]) primitive["material"] = 0;
+    return model.dump();
+}
+
+double meanOf(const std::string& json, bool of_file) {
+    const auto parsed = nlohmann::json::parse(json, nullptr, false);
+    if (parsed.is_discarded()) return -1;
+    const auto& error = of_file ? parsed["files"][0]["error"] : parsed["angles"];
+    return error["meanDeg"].get<double>();
+}
+
+TEST_F(BakeCommand, TheWrittenModelAndItsMapHaveTheErrorThatTheBakeReports) {
+    for (const std::string model : {"out/low.glb", "out/low.gltf"}) {
+        const ToolRun run =
+            runTool(folder, "bake low.obj --high high.obj -o out/maps/n.png --size 64 --json --out-mesh " + model);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        const ToolRun measured = runTool(folder, "map-error out/maps/n.png " + model + " --high high.obj --json");
+        ASSERT_EQ(measured.exit_code, 0) << measured.err;
+        EXPECT_NEAR(meanOf(run.out, true), meanOf(measured.out, false), 1e-7);
+        EXPECT_EQ(nlohmann::json::parse(measured.out)["framesMade"], false);
+    }
+    const auto model = nlohmann::json::parse(folder.read("out/low.gltf"));
+    EXPECT_EQ(model["images"][0]["uri"], "maps/n.png");
+    const std::string glb = folder.read("out/low.glb");
+    EXPECT_NE(glb.find(folder.read("out/maps/n.png")), std::string::npos) << "a GLB holds its map";
+}
+
+TEST_F(BakeCommand, AMapIsBakedForTheUvsThatItsTransformGives) {
+    const nlohmann::json transform = {{"scale", {0.5, 0.5}}, {"offset", {0.25, 0.3}}, {"rotation", 0.2}};
+    folder.write("low.gltf", withTransform(folder, transform));
+    const ToolRun run = runTool(folder, "bake low.gltf --high high.obj -o n.png --size 64 --json --out-mesh new.gltf");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto report = nlohmann::json::parse(run.out);
+    // A quarter of the image.
+    EXPECT_NEAR(report["files"][0]["texels"]["baked"].get<double>(), 1024, 60);
+    const ToolRun measured = runTool(folder, "map-error n.png new.gltf --high high.obj --json");
+    EXPECT_NEAR(meanOf(run.out, true), meanOf(measured.out, false), 1e-7) << measured.err;
+    EXPECT_LT(meanOf(run.out, true), 0.6);
+    const auto model = nlohmann::json::parse(folder.read("new.gltf"));
+    ASSERT_EQ(model["images"].size(), 1U) << "the old map, which nothing else shows, is replaced";
+    EXPECT_EQ(model["images"][0]["uri"], "n.png");
+    const auto& reference = model["materials"][0]["normalTexture"];
+    EXPECT_FALSE(reference.contains("scale")) << "maps are baked for a scale of 1";
+    EXPECT_EQ(reference["extensions"]["KHR_texture_transform"], transform);
+}
+
+TEST_F(BakeCommand, TexelsOfAUnitMapHaveTheZOfTheirXAndY) {
+    for (const std::string bits : {"8", "16"}) {
+        const ToolRun run =
+            runTool(folder, "bake low.obj --high high.obj -o n.png --size 32 --unit --json --bits " + bits);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        const FloatImage map = imageOf(folder, "n.png");
+        const float step = bits == "8" ? 2.0F / 255 : 2.0F / 65535;
+        for (const Vec3& texel : map.texels) {
+            const float x = 2 * texel.x - 1, y = 2 * texel.y - 1;
+            EXPECT_NEAR(2 * texel.z - 1, std::sqrt(1 - x * x - y * y), 0.51F * step);
+        }
+        const ToolRun measured = runTool(folder, "map-error n.png low.obj --high high.obj --two-channels --json");
+        EXPECT_NEAR(meanOf(run.out, true), meanOf(measured.out, false), 1e-7) << measured.err;
+    }
+}
+
+TEST_F(BakeCommand, AMapWithoutBlueIsFoundToHaveTwoChannels) {
+    ASSERT_EQ(runTool(folder, "bake low.obj --high high.obj -o n.png --size 32 --unit").exit_code, 0);
+    FloatImage map = imageOf(folder, "n.png");
+    for (Vec3& texel : map.texels) texel.z = 0;
+    const auto png = encodePng(map, 16);
+    ASSERT_TRUE(png);
+    folder.write("bc5.png", std::string(png->begin(), png->end()));
+    const ToolRun run = runTool(folder, "map-error bc5.png low.obj --high high.obj");
+    EXPECT_NE(run.out.find("two channels"), std::string::npos) << run.out;
+}
+
+TEST_F(BakeCommand, EachMaterialOfTheWrittenModelHasItsMap) {
+    std::string two = sheet(4, 0, true);
+    two.insert(two.rfind("\nf", two.size() - 60) + 1, "usemtl second\n");
+    two.insert(two.find("\nf") + 1, "usemtl first\n");
+    folder.write("two.obj", "mtllib two.mtl\n" + two);
+    folder.write("two.mtl", "newmtl first\nKd 1 0 0\nnewmtl second\nKd 0 1 0\n");
+    const ToolRun run = runTool(folder, "bake two.obj --high high.obj -o n.png --size 32 --json --out-mesh two.gltf");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto model = nlohmann::json::parse(folder.read("two.gltf"));
+    for (const auto& material : model["materials"]) {
+        const auto& texture = model["textures"][material["normalTexture"]["index"].get<std::size_t>()];
+        EXPECT_EQ(model["images"][texture["source"].get<std::size_t>()]["uri"],
+                  "n." + material["name"].get<std::string>() + ".png");
+    }
+    for (const char* name : {"first", "second"}) {
+        const ToolRun measured = runTool(
+            folder, std::string("map-error n.") + name + ".png two.gltf --high high.obj --json --material " + name);
+        EXPECT_LT(meanOf(measured.out, false), 0.5) << measured.err;
+    }
+}
+
+TEST_F(BakeCommand, AModelIsWrittenWithItsMapsOrNotAtAll) {
+    for (const auto& [arguments, exit_code, says] : {std::tuple("--out-mesh new.obj", 3, "neither .glb nor .gltf"),
+                                                     {"--out-mesh new.glb --udim", 2, "--udim"},
+                                                     {"--out-mesh new.glb --space object", 2, "tangent space"},
+                                                     {"--out-mesh new.glb --convention directx", 2, "green points up"},
+                                                     {"--out-mesh low.obj", 2, "is an input"},
+                                                     {"--out-mesh n.png", 2, "n.png"},
+                                                     {"--out-mesh /proc/new.glb", 4, ""}}) {
+        const ToolRun run =
+            runTool(folder, std::string("bake low.obj --high high.obj -o n.png --size 16 ") + arguments);
+        EXPECT_EQ(run.exit_code, exit_code) << arguments << '\n' << run.err;
+        EXPECT_EQ(run.errorLines(), 1) << run.err;
+        EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
+        EXPECT_FALSE(std::filesystem::exists(folder.path("n.png"))) << arguments;
+        EXPECT_FALSE(std::filesystem::exists(folder.path("new.glb"))) << arguments;
+    }
+}
+
 }  // namespace
 }  // namespace tspace::test

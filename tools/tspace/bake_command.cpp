@@ -46,6 +46,8 @@ void addFile(const BakedFile& file, Table& table) {
 std::string textOf(const BakeArguments& arguments, const BakeFileReport& done) {
     Table table;
     for (const BakedFile& file : done.files) addFile(file, table);
+    if (!arguments.options.out_mesh.empty())
+        table.addRow({"model", fmt::format("{}, with its frames and maps", printable(arguments.options.out_mesh))});
     if (done.frames_made) table.addRow({"note", "the low poly lacks frames; they were made as generate makes them"});
     if (done.matched_by_name) table.addRow({"note", "meshes were matched by their names"});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
@@ -66,7 +68,7 @@ Result<BakeFileReport> bake(const BakeArguments& arguments) {
 /// An output that is an input is refused; so are two outputs that are one.
 std::string wrongFiles(const BakeArguments& arguments) {
     const std::string outputs[] = {arguments.output, arguments.options.misses, arguments.options.heat,
-                                   arguments.report};
+                                   arguments.options.out_mesh, arguments.report};
     for (const std::string& output : outputs) {
         if (output.empty()) continue;
         std::error_code ignored;
@@ -88,7 +90,9 @@ ExitCode runBake(const BakeArguments& arguments) {
     const Result<BakeFileReport> result = bake(arguments);
     if (!result && wasInterrupted()) endByInterrupt();
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    ExitCode exit_code = result ? ExitCode::done : printError(arguments.low, result.error());
+    ExitCode exit_code =
+        result ? ExitCode::done
+               : printErrorOfFiles({arguments.low, arguments.high, arguments.options.cage}, result.error());
     const report::Outcome<BakeFileReport> outcome{
         .input = arguments.low, .output = arguments.output, .result = result, .seconds = took.count()};
     if (!arguments.report.empty()) {

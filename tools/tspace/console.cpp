@@ -33,6 +33,10 @@ ExitCode printError(const std::string& file, const Error& error) {
     return exitCodeOf(error.code);
 }
 
+ExitCode printErrorOfFiles(const std::vector<std::string>& files, const Error& error) {
+    return printError(error.element < files.size() ? files[error.element] : files.front(), error);
+}
+
 ExitCode printUsageError(const std::string& message) {
     printLine("tspace: " + printable(message));
     return ExitCode::usage;

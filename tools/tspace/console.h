@@ -19,6 +19,8 @@ namespace tspace::tool {
 /// Prints "tspace: FILE: message (at PLACE)" on stderr as exactly one line, and returns the exit code it
 /// stands for.
 ExitCode printError(const std::string& file, const Error& error);
+/// The same for a call on several files: the error's element says which of them it is about, or the first.
+ExitCode printErrorOfFiles(const std::vector<std::string>& files, const Error& error);
 /// The same for a wrong command line: "tspace: message".
 ExitCode printUsageError(const std::string& message);
 

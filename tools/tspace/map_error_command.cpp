@@ -20,8 +20,9 @@ std::string readingText(const ExplainedReading& reading) {
     const std::string frames = reading.frames == "file"    ? "tangents of the file"
                                : reading.frames == "quads" ? "mikktspace on quads"
                                                            : reading.frames;
-    return fmt::format("{}, green {}{}", frames, reading.reading.green == Green::up ? "up" : "down",
-                       reading.reading.bitangent == BitangentPlace::perVertex ? ", bitangent per vertex" : "");
+    return fmt::format("{}, green {}{}{}", frames, reading.reading.green == Green::up ? "up" : "down",
+                       reading.reading.bitangent == BitangentPlace::perVertex ? ", bitangent per vertex" : "",
+                       reading.reading.two_channels ? ", two channels" : "");
 }
 
 std::string textOf(const MapErrorArguments& arguments, const MapErrorFileReport& done) {
@@ -59,7 +60,10 @@ ExitCode runMapError(const MapErrorArguments& arguments) {
     const Result<MapErrorFileReport> result = mapErrorFile(arguments.map, arguments.low, arguments.high, options);
     progress.clear();
     if (!result && wasInterrupted()) endByInterrupt();
-    const ExitCode exit_code = result ? ExitCode::done : printError(arguments.map, result.error());
+    const ExitCode exit_code =
+        result
+            ? ExitCode::done
+            : printErrorOfFiles({arguments.low, arguments.high, arguments.options.cage, arguments.map}, result.error());
     std::string text;
     if (arguments.json) {
         text =

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+"""Bakes a normal map with Blender (Cycles, selected to active), and prints the time of the bake alone.
+
+blender -b --factory-startup --python blender_bake.py -- LOW.obj HIGH.obj CAGE.obj|- OUT.png SIZE BITS REACH
+"""
+import os
+import sys
+import time
+
+import bpy
+
+
+def load(path):
+    before = set(bpy.data.objects)
+    bpy.ops.wm.obj_import(filepath=path, forward_axis="Y", up_axis="Z")
+    (made,) = set(bpy.data.objects) - before
+    return made
+
+
+def main():
+    low_path, high_path, cage_path, out, size, bits, reach = sys.argv[sys.argv.index("--") + 1 :]
+    bpy.ops.object.select_all(action="SELECT")
+    bpy.ops.object.delete()
+    low, high = load(low_path), load(high_path)
+    cage = None if cage_path == "-" else load(cage_path)
+
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    scene.cycles.device = "CPU"
+    scene.cycles.samples = 1
+    scene.render.threads_mode = "FIXED"
+    scene.render.threads = 2
+
+    image = bpy.data.images.new("normal", int(size), int(size), alpha=False, float_buffer=bits == "16")
+    image.colorspace_settings.name = "Non-Color"
+    material = bpy.data.materials.new("baked")
+    material.use_nodes = True
+    node = material.node_tree.nodes.new("ShaderNodeTexImage")
+    node.image = image
+    material.node_tree.nodes.active = node
+    low.data.materials.clear()
+    low.data.materials.append(material)
+    # Cycles asks a shader for the normal.
+    plain = bpy.data.materials.new("plain")
+    plain.use_nodes = True
+    high.data.materials.clear()
+    high.data.materials.append(plain)
+
+    bpy.ops.object.select_all(action="DESELECT")
+    high.select_set(True)
+    low.select_set(True)
+    bpy.context.view_layer.objects.active = low
+    options = {"use_selected_to_active": True, "margin": 16, "normal_space": "TANGENT"}
+    if cage is None:
+        options.update(cage_extrusion=float(reach), max_ray_distance=2 * float(reach))
+    else:
+        options.update(use_cage=True, cage_object=cage.name)
+    wall, cpu = time.monotonic(), sum(os.times()[:2])
+    bpy.ops.object.bake(type="NORMAL", **options)
+    wall, cpu = time.monotonic() - wall, sum(os.times()[:2]) - cpu
+    scene.render.image_settings.file_format = "PNG"
+    scene.render.image_settings.color_mode = "RGB"
+    scene.render.image_settings.color_depth = bits
+    scene.view_settings.view_transform = "Raw" if bits == "16" else "Standard"
+    if bits == "16":
+        # save_render goes through the view; Raw leaves numbers as they are.
+        image.save_render(out, scene=scene)
+    else:
+        image.filepath_raw = out
+        image.file_format = "PNG"
+        image.save()
+    print(f"BAKED {wall:.3f} {cpu:.3f}", flush=True)
+
+
+main()
