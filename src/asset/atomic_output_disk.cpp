@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Temporary files beside their targets, renamed together at the end.
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 
 #include "asset/atomic_output.h"
-#include "asset/c_file.h"
+#include "asset/system_files.h"
 #include "asset/temporary_name.h"
 
 namespace tspace {
@@ -15,10 +14,10 @@ namespace fs = std::filesystem;
 
 void AtomicOutput::removeTemporaryFiles() {
     std::error_code ignored;
-    for (const File& file : files_) fs::remove(file.temporary.string(), ignored);
+    for (const File& file : files_) fs::remove(fs::path(file.temporary), ignored);
     // Only empty folders go: remove() fails on others.
     for (auto folder = created_folders_.rbegin(); folder != created_folders_.rend(); ++folder)
-        fs::remove(folder->string(), ignored);
+        fs::remove(fs::path(*folder), ignored);
 }
 
 void AtomicOutput::addFile(const Path& requested_path, const std::function<int(const Sink&)>& writeTo) {
@@ -36,8 +35,8 @@ void AtomicOutput::addFile(const Path& requested_path, const std::function<int(c
         if (fs::create_directory(*folder, error)) created_folders_.push_back(*folder);
         if (error) failToWrite(target, "cannot make its folder: " + error.message());
     }
-    const fs::path temporary = besideName(target, kTemporaryEnding);
-    CFile file(std::fopen(temporary.c_str(), "wb"));
+    const Path temporary = besideName(target, kTemporaryEnding);
+    CFile file = openFile(temporary, "wb");
     if (!file) failToWrite(target, std::strerror(errno));
     files_.push_back({temporary, target});
     const int failure = writeTo([&file](std::span<const std::uint8_t> part) {
@@ -46,7 +45,7 @@ void AtomicOutput::addFile(const Path& requested_path, const std::function<int(c
     if (failure != 0) failToWrite(target, std::strerror(failure));
     if (std::fclose(file.release()) != 0) failToWrite(target, std::strerror(errno));
     const fs::file_status old = fs::status(target, error);
-    if (fs::exists(old)) fs::permissions(temporary, old.permissions(), error);
+    if (fs::exists(old)) fs::permissions(fs::path(temporary), old.permissions(), error);
 }
 
 void AtomicOutput::renameFiles() {
@@ -60,11 +59,11 @@ void AtomicOutput::renameFiles() {
     std::size_t done = 0;
     for (std::size_t i = files_.size(); i-- > 0 && !error; ++done) {
         const File& file = files_[i];
-        if (fs::is_directory(file.target.string(), ignored)) {
+        if (fs::is_directory(fs::path(file.target), ignored)) {
             error = std::make_error_code(std::errc::is_a_directory);
             continue;
         }
-        if (files_.size() > 1 && fs::exists(file.target.string(), ignored)) {
+        if (files_.size() > 1 && fs::exists(fs::path(file.target), ignored)) {
             aside[i] = {file.target, besideName(file.target, ".old"), false};
             fs::create_hard_link(aside[i].old_name, aside[i].new_name, error);
             // Not every file system has hard links.
@@ -72,7 +71,7 @@ void AtomicOutput::renameFiles() {
             if (error) continue;
             aside[i].renamed = true;
         }
-        fs::rename(file.temporary.string(), file.target.string(), error);
+        fs::rename(fs::path(file.temporary), fs::path(file.target), error);
     }
     if (error) {
         const std::size_t failed = files_.size() - done;
@@ -82,7 +81,7 @@ void AtomicOutput::renameFiles() {
                 // Where both names are still one file, renaming does nothing.
                 fs::remove(aside[i].new_name, ignored);
             } else if (i != failed) {
-                fs::remove(files_[i].target.string(), ignored);
+                fs::remove(fs::path(files_[i].target), ignored);
             }
         }
         failToWrite(files_[failed].target, error.message());

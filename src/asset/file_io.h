@@ -61,6 +61,8 @@ Bytes readFile(const Path& path, const std::string& place = {}, const Execution&
 bool isThere(const Path& path);
 bool isFolder(const Path& path);
 
+/// True when both paths name the same existing file.
+bool isOneFile(const Path& a, const Path& b);
 /// True when both paths name the same existing file, or are the same path where nothing exists yet.
 bool isSameFile(const Path& a, const Path& b);
 

@@ -27,7 +27,7 @@ Path NamedFiles::resolve(const Path& folder, std::string_view uri, const std::st
             "the file " + inQuotes(path, 200) + " that the model names cannot be found, for the model is not a file",
             place);
     }
-    return (fs::path(folder) / path).lexically_normal();
+    return fs::path(folder / path).lexically_normal();
 }
 
 Result<std::span<const std::uint8_t>> NamedFiles::find(const Path& file) const {

@@ -8,15 +8,17 @@ namespace tspace {
 
 namespace fs = std::filesystem;
 
-Path Path::operator/(const std::string& name) const { return fs::path(text_) / name; }
+Path Path::operator/(const std::string& name) const { return fs::path(*this) / fs::path(Path(name)); }
 
 Path folderOf(const Path& file) {
     const fs::path folder = fs::path(file).parent_path();
     return folder.empty() ? fs::path(".") : folder;
 }
 
+std::string stemOf(const Path& file) { return Path(fs::path(file).stem()).string(); }
+
 std::string lowerExtension(const Path& path) {
-    std::string extension = fs::path(path).extension().string();
+    std::string extension = Path(fs::path(path).extension()).string();
     for (char& c : extension) {
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The path of a file or folder. It converts from and to std::filesystem::path, whose header takes most of a second to
-// compile: only the files that look at the disk, or take paths apart, include that.
+// The path of a file or folder: UTF-8, with slashes, on every system. It converts from and to std::filesystem::path, whose
+// header takes most of a second to compile: only the files that look at the disk, or take paths apart, include that. Make
+// one from text by a Path: on Windows std::filesystem takes text for another encoding.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace tspace {
@@ -16,10 +18,10 @@ class Path {
     /// From std::filesystem::path, and to it.
     template <class T>
     requires requires(const T& path) { path.lexically_normal().native(); }
-    Path(const T& path) : text_(path.string()) {}
+    Path(const T& path) : text_(textOf(path)) {}
     template <class T>
     requires requires(const T& path) { path.lexically_normal().native(); }
-    operator T() const { return T(text_); }
+    operator T() const { return T(std::u8string_view(reinterpret_cast<const char8_t*>(text_.data()), text_.size())); }
 
     /// A file in this folder, or `name` itself where that is absolute.
     [[nodiscard]] Path operator/(const std::string& name) const;
@@ -27,11 +29,24 @@ class Path {
     [[nodiscard]] bool empty() const { return text_.empty(); }
 
   private:
+    template <class T>
+    static std::string textOf(const T& path) {
+        if constexpr (T::preferred_separator == '/') {
+            return path.string();
+        } else {
+            const std::u8string text = path.generic_u8string();
+            return std::string(text.begin(), text.end());
+        }
+    }
+
     std::string text_;
 };
 
 /// The folder that a file lies in; "." for a bare name.
 Path folderOf(const Path& file);
+
+/// The name of a file without its folder and extension.
+std::string stemOf(const Path& file);
 
 /// The extension in lower case with its dot, or "".
 std::string lowerExtension(const Path& path);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "asset/system_files.h"
 #include "asset/uri.h"
 
 namespace tspace {
@@ -18,10 +19,10 @@ bool startsWith(const fs::path& path, const fs::path& prefix) {
 }  // namespace
 
 Path resolveUri(const Path& in_folder, std::string_view uri, bool allow_external, const std::string& place) {
-    const fs::path folder = in_folder, relative(checkedPathOfUri(uri, allow_external, place));
+    const fs::path folder = in_folder, relative{Path(checkedPathOfUri(uri, allow_external, place))};
     if (allow_external) return folder / relative;
-    const fs::path root = fs::weakly_canonical(fs::absolute(folder));
-    if (!startsWith(fs::weakly_canonical(root / relative), root)) {
+    const fs::path root = canonicalPath(in_folder);
+    if (!startsWith(fs::path(canonicalPath(root / relative)), root)) {
         refuseUri(uri, "leads out of the model's folder by a symbolic link", place);
     }
     return folder / relative;

@@ -3,20 +3,15 @@
 // that see each other. All that is in the name.
 #include "asset/temporary_name.h"
 
-#include <signal.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <system_error>
 
+#include "asset/system_files.h"
 #include "core/hash.h"
 #include "tspace/asset.h"
 
@@ -28,14 +23,7 @@ namespace {
 
 /// Sixteen digits for where this process lives.
 std::string machineTag() {
-    std::array<char, 256> name = {};
-    gethostname(name.data(), name.size() - 1);
-    std::string text = name.data();
-    std::string line;
-    // Both are Linux's: this start of the kernel, and the container. Empty elsewhere.
-    if (std::ifstream boot("/proc/sys/kernel/random/boot_id"); std::getline(boot, line)) text += line;
-    std::error_code ignored;
-    text += fs::read_symlink("/proc/self/ns/pid", ignored).string();
+    const std::string text = processSpace();
     std::uint64_t hash = text.size();
     for (const char c : text) hash = foldHash(hash, static_cast<unsigned char>(c));
     std::string digits;
@@ -54,8 +42,6 @@ bool isNumber(std::string_view text) {
            std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-bool isRunning(long process) { return kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH; }
-
 /// Whether besideName() gave this name to a temporary file in a process of this machine that is gone.
 bool isAbandoned(std::string_view name) {
     const std::string_view ending = kTemporaryEnding;
@@ -66,29 +52,30 @@ bool isAbandoned(std::string_view name) {
     const std::size_t dash = name.find('-');
     if (dash == std::string_view::npos || !isNumber(name.substr(0, dash)) || !isNumber(name.substr(dash + 1)))
         return false;
-    const long process = std::strtol(std::string(name.substr(0, dash)).c_str(), nullptr, 10);
-    return process > 0 && process == static_cast<pid_t>(process) && !isRunning(process);
+    const std::uint64_t process = std::strtoull(std::string(name.substr(0, dash)).c_str(), nullptr, 10);
+    return process <= UINT32_MAX && !isRunning(static_cast<std::uint32_t>(process));
 }
 
 }  // namespace
 
 Path besideName(const Path& target, const char* ending) {
     static std::atomic<unsigned> next_number = 0;
-    fs::path name = target;
-    name += machineMark() + std::to_string(getpid()) + "-" + std::to_string(next_number++) + ending;
-    return name;
+    return target.string() + machineMark() + std::to_string(processNumber()) + "-" + std::to_string(next_number++) +
+           ending;
 }
 
 std::uint64_t removeAbandonedFiles(const std::string& folder) {
     std::uint64_t count = 0;
     std::error_code error;
     const fs::recursive_directory_iterator end;
-    for (fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, error);
+    for (fs::recursive_directory_iterator entry(fs::path(Path(folder)), fs::directory_options::skip_permission_denied,
+                                                error);
          !error && entry != end; entry.increment(error)) {
         std::error_code ignored;
         // Not a link: what one points at belongs to somebody else.
         const bool is_file = entry->symlink_status(ignored).type() == fs::file_type::regular;
-        if (is_file && isAbandoned(entry->path().filename().string())) count += fs::remove(entry->path(), ignored);
+        if (is_file && isAbandoned(Path(entry->path().filename()).string()))
+            count += fs::remove(entry->path(), ignored);
     }
     return count;
 }

@@ -245,18 +245,21 @@ class ImagePlacer {
     /// A name beside the old one that no other file has, or one with these bytes.
     std::string freeName(const std::string& uri, const Bytes& bytes) {
         namespace fs = std::filesystem;
-        fs::path old = fs::path(pathOfUri(uri)).lexically_normal();
+        fs::path old = fs::path(Path(pathOfUri(uri))).lexically_normal();
         // What lies outside of the model's folder gets its new file inside.
-        if (old.is_absolute() || *old.begin() == "..") old = old.filename();
+        if (old.has_root_path() || *old.begin() == "..") old = old.filename();
         for (int number = 1;; ++number) {
             std::string ending = "-green-up";
             if (number > 1) ending.append("-").append(std::to_string(number));
-            const fs::path name = old.parent_path() / (old.stem().string() + ending + old.extension().string());
-            const fs::path file = folderOf(target_.path) / name.string();
+            fs::path changed = old.parent_path() / old.stem();
+            changed += ending;
+            changed += old.extension();
+            const Path name = changed, file = folderOf(target_.path) / name.string();
             if (namesFile(document_, name.string())) continue;
             if (!isThere(file)) return name.string();
             std::error_code error;
-            const bool may_be_same = fs::is_regular_file(file, error) && fs::file_size(file, error) == bytes.size();
+            const bool may_be_same =
+                fs::is_regular_file(fs::path(file), error) && fs::file_size(fs::path(file), error) == bytes.size();
             if (may_be_same && readFile(file) == bytes) return name.string();
         }
     }

@@ -26,7 +26,7 @@ const Command* findCommand(const ToolTable& tool, const std::string& name) {
 /// What stands in the place of a command and is none.
 ExitCode runWithoutCommand(const ToolTable& tool, const std::string& word) {
     if (word == "-h" || word == "--help") return print(helpPage(tool));
-    if (word == "-V" || word == "--version") return print("tspace " TSPACE_VERSION "\n");
+    if (word == "-V" || word == "--version") return print("tspace " TSPACE_VERSION "\n" + leftOut());
     const char* see = " (see tspace --help)";
     std::vector<std::string> names;
     if (!word.starts_with('-')) {

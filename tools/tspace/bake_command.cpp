@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 
+#include "asset/file_io.h"
 #include "commands.h"
 #include "console.h"
 #include "interrupt.h"
@@ -71,9 +71,8 @@ std::string wrongFiles(const BakeArguments& arguments) {
                                    arguments.options.out_mesh, arguments.report};
     for (const std::string& output : outputs) {
         if (output.empty()) continue;
-        std::error_code ignored;
         for (const std::string& input : {arguments.low, arguments.high, arguments.options.cage}) {
-            if (!input.empty() && (output == input || std::filesystem::equivalent(output, input, ignored)))
+            if (!input.empty() && (output == input || isOneFile(output, input)))
                 return "the output " + output + " is an input";
         }
         if (std::count(std::begin(outputs), std::end(outputs), output) > 1) return "two outputs are " + output;

@@ -3,10 +3,11 @@
 #include "console.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
+
+#include "system.h"
 
 namespace tspace::tool {
 namespace {
@@ -53,9 +54,7 @@ bool printResult(std::string_view text, std::FILE* to) {
 bool wantsColor(Color color) {
     if (color != Color::automatic) return color == Color::always;
     const char* refused = std::getenv("NO_COLOR");
-    const char* terminal = std::getenv("TERM");
-    const bool is_dumb = terminal == nullptr || std::string_view(terminal) == "dumb";
-    return isatty(STDOUT_FILENO) != 0 && !is_dumb && (refused == nullptr || *refused == '\0');
+    return isTerminal(stdout) && terminalHasColors() && (refused == nullptr || *refused == '\0');
 }
 
 std::string printable(std::string_view text) {
@@ -101,7 +100,7 @@ std::string Table::text(const std::string& margin) const {
 }
 
 ProgressLine::ProgressLine(std::size_t file_count, bool wanted)
-    : file_count_(file_count), wanted_(wanted && isatty(STDERR_FILENO) != 0) {}
+    : file_count_(file_count), wanted_(wanted && isTerminal(stderr)) {}
 
 void ProgressLine::update(const std::string& file, const char* what, std::uint64_t done, std::uint64_t total) {
     if (!wanted_) return;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 // tspace convert-map: one normal map, for other frames.
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <filesystem>
-
+#include "asset/file_io.h"
 #include "commands.h"
 #include "console.h"
 #include "report.h"
 #include "standard_input.h"
+#include "system.h"
 
 namespace tspace::tool {
 namespace {
@@ -62,12 +61,11 @@ Result<ConvertMapFileReport> convert(const ConvertMapArguments& arguments) {
 }  // namespace
 
 ExitCode runConvertMap(const ConvertMapArguments& arguments) {
-    std::error_code ignored;
-    if (std::filesystem::equivalent(arguments.input, arguments.output, ignored)) {
+    if (isOneFile(arguments.input, arguments.output)) {
         return printUsageError("the output " + arguments.output + " is the input; name another file");
     }
     const bool to_stdout = arguments.output == "-";
-    if (to_stdout && !arguments.options.dry_run && isatty(STDOUT_FILENO) != 0)
+    if (to_stdout && !arguments.options.dry_run && isTerminal(stdout))
         return printUsageError("an image is no text for a terminal; send stdout to a file or a pipe");
     const Result<ConvertMapFileReport> result = convert(arguments);
     const ExitCode exit_code = result ? ExitCode::done : printError(arguments.input, result.error());

@@ -10,10 +10,12 @@
 #include <memory>
 #include <vector>
 
+#include "asset/system_files.h"
+
 namespace tspace::tool {
 
 std::optional<FileHash> hashFile(const std::string& path) {
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+    const CFile file = openFile(path, "rb");
     const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(), XXH3_freeState);
     if (!file || !state || XXH3_128bits_reset(state.get()) != XXH_OK) return {};
     FileHash result;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 // tspace flip-green: one image, its green channel inverted.
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <filesystem>
-
+#include "asset/file_io.h"
 #include "commands.h"
 #include "console.h"
 #include "report.h"
 #include "standard_input.h"
+#include "system.h"
 
 namespace tspace::tool {
 namespace {
@@ -47,12 +46,11 @@ Result<FlipGreenReport> flip(const FlipGreenArguments& arguments) {
 }  // namespace
 
 ExitCode runFlipGreen(const FlipGreenArguments& arguments) {
-    std::error_code ignored;
-    if (!arguments.in_place && std::filesystem::equivalent(arguments.input, arguments.output, ignored)) {
+    if (!arguments.in_place && isOneFile(arguments.input, arguments.output)) {
         return printUsageError("the output " + arguments.output + " is the input; --in-place writes over it");
     }
     const bool to_stdout = arguments.output == "-";
-    if (to_stdout && !arguments.options.dry_run && isatty(STDOUT_FILENO) != 0)
+    if (to_stdout && !arguments.options.dry_run && isTerminal(stdout))
         return printUsageError("an image is no text for a terminal; send stdout to a file or a pipe");
     const Result<FlipGreenReport> result = flip(arguments);
     const ExitCode exit_code = result ? ExitCode::done : printError(arguments.input, result.error());

@@ -2,10 +2,11 @@
 // One name of the pattern after the other, over sorted folders.
 #include "glob.h"
 
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <set>
+
+#include "asset/path.h"
+#include "system.h"
 
 namespace tspace::tool {
 namespace {
@@ -17,7 +18,7 @@ using Names = std::vector<std::string>;
 Names namesOf(const fs::path& path) {
     Names names;
     for (const fs::path& name : path) {
-        if (!name.empty()) names.push_back(name.string());
+        if (!name.empty()) names.push_back(Path(name).string());
     }
     return names;
 }
@@ -36,14 +37,14 @@ void match(const fs::path& folder, const Names& names, std::size_t first, std::s
     const bool is_any_depth = names[first] == "**" && !is_last;
     if (is_any_depth) match(folder, names, first + 1, found);
     for (const fs::directory_entry& entry : entriesOf(folder)) {
-        const std::string name = entry.path().filename().string();
-        const fs::path path = folder / name;
+        const fs::path path = folder / entry.path().filename();
+        const std::string name = Path(path.filename()).string();
         std::error_code ignored;
         if (is_any_depth) {
             // Links to folders could lead in a circle.
             if (name.front() != '.' && entry.is_directory(ignored) && !entry.is_symlink(ignored))
                 match(path, names, first, found);
-        } else if (fnmatch(names[first].c_str(), name.c_str(), FNM_PERIOD) == 0) {
+        } else if (matchesName(names[first], name)) {
             if (!is_last) {
                 if (entry.is_directory(ignored)) match(path, names, first + 1, found);
             } else if (entry.is_regular_file(ignored)) {
@@ -59,8 +60,8 @@ bool isPattern(const std::string& text) { return text.find_first_of("*?[") != st
 
 fs::path patternRoot(const std::string& pattern) {
     fs::path root;
-    for (const fs::path& name : fs::path(pattern)) {
-        if (isPattern(name.string())) break;
+    for (const fs::path& name : fs::path(Path(pattern))) {
+        if (isPattern(Path(name).string())) break;
         root /= name;
     }
     return root.empty() ? fs::path(".") : root;
@@ -69,7 +70,7 @@ fs::path patternRoot(const std::string& pattern) {
 std::vector<fs::path> matchPattern(const std::string& pattern) {
     const fs::path root = patternRoot(pattern);
     const bool has_root = root != fs::path(".") || pattern.starts_with("./");
-    const Names names = namesOf(has_root ? fs::path(pattern).lexically_relative(root) : fs::path(pattern));
+    const Names names = namesOf(has_root ? fs::path(Path(pattern)).lexically_relative(root) : fs::path(Path(pattern)));
     std::set<fs::path> found;
     if (!names.empty()) match(has_root ? root : fs::path(), names, 0, found);
     return {found.begin(), found.end()};

@@ -53,6 +53,11 @@ std::string optionsText(const std::vector<Option>& options) {
 
 }  // namespace
 
+std::string leftOut() {
+    const std::string parts = TSPACE_LEFT_OUT;
+    return parts.empty() ? "" : "Built without: " + parts + ".\n";
+}
+
 const char* const kExitCodes =
     "Exit codes:\n"
     "  0  done\n"
@@ -90,7 +95,9 @@ std::string helpPage(const ToolTable& tool) {
     page += "\nCommands:\n";
     for (const Command& command : tool.commands) page += "  " + command.name + "\n" + wrapText(command.summary, 8);
     page += optionsText(tool.options) + "\ntspace help COMMAND says more about a command.\n\n";
-    return page + wrapText(kExitCodes, 0);
+    page += wrapText(kExitCodes, 0);
+    if (const std::string parts = leftOut(); !parts.empty()) page += "\n" + wrapText(parts, 0);
+    return page;
 }
 
 std::string helpPage(const Command& command) {

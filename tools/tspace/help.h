@@ -13,6 +13,9 @@ namespace tspace::tool {
 /// "Exit codes:" and a line for each.
 extern const char* const kExitCodes;
 
+/// "Built without: PNG and JPEG, WebP.", as a line; empty where nothing is left out.
+std::string leftOut();
+
 /// The page of the whole tool.
 std::string helpPage(const ToolTable& tool);
 /// The page of a command: usage, description, options by group with their defaults, examples.

@@ -2,47 +2,33 @@
 // Which files are worked on and where their results go. Looks at the file system, writes nothing.
 #include "jobs.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
 #include <set>
 
+#include "asset/file_io.h"
+#include "asset/system_files.h"
 #include "glob.h"
+#include "system.h"
 
 namespace tspace::tool {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string lowerExtension(const fs::path& path) {
-    std::string extension = path.extension().string();
-    for (char& c : extension) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return extension;
-}
-
-bool isFolder(const fs::path& path) {
-    std::error_code ignored;
-    return fs::is_directory(path, ignored);
-}
-
 /// One spelling per file, also for files that do not exist yet.
-std::string canonicalName(const fs::path& path) {
-    std::error_code failed;
-    const fs::path canonical = fs::weakly_canonical(path, failed);
-    return failed ? fs::absolute(path).lexically_normal().string() : canonical.string();
+std::string canonicalName(const fs::path& path) try {
+    return canonicalPath(path).string();
+} catch (const fs::filesystem_error&) {
+    return Path(fs::absolute(path).lexically_normal()).string();
 }
 
 /// One text per file: the same for all links to one that exists.
-std::string identityOf(const fs::path& path) {
-    struct stat status = {};
-    if (::stat(path.c_str(), &status) != 0) return canonicalName(path);
-    return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
+std::string identityOf(const Path& path) {
+    std::string identity = fileIdentity(path);
+    return identity.empty() ? canonicalName(path) : identity;
 }
 
 struct Found {
@@ -61,22 +47,22 @@ void findModels(const fs::path& folder, const std::string& skipped_folder, std::
             if (!skipped_folder.empty() && canonicalName(entry->path()) == skipped_folder) {
                 entry.disable_recursion_pending();
             }
-        } else if (entry->is_regular_file(ignored) && isModelFile(entry->path().string())) {
+        } else if (entry->is_regular_file(ignored) && isModelFile(Path(entry->path()).string())) {
             models.push_back(entry->path());
         }
     }
     std::sort(models.begin(), models.end());
     for (const fs::path& model : models) {
         const fs::path relative = model.lexically_relative(folder);
-        found.push_back({{.input = model.string(), .name = relative.string()}, relative});
+        found.push_back({{.input = Path(model).string(), .name = Path(relative).string()}, relative});
     }
     if (failed) {
-        found.push_back({{.input = folder.string(),
+        found.push_back({{.input = Path(folder).string(),
                           .error = {ErrorCode::cannotRead, "cannot read the folder: " + failed.message()}},
                          {}});
     } else if (models.empty()) {
         found.push_back(
-            {{.input = folder.string(), .error = {ErrorCode::invalidFile, "no model files in this folder"}}, {}});
+            {{.input = Path(folder).string(), .error = {ErrorCode::invalidFile, "no model files in this folder"}}, {}});
     }
 }
 
@@ -85,9 +71,9 @@ void findMatches(const std::string& pattern, std::vector<Found>& found) {
     const fs::path root = patternRoot(pattern);
     const std::size_t before = found.size();
     for (const fs::path& match : matchPattern(pattern)) {
-        if (!isModelFile(match.string())) continue;
+        if (!isModelFile(Path(match).string())) continue;
         const fs::path relative = match.lexically_relative(root);
-        found.push_back({{.input = match.string(), .name = relative.string()}, relative});
+        found.push_back({{.input = Path(match).string(), .name = Path(relative).string()}, relative});
     }
     if (found.size() == before) {
         found.push_back(
@@ -95,26 +81,23 @@ void findMatches(const std::string& pattern, std::vector<Found>& found) {
     }
 }
 
-bool isPatternInput(const std::string& input) {
-    std::error_code ignored;
-    return isPattern(input) && !fs::exists(input, ignored);
-}
+bool isPatternInput(const std::string& input) { return isPattern(input) && !isThere(input); }
 
 std::vector<Found> findInputs(const std::vector<std::string>& inputs, const std::string& skipped_folder) {
     std::vector<Found> found;
     for (const std::string& input : inputs) {
         if (isFolder(input)) {
-            findModels(input, skipped_folder, found);
+            findModels(Path(input), skipped_folder, found);
         } else if (isPatternInput(input)) {
             findMatches(input, found);
         } else {
-            found.push_back({{.input = input, .name = input}, fs::path(input).filename()});
+            found.push_back({{.input = input, .name = input}, fs::path(Path(input)).filename()});
         }
     }
     return found;
 }
 
-const char* extensionFor(Container container, const fs::path& input) {
+const char* extensionFor(Container container, const Path& input) {
     if (container == Container::glb) return ".glb";
     if (container == Container::gltf) return ".gltf";
     return lowerExtension(input) == ".gltf" ? ".gltf" : ".glb";
@@ -157,14 +140,14 @@ Result<std::vector<Job>> jobToStandardOutput(const GenerateArguments& arguments,
     if (has_several) return usage("only one model can go to stdout");
     if (arguments.container == Container::gltf) return usage("only a GLB can go to stdout, not --container gltf");
     if (!arguments.batch.manifest.empty()) return usage("a manifest is about files, not about stdout");
-    if (!arguments.options.dry_run && isatty(STDOUT_FILENO) != 0)
+    if (!arguments.options.dry_run && isTerminal(stdout))
         return usage("a model is no text for a terminal; send stdout to a file or a pipe");
     const std::string& input = arguments.inputs.front();
     return std::vector<Job>{{.input = input, .output = "-", .name = input}};
 }
 
 Result<std::vector<Job>> jobsIntoFolder(const GenerateArguments& arguments) {
-    const fs::path folder = arguments.output;
+    const fs::path folder = Path(arguments.output);
     std::map<std::string, std::string> writers;  // canonical output -> input
     std::set<std::string> inputs;                // identities
     std::vector<Found> found = findInputs(arguments.inputs, canonicalName(folder));
@@ -176,11 +159,11 @@ Result<std::vector<Job>> jobsIntoFolder(const GenerateArguments& arguments) {
         if (job.error.code == ErrorCode::ok) {
             const char* extension = extensionFor(arguments.container, job.input);
             fs::path relative = item.relative;
-            job.output = (folder / relative.replace_extension(extension)).string();
+            job.output = Path(folder / relative.replace_extension(extension)).string();
             // a.glb and a.obj side by side: the second becomes a.obj.glb.
             const auto taken = writers.find(canonicalName(job.output));
             if (taken != writers.end() && lowerExtension(taken->second) != lowerExtension(job.input)) {
-                job.output = (folder / item.relative).string() + extension;
+                job.output = Path(folder / item.relative).string() + extension;
             }
             const std::string name = canonicalName(job.output);
             const auto [writer, is_new] = writers.emplace(name, job.input);
@@ -199,11 +182,10 @@ Result<std::vector<Job>> jobsIntoFolder(const GenerateArguments& arguments) {
 }  // namespace
 
 std::string importerPath() {
-    std::error_code failed;
-    const fs::path own = fs::read_symlink("/proc/self/exe", failed);
-    if (failed) return {};
-    const fs::path importer = own.parent_path() / "tspace-import";
-    return fs::exists(importer, failed) ? importer.string() : std::string();
+    const Path own = ownProgram();
+    if (own.empty()) return {};
+    const Path importer = folderOf(own) / "tspace-import";
+    return isThere(importer) ? importer.string() : std::string();
 }
 
 bool isModelFile(const std::string& path) {
@@ -217,7 +199,7 @@ bool isModelFile(const std::string& path) {
 std::vector<std::string> outputFolders(const std::vector<Job>& jobs) {
     std::set<std::string> sorted;
     for (const Job& job : jobs) {
-        if (!job.output.empty()) sorted.insert((fs::path(canonicalName(job.output)).parent_path() / "").string());
+        if (!job.output.empty()) sorted.insert(Path(fs::path(folderOf(canonicalName(job.output))) / "").string());
     }
     // What lies in a folder comes right behind it.
     std::vector<std::string> folders;
@@ -242,13 +224,12 @@ Result<std::vector<Job>> generateJobs(const GenerateArguments& arguments) {
     const std::string& first = arguments.inputs.front();
     const bool several = arguments.inputs.size() > 1 || isFolder(first) || isPatternInput(first);
     if (output == "-") return jobToStandardOutput(arguments, several);
-    std::error_code ignored;
-    const bool is_file = fs::exists(output, ignored) && !isFolder(output);
+    const bool is_file = isThere(output) && !isFolder(output);
     const std::string extension = lowerExtension(output);
     if (several && (is_file || ((extension == ".glb" || extension == ".gltf") && !isFolder(output)))) {
         return usage("several inputs need a folder as output, not " + output);
     }
-    if (several || isFolder(output) || output.back() == '/') return jobsIntoFolder(arguments);
+    if (several || isFolder(output) || fs::path(Path(output)).filename().empty()) return jobsIntoFolder(arguments);
     return jobWithNamedOutput(arguments);
 }
 

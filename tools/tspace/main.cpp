@@ -9,6 +9,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "console.h"
+#include "system.h"
 
 namespace {
 
@@ -56,7 +57,8 @@ ExitCode run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
-        return static_cast<int>(run(argc, argv));
+        std::vector<char*> words = commandLine(argc, argv);
+        return static_cast<int>(run(static_cast<int>(words.size()), words.data()));
     } catch (const std::exception& defect) {
         printError("internal error", {tspace::ErrorCode::internal, defect.what()});
         return static_cast<int>(ExitCode::internal);

@@ -6,9 +6,12 @@
 #include <chrono>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
 #include <fstream>
 
+#include "asset/system_files.h"
 #include "report.h"
+#include "system.h"
 
 namespace tspace::tool {
 namespace {
@@ -17,9 +20,8 @@ constexpr const char* kSchema = "tspace.manifest/1";
 
 std::string timeNow() {
     const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    std::tm utc = {};
     char text[sizeof "2026-01-01T00:00:00Z"] = {};
-    gmtime_r(&now, &utc);
+    const std::tm utc = utcTime(now);
     std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
     return text;
 }
@@ -70,7 +72,7 @@ Error fileError(ErrorCode code, const std::string& path) {
 
 /// A run that was killed while it wrote leaves a line without an end.
 bool endsInsideALine(const std::string& path) {
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    std::ifstream file(std::filesystem::path(Path(path)), std::ios::binary | std::ios::ate);
     if (!file || file.tellg() <= 0) return false;
     file.seekg(-1, std::ios::end);
     return file.get() != '\n';
@@ -81,7 +83,7 @@ bool endsInsideALine(const std::string& path) {
 Result<ManifestRecord> ManifestRecord::read(const std::string& path) {
     ManifestRecord record;
     errno = 0;
-    std::ifstream file(path, std::ios::binary);
+    std::ifstream file(std::filesystem::path(Path(path)), std::ios::binary);
     if (!file) {
         if (errno == ENOENT) return record;
         return fileError(ErrorCode::cannotRead, path);
@@ -112,7 +114,7 @@ Result<ManifestWriter> ManifestWriter::open(const std::string& path) {
     ManifestWriter writer;
     const bool needs_line_end = endsInsideALine(path);
     writer.path_ = path;
-    writer.file_.reset(std::fopen(path.c_str(), "ab"));
+    writer.file_ = openFile(path, "ab");
     if (!writer.file_) return fileError(ErrorCode::cannotWrite, path);
     std::setvbuf(writer.file_.get(), nullptr, _IOFBF, std::size_t{1} << 20);
     if (needs_line_end) std::fputc('\n', writer.file_.get());

@@ -3,12 +3,11 @@
 // docs/json.md describes the lines.
 #pragma once
 
-#include <cstdio>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
+#include "asset/c_file.h"
 #include "file_hash.h"
 #include "jobs.h"
 
@@ -50,11 +49,8 @@ class ManifestWriter {
     Result<Done> append(const ManifestEntry& entry);
 
   private:
-    struct Close {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
     std::string path_;
-    std::unique_ptr<std::FILE, Close> file_;
+    CFile file_;
 };
 
 /// Hashes files, in their order. Those that cannot be read are left out.

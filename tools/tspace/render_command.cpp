@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 // tspace render: one model, one picture.
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <filesystem>
 
 #include "asset/file_io.h"
 #include "commands.h"
 #include "console.h"
 #include "report.h"
 #include "standard_input.h"
+#include "system.h"
 
 namespace tspace::tool {
 namespace {
@@ -49,7 +47,7 @@ Result<RenderReport> render(const RenderArguments& arguments) {
 
 ExitCode runRender(const RenderArguments& arguments) {
     const bool to_stdout = arguments.output == "-";
-    if (to_stdout && !arguments.options.dry_run && isatty(STDOUT_FILENO) != 0)
+    if (to_stdout && !arguments.options.dry_run && isTerminal(stdout))
         return printUsageError("a picture is no text for a terminal; send stdout to a file or a pipe");
     if (!to_stdout && lowerExtension(arguments.output) != ".png")
         return printUsageError("the picture " + arguments.output + " must end in .png");

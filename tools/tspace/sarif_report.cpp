@@ -27,9 +27,11 @@ std::string percentEncoded(const std::string& path) {
 
 /// Relative paths stay relative, so that a CI system finds the file in its checkout.
 Json artifactLocation(const std::string& input) {
-    const std::filesystem::path path = std::filesystem::path(input).lexically_normal();
-    if (path.is_absolute()) return {{"uri", "file://" + percentEncoded(path.string())}};
-    return {{"uri", percentEncoded(path.string())}, {"uriBaseId", "%SRCROOT%"}};
+    const std::filesystem::path path = std::filesystem::path(Path(input)).lexically_normal();
+    const std::string text = Path(path).string();
+    // file:///C:/model.glb
+    if (path.is_absolute()) return {{"uri", (text.starts_with('/') ? "file://" : "file:///") + percentEncoded(text)}};
+    return {{"uri", percentEncoded(text)}, {"uriBaseId", "%SRCROOT%"}};
 }
 
 /// A model has no lines. CI systems want one, and 1 is where they show what concerns the whole file.

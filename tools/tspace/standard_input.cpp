@@ -2,13 +2,13 @@
 // All of stdin, as long as it looks like a model.
 #include "standard_input.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <string_view>
+
+#include "system.h"
 
 namespace tspace::tool {
 namespace {
@@ -27,7 +27,7 @@ bool looksLikeModel(std::string_view text) {
 
 Result<std::vector<std::uint8_t>> readStandardInput(const char* what, std::uint64_t memory_limit_bytes,
                                                     bool (*looks_right)(std::string_view), const char* why_not) {
-    if (isatty(STDIN_FILENO) != 0)
+    if (isTerminal(stdin))
         return Error{ErrorCode::cannotRead, std::string("standard input is a terminal, not ") + what};
     const bool is_limited = memory_limit_bytes != 0 && memory_limit_bytes != kNoMemoryLimit;
     const std::uint64_t most = is_limited ? std::min(kMostBytes, memory_limit_bytes) : kMostBytes;

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "asset/file_io.h"
+#include "asset/system_files.h"
 #include "commands.h"
 #include "console.h"
 #include "report.h"
@@ -15,11 +17,11 @@ namespace fs = std::filesystem;
 
 /// Beside an installed tool, or in the build folder; empty: it was not built.
 std::string pagePath() {
-    std::error_code failed;
-    const fs::path folder = fs::read_symlink("/proc/self/exe", failed).parent_path();
+    const Path own = ownProgram();
+    if (own.empty()) return {};
     for (const char* place : {"../share/tspace/view.html", "../../web/view.html"}) {
-        fs::path page = (folder / place).lexically_normal();
-        if (!failed && fs::exists(page, failed)) return page.string();
+        const Path page = fs::path(folderOf(own) / place).lexically_normal();
+        if (isThere(page)) return page.string();
     }
     return {};
 }
@@ -34,8 +36,7 @@ Result<ViewReport> view(const ViewArguments& arguments) {
 }  // namespace
 
 ExitCode runView(const ViewArguments& arguments) {
-    std::error_code ignored;
-    if (fs::equivalent(arguments.input, arguments.output, ignored))
+    if (isOneFile(arguments.input, arguments.output))
         return printUsageError("the output " + arguments.output + " is the input");
     const report::Outcome<ViewReport> outcome{
         .input = arguments.input, .output = arguments.output, .result = view(arguments)};

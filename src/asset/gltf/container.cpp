@@ -161,8 +161,8 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
         return;
     }
     const Path from = document.files.resolve(uri, place);
-    const fs::path relative = fs::path(pathOfUri(uri)).lexically_normal();
-    if (relative.is_absolute() || *relative.begin() == "..") {
+    const fs::path relative = fs::path(Path(pathOfUri(uri))).lexically_normal();
+    if (relative.has_root_path() || *relative.begin() == "..") {
         warnings.push_back("the file " + inQuotes(uri) + " lies outside of the model's folder and was not copied");
         return;
     }
@@ -176,7 +176,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
         return;
     }
     output.addSource(from);
-    const fs::path to = fs::path(folderOf(target.path)) / relative;
+    const Path to = fs::path(folderOf(target.path)) / relative;
     const std::vector<std::string> planned = output.files();
     if (std::find(planned.begin(), planned.end(), to.string()) != planned.end()) return;
     if (isThere(to)) {
@@ -241,7 +241,7 @@ bool namesFile(const Document& document, const std::string& name) {
 }
 
 std::string freeFileName(const Document& document, const OutputTarget& target, const std::string& ending) {
-    const std::string stem = fs::path(target.path).stem().string();
+    const std::string stem = stemOf(target.path);
     const std::size_t dot = ending.rfind('.');
     std::string name = stem + ending;
     for (int number = 2; namesFile(document, name); ++number) {
@@ -266,7 +266,7 @@ void convertContainer(Document& document, const OutputTarget& target, bool will_
         warnings.push_back("the GLB has chunks that .gltf cannot hold; they were left out");
         document.extra_chunks.clear();
     }
-    const std::string own_name = fs::path(target.path).stem().string() + kNewBufferEnding;
+    const std::string own_name = stemOf(target.path) + kNewBufferEnding;
     for (std::size_t i = 0; i < document.buffers.size(); ++i) {
         Buffer& buffer = document.buffers[i];
         Json& entry = document.json["buffers"][i];

@@ -103,16 +103,17 @@ gltf::Document importDocument(const Path& path, const FileOptions& options, cons
                                                  " files needs tspace-import, which is not there (see docs/import.md)");
     }
     std::error_code error;
-    const std::uintmax_t size = fs::file_size(path.string(), error);
-    if (error || !fs::is_regular_file(path.string(), error)) readFile(path);  // fails, and says why
+    const std::uintmax_t size = fs::file_size(fs::path(path), error);
+    if (error || !fs::is_regular_file(fs::path(path), error)) readFile(path);  // fails, and says why
     if (size > options.import_max_file_bytes) {
         failFile(ErrorCode::unsupportedFile, "the file is larger than the importer's limit of " +
                                                  std::to_string(options.import_max_file_bytes >> 20) + " MiB");
     }
     const ImportLimits limits = limitsFor(size, options);
-    ImportResult result = runImporter(options.importer, fs::absolute(path.string()).string(), limits, [&progress] {
-        if (progress) progress("reading", 0, 1);
-    });
+    ImportResult result =
+        runImporter(options.importer, Path(fs::absolute(fs::path(path))).string(), limits, [&progress] {
+            if (progress) progress("reading", 0, 1);
+        });
     checkEnd(result, limits);
     gltf::Document document = gltf::parseDocument(std::move(result.glb), path, options);
     document.input_bytes = static_cast<std::uint64_t>(size);

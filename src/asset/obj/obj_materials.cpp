@@ -99,7 +99,7 @@ bool readLibrary(const std::string& name, Model& model, std::vector<Material>& m
     std::string text(bytes.begin(), bytes.end());
     makeLineEndsPlain(text);
     if (completeTextureOptions(text) != 0) {
-        model.warnings.push_back("the material library '" + fs::path(path).filename().string() +
+        model.warnings.push_back("the material library '" + Path(fs::path(path).filename()).string() +
                                  "' moves or scales textures (-o, -s, -t), which is not carried over");
     }
 

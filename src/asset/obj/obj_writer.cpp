@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "asset/file_error.h"
+#include "asset/system_files.h"
 #include "asset/uri.h"
 #include "generate/unit_lattice.h"
 #include "maps/image.h"
@@ -175,7 +176,7 @@ class ImageBuilder {
     }
 
     Json imageJson(const fs::path& path, const Bytes& bytes, const char* type, bool names_by_uri) {
-        Json image = {{"name", path.stem().string()}};
+        Json image = {{"name", Path(path.stem()).string()}};
         const std::string below = names_by_uri ? pathBelowModel(path) : "";
         if (!below.empty()) {
             image["uri"] = percentEncode(below);
@@ -188,9 +189,9 @@ class ImageBuilder {
 
     /// Relative to the model's folder; empty where it lies elsewhere.
     [[nodiscard]] std::string pathBelowModel(const fs::path& path) const {
-        const fs::path root = fs::weakly_canonical(fs::absolute(fs::path(named_.folder())));
-        const fs::path relative = fs::weakly_canonical(fs::absolute(path)).lexically_relative(root);
-        return relative.empty() || *relative.begin() == ".." ? "" : relative.generic_string();
+        const fs::path root = canonicalPath(named_.folder());
+        const fs::path relative = fs::path(canonicalPath(path)).lexically_relative(root);
+        return relative.empty() || *relative.begin() == ".." ? "" : Path(relative).string();
     }
 
     const bool names_by_uri_;
@@ -294,7 +295,7 @@ void writeFiles(Json& root, const Bytes& bytes, const fs::path& output, AtomicOu
     const bool is_glb = lowerExtension(output) == ".glb";
     fs::path bin = output;
     bin.replace_extension(".bin");
-    if (!is_glb) root["buffers"][0]["uri"] = percentEncode(bin.filename().string());
+    if (!is_glb) root["buffers"][0]["uri"] = percentEncode(Path(bin.filename()).string());
     const std::string json = root.dump(is_glb ? -1 : 2, ' ', BadUtf8::replace);
     if (is_glb) {
         const gltf::GlbFrame frame = gltf::frameGlb(json, bytes.size(), {});

@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: MIT
+# fmt from its headers alone.
+if(NOT TARGET fmt::fmt)
+    add_library(fmt::fmt INTERFACE IMPORTED)
+    target_include_directories(fmt::fmt INTERFACE "${TSPACE_HEADERS}/include")
+    target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
+endif()

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// tspace-import limits itself by means that Windows does not have.
+#include "asset/file_error.h"
+#include "asset/import/import_process.h"
+
+namespace tspace {
+
+ImportResult runImporter(const std::string& program, const std::string&, const ImportLimits&,
+                         const std::function<void()>&) {
+    failFile(ErrorCode::unsupportedFile,
+             "the importer " + pathInQuotes(program) + " is not used on Windows: only glTF and OBJ are read there");
+}
+
+}  // namespace tspace

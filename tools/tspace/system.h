@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// What the tool asks an operating system for (system_posix.cpp, system_windows.cpp); files are in asset/system_files.h.
+#pragma once
+
+#include <cstdio>
+#include <ctime>
+#include <string>
+#include <vector>
+
+namespace tspace::tool {
+
+/// The words of the command line, in UTF-8. Call it once, first: it also makes standard input and output carry bytes as
+/// they are.
+std::vector<char*> commandLine(int argc, char** argv);
+
+bool isTerminal(std::FILE* file);
+/// Whether a terminal on stdout shows colours.
+bool terminalHasColors();
+
+/// Whether a name matches a pattern of *, ? and [...], none of which stand for a dot in front.
+bool matchesName(const std::string& pattern, const std::string& name);
+
+std::tm utcTime(std::time_t time);
+
+}  // namespace tspace::tool

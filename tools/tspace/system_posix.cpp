@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include <fnmatch.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string_view>
+
+#include "system.h"
+
+namespace tspace::tool {
+
+std::vector<char*> commandLine(int argc, char** argv) { return {argv, argv + argc}; }
+
+bool isTerminal(std::FILE* file) { return isatty(fileno(file)) != 0; }
+
+bool terminalHasColors() {
+    const char* terminal = std::getenv("TERM");
+    return terminal != nullptr && std::string_view(terminal) != "dumb";
+}
+
+bool matchesName(const std::string& pattern, const std::string& name) {
+    return fnmatch(pattern.c_str(), name.c_str(), FNM_PERIOD) == 0;
+}
+
+std::tm utcTime(std::time_t time) {
+    std::tm utc = {};
+    gmtime_r(&time, &utc);
+    return utc;
+}
+
+}  // namespace tspace::tool

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include <fcntl.h>
+#include <io.h>
+#include <windows.h>
+// After the above, which it needs.
+#include <shellapi.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+#include "asset/path.h"
+#include "system.h"
+
+namespace tspace::tool {
+namespace {
+
+bool isIn(std::string_view set, char c) {
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        if (i + 2 < set.size() && set[i + 1] == '-') {
+            if (set[i] <= c && c <= set[i + 2]) return true;
+            i += 2;
+        } else if (set[i] == c) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Whether the pattern, which is not empty, begins with what stands for the one character; takes that off.
+bool takeOne(std::string_view& pattern, char c) {
+    // A bracket that is nothing else may stand first in a set.
+    const std::size_t first = pattern.size() > 1 && (pattern[1] == '!' || pattern[1] == '^') ? 2 : 1;
+    const std::size_t end = pattern.front() == '[' ? pattern.find(']', first + 1) : std::string_view::npos;
+    bool fits = pattern.front() == '?' || pattern.front() == c;
+    if (end != std::string_view::npos) fits = isIn(pattern.substr(first, end - first), c) == (first == 1);
+    pattern.remove_prefix(end == std::string_view::npos ? 1 : end + 1);
+    return fits;
+}
+
+/// Bytes as they are, errors at once; UTF-8 and colours where it is a terminal.
+void prepareStreams() {
+    for (std::FILE* file : {stdin, stdout, stderr}) _setmode(_fileno(file), _O_BINARY);
+    std::setvbuf(stderr, nullptr, _IONBF, 0);
+    SetConsoleOutputCP(CP_UTF8);
+    for (const DWORD number : {STD_OUTPUT_HANDLE, STD_ERROR_HANDLE}) {
+        DWORD mode = 0;
+        const HANDLE handle = GetStdHandle(number);
+        if (GetConsoleMode(handle, &mode) != 0) SetConsoleMode(handle, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING);
+    }
+}
+
+}  // namespace
+
+std::vector<char*> commandLine(int argc, char** argv) {
+    prepareStreams();
+    int count = 0;
+    wchar_t** wide = CommandLineToArgvW(GetCommandLineW(), &count);
+    if (wide == nullptr) return {argv, argv + argc};
+    static std::vector<std::string> words;
+    for (int i = 0; i < count; ++i) {
+        const std::u8string text = std::filesystem::path(wide[i]).u8string();
+        words.emplace_back(text.begin(), text.end());
+    }
+    LocalFree(wide);
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    return pointers;
+}
+
+bool isTerminal(std::FILE* file) {
+    // Of all character devices only a console has a mode: NUL has none.
+    DWORD mode = 0;
+    return GetConsoleMode(reinterpret_cast<HANDLE>(_get_osfhandle(_fileno(file))), &mode) != 0;
+}
+
+bool terminalHasColors() {
+    DWORD mode = 0;
+    return GetConsoleMode(GetStdHandle(STD_OUTPUT_HANDLE), &mode) != 0 &&
+           (mode & ENABLE_VIRTUAL_TERMINAL_PROCESSING) != 0;
+}
+
+bool matchesName(const std::string& pattern_text, const std::string& name_text) {
+    std::string_view pattern = pattern_text, name = name_text;
+    if (name.starts_with('.') && !pattern.starts_with('.')) return false;
+    // Where the last * stands, and what it has not taken: it takes more where the rest does not fit.
+    std::string_view behind_star, left;
+    bool has_star = false;
+    while (!name.empty() || !pattern.empty()) {
+        if (pattern.starts_with('*')) {
+            pattern.remove_prefix(1);
+            behind_star = pattern;
+            left = name;
+            has_star = true;
+        } else if (!name.empty() && !pattern.empty() && takeOne(pattern, name.front())) {
+            name.remove_prefix(1);
+        } else if (has_star && !left.empty()) {
+            left.remove_prefix(1);
+            name = left;
+            pattern = behind_star;
+        } else {
+            return false;
+        }
+    }
+    return true;
+}
+
+std::tm utcTime(std::time_t time) {
+    std::tm utc = {};
+    gmtime_s(&utc, &time);
+    return utc;
+}
+
+}  // namespace tspace::tool
