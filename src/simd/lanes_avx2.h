@@ -12,103 +12,46 @@ namespace tspace::simd::avx2 {
 
 inline constexpr std::size_t kWidth = 8;
 
-struct Mask {
-    __m256 v;
-};
-inline Mask operator&(Mask a, Mask b) { return {_mm256_and_ps(a.v, b.v)}; }
-inline Mask operator|(Mask a, Mask b) { return {_mm256_or_ps(a.v, b.v)}; }
-inline Mask operator!(Mask a) { return {_mm256_xor_ps(a.v, _mm256_castsi256_ps(_mm256_set1_epi32(-1)))}; }
-inline unsigned bitsOf(Mask m) { return static_cast<unsigned>(_mm256_movemask_ps(m.v)); }
-inline bool all(Mask m) { return _mm256_movemask_ps(m.v) == 255; }
+#include "simd/lanes_arithmetic.h"
+#include "simd/lanes_masks.h"
 
-struct Floats {
-    __m256 v;
-};
-inline Floats broadcast(float x) { return {_mm256_set1_ps(x)}; }
-inline Floats operator+(Floats a, Floats b) { return {_mm256_add_ps(a.v, b.v)}; }
-inline Floats operator-(Floats a, Floats b) { return {_mm256_sub_ps(a.v, b.v)}; }
-inline Floats operator*(Floats a, Floats b) { return {_mm256_mul_ps(a.v, b.v)}; }
-inline Floats operator/(Floats a, Floats b) { return {_mm256_div_ps(a.v, b.v)}; }
+inline unsigned bitsOf(Mask m) { return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(m.v))); }
+inline bool all(Mask m) { return bitsOf(m) == 255; }
 inline Floats smaller(Floats a, Floats b) { return {_mm256_min_ps(a.v, b.v)}; }
 inline Floats larger(Floats a, Floats b) { return {_mm256_max_ps(a.v, b.v)}; }
 inline Floats squareRoot(Floats a) { return {_mm256_sqrt_ps(a.v)}; }
-inline Floats absolute(Floats a) { return {_mm256_and_ps(a.v, _mm256_castsi256_ps(_mm256_set1_epi32(0x7fffffff)))}; }
-inline Mask operator>(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_GT_OQ)}; }
-inline Mask operator<(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
-inline Mask operator==(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_EQ_OQ)}; }
-inline Floats select(Mask m, Floats yes, Floats no) { return {_mm256_blendv_ps(no.v, yes.v, m.v)}; }
-
-struct Bits {
-    __m256 v;
-};
-inline Bits broadcastBits(std::uint32_t x) { return {_mm256_castsi256_ps(_mm256_set1_epi32(static_cast<int>(x)))}; }
-inline Bits operator&(Bits a, Bits b) { return {_mm256_and_ps(a.v, b.v)}; }
-inline Bits operator|(Bits a, Bits b) { return {_mm256_or_ps(a.v, b.v)}; }
-inline Bits operator^(Bits a, Bits b) { return {_mm256_xor_ps(a.v, b.v)}; }
-inline __m256i toWhole(Bits a) { return _mm256_castps_si256(a.v); }
-inline Bits fromWhole(__m256i a) { return {_mm256_castsi256_ps(a)}; }
-inline Bits operator+(Bits a, Bits b) { return fromWhole(_mm256_add_epi32(toWhole(a), toWhole(b))); }
-inline Bits operator-(Bits a, Bits b) { return fromWhole(_mm256_sub_epi32(toWhole(a), toWhole(b))); }
-template <int kBy>
-inline Bits shiftLeft(Bits a) {
-    return fromWhole(_mm256_slli_epi32(toWhole(a), kBy));
+inline Floats select(Mask m, Floats yes, Floats no) {
+    return {_mm256_blendv_ps(no.v, yes.v, reinterpret_cast<__m256>(m.v))};
 }
-template <int kBy>
-inline Bits shiftRight(Bits a) {
-    return fromWhole(_mm256_srli_epi32(toWhole(a), kBy));
-}
+inline __m256i toWhole(Bits a) { return reinterpret_cast<__m256i>(a.v); }
+inline Bits fromWhole(__m256i a) { return {reinterpret_cast<WordVector>(a)}; }
 inline Bits smaller(Bits a, Bits b) { return fromWhole(_mm256_min_epu32(toWhole(a), toWhole(b))); }
-inline Bits product(Bits a, std::uint32_t k) {
-    return fromWhole(_mm256_mullo_epi32(toWhole(a), _mm256_set1_epi32(static_cast<int>(k))));
-}
 inline Bits highProduct(Bits a, std::uint32_t k) {
-    const __m256i factor = _mm256_set1_epi32(static_cast<int>(k));
+    const __m256i factor = toWhole(broadcastBits(k));
     const __m256i even = _mm256_mul_epu32(toWhole(a), factor);
     const __m256i odd = _mm256_mul_epu32(_mm256_srli_epi64(toWhole(a), 32), factor);
     return fromWhole(_mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xaa));
 }
-inline Floats toFloats(Bits a) { return {_mm256_cvtepi32_ps(toWhole(a))}; }
-inline Bits orWhere(Bits a, Mask m, std::uint32_t bit) {
-    return {_mm256_or_ps(a.v, _mm256_and_ps(m.v, broadcastBits(bit).v))};
-}
-inline Floats asFloats(Bits b) { return {b.v}; }
-inline Bits asBits(Floats f) { return {f.v}; }
 
-struct Doubles {
-    __m256d v;
-};
-inline constexpr std::size_t kDoubleParts = 2;
+inline DoubleMask operator>(Doubles a, Doubles b) {
+    return {reinterpret_cast<LongVector>(_mm256_cmp_pd(a.v, b.v, _CMP_GT_OQ))};
+}
+inline unsigned bitsOf(DoubleMask m) {
+    return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(m.v)));
+}
+inline Doubles smaller(Doubles a, Doubles b) { return {_mm256_min_pd(a.v, b.v)}; }
+inline Doubles squareRoot(Doubles a) { return {_mm256_sqrt_pd(a.v)}; }
+inline Doubles select(DoubleMask m, Doubles yes, Doubles no) {
+    return {_mm256_blendv_pd(no.v, yes.v, reinterpret_cast<__m256d>(m.v))};
+}
 inline Doubles loadAsDoubles(const float* p) { return {_mm256_cvtps_pd(_mm_load_ps(p))}; }
 inline void storeAsFloats(float* to, Doubles a) { _mm_store_ps(to, _mm256_cvtpd_ps(a.v)); }
-inline Doubles broadcastDouble(double x) { return {_mm256_set1_pd(x)}; }
 inline Doubles part(Floats a, std::size_t which) {
     return {_mm256_cvtps_pd(which == 0 ? _mm256_castps256_ps128(a.v) : _mm256_extractf128_ps(a.v, 1))};
 }
 inline Floats join(const Doubles* parts) {
     return {_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(parts[0].v)), _mm256_cvtpd_ps(parts[1].v), 1)};
 }
-inline Doubles operator+(Doubles a, Doubles b) { return {_mm256_add_pd(a.v, b.v)}; }
-inline Doubles operator-(Doubles a, Doubles b) { return {_mm256_sub_pd(a.v, b.v)}; }
-inline Doubles operator*(Doubles a, Doubles b) { return {_mm256_mul_pd(a.v, b.v)}; }
-inline Doubles operator/(Doubles a, Doubles b) { return {_mm256_div_pd(a.v, b.v)}; }
-inline Doubles smaller(Doubles a, Doubles b) { return {_mm256_min_pd(a.v, b.v)}; }
-inline Doubles squareRoot(Doubles a) { return {_mm256_sqrt_pd(a.v)}; }
-inline Doubles absolute(Doubles a) { return {_mm256_andnot_pd(_mm256_set1_pd(-0.0), a.v)}; }
-struct DoubleMask {
-    __m256d v;
-};
-inline DoubleMask operator>(Doubles a, Doubles b) { return {_mm256_cmp_pd(a.v, b.v, _CMP_GT_OQ)}; }
-inline DoubleMask operator&(DoubleMask a, DoubleMask b) { return {_mm256_and_pd(a.v, b.v)}; }
-inline unsigned bitsOf(DoubleMask m) { return static_cast<unsigned>(_mm256_movemask_pd(m.v)); }
-inline Doubles withSignOf(Doubles a, Doubles b) {
-    return {_mm256_xor_pd(a.v, _mm256_and_pd(b.v, _mm256_set1_pd(-0.0)))};
-}
-inline Doubles select(DoubleMask m, Doubles yes, Doubles no) { return {_mm256_blendv_pd(no.v, yes.v, m.v)}; }
-inline Doubles keepWhere(DoubleMask m, Doubles a) { return {_mm256_and_pd(m.v, a.v)}; }
-inline Doubles negateUnless(DoubleMask m, Doubles a) {
-    return {_mm256_xor_pd(a.v, _mm256_andnot_pd(m.v, _mm256_set1_pd(-0.0)))};
-}
-inline void storeDoubles(double* to, Doubles a) { _mm256_store_pd(to, a.v); }
 inline void storeDoubleRows(double* rows, Doubles x, Doubles y, Doubles z, Doubles w) {
     const __m256d xy_even = _mm256_unpacklo_pd(x.v, y.v), xy_odd = _mm256_unpackhi_pd(x.v, y.v);
     const __m256d zw_even = _mm256_unpacklo_pd(z.v, w.v), zw_odd = _mm256_unpackhi_pd(z.v, w.v);
@@ -163,10 +106,6 @@ inline void gather2(const std::byte* base, std::size_t stride, const std::uint32
     x = {_mm256_shuffle_ps(ab, cd, 0x88)};
     y = {_mm256_shuffle_ps(ab, cd, 0xdd)};
 }
-inline void store(float* to, Floats a) { _mm256_store_ps(to, a.v); }
-inline Floats load(const float* p) { return {_mm256_load_ps(p)}; }
-inline void store(std::uint32_t* to, Bits b) { _mm256_store_ps(reinterpret_cast<float*>(to), b.v); }
-inline Bits load(const std::uint32_t* p) { return fromWhole(_mm256_load_si256(reinterpret_cast<const __m256i*>(p))); }
 template <std::size_t kStep = 12>
 inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     const __m256 xy_low = _mm256_unpacklo_ps(x.v, y.v), xy_high = _mm256_unpackhi_ps(x.v, y.v);

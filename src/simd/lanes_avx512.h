@@ -12,6 +12,8 @@ namespace tspace::simd::avx512 {
 
 inline constexpr std::size_t kWidth = 16;
 
+#include "simd/lanes_arithmetic.h"
+
 struct Mask {
     __mmask16 v;
 };
@@ -20,90 +22,46 @@ inline Mask operator|(Mask a, Mask b) { return {static_cast<__mmask16>(a.v | b.v
 inline Mask operator!(Mask a) { return {static_cast<__mmask16>(~a.v)}; }
 inline unsigned bitsOf(Mask m) { return m.v; }
 inline bool all(Mask m) { return m.v == 0xffff; }
-
-struct Floats {
-    __m512 v;
-};
-inline Floats broadcast(float x) { return {_mm512_set1_ps(x)}; }
-inline Floats operator+(Floats a, Floats b) { return {_mm512_add_ps(a.v, b.v)}; }
-inline Floats operator-(Floats a, Floats b) { return {_mm512_sub_ps(a.v, b.v)}; }
-inline Floats operator*(Floats a, Floats b) { return {_mm512_mul_ps(a.v, b.v)}; }
-inline Floats operator/(Floats a, Floats b) { return {_mm512_div_ps(a.v, b.v)}; }
-inline Floats smaller(Floats a, Floats b) { return {_mm512_min_ps(a.v, b.v)}; }
-inline Floats larger(Floats a, Floats b) { return {_mm512_max_ps(a.v, b.v)}; }
-inline Floats squareRoot(Floats a) { return {_mm512_sqrt_ps(a.v)}; }
-inline Floats absolute(Floats a) { return {_mm512_and_ps(a.v, _mm512_castsi512_ps(_mm512_set1_epi32(0x7fffffff)))}; }
 inline Mask operator>(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_GT_OQ)}; }
 inline Mask operator<(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ)}; }
 inline Mask operator==(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_EQ_OQ)}; }
+inline Floats smaller(Floats a, Floats b) { return {_mm512_min_ps(a.v, b.v)}; }
+inline Floats larger(Floats a, Floats b) { return {_mm512_max_ps(a.v, b.v)}; }
+inline Floats squareRoot(Floats a) { return {_mm512_sqrt_ps(a.v)}; }
 inline Floats select(Mask m, Floats yes, Floats no) { return {_mm512_mask_blend_ps(m.v, no.v, yes.v)}; }
-
-struct Bits {
-    __m512i v;
-};
-inline Bits broadcastBits(std::uint32_t x) { return {_mm512_set1_epi32(static_cast<int>(x))}; }
-inline Bits operator&(Bits a, Bits b) { return {_mm512_and_si512(a.v, b.v)}; }
-inline Bits operator|(Bits a, Bits b) { return {_mm512_or_si512(a.v, b.v)}; }
-inline Bits operator^(Bits a, Bits b) { return {_mm512_xor_si512(a.v, b.v)}; }
-inline Bits operator+(Bits a, Bits b) { return {_mm512_add_epi32(a.v, b.v)}; }
-inline Bits operator-(Bits a, Bits b) { return {_mm512_sub_epi32(a.v, b.v)}; }
-template <int kBy>
-inline Bits shiftLeft(Bits a) {
-    return {_mm512_slli_epi32(a.v, kBy)};
-}
-template <int kBy>
-inline Bits shiftRight(Bits a) {
-    return {_mm512_srli_epi32(a.v, kBy)};
-}
-inline Bits smaller(Bits a, Bits b) { return {_mm512_min_epu32(a.v, b.v)}; }
-inline Bits product(Bits a, std::uint32_t k) { return {_mm512_mullo_epi32(a.v, broadcastBits(k).v)}; }
+inline __m512i toWhole(Bits a) { return reinterpret_cast<__m512i>(a.v); }
+inline Bits fromWhole(__m512i a) { return {reinterpret_cast<WordVector>(a)}; }
+inline Bits smaller(Bits a, Bits b) { return fromWhole(_mm512_min_epu32(toWhole(a), toWhole(b))); }
 inline Bits highProduct(Bits a, std::uint32_t k) {
-    const __m512i factor = broadcastBits(k).v;
-    const __m512i even = _mm512_mul_epu32(a.v, factor), odd = _mm512_mul_epu32(_mm512_srli_epi64(a.v, 32), factor);
-    return {_mm512_mask_blend_epi32(0xaaaa, _mm512_srli_epi64(even, 32), odd)};
+    const __m512i factor = toWhole(broadcastBits(k)), even = _mm512_mul_epu32(toWhole(a), factor);
+    const __m512i odd = _mm512_mul_epu32(_mm512_srli_epi64(toWhole(a), 32), factor);
+    return fromWhole(_mm512_mask_blend_epi32(0xaaaa, _mm512_srli_epi64(even, 32), odd));
 }
-inline Floats toFloats(Bits a) { return {_mm512_cvtepi32_ps(a.v)}; }
 inline Bits orWhere(Bits a, Mask m, std::uint32_t bit) {
-    return {_mm512_mask_or_epi32(a.v, m.v, a.v, broadcastBits(bit).v)};
+    return fromWhole(_mm512_mask_or_epi32(toWhole(a), m.v, toWhole(a), toWhole(broadcastBits(bit))));
 }
-inline Floats asFloats(Bits b) { return {_mm512_castsi512_ps(b.v)}; }
-inline Bits asBits(Floats f) { return {_mm512_castps_si512(f.v)}; }
 
-struct Doubles {
-    __m512d v;
-};
-inline constexpr std::size_t kDoubleParts = 2;
-inline Doubles loadAsDoubles(const float* p) { return {_mm512_cvtps_pd(_mm256_load_ps(p))}; }
-inline void storeAsFloats(float* to, Doubles a) { _mm256_store_ps(to, _mm512_cvtpd_ps(a.v)); }
-inline Doubles broadcastDouble(double x) { return {_mm512_set1_pd(x)}; }
-inline Doubles part(Floats a, std::size_t which) {
-    return {_mm512_cvtps_pd(which == 0 ? _mm512_castps512_ps256(a.v) : _mm512_extractf32x8_ps(a.v, 1))};
-}
-inline Floats join(const Doubles* parts) {
-    return {_mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(parts[0].v)), _mm512_cvtpd_ps(parts[1].v), 1)};
-}
-inline Doubles operator+(Doubles a, Doubles b) { return {_mm512_add_pd(a.v, b.v)}; }
-inline Doubles operator-(Doubles a, Doubles b) { return {_mm512_sub_pd(a.v, b.v)}; }
-inline Doubles operator*(Doubles a, Doubles b) { return {_mm512_mul_pd(a.v, b.v)}; }
-inline Doubles operator/(Doubles a, Doubles b) { return {_mm512_div_pd(a.v, b.v)}; }
-inline Doubles smaller(Doubles a, Doubles b) { return {_mm512_min_pd(a.v, b.v)}; }
-inline Doubles squareRoot(Doubles a) { return {_mm512_sqrt_pd(a.v)}; }
-inline Doubles absolute(Doubles a) { return {_mm512_andnot_pd(_mm512_set1_pd(-0.0), a.v)}; }
 struct DoubleMask {
     __mmask8 v;
 };
 inline DoubleMask operator>(Doubles a, Doubles b) { return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_GT_OQ)}; }
 inline DoubleMask operator&(DoubleMask a, DoubleMask b) { return {static_cast<__mmask8>(a.v & b.v)}; }
 inline unsigned bitsOf(DoubleMask m) { return m.v; }
-inline Doubles withSignOf(Doubles a, Doubles b) {
-    return {_mm512_xor_pd(a.v, _mm512_and_pd(b.v, _mm512_set1_pd(-0.0)))};
-}
+inline Doubles smaller(Doubles a, Doubles b) { return {_mm512_min_pd(a.v, b.v)}; }
+inline Doubles squareRoot(Doubles a) { return {_mm512_sqrt_pd(a.v)}; }
 inline Doubles select(DoubleMask m, Doubles yes, Doubles no) { return {_mm512_mask_blend_pd(m.v, no.v, yes.v)}; }
 inline Doubles keepWhere(DoubleMask m, Doubles a) { return {_mm512_maskz_mov_pd(m.v, a.v)}; }
 inline Doubles negateUnless(DoubleMask m, Doubles a) {
     return {_mm512_mask_xor_pd(_mm512_xor_pd(a.v, _mm512_set1_pd(-0.0)), m.v, a.v, _mm512_setzero_pd())};
 }
-inline void storeDoubles(double* to, Doubles a) { _mm512_store_pd(to, a.v); }
+inline Doubles loadAsDoubles(const float* p) { return {_mm512_cvtps_pd(_mm256_load_ps(p))}; }
+inline void storeAsFloats(float* to, Doubles a) { _mm256_store_ps(to, _mm512_cvtpd_ps(a.v)); }
+inline Doubles part(Floats a, std::size_t which) {
+    return {_mm512_cvtps_pd(which == 0 ? _mm512_castps512_ps256(a.v) : _mm512_extractf32x8_ps(a.v, 1))};
+}
+inline Floats join(const Doubles* parts) {
+    return {_mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(parts[0].v)), _mm512_cvtpd_ps(parts[1].v), 1)};
+}
 inline void storeDoubleRows(double* rows, Doubles x, Doubles y, Doubles z, Doubles w) {
     const __m512d xy[2] = {_mm512_unpacklo_pd(x.v, y.v), _mm512_unpackhi_pd(x.v, y.v)};
     const __m512d zw[2] = {_mm512_unpacklo_pd(z.v, w.v), _mm512_unpackhi_pd(z.v, w.v)};
@@ -166,10 +124,6 @@ inline __m512 combine(__m128 a, __m128 b, __m128 c, __m128 d) {
     x = {_mm512_shuffle_ps(ab, cd, 0x88)};
     y = {_mm512_shuffle_ps(ab, cd, 0xdd)};
 }
-inline void store(float* to, Floats a) { _mm512_store_ps(to, a.v); }
-inline Floats load(const float* p) { return {_mm512_load_ps(p)}; }
-inline void store(std::uint32_t* to, Bits b) { _mm512_store_si512(to, b.v); }
-inline Bits load(const std::uint32_t* p) { return {_mm512_load_si512(p)}; }
 template <std::size_t kStep = 12>
 inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     const __m512 xy_low = _mm512_unpacklo_ps(x.v, y.v), xy_high = _mm512_unpackhi_ps(x.v, y.v);
