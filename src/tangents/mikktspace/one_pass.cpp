@@ -53,8 +53,7 @@ class OnePass {
 
     TangentReport run() {
         const bool has_threshold = setting_.maySplit() && thresholdCosine(options_.angular_threshold_deg) != -1.0f;
-        const bool walks = has_threshold || pass_.first_look == FirstLook::eachNode ||
-                           (pass_.first_look == FirstLook::asItSeems && mostNodesSeemComplex(mesh_, triangles_));
+        const bool walks = has_threshold || pass_.first_look == FirstLook::eachNode;
         TangentReport report = walks && !estimates_ ? writeAll() : passOverTriangles();
         report.triangle_count = triangles_.count;
         report.skipped_face_count = triangles_.skipped_face_count;

@@ -9,18 +9,13 @@
 
 namespace tspace::mikk {
 
-/// What to begin with: the pass, or, where it would leave most nodes complex, a look at each node alone. Both give
-/// the same bits, and tests ask for both.
-enum class FirstLook { asItSeems, onePass, eachNode };
+/// What to begin with: the pass, or a look at each node alone. Both give the same bits, and tests ask for both.
+enum class FirstLook { onePass, eachNode };
 
 struct PassOptions {
-    FirstLook first_look = FirstLook::asItSeems;
+    FirstLook first_look = FirstLook::onePass;
     unsigned range_shift = 0;  ///< log2 of the nodes of a range; 0: what suits the mesh
 };
-
-/// Judges by a sample of triangles whether one pass would leave so many nodes complex that it is faster to look at each
-/// node alone at once.
-bool mostNodesSeemComplex(const MeshView& mesh, const TriangleList& triangles);
 
 /// Writes tangents of the mesh's own pose. `transient`: for what is not needed any more when tangents are written: their own
 /// memory, unless somebody looks at it. Throws OutOfMemory.
