@@ -34,27 +34,71 @@ ViewAngles anglesOf(DVec3 direction) {
     return {kDegrees * (direction.x < 0 ? -yaw : yaw), kDegrees * (direction.y < 0 ? -pitch : pitch)};
 }
 
-/// Over the middle of the triangles, a little aside, so that relief is seen.
-Camera cameraOver(const DrawnMesh& mesh, std::span<const std::size_t> triangles, bool is_whole) {
-    DVec3 normal;
-    std::vector<DVec3> points;
-    for (const std::size_t triangle : triangles) {
-        const DVec3 a = placeOfCorner(mesh, 3 * triangle), b = placeOfCorner(mesh, 3 * triangle + 1),
-                    c = placeOfCorner(mesh, 3 * triangle + 2);
-        normal = normal + cross(b - a, c - a);
-        points.insert(points.end(), {a, b, c});
+/// Corners of triangles in the world, and the sum of their normals.
+struct PlacePoints {
+    PlacePoints(const DrawnMesh& mesh, std::span<const std::size_t> triangles) {
+        for (const std::size_t triangle : triangles) {
+            const DVec3 a = placeOfCorner(mesh, 3 * triangle), b = placeOfCorner(mesh, 3 * triangle + 1),
+                        c = placeOfCorner(mesh, 3 * triangle + 2);
+            normal = normal + cross(b - a, c - a);
+            points.insert(points.end(), {a, b, c});
+        }
+        if (mesh.to_world.determinant() < 0) normal = -1.0 * normal;
     }
-    if (mesh.to_world.determinant() < 0) normal = -1.0 * normal;
-    const ViewAngles over = is_whole ? ViewAngles{35, 20} : anglesOf(normal);
-    const ViewAngles angles{over.yaw_deg + (is_whole ? 0 : 12), std::clamp(over.pitch_deg + 8, -90.0, 90.0)};
+
+    std::vector<DVec3> points = {};
+    DVec3 normal = {};
+};
+
+/// Holds the points, and around them as much again as `around` says.
+Camera cameraOver(const PlacePoints& place, const ViewAngles& angles, double around, std::uint32_t width,
+                  std::uint32_t height) {
     DVec3 centre;
-    for (const DVec3& point : points) centre = centre + (1 / static_cast<double>(points.size())) * point;
-    const double around = is_whole ? 1 : 2.5;
+    for (const DVec3& point : place.points) centre = centre + (1 / static_cast<double>(place.points.size())) * point;
     return Camera::around(
         [&](const std::function<void(const DVec3&)>& visit) {
-            for (const DVec3& point : points) visit(centre + around * (point - centre));
+            for (const DVec3& point : place.points) visit(centre + around * (point - centre));
         },
-        angles, 30, kPlaceWidth * kPlaceSamples, kPlaceHeight * kPlaceSamples);
+        angles, 30, width, height);
+}
+
+/// How a place is looked at.
+struct PlaceView {
+    ViewAngles angles = {35, 20};
+    double around = 1;
+    bool is_alone = false;  ///< without other meshes, which hide it from every side
+};
+
+/// Over the triangles, a little aside, so that relief is seen; farther aside where something stands in front.
+PlaceView viewOver(std::span<const DrawnMesh> meshes, std::size_t mesh, std::span<const std::size_t> triangles,
+                   const PlacePoints& place) {
+    constexpr ViewAngles kTurns[] = {{12, 8}, {-30, 8}, {40, 8}, {12, 40}, {12, -40}, {-65, 8}, {70, 8}};
+    constexpr std::uint32_t kWidth = 80, kHeight = 60, kEnoughSamples = 60;
+    constexpr std::size_t kMostTriangles = 2000000;  // of more, no small pictures are drawn first
+    const ViewAngles over = anglesOf(place.normal);
+    PlaceView best{.around = 2.5, .is_alone = true};
+    std::size_t most = 0, triangle_count = 0;
+    for (const DrawnMesh& drawn : meshes) triangle_count += drawn.corners.size() / 3;
+    for (const ViewAngles& turn : kTurns) {
+        const ViewAngles angles{over.yaw_deg + turn.yaw_deg, std::clamp(over.pitch_deg + turn.pitch_deg, -90.0, 90.0)};
+        if (&turn == kTurns) best.angles = angles;
+        if (triangle_count > kMostTriangles) return {angles, best.around, false};
+        Effort effort(std::uint64_t{1} << 28);
+        const VisibleTriangles visible(meshes, cameraOver(place, angles, best.around, kWidth, kHeight), kWidth, kHeight,
+                                       effort);
+        std::size_t count = 0;
+        for (std::uint32_t y = 0; y < kHeight; ++y) {
+            for (const std::uint32_t number : visible.row(y)) {
+                if (number == VisibleTriangles::kNone) continue;
+                const VisibleTriangles::Place seen = visible.placeOf(number);
+                count += seen.mesh == mesh && std::binary_search(triangles.begin(), triangles.end(), seen.triangle);
+            }
+        }
+        if (count > most) best = {angles, best.around, false};
+        most = std::max(most, count);
+        if (most >= kEnoughSamples) break;
+    }
+    return best;
 }
 
 void drawOutline(RgbImage& image, const Camera& camera, const DVec3& from, const DVec3& to) {
@@ -115,19 +159,26 @@ std::vector<std::uint8_t> drawPlace(const ModelPicture& model, RenderShow show, 
     const std::span<const ShownSurface* const> surfaces = model.surfaces();
     const auto surface = std::find(surfaces.begin(), surfaces.end(), &model.surfaceOf(primitive).shown);
     if (surface == surfaces.end()) return {};
-    const DrawnMesh& mesh = model.meshes()[static_cast<std::size_t>(surface - surfaces.begin())];
-    std::vector<std::size_t> seen(triangles.begin(), triangles.end());
+    const auto number = static_cast<std::size_t>(surface - surfaces.begin());
+    const DrawnMesh& mesh = model.meshes()[number];
+    std::vector<std::size_t> held(triangles.begin(), triangles.end());
+    std::sort(held.begin(), held.end());
     if (triangles.empty()) {
-        seen.resize(mesh.corners.size() / 3);
-        std::iota(seen.begin(), seen.end(), std::size_t{0});
+        held.resize(mesh.corners.size() / 3);
+        std::iota(held.begin(), held.end(), std::size_t{0});
     }
-    const Camera camera = cameraOver(mesh, seen, triangles.empty());
+    const PlacePoints place(mesh, held);
+    const PlaceView view = triangles.empty() ? PlaceView{} : viewOver(model.meshes(), number, held, place);
+    const Camera camera =
+        cameraOver(place, view.angles, view.around, kPlaceWidth * kPlaceSamples, kPlaceHeight * kPlaceSamples);
+    const std::size_t first = view.is_alone ? number : 0, count = view.is_alone ? 1 : surfaces.size();
     Effort effort(std::uint64_t{1} << 30);
     Parallel parallel({});
     DVec3 to_light = -0.45 * camera.right() + 0.65 * camera.up() + 0.8 * camera.back();
     normalize(to_light);
-    SurfacePicture picture = drawSurfaces(show, model.meshes(), surfaces, camera, to_light,
-                                          {kPlaceWidth, kPlaceHeight, kPlaceSamples}, effort, parallel);
+    SurfacePicture picture =
+        drawSurfaces(show, model.meshes().subspan(first, count), surfaces.subspan(first, count), camera, to_light,
+                     {kPlaceWidth, kPlaceHeight, kPlaceSamples}, effort, parallel);
     for (const std::size_t triangle : triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
             drawOutline(picture.image, camera, placeOfCorner(mesh, 3 * triangle + k),

@@ -41,8 +41,9 @@ std::vector<std::size_t> trianglesAt(const ScenePrimitive& primitive, std::span<
 /// Partners of triangles of A; those without one are left out.
 std::vector<std::size_t> partnersOf(const PrimitivePair& pair, std::span<const std::size_t> triangles);
 
-/// A PNG of kPlaceWidth by kPlaceHeight pixels that shows what `model` was made for, in which the triangles are outlined. The camera stands over them, or,
-/// where there are none, sees all of the primitive. Empty where the scene does not draw it. Throws FileError.
+/// A PNG of kPlaceWidth by kPlaceHeight pixels that shows what `model` was made for, in which the triangles are outlined. The camera stands over them,
+/// where they are seen best; other meshes are left out where they hide them from every side. Without triangles it sees all
+/// of the primitive. Empty where the scene does not draw it. Throws FileError.
 std::vector<std::uint8_t> drawPlace(const ModelPicture& model, RenderShow show, std::size_t primitive,
                                     std::span<const std::size_t> triangles);
 

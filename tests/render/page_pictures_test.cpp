@@ -144,6 +144,32 @@ TEST(FindingPictures, AfterIsWhatRepairLeaves) {
     EXPECT_NE(picture.after, picture.before);
 }
 
+TEST(FindingPictures, PlacesAreSeenWhereSomethingStandsInFront) {
+    // A square behind a plate that faces it, and is ten times as large: only without the plate it is seen.
+    GltfBuilder builder = turnedSquare(0).build();
+    SquareModel plate;
+    for (std::size_t i = 0; i < plate.positions.size(); i += 3) {
+        plate.positions[i] *= 10;
+        plate.positions[i + 1] *= 10;
+        plate.positions[i + 2] = 0.01f;
+    }
+    Json& primitive = builder.addPrimitive(
+        {{"POSITION", builder.addFloats(plate.positions, 3)}, {"NORMAL", builder.addFloats(plate.normals, 3)}});
+    primitive["indices"] = builder.addAccessor(plate.indices, 5125, "SCALAR", plate.indices.size());
+    primitive["material"] = 1;
+    builder.json()["materials"] = Json::parse(
+        R"([{"pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}},
+            {"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 1, 1]}}])");
+    const RgbImage image = decoded(pictureOf(builder.glb(), findingAt(FindingCode::uvsDegenerate, {0})).before);
+    std::size_t red = 0, blue = 0;
+    for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3) {
+        red += image.rgb[i] > 100 && image.rgb[i + 1] < 20 && image.rgb[i + 2] < 20;
+        blue += image.rgb[i + 2] > 100 && image.rgb[i] < 20 && image.rgb[i + 1] < 20;
+    }
+    EXPECT_GT(red, 2000U);
+    EXPECT_EQ(blue, 0U);
+}
+
 TEST(FindingPictures, AfterIsTheMapWithItsGreenTurned) {
     const Bytes file = mapped(SquareModel());
     Finding finding = findingAt(FindingCode::greenFlipped, {});
