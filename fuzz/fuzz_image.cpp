@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Images: what their heads claim, their pixels, and their green channel inverted.
+// Images: what their heads claim, their pixels with 8 bits and with all, and their green channel inverted.
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 
+#include "maps/float_image.h"
 #include "maps/image.h"
 #include "tspace/flip_green.h"
 
@@ -14,6 +16,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::string why;
     const auto image = tspace::decodeImage(bytes, kMostPixels, why);
     if (image && image->rgb.size() != std::size_t{3} * image->width * image->height) std::abort();
+    const auto deep = tspace::decodeFloatImage(bytes, kMostPixels, why);
+    if (deep) {
+        if (deep->texels.size() != std::size_t{deep->width} * deep->height) std::abort();
+        for (const tspace::Vec3& texel : deep->texels) {
+            if (!std::isfinite(texel.x) || !std::isfinite(texel.y) || !std::isfinite(texel.z)) std::abort();
+        }
+    }
     if (tspace::claimedSize(bytes).pixels() > kMostPixels) return 0;
     const auto flipped = tspace::flipGreen(bytes);
     if (flipped && !tspace::decodeImage(flipped->bytes, kMostPixels, why)) std::abort();

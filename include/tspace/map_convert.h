@@ -37,7 +37,7 @@ struct MapSide {
 
 struct ConvertMapOptions {
     /// 8 or 16: texels that change are numbers n / (2^bits - 1), n whole. With 8 the length of each is chosen such that it
-    /// points as well as it can, 0.7 at least. 32: as computed.
+    /// points as well as it can, 0.7 at least, and closer to what it was where the texels around point elsewhere. 32: as computed.
     unsigned bits = 16;
     /// Texels around the triangles that are converted with the nearest one. 0: those alone that bilinear filtering reads.
     std::uint32_t padding = 0;

@@ -14,7 +14,7 @@ namespace tspace {
 enum class MapFileSpace : std::uint32_t {
     tangent = 0,
     object = 1,  ///< the coordinates of the mesh, as the model file has them
-    world = 2    ///< those of the scene: the mesh's node turns and scales them
+    world = 2    ///< those of the scene: the mesh's nodes, which must agree, turn and squeeze them
 };
 
 struct ConvertMapFileOptions {
@@ -25,7 +25,8 @@ struct ConvertMapFileOptions {
     std::string material = {};
     MapFileSpace from = MapFileSpace::tangent, to = MapFileSpace::tangent;
     MapReading from_reading = {}, to_reading = {};
-    unsigned bits = 16;         ///< of a PNG: 8 or 16
+    /// Of a channel: 8 or 16 in a PNG; 16 (half) or 32 (float) in an EXR. 0: the most that the format has.
+    unsigned bits = 0;
     std::uint32_t padding = 0;  ///< ConvertMapOptions::padding
     /// For meshes without tangents, which get them as generateFile gives them. Its execution serves the whole call.
     TangentOptions tangents{.convention = conventions::gltf};
@@ -44,21 +45,23 @@ struct MapMeshReport {
     std::uint64_t triangle_count = 0;
     std::vector<std::string> materials = {};  ///< names, each once
     bool tangents_made = false;               ///< by `tangents`, for some of them at least
+    double scale = 1;                         ///< what their materials multiply x and y of the map by
 };
 
 struct ConvertMapFileReport {
     std::uint32_t width = 0, height = 0;
-    unsigned bits_before = 8, bits = 16;  ///< of a channel in the files
-    MapMeshReport from = {}, to = {};     ///< empty where there is no mesh
+    unsigned bits_before = 8,
+             bits = 16;                ///< of a channel in the files: whole numbers of 8 or 16, or floats of 16 or 32
+    MapMeshReport from = {}, to = {};  ///< empty where there is no mesh
     ConvertMapReport texels = {};
     std::vector<std::string> warnings = {};  ///< one sentence each
 };
 
-/// Converts the image `input` (PNG, JPEG, WebP) into `output` (.png), which appears at once, or not at all. Alpha stays. The
-/// output has no word on colours.
+/// Converts the image `input` (PNG, JPEG, WebP, EXR) into `output` (.png or .exr), which appears at once, or not at all. Alpha stays. The
+/// output has no word on colours. In tangent space the scale that a model's material gives the map counts on its side.
 ///
 /// Errors: those of convertMap and of readers of models; cannotRead, cannotWrite, unsupportedFile, invalidFile (an image that
-/// is broken; a model without what is needed), invalidOption, tooLarge, outOfMemory. Thread-safe.
+/// is broken; a model without what is needed, or whose primitives need a map each), invalidOption, tooLarge, outOfMemory. Thread-safe.
 Result<ConvertMapFileReport> convertMapFile(const std::string& input, const std::string& output,
                                             const ConvertMapFileOptions& options = {});
 

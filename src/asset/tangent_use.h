@@ -17,6 +17,7 @@ struct TangentUse {
     UvTransform transform = {};
     std::optional<std::size_t> image = {};  ///< index into the file's images
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
+    double scale = 1;  ///< of a normal map: what x and y are multiplied by
     std::size_t material = 0;
     bool only_in_variant = false;  ///< the material is one of KHR_materials_variants, not the primitive's own
 };

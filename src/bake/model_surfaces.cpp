@@ -117,12 +117,6 @@ bool matchNames(const Scene& low, const Scene& high, MeshNames& names) {
     return seen.count() == count;
 }
 
-/// A vector that a place turns, as long as it was.
-Vec3 turnedVector(const Vec3& before, DVec3 after) {
-    const double size = length(toDouble(before));
-    return normalize(after) ? toFloat(size * after) : before;
-}
-
 /// The order of the corners of a triangle at a place, which may mirror.
 std::size_t placedCorner(const Affine& place, std::size_t i) {
     constexpr std::size_t kMirrored[3] = {0, 2, 1};
@@ -139,15 +133,13 @@ Affine firstPlace(const DrawnScene& drawn, std::size_t primitive) {
 
 void addPrimitive(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const Affine& place, std::uint32_t group,
                   LowPart& part) {
-    const float sign = place.determinant() < 0 ? -1 : 1;
     for (std::size_t i = 0; i < primitive.corners.size(); ++i) {
         const std::uint32_t vertex = primitive.corners[placedCorner(place, i)];
         part.positions.push_back(toFloat(place.point(toDouble(primitive.positions[vertex]))));
         const Vec3 normal = primitive.normals.empty() ? Vec3{} : primitive.normals[vertex];
         const Vec4 tangent = primitive.tangents.empty() ? Vec4{} : primitive.tangents[vertex];
-        part.normals.push_back(turnedVector(normal, place.normal(toDouble(normal))));
-        const Vec3 direction = turnedVector(xyz(tangent), place.direction(toDouble(xyz(tangent))));
-        part.tangents.push_back({direction.x, direction.y, direction.z, sign * tangent.w});
+        part.normals.push_back(normalAt(place, normal));
+        part.tangents.push_back(tangentAt(place, tangent));
         part.uvs.push_back(uvs[vertex]);
     }
     part.groups.insert(part.groups.end(), primitive.corners.size() / 3, group);
@@ -226,7 +218,7 @@ void addSmooth(const ScenePrimitive& primitive, std::span<const Vec3> normals, c
     const auto first = static_cast<std::uint32_t>(model.positions.size());
     for (const Vec3& position : primitive.positions)
         model.positions.push_back(toFloat(place.point(toDouble(position))));
-    for (const Vec3& normal : normals) model.normals.push_back(turnedVector(normal, place.normal(toDouble(normal))));
+    for (const Vec3& normal : normals) model.normals.push_back(normalAt(place, normal));
     for (std::size_t i = 0; i < primitive.corners.size(); ++i)
         model.corners.push_back(first + primitive.corners[placedCorner(place, i)]);
 }

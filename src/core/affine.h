@@ -2,7 +2,7 @@
 // Places in space: rotation, scale, shear and offset, in double.
 #pragma once
 
-#include "core/vec_math.h"
+#include "core/unit.h"
 
 namespace tspace {
 
@@ -23,6 +23,22 @@ struct Affine {
 /// First `inner`, then `outer`.
 inline Affine compose(const Affine& outer, const Affine& inner) {
     return {outer.direction(inner.x), outer.direction(inner.y), outer.direction(inner.z), outer.point(inner.origin)};
+}
+
+/// A vector that a place turned, as long as it was before; that one where it has no direction any more.
+inline Vec3 turnedVector(const Vec3& before, DVec3 after) {
+    const double size = length(toDouble(before));
+    return normalize(after) ? toFloat(size * after) : before;
+}
+
+inline Vec3 normalAt(const Affine& place, const Vec3& normal) {
+    return turnedVector(normal, place.normal(toDouble(normal)));
+}
+
+/// Its bitangent goes with the surface, also where the place mirrors it.
+inline Vec4 tangentAt(const Affine& place, const Vec4& tangent) {
+    const Vec3 direction = turnedVector(xyz(tangent), place.direction(toDouble(xyz(tangent))));
+    return {direction.x, direction.y, direction.z, place.determinant() < 0 ? -tangent.w : tangent.w};
 }
 
 }  // namespace tspace

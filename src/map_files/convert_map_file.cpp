@@ -53,7 +53,8 @@ struct Meshes {
 };
 
 Meshes readMeshes(const std::string& input, const ConvertMapFileOptions& options) {
-    const MapMeshChoice choice{options.material, fileNameOf(input)};
+    const bool in_world = options.from == MapFileSpace::world || options.to == MapFileSpace::world;
+    const MapMeshChoice choice{options.material, fileNameOf(input), in_world};
     const auto read = [&](const std::string& model) {
         try {
             return readMapMesh(model, choice, options.tangents, options.file);
@@ -66,20 +67,46 @@ Meshes readMeshes(const std::string& input, const ConvertMapFileOptions& options
     const bool from_tangent = options.from == MapFileSpace::tangent, to_tangent = options.to == MapFileSpace::tangent;
     const std::string& to_mesh = options.to_mesh.empty() ? options.mesh : options.to_mesh;
     Meshes meshes;
+    if (!from_tangent && !to_tangent) {
+        // Either model knows how object and world space lie to each other.
+        if (options.from != options.to) meshes.from = read(options.mesh.empty() ? to_mesh : options.mesh);
+        return meshes;
+    }
     if (from_tangent && !options.mesh.empty()) meshes.from = read(options.mesh);
     // One mesh serves both sides where it is one file.
     if (to_tangent && !to_mesh.empty() && !(meshes.from && to_mesh == options.mesh)) meshes.to = read(to_mesh);
     return meshes;
 }
 
-MapSide mapSideOf(const MapMesh* mesh, MapFileSpace space, const MapReading& reading) {
+/// `mesh`: that of this side, or the only one. `is_own`: its triangles are this side's.
+MapSide mapSideOf(const MapMesh* mesh, bool is_own, MapFileSpace space, const MapReading& reading) {
     MapSide side{.space = space == MapFileSpace::tangent ? MapSpace::tangent : MapSpace::object, .reading = reading};
-    if (mesh == nullptr || space != MapFileSpace::tangent) return side;
+    if (mesh == nullptr) return side;
+    if (space == MapFileSpace::tangent) side.reading.scale *= static_cast<float>(mesh->report.scale);
+    if (!is_own) return side;
     side.uvs = mesh->uvs;
     side.positions = mesh->positions;
+    if (space != MapFileSpace::tangent) return side;
     side.normals = mesh->normals;
     side.tangents = mesh->tangents;
     return side;
+}
+
+struct MapSides {
+    MapSide from, to;
+};
+
+MapSides sidesOf(const Meshes& meshes, const ConvertMapFileOptions& options) {
+    const MapMesh* const from = meshes.from ? &*meshes.from : nullptr;
+    const MapMesh* const to = meshes.to ? &*meshes.to : nullptr;
+    const MapMesh* const any = from != nullptr ? from : to;
+    MapSides sides{mapSideOf(any, from != nullptr, options.from, options.from_reading),
+                   mapSideOf(to != nullptr ? to : any, to != nullptr, options.to, options.to_reading)};
+    if (any == nullptr) return sides;
+    // Between object and world space the axes of the mesh lie in the world.
+    if (options.from == MapFileSpace::object && options.to == MapFileSpace::world) sides.from.axes = any->axes;
+    if (options.from == MapFileSpace::world && options.to == MapFileSpace::object) sides.to.axes = any->axes;
+    return sides;
 }
 
 void addMapWarnings(const ConvertMapFileOptions& options, ConvertMapFileReport& report) {
@@ -112,16 +139,29 @@ void addMapWarnings(const ConvertMapFileOptions& options, ConvertMapFileReport& 
     }
 }
 
+ImageFormat outputFormat(const std::string& output, const ConvertMapFileOptions& options) {
+    const std::string extension = lowerExtension(output);
+    const ImageFormat format = extension == ".exr" ? ImageFormat::exr : ImageFormat::png;
+    if (!options.sink && extension != ".png" && extension != ".exr")
+        failFile(ErrorCode::unsupportedFile,
+                 "the output " + pathInQuotes(output) + " ends neither in .png nor in .exr");
+    if (const char* why_not = whyNotRead(format))
+        failFile(ErrorCode::unsupportedFile, "the output cannot be written: " + std::string(why_not));
+    return format;
+}
+
+unsigned outputBits(ImageFormat format, unsigned bits) {
+    const bool is_exr = format == ImageFormat::exr;
+    if (bits == 0) return is_exr ? 32 : 16;
+    if (!is_exr && bits != 8 && bits != 16) failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits");
+    if (is_exr && bits != 16 && bits != 32) failFile(ErrorCode::invalidOption, "an EXR has 16 or 32 bits");
+    return bits;
+}
+
 ConvertMapFileReport convert(const std::string& input, const std::string& output,
                              const ConvertMapFileOptions& options) {
-    if (!options.sink && lowerExtension(output) != ".png") {
-        failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(output) + " does not end in .png");
-    }
-    if (whyNotRead(ImageFormat::png) != nullptr) failFile(ErrorCode::unsupportedFile, whyNotRead(ImageFormat::png));
-    if (options.bits != 8 && options.bits != 16) failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits");
-    if (options.from == MapFileSpace::world || options.to == MapFileSpace::world) {
-        failFile(ErrorCode::unsupportedFile, "maps in world space are not converted yet");
-    }
+    const ImageFormat format = outputFormat(output, options);
+    const unsigned bits = outputBits(format, options.bits);
     FloatImage image = readImage(input, options);
     const Meshes meshes = readMeshes(input, options);
     const MapMesh* const from = meshes.from ? &*meshes.from : nullptr;
@@ -131,7 +171,7 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     report.width = image.width;
     report.height = image.height;
     report.bits_before = image.bits;
-    report.bits = options.bits;
+    report.bits = bits;
     if (from != nullptr) report.from = from->report;
     if (to != nullptr) report.to = to->report;
     const MapImage map{.width = image.width,
@@ -139,14 +179,18 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
                        .texels = image.texels,
                        .wrap_u = any == nullptr ? TextureWrap::repeat : any->wrap_u,
                        .wrap_v = any == nullptr ? TextureWrap::repeat : any->wrap_v};
-    const ConvertMapOptions chosen{.bits = options.bits,
+    const ConvertMapOptions chosen{.bits = format == ImageFormat::png ? bits : 32,
                                    .padding = options.padding,
                                    .execution = options.tangents.execution,
                                    .progress = options.progress};
-    report.texels = valueOrThrow(convertMap(map, mapSideOf(from, options.from, options.from_reading),
-                                            mapSideOf(to, options.to, options.to_reading), image.texels, chosen));
+    const MapSides sides = sidesOf(meshes, options);
+    report.texels = valueOrThrow(convertMap(map, sides.from, sides.to, image.texels, chosen));
+    if (image.not_finite > 0)
+        report.warnings.push_back(std::to_string(image.not_finite) +
+                                  " texels of the image are not finite; they become grey, which has no direction");
     addMapWarnings(options, report);
-    const std::optional<std::vector<std::uint8_t>> file = encodePng(image, options.bits);
+    const std::optional<std::vector<std::uint8_t>> file =
+        format == ImageFormat::png ? encodePng(image, bits) : encodeExr(image, bits);
     if (!file) failFile(ErrorCode::outOfMemory, "the image cannot be packed");
     AtomicOutput files(options.sink, options.dry_run);
     files.add(output, std::span<const std::uint8_t>(*file));

@@ -2,6 +2,9 @@
 #include "map_files/map_mesh.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
 
 #include "asset/file_error.h"
 #include "asset/read/read_scene.h"
@@ -18,8 +21,6 @@ std::string stemOf(const std::string& name) {
     const std::string file = folder == std::string::npos ? name : name.substr(folder + 1);
     return file.substr(0, file.find_last_of('.'));
 }
-
-bool showsNormals(const TangentUse& use) { return use.needed_by != "anisotropy"; }
 
 /// How a primitive shows the map, where it does.
 const TangentUse* useOfImage(const Scene& scene, const ScenePrimitive& primitive, const std::string& stem) {
@@ -40,6 +41,7 @@ const TangentUse* firstNormalMap(const ScenePrimitive& primitive) {
 
 struct ChosenPrimitive {
     const ScenePrimitive* primitive = nullptr;
+    std::size_t number = 0;           ///< in the scene
     const TangentUse* use = nullptr;  ///< null: the first UVs, as they are
 };
 
@@ -57,7 +59,8 @@ std::vector<ChosenPrimitive> choosePrimitives(const Scene& scene, const MapMeshC
         if (use == nullptr) use = firstNormalMap(primitive);
         const std::size_t set = use == nullptr ? 0 : use->uv_set;
         if (primitive.corners.empty() || set >= primitive.uv_sets.size() || primitive.uv_sets[set].empty()) continue;
-        chosen.push_back({&primitive, use});
+        const auto number = static_cast<std::size_t>(&primitive - scene.primitives.data());
+        chosen.push_back({&primitive, number, use});
     }
     return chosen;
 }
@@ -86,11 +89,90 @@ void addFrames(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const
     mesh.report.tangents_made = true;
 }
 
+/// What all of them multiply x and y of the map by.
+double scaleOf(std::span<const ChosenPrimitive> chosen) {
+    const auto scale_of = [](const ChosenPrimitive& one) { return one.use == nullptr ? 1.0 : one.use->scale; };
+    const ChosenPrimitive& first = chosen.front();
+    for (const ChosenPrimitive& one : chosen) {
+        const std::string material = "the material " + inQuotes(one.primitive->material_name);
+        const auto scale = static_cast<float>(scale_of(one));
+        if (scale == 0 || !std::isfinite(scale))
+            failFile(ErrorCode::invalidFile, material + " gives its normal map a scale that shows nothing of it");
+        if (scale_of(one) != scale_of(first)) {
+            failFile(ErrorCode::invalidFile, material + " gives the map another scale than " +
+                                                 inQuotes(first.primitive->material_name) + "; choose one of them");
+        }
+    }
+    return scale_of(first);
+}
+
+/// Whether two places turn directions alike; offsets and sizes do not matter.
+bool turnsAlike(const Affine& a, const Affine& b) {
+    constexpr double kSame = 1e-6;
+    const auto size = [](const Affine& place) {
+        return std::sqrt(dot(place.x, place.x) + dot(place.y, place.y) + dot(place.z, place.z));
+    };
+    const auto apart = [&](const DVec3& p, const DVec3& q) { return length(size(b) * p - size(a) * q); };
+    return std::max({apart(a.x, b.x), apart(a.y, b.y), apart(a.z, b.z)}) <= kSame * size(a) * size(b);
+}
+
+/// How the scene turns a primitive. Nothing where the scene does not show it.
+std::optional<Affine> placeOf(const DrawnScene& drawn, const ChosenPrimitive& chosen) {
+    std::optional<Affine> place;
+    for (const ScenePlacement& placement : drawn.placements) {
+        if (placement.primitive != chosen.number) continue;
+        if (!place) place = placement.to_world;
+        if (turnsAlike(*place, placement.to_world)) continue;
+        failFile(ErrorCode::invalidFile, "several nodes show the mesh " + inQuotes(chosen.primitive->mesh_name) +
+                                             ", turned or squeezed in different ways, and a map in world space "
+                                             "fits one of them only");
+    }
+    return place;
+}
+
+/// Turns the corners from `first` on into the world.
+void placeCorners(const Affine& place, std::size_t first, MapMesh& mesh) {
+    for (std::size_t i = first; i < mesh.normals.size(); ++i) {
+        mesh.normals[i] = normalAt(place, mesh.normals[i]);
+        mesh.tangents[i] = tangentAt(place, mesh.tangents[i]);
+    }
+    std::array<DVec3, 3> axes{place.normal({1, 0, 0}), place.normal({0, 1, 0}), place.normal({0, 0, 1})};
+    const double size = std::max({length(axes[0]), length(axes[1]), length(axes[2])});
+    if (size > 0) {
+        for (DVec3& axis : axes) axis = (1 / size) * axis;
+    }
+    mesh.axes.resize(mesh.normals.size() / 3, {toFloat(axes[0]), toFloat(axes[1]), toFloat(axes[2])});
+}
+
 }  // namespace
+
+bool showsNormals(const TangentUse& use) { return use.needed_by != "anisotropy"; }
+
+void addMapCorners(const ScenePrimitive& primitive, const TangentUse* use, const TangentOptions& tangents,
+                   MapMesh& mesh) {
+    const auto uvs_of = [&](const TangentUse& of) {
+        return textureUvs(primitive.uv_sets[of.uv_set].span(), of.transform);
+    };
+    const TangentUse plain;
+    const TangentUse& reading = use == nullptr ? plain : *use;
+    const std::vector<Vec2> uvs = uvs_of(reading);
+    const TangentUse* const first = primitive.uses.empty() ? nullptr : &primitive.uses.front();
+    const bool has_first =
+        first != nullptr && first->uv_set < primitive.uv_sets.size() && !primitive.uv_sets[first->uv_set].empty();
+    addFrames(primitive, has_first ? uvs_of(*first) : uvs, tangents, mesh);
+    gatherCorners(std::span<const Vec2>(uvs), primitive.corners.span(), mesh.uvs);
+    gatherCorners(primitive.positions.span(), primitive.corners.span(), mesh.positions);
+    std::vector<std::string>& materials = mesh.report.materials;
+    if (std::find(materials.begin(), materials.end(), primitive.material_name) == materials.end())
+        materials.push_back(primitive.material_name);
+    ++mesh.report.primitive_count;
+    mesh.report.triangle_count = mesh.uvs.size() / 3;
+}
 
 MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
                     const FileOptions& file) {
-    const Scene scene = readScene(model, file, false);
+    const DrawnScene drawn = readDrawnScene(model, file, false);
+    const Scene& scene = drawn.scene;
     const std::vector<ChosenPrimitive> chosen = choosePrimitives(scene, choice);
     if (chosen.empty()) {
         const std::string which =
@@ -98,26 +180,25 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
         failFile(ErrorCode::invalidFile, "the model has no triangles" + which + " with the UVs of a normal map");
     }
     MapMesh mesh;
+    mesh.report.scale = scaleOf(chosen);
     if (chosen.front().use != nullptr) {
         mesh.wrap_u = chosen.front().use->wrap_u;
         mesh.wrap_v = chosen.front().use->wrap_v;
     }
-    constexpr std::size_t kCornerBytes = sizeof(Vec2) + 2 * sizeof(Vec3) + sizeof(Vec4);
-    for (const auto& [primitive, use] : chosen) {
-        scene.memory->take(4 * kCornerBytes * primitive->corners.size(), primitive->place);
-        const UvTransform transform = use == nullptr ? UvTransform{} : use->transform;
-        const std::vector<Vec2> uvs =
-            textureUvs(primitive->uv_sets[use == nullptr ? 0 : use->uv_set].span(), transform);
-        addFrames(*primitive, uvs, tangents, mesh);
-        gatherCorners(std::span<const Vec2>(uvs), primitive->corners.span(), mesh.uvs);
-        gatherCorners(primitive->positions.span(), primitive->corners.span(), mesh.positions);
-        std::vector<std::string>& materials = mesh.report.materials;
-        if (std::find(materials.begin(), materials.end(), primitive->material_name) == materials.end()) {
-            materials.push_back(primitive->material_name);
+    constexpr std::size_t kCornerBytes = sizeof(Vec2) + 2 * sizeof(Vec3) + sizeof(Vec4) + sizeof(MapAxes) / 3;
+    for (const ChosenPrimitive& one : chosen) {
+        std::optional<Affine> place;
+        if (choice.in_world) {
+            place = placeOf(drawn, one);
+            if (!place) continue;
         }
+        const std::size_t first = mesh.normals.size();
+        scene.memory->take(4 * kCornerBytes * one.primitive->corners.size(), one.primitive->place);
+        addMapCorners(*one.primitive, one.use, tangents, mesh);
+        if (place) placeCorners(*place, first, mesh);
     }
-    mesh.report.primitive_count = static_cast<std::uint32_t>(chosen.size());
-    mesh.report.triangle_count = mesh.uvs.size() / 3;
+    if (mesh.uvs.empty())
+        failFile(ErrorCode::invalidFile, "no node of the scene shows the mesh, so it has no world space");
     return mesh;
 }
 

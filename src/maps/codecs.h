@@ -2,6 +2,7 @@
 // What each image library gives, behind one shape. Reasons (`why`) are half a sentence: "it is a broken PNG".
 #pragma once
 
+#include "maps/float_image.h"
 #include "maps/image.h"
 
 namespace tspace {
@@ -20,9 +21,14 @@ ImageClaim claimOf(ByteSpan bytes);
 ImageClaim claimOfPng(ByteSpan bytes);
 ImageClaim claimOfJpeg(ByteSpan bytes);
 ImageClaim claimOfWebp(ByteSpan bytes);
+ImageClaim claimOfExr(ByteSpan bytes);
 
 std::optional<RgbImage> decodePng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 std::optional<RgbImage> decodeWebp(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
+
+/// Whether OpenEXR is there at run time; without it nothing else of EXR may be called but claimOfExr.
+bool hasOpenExr();
+std::optional<FloatImage> decodeExr(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 
 }  // namespace tspace

@@ -6,6 +6,7 @@
 
 #include "core/border.h"
 #include "core/parallel.h"
+#include "maps/carried_error.h"
 #include "maps/convert_texel.h"
 #include "maps/map_stop.h"
 #include "maps/matched_triangles.h"
@@ -44,19 +45,6 @@ MapReading readingOf(const MapSide& side) {
 }
 
 bool hasFrames(const MapSide& side) { return side.space == MapSpace::tangent && !side.uvs.empty(); }
-
-ShadingFrame frameOf(const MapSide& side, std::size_t triangle, const std::array<double, 3>& weights) {
-    if (side.space == MapSpace::object) {
-        const MapAxes axes = side.axes.empty() ? MapAxes{} : side.axes[triangle];
-        return {toDouble(axes.x), toDouble(axes.y), toDouble(axes.z)};
-    }
-    CornerFrames corners;
-    for (std::size_t i = 0; i < 3; ++i) {
-        corners.normals[i] = side.normals[3 * triangle + i];
-        corners.tangents[i] = side.tangents[3 * triangle + i];
-    }
-    return shadingFrame(corners, weights, side.reading);
-}
 
 /// Sums of some texels, in their order.
 struct Sums {
@@ -99,6 +87,7 @@ class Conversion {
             }
         }
         const std::size_t texels = map_.texels.size(), tasks = (texels + kTexelsOfTask - 1) / kTexelsOfTask;
+        if (options_.bits == 8) findSpreads();
         Buffer<Sums> sums(options_.execution.allocator, tasks, Sums{});
         for (std::size_t first = 0; first < tasks; first += kTasksOfStep) {
             if (options_.stop && options_.stop()) return stoppedError();
@@ -138,6 +127,35 @@ class Conversion {
         return true;
     }
 
+    /// Of the texels as they come: `out_` may be where they are.
+    void findSpreads() {
+        const std::size_t rows = map_.height;
+        spreads_ = Buffer<float>(options_.execution.allocator, map_.texels.size());
+        parallel_.forRanges(rows, 16, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t y = begin; y < end; ++y) {
+                for (std::size_t x = 0; x < map_.width; ++x) spreads_[y * map_.width + x] = spreadAt(x, y);
+            }
+        });
+    }
+
+    /// Root of the mean square of the angles to the four texels around, or nearly.
+    [[nodiscard]] float spreadAt(std::size_t x, std::size_t y) const {
+        const auto at = [&](std::int64_t column, std::int64_t row) {
+            const std::size_t wrapped = wrappedTexel(column, map_.width, map_.wrap_u) +
+                                        std::size_t{wrappedTexel(row, map_.height, map_.wrap_v)} * map_.width;
+            DVec3 direction = decodeTexel(map_.texels[wrapped], readingOf(from_));
+            return normalize(direction) ? direction : DVec3{};
+        };
+        const auto column = static_cast<std::int64_t>(x), row = static_cast<std::int64_t>(y);
+        const DVec3 here = at(column, row);
+        double sum = 0;
+        for (const auto& [right, below] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+            const DVec3 apart = at(column + right, row + below) - here;
+            sum += dot(apart, apart);
+        }
+        return std::isfinite(sum) ? static_cast<float>(std::sqrt(sum / 4)) : 0.0F;
+    }
+
     void convert(std::size_t texel, Sums& sums) {
         const Vec3 before = map_.texels[texel];
         out_[texel] = before;
@@ -155,8 +173,9 @@ class Conversion {
                 return;
             }
         }
+        const double spread = spreads_.size() == 0 ? 0 : static_cast<double>(spreads_[texel]);
         const auto converted =
-            convertTexel(before, from, readingOf(from_), to, readingOf(to_), {.bits = options_.bits});
+            convertTexel(before, from, readingOf(from_), to, readingOf(to_), {.bits = options_.bits, .spread = spread});
         if (!converted) {
             ++sums.without_frame;
             return;
@@ -182,9 +201,9 @@ class Conversion {
         other_place.triangle = matches_[place.triangle];
         if (other_place.triangle == kNoTriangle) other_place = other_places_.places[texel];
         if (other_place.triangle == kNoTriangle) return false;
-        const ShadingFrame main_frame = frameOf(main_, place.triangle, weights);
-        const ShadingFrame other_frame = frameOf(other_, other_place.triangle,
-                                                 weightsAt(other_corners_.triangles(map_), places_.shape, other_place));
+        const ShadingFrame main_frame = sideFrame(main_, place.triangle, weights);
+        const ShadingFrame other_frame = sideFrame(
+            other_, other_place.triangle, weightsAt(other_corners_.triangles(map_), places_.shape, other_place));
         from = &main_ == &from_ ? main_frame : other_frame;
         to = &main_ == &from_ ? other_frame : main_frame;
         return true;
@@ -192,10 +211,10 @@ class Conversion {
 
     [[nodiscard]] ShadingFrame oneMeshFrame(const MapSide& side, std::size_t triangle,
                                             const std::array<double, 3>& weights) const {
-        if (side.space == MapSpace::object || hasFrames(side)) return frameOf(side, triangle, weights);
+        if (side.space == MapSpace::object || hasFrames(side)) return sideFrame(side, triangle, weights);
         MapSide with_mesh = main_;
         with_mesh.reading = side.reading;
-        return frameOf(with_mesh, triangle, weights);
+        return sideFrame(with_mesh, triangle, weights);
     }
 
     [[nodiscard]] ConvertMapReport reportOf(const Sums& sums) const {
@@ -227,6 +246,7 @@ class Conversion {
     const MapSide &main_, &other_;  ///< texels go by the triangles of the first
     CornerTriangles main_corners_, other_corners_;
     TexelTriangles places_ = {}, other_places_ = {};
+    Buffer<float> spreads_ = {};          ///< TexelNumbers::spread of each texel, with 8 bits
     Buffer<std::uint32_t> matches_ = {};  ///< triangles of the other side, by those of the main one
 };
 

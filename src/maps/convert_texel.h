@@ -10,7 +10,9 @@ namespace tspace {
 
 /// The numbers that come out.
 struct TexelNumbers {
-    unsigned bits = 16;                                               ///< 8, 16, or 32: no integers
+    unsigned bits = 16;  ///< 8, 16, or 32: no integers
+    /// With 8 bits: the angle to the texels around, in radians. Filtering gives a longer one more weight among them.
+    double spread = 0;
     [[nodiscard]] unsigned most() const { return (1U << bits) - 1; }  ///< of 8 or 16
 };
 

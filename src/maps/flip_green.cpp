@@ -29,6 +29,9 @@ ImageFileFormat fileFormat(ImageFormat format) {
 ImageFileFormat readableFormat(ByteSpan bytes) {
     const ImageFormat format = imageFormat(bytes);
     if (const char* why_not = whyNotRead(format)) failFile(ErrorCode::unsupportedFile, why_not);
+    if (format == ImageFormat::exr)
+        failFile(ErrorCode::unsupportedFile,
+                 "it is EXR, whose green is inverted by convertMapFile (tspace convert-map)");
     return fileFormat(format);
 }
 

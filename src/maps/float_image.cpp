@@ -113,13 +113,21 @@ std::optional<std::vector<std::uint8_t>> encodeSamples(spng_ihdr header, const s
 }  // namespace
 
 std::optional<FloatImage> decodeFloatImage(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    const ImageFormat format = imageFormat(bytes);
 #ifdef TSPACE_HAS_IMAGES
-    if (imageFormat(bytes) == ImageFormat::png) return decodeDeepPng(bytes, most_pixels, why);
+    if (format == ImageFormat::png) return decodeDeepPng(bytes, most_pixels, why);
+#endif
+#ifdef TSPACE_HAS_OPENEXR
+    if (format == ImageFormat::exr && whyNotRead(format) == nullptr) return decodeExr(bytes, most_pixels, why);
 #endif
     const std::optional<RgbImage> image = decodeImage(bytes, most_pixels, why);
     if (!image) return {};
     return floatsOf(*image);
 }
+
+#ifndef TSPACE_HAS_OPENEXR
+std::optional<std::vector<std::uint8_t>> encodeExr(const FloatImage&, unsigned) { return {}; }
+#endif
 
 std::optional<std::vector<std::uint8_t>> encodePng(const FloatImage& image, unsigned bits) {
 #ifdef TSPACE_HAS_IMAGES

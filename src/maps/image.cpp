@@ -26,6 +26,31 @@ struct Codec {
     std::optional<RgbImage> (*decode)(ByteSpan, std::uint64_t, std::string&) = nullptr;
 };
 
+#ifdef TSPACE_HAS_OPENEXR
+std::optional<RgbImage> decodeRoundedExr(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
+    const std::optional<FloatImage> image = decodeExr(bytes, most_pixels, why);
+    if (!image) return {};
+    RgbImage rounded{image->width, image->height, {}};
+    rounded.rgb.reserve(3 * image->texels.size());
+    for (const Vec3& texel : image->texels) {
+        for (const float channel : {texel.x, texel.y, texel.z})
+            rounded.rgb.push_back(static_cast<std::uint8_t>(std::clamp(channel, 0.0F, 1.0F) * 255.0F + 0.5F));
+    }
+    return rounded;
+}
+#endif
+
+Codec exrCodec() {
+    constexpr const char* kName = "EXR";
+    constexpr const char* kMimeType = "image/x-exr";
+#ifdef TSPACE_HAS_OPENEXR
+    if (hasOpenExr()) return {kName, kMimeType, nullptr, claimOfExr, decodeRoundedExr};
+    return {kName, kMimeType, "it is EXR, and the library OpenEXR (" TSPACE_OPENEXR_LIBRARY ") is not installed"};
+#else
+    return {kName, kMimeType, "it is EXR, which this build of tspace does not read"};
+#endif
+}
+
 Codec codecOf(ImageFormat format) {
 #ifdef TSPACE_HAS_IMAGES
     const Codec png{"PNG", "image/png", nullptr, claimOfPng, decodePng};
@@ -54,6 +79,8 @@ Codec codecOf(ImageFormat format) {
             return {"DDS", "image/vnd-ms.dds", "it is DDS, which is not read"};
         case ImageFormat::avif:
             return {"AVIF", "image/avif", "it is AVIF, which is not read"};
+        case ImageFormat::exr:
+            return exrCodec();
         case ImageFormat::unknown:
             break;
     }
@@ -69,6 +96,7 @@ ImageFormat imageFormat(ByteSpan bytes) {
     if (has(bytes, 0, "\xabKTX 20")) return ImageFormat::ktx2;
     if (has(bytes, 0, "sB") && bytes.size() > 3 && bytes[2] >> 4 == 1 && bytes[3] == 0) return ImageFormat::basis;
     if (has(bytes, 0, "DDS ")) return ImageFormat::dds;
+    if (has(bytes, 0, "\x76\x2f\x31\x01")) return ImageFormat::exr;
     if (has(bytes, 4, "ftypavif")) return ImageFormat::avif;
     return ImageFormat::unknown;
 }

@@ -12,7 +12,7 @@ namespace tspace {
 
 using ByteSpan = std::span<const std::uint8_t>;
 
-enum class ImageFormat { unknown, png, jpeg, webp, ktx2, basis, dds, avif };
+enum class ImageFormat { unknown, png, jpeg, webp, ktx2, basis, dds, avif, exr };
 
 /// Told by the first bytes, whatever a file says of itself.
 ImageFormat imageFormat(ByteSpan bytes);
@@ -41,7 +41,7 @@ struct ImageSize {
 /// What the head of the file says, without any check; at most 2^30 each. 0 where decodeImage decodes nothing.
 ImageSize claimedSize(ByteSpan bytes);
 
-/// Decodes PNG, JPEG and WebP, told apart by content. Nothing, with the reason in `why` (half a sentence), for other
+/// Decodes PNG, JPEG, WebP and EXR (rounded to 8 bits), told apart by content. Nothing, with the reason in `why` (half a sentence), for other
 /// formats, broken files, more than `most_pixels` pixels, and images that are out of proportion to their bytes.
 std::optional<RgbImage> decodeImage(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 

@@ -25,7 +25,11 @@ double distance(const DVec3& vector, const DVec3& direction) {
     return dot(across, across) / squared;
 }
 
-DVec3 nearestOfTwoChannels(unsigned most, const DVec3& direction) {
+DVec3 scaled(const DVec3& v, double scale) { return {scale * v.x, scale * v.y, v.z}; }
+
+DVec3 nearestOfTwoChannels(const IntegerVectors& numbers, const DVec3& direction) {
+    const unsigned most = numbers.most;
+    const DVec3 seen = scaled(direction, numbers.scale);
     DVec3 best{};
     double least = INFINITY;
     const double x = nearestTo(direction.x, most), y = nearestTo(direction.y, most);
@@ -34,7 +38,7 @@ DVec3 nearestOfTwoChannels(unsigned most, const DVec3& direction) {
             if (x + dx < 0 || y + dy < 0 || x + dx > most || y + dy > most) continue;
             DVec3 vector{valueOf(x + dx, most), valueOf(y + dy, most), 0};
             vector.z = std::sqrt(std::fmax(0.0, 1 - vector.x * vector.x - vector.y * vector.y));
-            const double error = distance(vector, direction);
+            const double error = distance(scaled(vector, numbers.scale), seen);
             if (!(error < least)) continue;
             least = error;
             best = vector;
@@ -53,8 +57,9 @@ DVec3 roundedVector(unsigned most, const DVec3& vector) {
 
 DVec3 nearestIntegers(const IntegerVectors& numbers, const DVec3& direction) {
     const unsigned most = numbers.most;
-    if (numbers.is_two_channel) return nearestOfTwoChannels(most, direction);
+    if (numbers.is_two_channel) return nearestOfTwoChannels(numbers, direction);
     const Components d{direction.x, direction.y, direction.z};
+    const DVec3 seen = scaled(direction, numbers.scale);
     std::size_t main = 0;
     for (std::size_t i = 1; i < 3; ++i) {
         if (std::fabs(d[i]) > std::fabs(d[main])) main = i;
@@ -77,7 +82,8 @@ DVec3 nearestIntegers(const IntegerVectors& numbers, const DVec3& direction) {
             const DVec3 candidate{vector[0], vector[1], vector[2]};
             const double squared = dot(candidate, candidate);
             if (squared > 1 || squared < numbers.least_length * numbers.least_length) continue;
-            const double error = distance(candidate, direction);
+            const double off = numbers.length_cost * (std::sqrt(squared) / numbers.wanted_length - 1);
+            const double error = distance(scaled(candidate, numbers.scale), seen) + off * off;
             if (!(error < least)) continue;
             least = error;
             best = candidate;

@@ -12,13 +12,16 @@ struct IntegerVectors {
     /// Shorter ones lose under filters that make texels unit.
     double least_length = 0.7;
     bool is_two_channel = false;  ///< z follows from x and y, whose vector is unit
+    double scale = 1;             ///< readers multiply x and y by it
+    /// Another length than this counts as an angle of that many radians times the part that it is off. 0: any will do.
+    double wanted_length = 1, length_cost = 0;
 };
 
 /// Each component to the nearest that an integer stands for.
 DVec3 roundedVector(unsigned most, const DVec3& vector);
 
-/// The vector of integers that points nearest to a direction, of any length from the least to what fits. With two channels the
-/// length is 1 (z as close as it can be), and z must not be negative. `direction` is unit.
+/// The vector of integers that points nearest to a direction as readers see it, of any length from the least to what fits. With
+/// two channels the length is 1 (z as close as it can be), and z must not be negative. `direction`, before the scale, is unit.
 DVec3 nearestIntegers(const IntegerVectors& numbers, const DVec3& direction);
 
 }  // namespace tspace

@@ -79,6 +79,15 @@ void TexelMask::clear() {
     end_row_ = whole_count_ = 0;
 }
 
+bool TexelMask::meets(const TexelMask& other) const {
+    const std::size_t begin = std::max(first_row_, other.first_row_) * row_words_;
+    const std::size_t end = std::min(end_row_, other.end_row_) * row_words_;
+    for (std::size_t i = begin; i < end; ++i) {
+        if ((words_[i] & other.words_[i]) != 0) return true;
+    }
+    return false;
+}
+
 std::uint64_t TexelMask::count(const TexelRect& rect) const {
     std::uint64_t result = 0;
     for (std::uint32_t y = std::max(rect.top, first_row_); y < std::min(rect.bottom, end_row_); ++y) {

@@ -41,6 +41,8 @@ class TexelMask {
     /// True when a call of fill has taken all of the row at once.
     [[nodiscard]] bool isWhole(std::uint32_t y) const { return is_whole_[y]; }
     [[nodiscard]] bool isWhole() const { return height_ != 0 && whole_count_ == height_; }
+    /// Whether a mask of the same size has a texel that this one has too.
+    [[nodiscard]] bool meets(const TexelMask& other) const;
     /// How many texels of the rectangle, which lies inside of the image, are in the mask.
     [[nodiscard]] std::uint64_t count(const TexelRect& rect) const;
     /// Rows that may have texels.

@@ -15,7 +15,7 @@ constexpr Named<BitangentPlace> kBitangents[] = {
     {"pixel", BitangentPlace::perPixel},
     {"vertex", BitangentPlace::perVertex},
 };
-constexpr Named<unsigned> kBitCounts[] = {{"16", 16}, {"8", 8}};
+constexpr Named<unsigned> kBitCounts[] = {{"8", 8}, {"16", 16}, {"32", 32}};
 
 }  // namespace
 
@@ -37,7 +37,11 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
     add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything but write."));
     addAllowExternal(list, options.file);
     const char* group = "Map";
-    add(list, group, choice("--from", "SPACE", kSpaces, options.from, "What the map's vectors are told in."));
+    add(list, group,
+        choice("--from", "SPACE", kSpaces, options.from,
+               "What the map's vectors are told in. object: the coordinates of the mesh; world: those of the scene, as "
+               "the "
+               "mesh's node turns it."));
     add(list, group, choice("--to", "SPACE", kSpaces, options.to, "What those of the output are to be told in."));
     add(list, group,
         readingOption("--from-convention", options.from_reading, "The program that the map was made for."));
@@ -53,7 +57,11 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
         option(
             "--flip-green", "", [](const std::string&) { return std::string(); },
             "Green of the output points the other way than --to-convention says."));
-    add(list, group, choice("--bits", "BITS", kBitCounts, options.bits, "Of a channel of the output."));
+    add(list, group,
+        choice(
+            "--bits", "BITS", kBitCounts, options.bits,
+            "Of a channel of the output: 8 or 16 in a PNG; 16 (half) or 32 (float) in an EXR. Default: the most that "
+            "the format has."));
     add(list, group,
         number(
             "--padding", options.padding, 65536,
@@ -80,7 +88,7 @@ std::string finish(const Given& given, ConvertMapFileOptions& options) {
     if (!options.to_mesh.empty() && options.mesh.empty() && options.from == MapFileSpace::tangent) {
         return "--to-mesh needs --mesh: the model that the map was made for";
     }
-    const bool same_kind = (options.from == MapFileSpace::tangent) == (options.to == MapFileSpace::tangent);
+    const bool same_kind = options.from == options.to;
     if (!same_kind && options.mesh.empty() && options.to_mesh.empty()) {
         return "from one space to another takes the frames of a model: --mesh";
     }

@@ -11,7 +11,8 @@ Json mapMeshJson(const MapMeshReport& mesh) {
     return {{"primitives", mesh.primitive_count},
             {"triangles", mesh.triangle_count},
             {"materials", mesh.materials},
-            {"tangentsMade", mesh.tangents_made}};
+            {"tangentsMade", mesh.tangents_made},
+            {"scale", mesh.scale}};
 }
 
 }  // namespace

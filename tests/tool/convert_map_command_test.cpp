@@ -2,8 +2,11 @@
 // tspace convert-map.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
+#include "core/unit.h"
 #include "maps/float_image.h"
 #include "maps/images.h"
 #include "run_tool.h"
@@ -123,6 +126,111 @@ TEST(ConvertMapCommand, ChoosesTheTrianglesOfAMaterial) {
     EXPECT_EQ(json("bump.png --mesh a.obj")["from"]["tangentsMade"], true);
 }
 
+/// The model as glTF, its nodes and material as `edit` leaves them.
+template <class Edit>
+void writeEdited(const TempFolder& folder, const std::string& model, const std::string& name, const Edit& edit) {
+    ASSERT_EQ(runTool(folder, "generate -q " + model + " -o " + name).exit_code, 0);
+    Json json = Json::parse(folder.read(name));
+    edit(json);
+    folder.write(name, json.dump());
+}
+
+DVec3 directionIn(const Vec3& texel) {
+    DVec3 direction{2.0 * texel.x - 1, 2.0 * texel.y - 1, 2.0 * texel.z - 1};
+    normalize(direction);
+    return direction;
+}
+
+constexpr double kRounding = 6e-5;  // of 16 bits, twice
+
+TEST(ConvertMapCommand, TurnsWorldSpaceWithTheNodesOfTheMesh) {
+    const TempFolder folder;
+    writeSheet(folder);
+    struct Case {
+        Json node;
+        std::array<DVec3, 3> rows;  // world from object, for normals
+    };
+    const double c = std::sqrt(0.5);
+    const Case cases[] = {
+        {{{"rotation", {0, 0, std::sin(std::numbers::pi / 8), std::cos(std::numbers::pi / 8)}},
+          {"translation", {3, 4, 5}}},
+         {DVec3{c, -c, 0}, {c, c, 0}, {0, 0, 1}}},
+        {{{"scale", {-1, 1, 1}}}, {DVec3{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+        {{{"scale", {7, 7, 7}}}, {DVec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+    };
+    ASSERT_EQ(runTool(folder, "convert-map -q bump.png --mesh a.glb --to object -o object.png").exit_code, 0);
+    const FloatImage bump = imageIn(folder, "bump.png"), object = imageIn(folder, "object.png");
+    for (const Case& one : cases) {
+        writeEdited(folder, "a.glb", "placed.gltf", [&](Json& json) { json["nodes"][0].update(one.node); });
+        const std::string convert = "convert-map -q --mesh placed.gltf -o ";
+        ASSERT_EQ(runTool(folder, convert + "world.png bump.png --to world").exit_code, 0);
+        ASSERT_EQ(runTool(folder, convert + "turned.png object.png --from object --to world").exit_code, 0);
+        ASSERT_EQ(runTool(folder, convert + "back.png world.png --from world").exit_code, 0);
+        ASSERT_EQ(runTool(folder, convert + "unturned.png world.png --from world --to object").exit_code, 0);
+        const FloatImage world = imageIn(folder, "world.png"), turned = imageIn(folder, "turned.png");
+        const FloatImage back = imageIn(folder, "back.png"), unturned = imageIn(folder, "unturned.png");
+        for (std::size_t i = 0; i < object.texels.size(); ++i) {
+            const DVec3 before = directionIn(object.texels[i]);
+            const DVec3 expected{dot(one.rows[0], before), dot(one.rows[1], before), dot(one.rows[2], before)};
+            EXPECT_LT(length(directionIn(world.texels[i]) - expected), kRounding);
+            EXPECT_LT(length(directionIn(turned.texels[i]) - expected), kRounding);
+            EXPECT_LT(length(directionIn(unturned.texels[i]) - before), kRounding);
+            EXPECT_LT(length(directionIn(back.texels[i]) - directionIn(bump.texels[i])), kRounding);
+        }
+    }
+}
+
+TEST(ConvertMapCommand, RefusesAWorldInWhichAMeshStandsInSeveralWays) {
+    const TempFolder folder;
+    writeSheet(folder);
+    const auto run_with = [&](const Json& second) {
+        writeEdited(folder, "a.glb", "twice.gltf", [&](Json& json) {
+            Json node = json["nodes"][0];
+            node.update(second);
+            json["nodes"].push_back(node);
+            json["scenes"][0]["nodes"] = {0, 1};
+            json["meshes"][0]["name"] = "Sheet";
+        });
+        return runTool(folder, "convert-map bump.png --mesh twice.gltf --to world -o world.png");
+    };
+    EXPECT_EQ(run_with({{"translation", {9, 0, 0}}, {"scale", {2, 2, 2}}}).exit_code, 0);
+    std::filesystem::remove(folder.path() / "world.png");
+    const ToolRun turned = run_with({{"rotation", {1, 0, 0, 0}}});
+    EXPECT_EQ(turned.exit_code, 3);
+    EXPECT_NE(turned.err.find("Sheet"), std::string::npos) << turned.err;
+    EXPECT_EQ(std::count(turned.err.begin(), turned.err.end(), '\n'), 1) << turned.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "world.png"));
+}
+
+TEST(ConvertMapCommand, HonoursTheScaleOfEitherMaterial) {
+    const TempFolder folder;
+    writeSheet(folder);
+    const auto scaled = [&](const std::string& model, const std::string& name, double scale) {
+        writeEdited(folder, model, name, [&](Json& json) { json["materials"][0]["normalTexture"]["scale"] = scale; });
+    };
+    scaled("a.glb", "a.gltf", 1.5);
+    scaled("b.glb", "b.gltf", 0.75);
+    scaled("b.glb", "none.gltf", 0);
+    for (const auto& [bits, most] : {std::pair{"16", 1e-4}, std::pair{"8", 0.02}}) {
+        const ToolRun run = runTool(
+            folder, "convert-map --json bump.png --mesh a.gltf --to-mesh b.gltf -o b.png --bits " + std::string(bits));
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(Json::parse(run.out)["from"]["scale"], 1.5);
+        EXPECT_EQ(Json::parse(run.out)["to"]["scale"], 0.75);
+        ASSERT_EQ(runTool(folder, "convert-map -q bump.png --mesh a.gltf --to object -o before.png").exit_code, 0);
+        ASSERT_EQ(
+            runTool(folder, "convert-map -q b.png --mesh b.gltf --material skin --to object -o after.png").exit_code,
+            0);
+        const FloatImage before = imageIn(folder, "before.png"), after = imageIn(folder, "after.png");
+        for (std::size_t i = 0; i < before.texels.size(); ++i)
+            EXPECT_LT(length(directionIn(before.texels[i]) - directionIn(after.texels[i])), most) << bits;
+    }
+    // The same file on both sides: nothing to do, whatever the scale.
+    ASSERT_EQ(runTool(folder, "convert-map -q bump.png --mesh a.gltf -o same.png").exit_code, 0);
+    EXPECT_TRUE(imageIn(folder, "same.png").texels == imageIn(folder, "bump.png").texels);
+    EXPECT_EQ(runTool(folder, "convert-map bump.png --mesh a.gltf --to-mesh none.gltf -o b.png").exit_code, 3);
+}
+
 TEST(ConvertMapCommand, WarnsWhenRoundingUndoesTheChange) {
     const TempFolder folder;
     writeSheet(folder);
@@ -146,6 +254,7 @@ TEST(ConvertMapCommand, SaysInOneLineWhatIsWrong) {
              {"bump.png -o bump.png", 2},
              {"bump.png -o b.png --to object", 2},
              {"bump.png -o b.png --from object", 2},
+             {"bump.png -o b.png --from object --to world", 2},
              {"bump.png -o b.png --to-mesh a.glb", 2},
              {"bump.png -o b.png --to-convention three", 2},
              {"bump.png -o b.png --bits 12", 2},

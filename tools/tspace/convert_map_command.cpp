@@ -13,8 +13,9 @@ namespace tspace::tool {
 namespace {
 
 std::string meshText(const std::string& file, const MapMeshReport& mesh) {
-    return fmt::format("{}: {} triangles in {} primitives{}", printable(file), mesh.triangle_count,
-                       mesh.primitive_count, mesh.tangents_made ? ", tangents made" : "");
+    return fmt::format("{}: {} triangles in {} primitives{}{}", printable(file), mesh.triangle_count,
+                       mesh.primitive_count, mesh.tangents_made ? ", tangents made" : "",
+                       mesh.scale == 1 ? "" : fmt::format(", map scaled by {:.4g}", mesh.scale));
 }
 
 std::string textOf(const ConvertMapArguments& arguments, const ConvertMapFileReport& done) {

@@ -20,9 +20,9 @@ Command convertMapCommand(ConvertMapArguments& arguments) {
         .finish = [&arguments](const Given& given) { return finish(given, arguments.options); },
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input, "An image: PNG, JPEG or WebP; - for stdin."));
-    Option output =
-        text("-o, --output", "OUT", arguments.output, "Where to write: a file that ends in .png; - for stdout.");
+    command.add(group, operand("IN", arguments.input, "An image: PNG, JPEG, WebP or EXR; - for stdin."));
+    Option output = text("-o, --output", "OUT", arguments.output,
+                         "Where to write: a file that ends in .png or .exr; - for stdout, a PNG.");
     output.is_file = output.is_required = true;
     command.add(group, output);
     command.add(convertMapOptions(arguments.options));

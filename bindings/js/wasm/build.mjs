@@ -24,9 +24,10 @@ const fileRooms = [
 /// Threads, memory of an operating system, the disk, and readers of other formats; only_memory.cpp is in the place of some.
 const notHere = new Set([
   "core/parallel.cpp", "core/arena.cpp", "asset/atomic_output_disk.cpp", "asset/file_io.cpp", "asset/resolve_uri.cpp",
-  "asset/system_files_posix.cpp", "asset/system_files_windows.cpp", "asset/temporary_name.cpp", "asset/gltf/codecs/draco_library.cpp", "asset/gltf/codecs/meshopt_library.cpp",
-  "generate_file/generate_obj.cpp", "inspect/inspect_obj.cpp", "maps/float_image.cpp", "maps/jpeg.cpp", "maps/png.cpp",
-  "maps/png_pixels.cpp", "maps/rays.cpp", "maps/webp.cpp", "report/diff_text.cpp",
+  "asset/system_files_posix.cpp", "asset/system_files_windows.cpp", "asset/temporary_name.cpp",
+  "asset/gltf/codecs/draco_library.cpp", "asset/gltf/codecs/meshopt_library.cpp", "generate_file/convert_maps.cpp",
+  "generate_file/generate_obj.cpp", "inspect/inspect_obj.cpp", "maps/exr.cpp", "maps/float_image.cpp", "maps/jpeg.cpp",
+  "maps/png.cpp", "maps/png_pixels.cpp", "maps/rays.cpp", "maps/webp.cpp", "report/diff_text.cpp",
 ]);
 const hot = /mikktspace\/corner_terms_kernel|^pack\//;
 

@@ -68,6 +68,9 @@ class MaterialUses {
         use.image = reading.image;
         use.wrap_u = reading.wrap_u;
         use.wrap_v = reading.wrap_v;
+        // What is no number counts for nothing, as in viewers: tangents do not depend on it.
+        if (const Json* scale = findMember(*texture, "scale"); scale != nullptr && scale->is_number())
+            use.scale = scale->get<double>();
         return true;
     }
 
