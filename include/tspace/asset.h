@@ -139,6 +139,11 @@ struct GenerateOptions {
     /// well, such as a base colour, stays, and the normal maps get one of their own; files beside a .gltf stay too, and
     /// the output names new ones.
     FlipGreen flip_green = FlipGreen::none;
+    /// Normal maps follow the tangents that are computed: with the new ones they show what they showed with the old. Missing
+    /// tangents count as those that viewers make: mikktspace. New maps are PNGs with the bits of the old ones; a map or a
+    /// material whose primitives need different ones is copied. glTF only, in its own convention, and neither with
+    /// ExistingTangents::repair, TextureTransform::ignore nor flip_green (invalidOption).
+    bool convert_maps = false;
     Compression compression = Compression::keep;
     VectorFormat format = VectorFormat::float32;
     /// Also write the whole frame of each vertex in this format, as attributes of its own: _FRAME32 and others, of which
@@ -211,11 +216,29 @@ struct NormalMapReport {
     std::string reason = {};  ///< why not: half a sentence for a person
 };
 
+/// What became of one normal map as some primitives show it (`convert_maps`).
+struct ConvertedMapReport {
+    std::uint32_t image = 0;                    ///< index in the input's images
+    std::string name = {};                      ///< name or URI; may be empty
+    bool converted = false;                     ///< they have a new image
+    std::uint32_t new_image = 0;                ///< index in the output's images, where it was converted
+    std::string reason = {};                    ///< why not: half a sentence for a person
+    std::vector<std::uint32_t> materials = {};  ///< of the input, which show the map
+    std::uint32_t primitive_count = 0;          ///< that show it
+    unsigned bits = 0;                          ///< of a channel, where it was converted
+    std::uint64_t changed = 0;                  ///< texels that changed
+    /// Angles between what the primitives show after and before, at the texels of all of their triangles: as it is, and as it
+    /// would be with the old map.
+    double mean_error_deg = 0, mean_error_unconverted_deg = 0;
+    std::vector<std::string> notes = {};  ///< whole sentences
+};
+
 struct GenerateReport {
-    std::vector<PrimitiveReport> primitives = {};   ///< in file order
-    std::vector<NormalMapReport> normal_maps = {};  ///< where flip_green is not none
-    bool changed = false;                           ///< false: the output is byte for byte the input
-    std::uint64_t input_bytes = 0;                  ///< the model file and what it loads
+    std::vector<PrimitiveReport> primitives = {};         ///< in file order
+    std::vector<NormalMapReport> normal_maps = {};        ///< where flip_green is not none
+    std::vector<ConvertedMapReport> converted_maps = {};  ///< of maps whose primitives got tangents (convert_maps)
+    bool changed = false;                                 ///< false: the output is byte for byte the input
+    std::uint64_t input_bytes = 0;                        ///< the model file and what it loads
     std::uint64_t output_bytes = 0;
     std::vector<std::string> input_files = {};   ///< everything that was read, the model first
     std::vector<std::string> output_files = {};  ///< everything that was written, the model first

@@ -3,7 +3,6 @@
 #include "generate_file/flip_maps.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 #include <string>
 #include <utility>
@@ -11,41 +10,13 @@
 #include "asset/gltf/read_scene.h"
 #include "asset/uri.h"
 #include "check/judge_maps.h"
+#include "generate_file/place_image.h"
+#include "generate_file/texture_sources.h"
 #include "maps/image.h"
 
 namespace tspace::gltf {
 
 namespace {
-
-/// Calls visit(name, object) for each reference to a texture: an object with an "index", as in glTF itself and in all of
-/// its extensions. `name`: that of the member it is.
-template <class Visit>
-void forTextureReferences(Json& value, const Visit& visit, const std::string& name = {}) {
-    if (value.is_array()) {
-        for (Json& element : value) forTextureReferences(element, visit);
-    }
-    if (!value.is_object()) return;
-    if (value.contains("index")) visit(name, value);
-    for (const auto& [key, member] : value.items()) forTextureReferences(member, visit, key);
-}
-
-bool isNormalMap(const std::string& name) { return name == "normalTexture" || name == "clearcoatNormalTexture"; }
-
-/// Calls visit(number) for each image that the texture may show: its source, and those in other formats.
-template <class Visit>
-void forSources(Json& texture, const Visit& visit) {
-    if (!texture.is_object()) return;
-    if (texture.contains("source")) visit(texture["source"]);
-    for (const char* name : {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"}) {
-        if (findExtension(texture, name) == nullptr) continue;
-        Json& extension = texture["extensions"][name];
-        if (extension.is_object() && extension.contains("source")) visit(extension["source"]);
-    }
-}
-
-bool isNumber(const Json& value, std::size_t number) {
-    return value.is_number_unsigned() && value.get<std::size_t>() == number;
-}
 
 /// How textures and images are used. Of what refers to an image outside of textures nothing is known.
 class TextureUses {
@@ -192,94 +163,6 @@ class Alternatives {
     std::set<std::size_t> is_settled_ = {};
 };
 
-/// Puts one image file in the place of another.
-class ImagePlacer {
-  public:
-    ImagePlacer(Document& document, Editor& editor, const OutputTarget& target)
-        : document_(document), editor_(editor), target_(target) {}
-
-    /// `keeps_old`: somebody else still needs what the image had.
-    void place(std::size_t image, Bytes&& bytes, bool keeps_old) {
-        Json& entry = document_.json["images"][image];
-        if (entry.contains("bufferView")) {
-            placeInView(image, std::move(bytes), keeps_old);
-            editor_.touch();
-            return;
-        }
-        const std::string uri = entry["uri"].text();
-        if (uriKind(uri) == UriKind::data) {
-            entry["uri"] = encodeDataUri(mimeType(imageFormat(bytes)), bytes);
-        } else if (target_.container == Container::glb) {
-            takeIn(image, std::move(bytes));
-        } else {
-            const auto known = files_.find(uri);
-            const std::string name = known != files_.end() ? known->second : freeName(uri, bytes);
-            files_[uri] = name;
-            entry["uri"] = percentEncode(name);
-            document_.new_files[name] = std::move(bytes);
-        }
-        editor_.touch();
-    }
-
-  private:
-    /// A GLB holds what is made for it, and so can go through a pipe.
-    void takeIn(std::size_t image, Bytes&& bytes) {
-        const char* type = mimeType(imageFormat(bytes));
-        const std::size_t view = editor_.storeBlob(std::move(bytes), std::nullopt);
-        Json& entry = document_.json["images"][image];
-        entry.erase("uri");
-        entry["bufferView"] = view;
-        entry["mimeType"] = type;
-    }
-
-    void placeInView(std::size_t image, Bytes&& bytes, bool keeps_old) {
-        const auto view = document_.json["images"][image]["bufferView"].get<std::size_t>();
-        if (!keeps_old) editor_.letGoOfView(view);
-        auto known = views_.find(view);
-        if (known == views_.end())
-            known = views_.emplace(view, editor_.storeBlob(std::move(bytes), std::nullopt)).first;
-        // Not through a reference from before: storing may move the members of the root.
-        document_.json["images"][image]["bufferView"] = known->second;
-    }
-
-    /// A name beside the old one that no other file has, or one with these bytes.
-    std::string freeName(const std::string& uri, const Bytes& bytes) {
-        namespace fs = std::filesystem;
-        fs::path old = fs::path(Path(pathOfUri(uri))).lexically_normal();
-        // What lies outside of the model's folder gets its new file inside.
-        if (old.has_root_path() || *old.begin() == "..") old = old.filename();
-        for (int number = 1;; ++number) {
-            std::string ending = "-green-up";
-            if (number > 1) ending.append("-").append(std::to_string(number));
-            fs::path changed = old.parent_path() / old.stem();
-            changed += ending;
-            changed += old.extension();
-            const Path name = changed, file = folderOf(target_.path) / name.string();
-            if (namesFile(document_, name.string())) continue;
-            if (!isThere(file)) return name.string();
-            std::error_code error;
-            const bool may_be_same =
-                fs::is_regular_file(fs::path(file), error) && fs::file_size(fs::path(file), error) == bytes.size();
-            if (may_be_same && readFile(file) == bytes) return name.string();
-        }
-    }
-
-    Document& document_;
-    Editor& editor_;
-    const OutputTarget& target_;
-    std::map<std::size_t, std::size_t> views_ = {};  ///< from views to those that took their place
-    std::map<std::string, std::string> files_ = {};  ///< from URIs to new names
-};
-
-/// The file of an image, if it lies in one, is part of the input.
-void noteInputFile(Document& document, std::size_t image) {
-    const std::string place = join("/images", image);
-    const Json& entry = rootArray(document, "images")[image];
-    const std::string uri = readString(entry, "uri", place);
-    if (uri.empty() || uriKind(uri) != UriKind::path) return;
-    document.input_files.push_back(document.files.resolve(uri, join(place, "uri")).string());
-}
-
 }  // namespace
 
 MapFlips planFlips(Document& document, std::span<const Primitive> primitives, std::span<const PrimitiveReport> reports,
@@ -307,7 +190,7 @@ MapFlips planFlips(Document& document, std::span<const Primitive> primitives, st
 
 void applyFlips(Document& document, Editor& editor, const OutputTarget& target, MapFlips&& flips) {
     TextureUses uses(document);
-    ImagePlacer placer(document, editor, target);
+    ImagePlacer placer(document, editor, target, "-green-up");
     for (auto& [image, bytes] : flips.images) {
         if (!uses.isOther(image)) {
             placer.place(image, std::move(bytes), false);

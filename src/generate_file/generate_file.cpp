@@ -7,6 +7,25 @@
 
 namespace tspace {
 
+namespace {
+
+/// Why maps are not converted with these options; empty: they are, or are not to be.
+std::string whyMapsStay(const std::string& input, const GenerateOptions& options) {
+    if (!options.convert_maps) return {};
+    if (options.flip_green != FlipGreen::none) return "maps are converted or inverted, one after the other";
+    if (options.existing == ExistingTangents::repair)
+        return "maps stay where tangents are repaired: what was wrong is to look right";
+    if (options.texture_transform == TextureTransform::ignore)
+        return "maps are converted for viewers that use tangents as they are, so texture transforms are applied";
+    if (options.tangents.convention != conventions::gltf) return "maps are converted for the convention of glTF only";
+    if (lowerExtension(input) == ".obj")
+        return "OBJ files have no tangents that their maps fit; make a glTF file of it first, then compute its "
+               "tangents anew";
+    return {};
+}
+
+}  // namespace
+
 Result<GenerateReport> generateFile(const std::string& input, const std::string& output,
                                     const GenerateOptions& options) {
     if (options.all && options.strip) {
@@ -16,6 +35,7 @@ Result<GenerateReport> generateFile(const std::string& input, const std::string&
         return Error{ErrorCode::invalidOption, "the format of packed frames is none of FrameFormat"};
     if (!options.pack && options.pack_drop != PackDrop::nothing)
         return Error{ErrorCode::invalidOption, "normals and tangents go only where frames are packed"};
+    if (const std::string why = whyMapsStay(input, options); !why.empty()) return Error{ErrorCode::invalidOption, why};
     // An OBJ file has no magic word, so only its name tells it; everything else is read as glTF and refused
     // there.
     if (lowerExtension(input) == ".obj") return generateObj(input, output, options);

@@ -15,6 +15,7 @@
 #include "asset/gltf/strip_tangents.h"
 #include "asset/gltf/write_packed.h"
 #include "core/parallel.h"
+#include "generate_file/convert_maps.h"
 #include "generate_file/flip_maps.h"
 #include "generate_file/repair_plan.h"
 
@@ -80,6 +81,8 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     if (options.existing == ExistingTangents::repair) planRepair(document, primitives, options, plan);
     MapFlips flips;
     if (options.flip_green != FlipGreen::none) flips = planFlips(document, primitives, plan.reports, options);
+    std::optional<MapConversion> maps;
+    if (options.convert_maps) maps.emplace(document, primitives, options);
     report.input_bytes = document.input_bytes;
     const bool will_edit = !plan.pools.empty() || !flips.images.empty() || options.pack.has_value();
     if (keeps_compression) convertContainer(document, target, will_edit, report.warnings);
@@ -106,6 +109,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     if (options.bitangents) noteMissingBitangents(primitives, plan.reports);
     noteStalePackedFrames(document, primitives, options, plan.reports);
     stripTangents(editor, primitives, plan.reports);
+    if (maps) report.converted_maps = maps->run(editor, target, plan.reports);
     if (options.pack) writePackedFrames(editor, document, options, plan.reports);
     report.normal_maps = std::move(flips.reports);
     if (!flips.images.empty()) applyFlips(document, editor, target, std::move(flips));

@@ -166,6 +166,12 @@ void addMapOptions(OptionList& list, GenerateOptions& options) {
         setting("--flip-green-all", options.flip_green, FlipGreen::all,
                 "Invert the green channel of every normal map, whichever way it points."))
         .excludes = {"--flip-green"};
+    add(list, group,
+        flag("--convert-maps", options.convert_maps,
+             "Write normal maps anew for the tangents that are computed, so that the picture stays as it was. Maps and "
+             "materials that several primitives share are copied where they need different ones. Images beside a .gltf "
+             "stay as they are, and the output gets new ones."))
+        .excludes = {"--flip-green", "--flip-green-all", "--repair"};
 }
 
 void addOtherOptions(OptionList& list, GenerateOptions& options) {

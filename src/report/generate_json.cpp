@@ -77,6 +77,19 @@ Json normalMapJson(const NormalMapReport& map) {
     return {{"image", map.image}, {"name", map.name}, {"flipped", map.flipped}, {"reason", map.reason}};
 }
 
+Json convertedMapJson(const ConvertedMapReport& map) {
+    Json json = {{"image", map.image}, {"name", map.name}, {"converted", map.converted}, {"reason", map.reason}};
+    json["newImage"] = map.converted ? Json(map.new_image) : Json(nullptr);
+    json["materials"] = map.materials;
+    json["primitives"] = map.primitive_count;
+    json["bits"] = map.bits;
+    json["changed"] = map.changed;
+    json["meanErrorDeg"] = map.mean_error_deg;
+    json["meanErrorUnconvertedDeg"] = map.mean_error_unconverted_deg;
+    json["notes"] = map.notes;
+    return json;
+}
+
 Json generatedJson(const GenerateOutcome& outcome) {
     Json json = {
         {"input", outcome.input},     {"output", outcome.output},
@@ -93,6 +106,7 @@ Json generatedJson(const GenerateOutcome& outcome) {
     json["warnings"] = report.warnings;
     json["totals"] = totalsJson(report);
     json["normalMaps"] = listJson(report.normal_maps, normalMapJson);
+    json["convertedMaps"] = listJson(report.converted_maps, convertedMapJson);
     json["primitives"] = listJson(report.primitives, generatedPrimitiveJson);
     return json;
 }

@@ -56,8 +56,8 @@ void expectFieldsDocumented(const std::vector<Json>& documents, const std::strin
     for (const auto& [path, types] : found) EXPECT_EQ(documented.count(path), 1U) << path << " is not documented";
 }
 
-/// A run over a good and a bad file shows every field there is.
-void expectDocumented(const std::string& arguments, const std::string& schema) {
+/// A run over a good and a bad file shows every field there is, together with those of `more`.
+void expectDocumented(const std::string& arguments, const std::string& schema, std::vector<Json> more = {}) {
     const TempFolder folder;
     writeFoldedObj(folder, "in/a.obj");
     folder.write("in/bad.obj", "f 1 2 3\n");
@@ -73,11 +73,23 @@ void expectDocumented(const std::string& arguments, const std::string& schema) {
     EXPECT_EQ(document["files"][1]["error"]["code"], "invalidFile");
     EXPECT_EQ(document["files"][1]["error"]["place"], "line 1");
 
-    expectFieldsDocumented({document}, schema);
+    more.push_back(document);
+    expectFieldsDocumented(more, schema);
 }
 
 TEST(JsonOutput, OfGenerateIsAsDocumented) {
-    expectDocumented("generate in -o out --json --flip-green", "tspace.generate/1");
+    const TempFolder folder;
+    folder.write("sheet.mtl", "newmtl skin\nmap_Bump bump.png\n");
+    folder.write("bump.png", pngFile(normalMapOf(8, bumps)));
+    folder.write("a.obj",
+                 "mtllib sheet.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nvt 0 0\nvt 1 0\nvt 0.7 1\nvt 0 1\n"
+                 "vn 0 0 1\nusemtl skin\nf 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/4/1\n");
+    ASSERT_EQ(runTool(folder, "generate -q a.obj -o a.glb").exit_code, 0);
+    const ToolRun run = runTool(folder, "generate a.glb -o b.glb --overwrite --method flat --convert-maps --json");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const Json converted = Json::parse(run.out);
+    EXPECT_EQ(converted["files"][0]["convertedMaps"].size(), 1U);
+    expectDocumented("generate in -o out --json --flip-green", "tspace.generate/1", {converted});
 }
 
 TEST(JsonOutput, OfConvertMapIsAsDocumented) {

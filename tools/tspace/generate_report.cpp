@@ -89,9 +89,20 @@ std::vector<std::string> warningsOf(const GenerateReport& report, const Totals& 
     return warnings;
 }
 
-std::string normalMapText(const NormalMapReport& map) {
+std::string imageText(std::uint32_t image, const std::string& name) {
+    return name.empty() ? fmt::format("image {}", image) : fmt::format("'{}'", printable(name));
+}
+
+std::string convertedMapText(const ConvertedMapReport& map) {
     const std::string name =
-        map.name.empty() ? fmt::format("image {}", map.image) : fmt::format("'{}'", printable(map.name));
+        fmt::format("{} in {}", imageText(map.image, map.name), counted(map.primitive_count, "primitive"));
+    if (!map.converted) return fmt::format("{}: left as it is: {}", name, printable(map.reason));
+    return fmt::format("{}: converted with {} bits, {:.2g} degrees off in the mean (unconverted {:.2g})", name,
+                       map.bits, map.mean_error_deg, map.mean_error_unconverted_deg);
+}
+
+std::string normalMapText(const NormalMapReport& map) {
+    const std::string name = imageText(map.image, map.name);
     if (map.flipped) return name + ": green inverted";
     return fmt::format("{}: left as it is: {}", name, printable(map.reason));
 }
@@ -135,6 +146,7 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
         table.addRow({"morph targets", "tangent deltas computed for " + std::to_string(totals.morph_deltas_computed)});
     }
     for (const NormalMapReport& map : report.normal_maps) table.addRow({"normal map", normalMapText(map)});
+    for (const ConvertedMapReport& map : report.converted_maps) table.addRow({"normal map", convertedMapText(map)});
     for (const std::string& warning : warningsOf(report, totals)) table.addRow({"warning", printable(warning)});
     table.addRow({"time", fmt::format("{:.2f} s", outcome.seconds)});
     const std::string first = report.output_files.empty() ? outcome.output : report.output_files.front();
@@ -168,6 +180,10 @@ std::string notesText(const GenerateReport& report) {
         const std::size_t more = others.count(note) == 0 ? 0 : others[note];
         text +=
             fmt::format("  note: {}{}: {}\n", who, more == 0 ? "" : fmt::format(" and {} more", more), printable(note));
+    }
+    for (const ConvertedMapReport& map : report.converted_maps) {
+        for (const std::string& note : map.notes)
+            text += fmt::format("  note: {}: {}\n", imageText(map.image, map.name), printable(note));
     }
     if (notes.size() > kMostNotes)
         text += fmt::format("  note: {} (--json has all)\n", counted(notes.size() - kMostNotes, "more note"));

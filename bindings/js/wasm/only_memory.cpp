@@ -11,6 +11,7 @@
 #include "asset/obj/obj_reader.h"
 #include "asset/obj/read_scene.h"
 #include "asset/uri.h"
+#include "generate_file/convert_maps.h"
 #include "generate_file/generate_obj.h"
 #include "inspect/inspect.h"
 #include "tspace/arena.h"
@@ -60,5 +61,14 @@ Arena::Arena()
                      ::operator delete(memory, std::align_val_t(alignment));
                  }} {}
 Arena::~Arena() = default;
+
+gltf::MapConversion::MapConversion(gltf::Document& document, std::span<const gltf::Primitive>, const GenerateOptions& options)
+    : document_(document), options_(options) {
+    failFile(ErrorCode::unsupportedFile, "images are not decoded in JavaScript, so no map is converted");
+}
+std::vector<ConvertedMapReport> gltf::MapConversion::run(gltf::Editor&, const gltf::OutputTarget&,
+                                                         std::span<const PrimitiveReport>) {
+    return {};
+}
 
 }  // namespace tspace
