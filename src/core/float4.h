@@ -104,16 +104,12 @@ inline void storeVec3(Vec3& to, Float4 v) {
 }
 
 /// One array per component, four vectors.
-struct Vec2x4 {
-    Float4 x, y;
-};
 struct Vec3x4 {
     Float4 x, y, z;
 };
 
 inline Vec3x4 operator+(const Vec3x4& a, const Vec3x4& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline Vec3x4 operator-(const Vec3x4& a, const Vec3x4& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec2x4 operator-(const Vec2x4& a, const Vec2x4& b) { return {a.x - b.x, a.y - b.y}; }
 inline Vec3x4 operator*(Float4 k, const Vec3x4& v) { return {k * v.x, k * v.y, k * v.z}; }
 inline Float4 dot(const Vec3x4& a, const Vec3x4& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Vec3x4 cross(const Vec3x4& a, const Vec3x4& b) {
@@ -130,10 +126,6 @@ inline Vec3x4 gatherVec3(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3
     const Float4 cd_z = __builtin_shufflevector(vc, vd, 2, 6, 3, 7);
     return {__builtin_shufflevector(ab, cd, 0, 1, 4, 5), __builtin_shufflevector(ab, cd, 2, 3, 6, 7),
             __builtin_shufflevector(ab_z, cd_z, 2, 3, 6, 7)};
-}
-inline Vec2x4 gatherVec2(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-    const Float4 ab = joinPairs(&a.x, &b.x), cd = joinPairs(&c.x, &d.x);
-    return {__builtin_shufflevector(ab, cd, 0, 2, 4, 6), __builtin_shufflevector(ab, cd, 1, 3, 5, 7)};
 }
 
 /// Rows become columns.
