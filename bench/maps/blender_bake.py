@@ -14,6 +14,12 @@ def load(path):
     before = set(bpy.data.objects)
     bpy.ops.wm.obj_import(filepath=path, forward_axis="Y", up_axis="Z")
     (made,) = set(bpy.data.objects) - before
+    # The importer drops normals here and there. In these files each vertex has the normal of its own number.
+    made.data.polygons.foreach_set("use_smooth", [True] * len(made.data.polygons))
+    made.data.use_auto_smooth = True
+    with open(path, encoding="ascii") as file:
+        normals = [tuple(map(float, line.split()[1:])) for line in file if line.startswith("vn ")]
+    made.data.normals_split_custom_set_from_vertices(normals)
     return made
 
 
@@ -28,6 +34,9 @@ def main():
     scene.render.engine = "CYCLES"
     scene.cycles.device = "CPU"
     scene.cycles.samples = 1
+    # Where there is no denoiser, a bake that asks for one stays empty.
+    scene.cycles.use_denoising = False
+    scene.cycles.use_adaptive_sampling = False
     scene.render.threads_mode = "FIXED"
     scene.render.threads = 2
 
@@ -40,11 +49,6 @@ def main():
     material.node_tree.nodes.active = node
     low.data.materials.clear()
     low.data.materials.append(material)
-    # Cycles asks a shader for the normal.
-    plain = bpy.data.materials.new("plain")
-    plain.use_nodes = True
-    high.data.materials.clear()
-    high.data.materials.append(plain)
 
     bpy.ops.object.select_all(action="DESELECT")
     high.select_set(True)
