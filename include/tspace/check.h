@@ -115,6 +115,8 @@ struct CheckOptions {
     /// What the tangents are compared with. automatic: triangles, and quads where the tangents fit clearly better to
     /// those; quads: pairs of triangles that look like one. Blender computes tangents on quads.
     Faces faces = Faces::automatic;
+    /// Called by the thread of the call: for each primitive where that is the only thread, else before and after all.
+    Progress progress = {};
 };
 
 /// An attribute of packed frames (GenerateOptions::pack), read back and compared with NORMAL and TANGENT beside it.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// URIs of models on the disk, where links lead anywhere.
+// Paths on the disk, where links lead anywhere.
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 
+#include "asset/disk_paths.h"
 #include "asset/system_files.h"
 #include "asset/uri.h"
 
@@ -26,6 +28,18 @@ Path resolveUri(const Path& in_folder, std::string_view uri, bool allow_external
         refuseUri(uri, "leads out of the model's folder by a symbolic link", place);
     }
     return folder / relative;
+}
+
+std::uint64_t fileSize(const Path& path) {
+    std::error_code no_file;
+    const std::uintmax_t size = fs::file_size(fs::path(path), no_file);
+    return no_file ? 0 : size;
+}
+
+std::string pathBelow(const Path& folder, const Path& file) {
+    const fs::path root = canonicalPath(folder);
+    const fs::path relative = fs::path(canonicalPath(file)).lexically_relative(root);
+    return relative.empty() || *relative.begin() == ".." ? "" : Path(relative).string();
 }
 
 }  // namespace tspace

@@ -62,6 +62,12 @@ std::string neededText(const char* text, const char* name);
 /// Reads options; null is none. Fails with invalidOption.
 void readOptions(const options::OptionList& list, const char* text, options::Given& given);
 
+/// tspace_generateBytes and tspace_checkBytes with progress, which may end the call by throwing.
+tspace_ErrorCode generateBytes(const tspace_Model* model, const char* options, const Progress& progress,
+                               tspace_Bytes* output, tspace_Bytes* report, tspace_Error* error) noexcept;
+tspace_ErrorCode checkBytes(const tspace_Model* model, const char* options, const Progress& progress,
+                            tspace_Bytes* report, tspace_Error* error) noexcept;
+
 /// What a model is called.
 std::string nameOf(const tspace_Model& model);
 /// Makes `options` open the model. Fails with nullData and invalidOption.

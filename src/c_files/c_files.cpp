@@ -110,13 +110,15 @@ tspace_ErrorCode tspace_generateFile(const char* input, const char* output, cons
     });
 }
 
-tspace_ErrorCode tspace_generateBytes(const tspace_Model* model, const char* options, tspace_Bytes* output,
-                                      tspace_Bytes* report, tspace_Error* error) noexcept {
+tspace_ErrorCode tspace::c_files::generateBytes(const tspace_Model* model, const char* options,
+                                                const Progress& progress, tspace_Bytes* output, tspace_Bytes* report,
+                                                tspace_Error* error) noexcept {
     return atCallBorder(error, {output, report}, [&] {
         if (output == nullptr) failFile(ErrorCode::nullData, "output is null");
         GenerateOptions chosen;
         openModel(model, chosen.file);
         readGenerateOptions(options, chosen);
+        chosen.progress = progress;
         GrowingBytes bytes;
         chosen.sink = [&](std::span<const std::uint8_t> part) {
             bytes.append(part);
@@ -126,6 +128,11 @@ tspace_ErrorCode tspace_generateBytes(const tspace_Model* model, const char* opt
         generate(name, withoutEnding(name) + ".glb", chosen, report);
         bytes.giveTo(output);
     });
+}
+
+tspace_ErrorCode tspace_generateBytes(const tspace_Model* model, const char* options, tspace_Bytes* output,
+                                      tspace_Bytes* report, tspace_Error* error) noexcept {
+    return generateBytes(model, options, {}, output, report, error);
 }
 
 tspace_ErrorCode tspace_checkFile(const char* input, const char* options, tspace_Bytes* report,
@@ -138,14 +145,20 @@ tspace_ErrorCode tspace_checkFile(const char* input, const char* options, tspace
     });
 }
 
-tspace_ErrorCode tspace_checkBytes(const tspace_Model* model, const char* options, tspace_Bytes* report,
-                                   tspace_Error* error) noexcept {
+tspace_ErrorCode tspace::c_files::checkBytes(const tspace_Model* model, const char* options, const Progress& progress,
+                                             tspace_Bytes* report, tspace_Error* error) noexcept {
     return atCallBorder(error, {report}, [&] {
         options::CheckRequest request;
         openModel(model, request.options.file);
         readCheckOptions(options, request);
+        request.options.progress = progress;
         check(nameOf(*model), request, report);
     });
+}
+
+tspace_ErrorCode tspace_checkBytes(const tspace_Model* model, const char* options, tspace_Bytes* report,
+                                   tspace_Error* error) noexcept {
+    return checkBytes(model, options, {}, report, error);
 }
 
 tspace_ErrorCode tspace_inspectFile(const char* input, const char* options, tspace_Bytes* report,

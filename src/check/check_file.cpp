@@ -63,7 +63,9 @@ Finding fileRemark(const std::string& warning) {
 
 CheckReport check(const std::string& input, const CheckOptions& options) {
     checkOptions(options);
+    if (options.progress) options.progress("reading", 0, 1);
     const Scene scene = readScene(input, options.file, options.images);
+    if (options.progress) options.progress("reading", 1, 1);
     CheckReport report;
     report.format = scene.format;
     report.generator = scene.generator;

@@ -97,12 +97,19 @@ std::vector<Judged> judgeAll(const Scene& scene, const Work& work, const CheckOp
         return checkBytes(primitive.corners.size(), primitive.positions.size(), !primitive.tangents.empty());
     };
     Parallel parallel(options.execution);
+    const bool is_alone = parallel.width() == 1;
+    const auto tell = [&](std::size_t done) {
+        if (options.progress) options.progress("checking", done, results.size());
+    };
+    tell(0);
     workTogether(scene.memory.get(), results.size(), parallel, bytesOf, [&](std::size_t i) {
+        if (is_alone && i != 0) tell(i);
         PrimitiveVerdict verdict = valueOrThrow(judgePrimitive(primitiveAt(i), options, is_gltf));
         results[i].findings = std::move(verdict.findings);
         results[i].wrong_sign_share = verdict.wrong_sign_share;
         if (with_faults) results[i].faults = keptFaults(verdict.faults, primitiveAt(i), scene.memory.get());
     });
+    tell(results.size());
     return results;
 }
 

@@ -25,7 +25,7 @@ bool parseMemory(const std::string& text, std::uint64_t& bytes) {
 
 }  // namespace
 
-Option readingOption(const char* names, MapReading& target, std::string help) {
+Option readingOption(const char* names, MapReading& target, HelpText help) {
     const auto take = [&target](const std::string& value) {
         target = *findMapReading(value.c_str());
         return std::string();
@@ -44,7 +44,7 @@ void addAllowExternal(OptionList& list, FileOptions& file) {
             "and URLs are refused."));
 }
 
-void addThreads(OptionList& list, Execution& execution, std::string help) {
+void addThreads(OptionList& list, Execution& execution, HelpText help) {
     const auto store = [&execution](std::uint64_t given) {
         execution.thread_count = given == 0 ? kAllThreads : static_cast<std::uint32_t>(given);
     };

@@ -122,7 +122,7 @@ std::string unknownOption(const OptionList& list, const std::string& name) {
     return "there is no option '" + name + "'" + didYouMean(name, names);
 }
 
-Option option(const char* names, const char* value_name, Take take, std::string help) {
+Option option(const char* names, const char* value_name, Take take, HelpText help) {
     Option made{.value = value_name, .help = std::move(help), .take = std::move(take)};
     const std::string all = names;
     for (std::size_t begin = 0; begin < all.size();) {
@@ -133,7 +133,7 @@ Option option(const char* names, const char* value_name, Take take, std::string 
     return made;
 }
 
-Option text(const char* names, const char* value_name, std::string& target, std::string help) {
+Option text(const char* names, const char* value_name, std::string& target, HelpText help) {
     const auto take = [&target](const std::string& given) {
         target = given;
         return std::string();
@@ -142,7 +142,7 @@ Option text(const char* names, const char* value_name, std::string& target, std:
 }
 
 Option numberOption(const char* names, std::uint64_t default_value, unsigned most,
-                    std::function<void(std::uint64_t)> store, std::string help) {
+                    std::function<void(std::uint64_t)> store, HelpText help) {
     const auto take = [most, store = std::move(store)](const std::string& given) -> std::string {
         std::uint64_t count = 0;
         if (!parseNumber(given, count) || count > most)
@@ -156,7 +156,7 @@ Option numberOption(const char* names, std::uint64_t default_value, unsigned mos
 }
 
 Option degreesOption(const char* names, double default_value, int most, std::function<void(double)> store,
-                     std::string help) {
+                     HelpText help) {
     const auto take = [most, store = std::move(store)](const std::string& given) -> std::string {
         double angle = 0;
         if (!parseReal(given, angle) || angle < 0 || angle > most)

@@ -13,11 +13,22 @@ namespace tspace::options {
 /// What takes a value: stores it, and returns what is wrong with it ("must be ..."), or nothing.
 using Take = std::function<std::string(const std::string& value)>;
 
+#ifdef TSPACE_SMALL
+/// Bindings show no help, and leave its texts out.
+struct HelpText {
+    constexpr HelpText() = default;
+    constexpr HelpText(const char*) {}
+    HelpText(const std::string&) {}
+};
+#else
+using HelpText = std::string;
+#endif
+
 /// An option, or an operand of a command line (what stands there without a name, such as input files).
 struct Option {
     std::vector<std::string> names = {};    ///< {"-o", "--output"}; none: an operand
     std::string value = {};                 ///< what stands for the value in help, "DEG"; empty: a flag
-    std::string help = {};                  ///< a sentence or more
+    HelpText help = {};                     ///< a sentence or more
     std::string default_text = {};          ///< printed behind the help; empty: the help says it, or there is none
     std::string group = {};                 ///< its heading in help
     std::vector<std::string> choices = {};  ///< the values that it may have; empty: any that `take` takes
@@ -70,35 +81,35 @@ struct Named {
 };
 
 /// `names` as they stand in help: "-q, --quiet"; empty for an operand. Without a `value_name` it is a flag.
-Option option(const char* names, const char* value_name, Take take, std::string help);
+Option option(const char* names, const char* value_name, Take take, HelpText help);
 /// Sets `target` to `value`.
 template <class Value>
-Option setting(const char* names, Value& target, Value value, std::string help) {
+Option setting(const char* names, Value& target, Value value, HelpText help) {
     const auto take = [&target, value](const std::string&) {
         target = value;
         return std::string();
     };
     return option(names, "", take, std::move(help));
 }
-inline Option flag(const char* names, bool& target, std::string help) {
+inline Option flag(const char* names, bool& target, HelpText help) {
     return setting(names, target, true, std::move(help));
 }
 
 Option numberOption(const char* names, std::uint64_t default_value, unsigned most,
-                    std::function<void(std::uint64_t)> store, std::string help);
+                    std::function<void(std::uint64_t)> store, HelpText help);
 Option degreesOption(const char* names, double default_value, int most, std::function<void(double)> store,
-                     std::string help);
+                     HelpText help);
 
-Option text(const char* names, const char* value_name, std::string& target, std::string help);
+Option text(const char* names, const char* value_name, std::string& target, HelpText help);
 /// A whole number from 0 to `most`. The default is what `target` holds.
 template <class Unsigned>
-Option number(const char* names, Unsigned& target, unsigned most, std::string help) {
+Option number(const char* names, Unsigned& target, unsigned most, HelpText help) {
     const auto store = [&target](std::uint64_t given) { target = static_cast<Unsigned>(given); };
     return numberOption(names, target, most, store, std::move(help));
 }
 /// A number of degrees from 0 to `most`. The default is what `target` holds.
 template <class Float>
-Option degrees(const char* names, Float& target, int most, std::string help) {
+Option degrees(const char* names, Float& target, int most, HelpText help) {
     const auto store = [&target](double given) { target = static_cast<Float>(given); };
     return degreesOption(names, static_cast<double>(target), most, store, std::move(help));
 }
@@ -106,7 +117,7 @@ Option degrees(const char* names, Float& target, int most, std::string help) {
 /// One of the names of a table. The default is the name of what `target` holds.
 template <class Value, std::size_t count>
 Option choice(const char* names, const char* value_name, const Named<Value> (&table)[count], Value& target,
-              std::string help) {
+              HelpText help) {
     const auto take = [&target, &table](const std::string& name) {
         for (const Named<Value>& entry : table) {
             if (name == entry.name) target = entry.value;

@@ -381,5 +381,31 @@ TEST(CheckFile, RefusesOptionsWithoutMeaning) {
     }
 }
 
+TEST(CheckFile, TellsHowFarItIs) {
+    TestModel model;
+    addPatch(model.builder, goodPatch(Seam::none));
+    addPatch(model.builder, goodPatch(Seam::none));
+    for (const std::uint32_t threads : {1u, 4u}) {
+        std::vector<std::pair<std::string, std::uint64_t>> told;
+        CheckOptions options;
+        options.execution.thread_count = threads;
+        options.progress = [&](const std::string& what, std::uint64_t done, std::uint64_t total) {
+            EXPECT_LE(done, total);
+            told.emplace_back(what, done);
+        };
+        const CheckReport report = model.check(options);
+        EXPECT_EQ(report.primitive_count, 3u);
+        using Told = std::vector<std::pair<std::string, std::uint64_t>>;
+        const Told all = {{"reading", 0},  {"reading", 1},  {"checking", 0},
+                          {"checking", 1}, {"checking", 2}, {"checking", 3}};
+        if (threads == 1) {
+            EXPECT_EQ(told, all);
+        }
+        ASSERT_GE(told.size(), 4u);
+        EXPECT_EQ(told[2], all[2]);
+        EXPECT_EQ(told.back(), all.back());
+    }
+}
+
 }  // namespace
 }  // namespace tspace::test

@@ -41,7 +41,7 @@ struct ToolTable {
 };
 
 /// A file, or several where `target` is a list.
-Option operand(const char* value_name, std::string& target, std::string help);
-Option operand(const char* value_name, std::vector<std::string>& target, std::string help);
+Option operand(const char* value_name, std::string& target, HelpText help);
+Option operand(const char* value_name, std::vector<std::string>& target, HelpText help);
 
 }  // namespace tspace::tool

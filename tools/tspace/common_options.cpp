@@ -22,13 +22,13 @@ bool parseShard(const std::string& text, Shard& shard) {
 
 }  // namespace
 
-Option operand(const char* value_name, std::string& target, std::string help) {
+Option operand(const char* value_name, std::string& target, HelpText help) {
     Option made = text("", value_name, target, std::move(help));
     made.is_file = made.is_required = true;
     return made;
 }
 
-Option operand(const char* value_name, std::vector<std::string>& target, std::string help) {
+Option operand(const char* value_name, std::vector<std::string>& target, HelpText help) {
     const auto take = [&target](const std::string& given) {
         target.push_back(given);
         return std::string();

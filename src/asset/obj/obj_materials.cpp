@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 // MTL libraries to materials as glTF sees them.
-#include <tiny_obj_loader.h>
 #include <filesystem>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
-#include <sstream>
+#include <vector>
 
 #include "asset/file_error.h"
 #include "asset/file_io.h"
 #include "asset/obj/mtl_lines.h"
 #include "asset/obj/obj_lines.h"
 #include "asset/obj/obj_reader.h"
+#include "asset/obj/tiny_obj_loader.h"
 #include "asset/uri.h"
 
 namespace tspace::obj {
@@ -44,15 +45,26 @@ float roughnessOf(const tinyobj::material_t& source) {
     return inUnitRange(std::sqrt(std::sqrt(2.0f / (source.shininess + 2.0f))), 1);
 }
 
+/// The words of a line.
+std::vector<std::string> splitWords(const std::string& names) {
+    constexpr const char* kBlanks = " \t\n\v\f\r";
+    std::vector<std::string> result;
+    for (std::size_t begin = 0, end = 0; (begin = names.find_first_not_of(kBlanks, end)) != std::string::npos;) {
+        end = std::min(names.find_first_of(kBlanks, begin), names.size());
+        result.push_back(names.substr(begin, end - begin));
+    }
+    return result;
+}
+
 /// Names of the materials that state Kd: the parser gives black to the others, which nobody means.
 std::set<std::string> materialsWithDiffuse(const std::string& text) {
     std::set<std::string> names;
     std::string name;
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream words(line);
-        std::string keyword;
-        words >> keyword;
+    for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
+        end = std::min(text.find('\n', begin), text.size());
+        const std::string line = text.substr(begin, end - begin);
+        const std::vector<std::string> words = splitWords(line);
+        const std::string keyword = words.empty() ? "" : words.front();
         if (keyword == "newmtl") {
             name = line.substr(std::min(line.find(keyword) + keyword.size() + 1, line.size()));
             name.erase(name.find_last_not_of(" \t") + 1);
@@ -105,12 +117,7 @@ bool readLibrary(const std::string& name, Model& model, std::vector<Material>& m
 
     // Before the parser makes a large thing of each.
     model.memory->take(countOf("newmtl", text) * (2 * sizeof(tinyobj::material_t) + sizeof(Material)), "mtllib");
-    std::istringstream stream(text);
-    std::map<std::string, int> unused_index;
-    std::vector<tinyobj::material_t> sources;
-    std::string warning;
-    std::string error;
-    tinyobj::LoadMtl(&unused_index, &sources, &stream, &warning, &error);
+    const std::vector<tinyobj::material_t> sources = parseMtl(text);
     const std::set<std::string> with_diffuse = materialsWithDiffuse(text);
     for (const tinyobj::material_t& source : sources) {
         materials.push_back(toMaterial(source, folderOf(path), with_diffuse.count(source.name) != 0));
@@ -118,19 +125,14 @@ bool readLibrary(const std::string& name, Model& model, std::vector<Material>& m
     return true;
 }
 
-std::vector<std::string> splitNames(const std::string& names) {
-    std::istringstream words(names);
-    std::vector<std::string> result;
-    for (std::string word; words >> word;) result.push_back(word);
-    return result;
-}
-
 /// Whether the whole line is the name of a file.
 bool isOneFile(const std::string& line, const NamedFiles& files) try {
-    const Path path = files.resolve(percentEncode(plainPath(line)), "mtllib");
-    return files.kindOf(path) != NamedFiles::Kind::missing;
-} catch (const FileError&) {
-    return false;
+    bool is_there = false;
+    tryFile([&] {
+        const Path path = files.resolve(percentEncode(plainPath(line)), "mtllib");
+        is_there = files.kindOf(path) != NamedFiles::Kind::missing;
+    });
+    return is_there;
 } catch (const fs::filesystem_error&) {
     return false;  // too long for a name
 }
@@ -140,18 +142,16 @@ bool isOneFile(const std::string& line, const NamedFiles& files) try {
 std::vector<Material> readMaterials(const std::vector<std::string>& names, Model& model) {
     std::vector<Material> materials;
     const auto read = [&](const std::string& name) {
-        try {
-            return readLibrary(name, model, materials);
-        } catch (const FileError& failure) {
-            model.warnings.push_back("material library left out: " + failure.error.message);
-            return true;
-        }
+        bool is_there = true;
+        const std::optional<Error> failure = tryFile([&] { is_there = readLibrary(name, model, materials); });
+        if (failure) model.warnings.push_back("material library left out: " + failure->message);
+        return is_there;
     };
     std::vector<std::string> seen;
     for (const std::string& line : names) {
         if (line.empty() || std::find(seen.begin(), seen.end(), line) != seen.end()) continue;
         seen.push_back(line);
-        const std::vector<std::string> words = splitNames(line);
+        const std::vector<std::string> words = splitWords(line);
         // File names may have spaces in them, but several files may also stand in one line.
         if (words.size() == 1 || isOneFile(line, model.files)) {
             if (!read(line)) model.warnings.push_back("there is no material library '" + line + "'");

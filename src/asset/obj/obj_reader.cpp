@@ -3,30 +3,19 @@
 // which its mesh interface cuts at 255 corners. It is not trusted: every index it gives is checked here.
 #include "asset/obj/obj_reader.h"
 
-#include <tiny_obj_loader.h>
-#include <filesystem>
-
 #include <algorithm>
 #include <cmath>
-#include <istream>
 #include <map>
-#include <streambuf>
 
+#include "asset/disk_paths.h"
 #include "asset/file_error.h"
 #include "asset/file_io.h"
 #include "asset/obj/obj_lines.h"
+#include "asset/obj/tiny_obj_loader.h"
 #include "tspace/mesh.h"
 
 namespace tspace::obj {
 namespace {
-
-/// A stream over bytes that are already in memory.
-class MemoryStream : private std::streambuf, public std::istream {
-  public:
-    explicit MemoryStream(std::string& text) : std::istream(static_cast<std::streambuf*>(this)) {
-        setg(text.data(), text.data(), text.data() + text.size());
-    }
-};
 
 /// Indices of corners that name nothing.
 struct DeadIndices {
@@ -226,13 +215,7 @@ void parse(std::string& text, Build& build) {
     callbacks.group_cb = setGroup;
     callbacks.object_cb = setObject;
     callbacks.usemtl_cb = setMaterial;
-    MemoryStream stream(text);
-    std::string warning;
-    std::string error;
-    // Without a material reader it opens no file.
-    if (!tinyobj::LoadObjWithCallback(stream, callbacks, &build, nullptr, &warning, &error)) {
-        failFile(ErrorCode::invalidFile, "not an OBJ file that can be read");
-    }
+    if (!parseObj(text, callbacks, &build)) failFile(ErrorCode::invalidFile, "not an OBJ file that can be read");
 }
 
 /// Positive indices could point ahead, so ranges are known only at the end. Without a position there is no
@@ -314,11 +297,10 @@ void requireFaces(const Model& model) {
 
 Model readModel(const Path& path, const FileOptions& options) {
     // Beyond this, counts of vertices might not fit 32 bits.
-    constexpr std::uintmax_t kMostBytes = std::uintmax_t{8} << 30;
+    constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
     const bool is_in_memory = options.content.data() != nullptr;
-    std::error_code no_file;
-    const std::uintmax_t size = is_in_memory ? options.content.size() : std::filesystem::file_size(path, no_file);
-    if (!no_file && size > kMostBytes) failFile(ErrorCode::unsupportedFile, "the OBJ file is larger than 8 GiB");
+    const std::uint64_t size = is_in_memory ? options.content.size() : fileSize(path);
+    if (size > kMostBytes) failFile(ErrorCode::unsupportedFile, "the OBJ file is larger than 8 GiB");
     Bytes bytes = is_in_memory ? Bytes(options.content.begin(), options.content.end()) : readFile(path);
     Model model;
     model.files = NamedFiles(path, options);

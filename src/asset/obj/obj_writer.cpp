@@ -6,11 +6,12 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <utility>
 
+#include "asset/disk_paths.h"
 #include "asset/file_error.h"
-#include "asset/system_files.h"
 #include "asset/uri.h"
 #include "generate/unit_lattice.h"
 #include "maps/image.h"
@@ -156,7 +157,8 @@ class ImageBuilder {
   private:
     /// `flipped`: goes into the output in place of the file; may be null.
     int addTexture(const Texture& texture, const Bytes* flipped) {
-        try {
+        bool is_added = false;
+        const std::optional<Error> failure = tryFile([&] {
             const Path path = named_.resolve(texture.folder, percentEncode(texture.file), "material");
             const Bytes bytes = named_.read(path);
             files_.addSource(path);
@@ -164,20 +166,20 @@ class ImageBuilder {
             const ImageFormat format = imageFormat(bytes);
             if (format != ImageFormat::png && format != ImageFormat::jpeg) {
                 warnings_.push_back("the texture '" + texture.file + "' was left out: it is neither PNG nor JPEG");
-                return -1;
+                return;
             }
             images_.push_back(flipped == nullptr ? imageJson(path, bytes, mimeType(format), names_by_uri_)
                                                  : imageJson(path, *flipped, mimeType(format), false));
-        } catch (const FileError& failure) {
-            warnings_.push_back("a texture was left out: " + failure.error.message);
-            return -1;
-        }
-        return static_cast<int>(images_.size()) - 1;
+            is_added = true;
+        });
+        if (failure) warnings_.push_back("a texture was left out: " + failure->message);
+        return is_added ? static_cast<int>(images_.size()) - 1 : -1;
     }
 
     Json imageJson(const fs::path& path, const Bytes& bytes, const char* type, bool names_by_uri) {
         Json image = {{"name", Path(path.stem()).string()}};
-        const std::string below = names_by_uri ? pathBelowModel(path) : "";
+        // Relative to the model's folder.
+        const std::string below = names_by_uri ? pathBelow(named_.folder(), path) : "";
         if (!below.empty()) {
             image["uri"] = percentEncode(below);
         } else {
@@ -185,13 +187,6 @@ class ImageBuilder {
             image["bufferView"] = buffer_.addView(bytes.data(), bytes.size(), 0);
         }
         return image;
-    }
-
-    /// Relative to the model's folder; empty where it lies elsewhere.
-    [[nodiscard]] std::string pathBelowModel(const fs::path& path) const {
-        const fs::path root = canonicalPath(named_.folder());
-        const fs::path relative = fs::path(canonicalPath(path)).lexically_relative(root);
-        return relative.empty() || *relative.begin() == ".." ? "" : Path(relative).string();
     }
 
     const bool names_by_uri_;

@@ -33,14 +33,13 @@ class ImageFiles {
 
   private:
     void readBytes(const Texture& texture, SceneImage& image) const {
-        try {
+        // Where it cannot be had, the geometry is none the worse for it.
+        tryFile([&] {
             const Bytes bytes = files_.read(files_.resolve(texture.folder, percentEncode(texture.file), "material"));
             memory_.allow(bytes.size());
             memory_.take(bytes.size(), "material");
             image.bytes.assign(bytes.begin(), bytes.end());
-        } catch (const FileError&) {
-            // The geometry is none the worse for it.
-        }
+        });
     }
 
     const NamedFiles& files_;

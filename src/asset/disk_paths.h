@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// What the disk says about paths.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "asset/path.h"
+
+namespace tspace {
+
+/// 0 where there is no such file.
+std::uint64_t fileSize(const Path& path);
+
+/// The path of `file` relative to `folder`, with slashes; empty where it lies elsewhere.
+std::string pathBelow(const Path& folder, const Path& file);
+
+}  // namespace tspace
