@@ -4,7 +4,7 @@ export { TspaceError } from "./types.js";
 /** Resolves when calls can be made. */
 export const ready: Promise<void>;
 
-/** A file: .glb or .gltf. Read during the call only, and never changed. */
+/** A file: .glb, .gltf or, where `name` ends in .obj, OBJ. Read during the call only, and never changed. */
 export type Bytes = Uint8Array | ArrayBuffer;
 
 /**
@@ -48,17 +48,35 @@ export interface PixelsToEncode {
   quality: number;
 }
 
+/** How far a call is: `done` of `total` steps of what it does ("reading", "computing tangents"). 0 of 0: nobody knows. */
+export interface Progress {
+  what: string;
+  done: number;
+  total: number;
+}
+
+/** An AbortSignal, or anything that says so: it is looked at while a call runs, many times a second. */
+export interface StopSignal {
+  readonly aborted: boolean;
+  readonly reason?: unknown;
+}
+
 export type ImageType = "image/png" | "image/jpeg" | "image/webp";
 
 /** Options are those of the tool (docs/tool.md), in camelCase: --memory-limit is memoryLimit. */
 export interface ModelOptions {
-  /** What reports call the model. */
+  /** What reports call the model. OBJ is told by its ending. */
   name?: string;
   resources?: Resources;
   /** For models compressed by meshopt; `generate` needs the encoder too where the output is compressed. */
   meshopt?: Meshopt;
   /** For models compressed by Draco, in the same way. */
   draco?: Draco;
+  /**
+   * Ends the call: it throws `signal.reason`, or a TspaceError with the code "stopped". Events are not heard while a call runs, so a
+   * signal of another thread has to go through shared memory (docs/javascript.md).
+   */
+  signal?: StopSignal;
   /** Memory that working on the model may take, such as "2G"; 0: by its size. */
   memoryLimit?: string | number;
   /** Also ask for files outside of the model's folder. */
@@ -68,12 +86,17 @@ export interface ModelOptions {
 /** Nothing, or an error thrown: the image is not looked at, and the report says so. */
 export type DecodeImage = (file: Uint8Array, type: ImageType) => Pixels | null | undefined;
 
+export interface WatchOptions {
+  /** What it throws ends the call. */
+  onProgress?: (progress: Progress) => void;
+}
+
 export interface ImageOptions {
   /** Decodes normal maps, at once. {@link decodeImages} makes one of a function that takes its time. */
   decodeImage?: DecodeImage;
 }
 
-export interface GenerateOptions extends ModelOptions, ImageOptions {
+export interface GenerateOptions extends ModelOptions, ImageOptions, WatchOptions {
   /** Also where the material needs no tangents. */
   all?: boolean;
   /** Keep tangents that are there (the default), compute them anew, or mend what is wrong with them. */
@@ -112,7 +135,7 @@ export interface GenerateOptions extends ModelOptions, ImageOptions {
   dryRun?: boolean;
 }
 
-export interface CheckOptions extends ModelOptions, ImageOptions {
+export interface CheckOptions extends ModelOptions, ImageOptions, WatchOptions {
   /** Findings from this severity on make exitCode 1. */
   failOn?: Severity;
   /** Findings below it are left out. */

@@ -2,9 +2,10 @@
 // The entry "tspace/gltf": models as bytes. Options and reports are those of the tool and its JSON.
 import { bytes, fail, object } from "./check.js";
 import { Codecs, codecsOf } from "./codecs.js";
+import { TspaceError } from "./error.js";
 import { textAt, Wasm } from "./wasm.js";
 
-export { TspaceError } from "./error.js";
+export { TspaceError };
 
 /** The call that runs: where each of its models gets the files that it names, and its codecs. */
 let current;
@@ -18,6 +19,8 @@ const wasm = new Wasm(new URL("./gltf.wasm", import.meta.url), {
   encodeDraco: (...given) => current.codecs.encodeDraco(...given),
   decodeImage: (data, size, type, ...given) => current.codecs.decodeImage(data, size, textAt(wasm.exports, type), ...given),
   encodeImage: (pixels, type, ...given) => current.codecs.encodeImage(pixels, textAt(wasm.exports, type), ...given),
+  tell: (what, done, total) => current.watch.tell(textAt(wasm.exports, what), done, total),
+  goOn: () => current.watch.goOn(),
   takeImage: (data, size, type) => current.codecs.takeImage(data, size, textAt(wasm.exports, type)),
   parseNumber: (text) => Number(textAt(wasm.exports, text)),
   now: () => performance.now(),
@@ -78,14 +81,37 @@ class Files {
   }
 }
 
+/** Progress, and the end of a call that its caller no longer wants. */
+class Watch {
+  constructor(onProgress, signal) {
+    if (onProgress !== undefined && onProgress !== null && typeof onProgress !== "function") fail("wrongType", "onProgress is not a function");
+    if (signal !== undefined && signal !== null && typeof object(signal, "signal").aborted !== "boolean")
+      fail("wrongType", "signal has no aborted that is true or false: it is not an AbortSignal");
+    this.onProgress = onProgress ?? undefined;
+    this.signal = signal ?? undefined;
+  }
+
+  tell(what, done, total) {
+    this.onProgress?.({ what, done, total });
+    this.goOn();
+  }
+
+  goOn() {
+    if (this.signal?.aborted) throw this.signal.reason ?? new TspaceError("stopped", "stopped by its signal");
+  }
+}
+
 /** body(call, places of models, place of the options) of a call, and its codecs. */
-function run(models, { resources, meshopt, draco, decodeImage, encodeImage, ...options }, body) {
+function run(models, { resources, meshopt, draco, decodeImage, encodeImage, onProgress, signal, ...options }, body) {
   const text = textOfOptions(options);
   const finder = finderOf(resources);
   const codecs = codecsOf({ meshopt, draco, decodeImage, encodeImage });
+  const watch = new Watch(onProgress, signal);
+  watch.goOn();
   if (current !== undefined) fail("invalidOption", "what a call asks for must not call tspace/gltf");
   return wasm.run((call) => {
-    current = { files: new Files(call, models.map(() => finder)), codecs: new Codecs(call, codecs) };
+    current = { files: new Files(call, models.map(() => finder)), codecs: new Codecs(call, codecs), watch };
+    call.wasm.setCanStop(watch.signal !== undefined);
     try {
       const table = call.allocate(16 * models.length);
       const words = models.flatMap(({ data, name }) => [call.put(data, Uint8Array), data.length, call.put(utf8.encode(`${name}\0`)), finder ? 1 : 0]);
@@ -136,8 +162,8 @@ const isSame = (a, b) => a.length === b.length && a.every((byte, i) => byte === 
 /** An option decodeImage for this model, of a decode(bytes, mimeType) that may give promises. */
 export async function decodeImages(data, decode, options = {}) {
   if (typeof decode !== "function") fail("wrongType", "decode is not a function");
-  const { resources, meshopt, draco, memoryLimit, allowExternal, name } = object(options, "options");
-  const files = run([modelOf(data, name)], { resources, meshopt, draco, memoryLimit, allowExternal }, (call, table, given, codecs) => {
+  const { resources, meshopt, draco, memoryLimit, allowExternal, signal, name } = object(options, "options");
+  const files = run([modelOf(data, name)], { resources, meshopt, draco, memoryLimit, allowExternal, signal }, (call, table, given, codecs) => {
     call.wasm.findImages(table, given);
     return codecs.images;
   });

@@ -85,7 +85,6 @@ describe("models in memory", () => {
     refuses("invalidOption", [/method/, /mikktspace/], () => generate(model, { method: "mikkt" }));
     refuses("invalidOption", [/crease/], () => generate(model, { crease: "1e400" }));
     refuses("invalidOption", [/all/, /strip/], () => generate(model, { all: true, strip: true }));
-    refuses("unsupportedFile", [/OBJ/], () => check(Buffer.from("v 0 0 0\n"), { name: "cube.obj" }));
     refuses("invalidFile", [/./], () => check(new Uint8Array(0)));
     refuses("invalidFile", [/JSON/], () => check(Buffer.from("{")));
     refuses("invalidOption", [/memory-limit/], () => check(model, { memoryLimit: "1k" }));

@@ -3,8 +3,8 @@
 import { grid } from "./meshes.mjs";
 
 /** A .gltf with one primitive, whose buffer is a file, or a data URI. */
-export function gridModel({ uri, tangents, image } = {}) {
-  const { positions, normals, uvs, indices } = grid(3);
+export function gridModel({ uri, tangents, image, size = 3 } = {}) {
+  const { positions, normals, uvs, indices } = grid(size);
   const arrays = { POSITION: positions, NORMAL: normals, TEXCOORD_0: uvs, ...(tangents && { TANGENT: tangents }) };
   const [accessors, bufferViews, parts] = [[], [], []];
   let bytes = 0;

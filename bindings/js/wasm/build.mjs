@@ -18,16 +18,16 @@ const out = resolve(process.argv[2] ?? join(root, "build/js/wasm"));
 /// Rooms of src/ and their files; loops over meshes that are worth more code than -Oz gives.
 const rooms = ["core", "frames", "normals", "tangents", "tangents/mikktspace", "tangents/estimators", "mesh_frames"];
 const fileRooms = [
-  "json", "asset", "asset/read", "asset/gltf", "asset/gltf/codecs", "asset/gltf/compression", "surface", "quads", "maps", "check",
+  "json", "asset", "asset/read", "asset/obj", "asset/gltf", "asset/gltf/codecs", "asset/gltf/compression", "surface", "quads", "maps", "check",
   "diff", "generate", "generate_file", "identify", "inspect", "options", "report", "c_files",
 ];
 /// Threads, memory of an operating system, the disk, and readers of other formats; only_memory.cpp is in the place of some.
 const notHere = new Set([
   "core/parallel.cpp", "core/arena.cpp", "asset/atomic_output_disk.cpp", "asset/file_io.cpp", "asset/resolve_uri.cpp",
-  "asset/system_files_posix.cpp", "asset/system_files_windows.cpp", "asset/temporary_name.cpp",
+  "asset/system_files_posix.cpp", "asset/system_files_windows.cpp", "asset/temporary_name.cpp", "asset/obj/tiny_obj_loader.cpp",
   "asset/gltf/codecs/draco_library.cpp", "asset/gltf/codecs/meshopt_library.cpp", "generate_file/convert_maps.cpp",
-  "generate_file/generate_obj.cpp", "inspect/inspect_obj.cpp", "maps/exr.cpp", "maps/float_image.cpp", "maps/jpeg.cpp",
-  "maps/png.cpp", "maps/png_pixels.cpp", "maps/rays.cpp", "maps/webp.cpp", "report/diff_text.cpp",
+  "maps/exr.cpp", "maps/float_image.cpp", "maps/jpeg.cpp", "maps/png.cpp", "maps/png_pixels.cpp", "maps/rays.cpp",
+  "maps/webp.cpp", "report/diff_text.cpp",
 ]);
 const hot = /mikktspace\/corner_terms_kernel|^pack\//;
 
@@ -38,12 +38,12 @@ const modules = {
   },
   pack: { sources: ["memory.cpp", "pack.cpp"], isFast: true, defines: [], rooms: ["core", "pack"], kernels: ["pack"] },
   gltf: {
-    sources: ["heap.cpp", "c_library.cpp", "throw.cpp", "only_memory.cpp", "codecs.cpp", "images.cpp", "gltf.cpp"], isFast: false,
+    sources: ["heap.cpp", "c_library.cpp", "throw.cpp", "only_memory.cpp", "codecs.cpp", "images.cpp", "obj_parser.cpp", "gltf.cpp"], isFast: false,
     defines: ["TSPACE_THROWS_END_CALL", "TSPACE_HAS_IMAGES", "TSPACE_HAS_WEBP"],
     rooms: [...rooms, "pack", ...fileRooms], more: ["c_api/c_convert.cpp"], kernels: ["normals", "tangents", "pack"], throws: true,
     imports: [
       "attempt", "decodeDraco", "decodeImage", "decodeMeshopt", "encodeDraco", "encodeImage", "encodeMeshopt", "endCall", "findFile",
-      "hasCodec", "now", "parseNumber", "takeImage",
+      "goOn", "hasCodec", "now", "parseNumber", "takeImage", "tell",
     ],
   },
 };
@@ -102,7 +102,9 @@ function sourcesOf(name, module) {
   const sources = Object.entries(libraries).flatMap(([library, list]) =>
     inBatches(`${name}_${library}`, list, library === "c_files" ? module.more : []));
   for (const room of module.kernels) sources.push(...kernelSources(room, module.isFast));
-  for (const file of ["new.cpp", "state.cpp", ...module.sources]) sources.push({ path: join(here, file) });
+  // The parser of OBJ lets exponents of numbers overflow.
+  for (const file of ["new.cpp", "state.cpp", ...module.sources])
+    sources.push({ path: join(here, file), flags: file === "obj_parser.cpp" ? ["-fwrapv"] : [] });
   return sources;
 }
 
@@ -117,8 +119,9 @@ async function compile(source, folder, module) {
   const stem = source.path.replace(`${root}/`, "").replaceAll("/", "_");
   const object = join(folder, `${stem}.o`);
   if (isCurrent(object, `${object}.d`)) return object;
-  // Without -fexceptions, emscripten lets code throw, but nothing catches.
-  const throwing = module.throws ? [] : ["-fno-exceptions", "-fno-rtti"];
+  // Without -fexceptions, emscripten lets code throw, but nothing catches. What was thrown is asked for its type.
+  const asksForTypes = source.path.endsWith("throw.cpp");
+  const throwing = [...(module.throws ? [] : ["-fno-exceptions"]), ...(asksForTypes ? [] : ["-fno-rtti"])];
   await run("em++", [...flags, ...throwing, ...module.defines.map((d) => `-D${d}`), ...(source.flags ?? []), "-MMD", "-MF", `${object}.d`,
     "-c", source.path, "-o", object]).catch((error) => {
     console.error(error.stderr);
@@ -161,8 +164,8 @@ const [major, minor, patch] = version.slice(1).map(Number);
 write(join(out, "include/tspace/version.h"),
   `#pragma once\n#define TSPACE_VERSION_NUMBER ${10000 * major + 100 * minor + patch}\n#define TSPACE_VERSION_STRING "${major}.${minor}.${patch}"\n`);
 // The system's own folder of headers would hide those of emscripten.
-const json = join(out, "include/nlohmann");
-if (!existsSync(json)) symlinkSync("/usr/include/nlohmann", json);
+for (const name of ["nlohmann", "tiny_obj_loader.h"])
+  if (!existsSync(join(out, "include", name))) symlinkSync(join("/usr/include", name), join(out, "include", name));
 flags.push(`-I${join(out, "include")}`);
 const chosen = process.argv.length > 3 ? process.argv.slice(3) : Object.keys(modules);
 for (const name of chosen) {

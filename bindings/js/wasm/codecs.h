@@ -13,6 +13,9 @@ enum class Codec { meshoptDecoder, meshoptEncoder, dracoDecoder, dracoEncoder, i
 
 extern "C" {
 
+/// Whether the caller may stop the call.
+extern bool tspace_js_can_stop;
+
 /// Whether the caller handed it in.
 TSPACE_JS_IMPORT(hasCodec) int tspace_js_hasCodec(tspace::js::Codec codec);
 

@@ -18,12 +18,18 @@ extern "C" {
 /// over. Returns an error code. It may throw, which ends the call, and the instance with it.
 TSPACE_JS_IMPORT(findFile)
 tspace_ErrorCode tspace_js_findFile(std::size_t model, const char* path, const std::uint8_t** data, std::size_t* size);
+/// Tells how far the call is. It may throw.
+TSPACE_JS_IMPORT(tell) void tspace_js_tell(const char* what, double done, double total);
 /// Takes a copy of an image file.
 TSPACE_JS_IMPORT(takeImage)
 void tspace_js_takeImage(const std::uint8_t* data, std::size_t bytes, const char* mime_type);
 }
 
 namespace {
+
+void tell(const char* what, std::uint64_t done, std::uint64_t total) {
+    tspace_js_tell(what, static_cast<double>(done), static_cast<double>(total));
+}
 
 enum class Verb : std::uint32_t { generate, check, inspect, identify, diff };
 
@@ -53,18 +59,22 @@ tspace_Model modelOf(const ModelWords& words, std::uintptr_t number) {
 
 extern "C" {
 
+/// Whether the next call can be stopped.
+TSPACE_JS_EXPORT(setCanStop) void setCanStop(bool can_stop) { tspace_js_can_stop = can_stop; }
+
 /// `models`: one, or two for diff. `results`: gets four words, place and size of output and report, to be released.
 TSPACE_JS_EXPORT(callFiles)
 std::uint32_t callFiles(std::uint32_t verb, const ModelWords* models, const char* options, tspace_Bytes* results) {
     const bool is_diff = static_cast<Verb>(verb) == Verb::diff;
     const tspace_Model a = modelOf(models[0], 0), b = is_diff ? modelOf(models[1], 1) : a;
     tspace_Error failure{};
+    const Progress progress = tell;
     const auto call = [&] {
         switch (static_cast<Verb>(verb)) {
             case Verb::generate:
-                return tspace_generateBytes(&a, options, &results[0], &results[1], &failure);
+                return c_files::generateBytes(&a, options, progress, &results[0], &results[1], &failure);
             case Verb::check:
-                return tspace_checkBytes(&a, options, &results[1], &failure);
+                return c_files::checkBytes(&a, options, progress, &results[1], &failure);
             case Verb::inspect:
                 return tspace_inspectBytes(&a, options, &results[1], &failure);
             case Verb::identify:

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "codecs.h"
 #include "exports.h"
 
 extern "C" unsigned char __heap_base;  // the linker's: the first byte that is nobody's
@@ -31,7 +32,18 @@ void* sbrk(std::intptr_t more) {
     return reinterpret_cast<void*>(begin);
 }
 
-void* tspace_js_allocate(std::size_t bytes) { return std::malloc(bytes); }
+bool tspace_js_can_stop = false;
+/// Throws where the caller wants the call to stop.
+TSPACE_JS_IMPORT(goOn) void tspace_js_goOn();
+
+/// All work asks for memory now and then, so this is where it is asked whether to go on.
+void* tspace_js_allocate(std::size_t bytes) {
+    constexpr std::size_t kLarge = 4096;
+    constexpr unsigned kSmallOnes = 64;
+    static unsigned count = 0;
+    if (tspace_js_can_stop && (bytes >= kLarge || ++count % kSmallOnes == 0)) tspace_js_goOn();
+    return std::malloc(bytes);
+}
 void tspace_js_release(void* memory) { std::free(memory); }
 
 }  // extern "C"

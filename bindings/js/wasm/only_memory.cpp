@@ -1,28 +1,18 @@
 // SPDX-License-Identifier: MIT
-// What the file layer does elsewhere with a disk, with other programs and with the readers of other formats. Here models are
-// bytes in memory, and glTF: all else fails, and the linker leaves out what is only behind it.
+// What the file layer does elsewhere with a disk and with other programs. Here models are bytes in memory: all else fails, and
+// the linker leaves out what is only behind it.
 #include <cerrno>
 #include <new>
 
 #include "asset/atomic_output.h"
+#include "asset/disk_paths.h"
 #include "asset/file_error.h"
 #include "asset/import/import_document.h"
-#include "asset/obj/obj_primitives.h"
-#include "asset/obj/obj_reader.h"
-#include "asset/obj/read_scene.h"
 #include "asset/uri.h"
 #include "generate_file/convert_maps.h"
-#include "generate_file/generate_obj.h"
-#include "inspect/inspect.h"
 #include "tspace/arena.h"
 
 namespace tspace {
-
-namespace {
-
-Error noObj() { return {ErrorCode::unsupportedFile, "OBJ is not read in JavaScript, only glTF"}; }
-
-}  // namespace
 
 Bytes readFile(const Path& path, const std::string& place, const Execution&) {
     failFile(ErrorCode::cannotRead, "there is no disk to read " + pathInQuotes(path) + " from", place);
@@ -34,6 +24,9 @@ Path resolveUri(const Path&, std::string_view uri, bool, const std::string& plac
     refuseUri(uri, "cannot be resolved without a disk", place);
 }
 
+std::uint64_t fileSize(const Path&) { return 0; }
+std::string pathBelow(const Path&, const Path&) { return {}; }
+
 void AtomicOutput::addFile(const Path& path, const std::function<int(const Sink&)>&) {
     failToWrite(path, "there is no disk");
 }
@@ -41,15 +34,9 @@ void AtomicOutput::renameFiles() {}
 void AtomicOutput::removeTemporaryFiles() {}
 
 bool isImportedFormat(const Path&) { return false; }
-gltf::Document importDocument(const Path&, const FileOptions&, const Progress&) { throw FileError{noObj()}; }
-
-namespace obj {
-Model readModel(const Path&, const FileOptions&) { throw FileError{noObj()}; }
-std::vector<ObjPrimitive> collectPrimitives(const Model&) { return {}; }
-Scene sceneOf(const Model&, std::span<const ObjPrimitive>, bool) { return {}; }
-}  // namespace obj
-Result<GenerateReport> generateObj(const std::string&, const std::string&, const GenerateOptions&) { return noObj(); }
-Inspection inspectObj(const std::string&, const FileOptions&) { throw FileError{noObj()}; }
+gltf::Document importDocument(const Path&, const FileOptions&, const Progress&) {
+    failFile(ErrorCode::unsupportedFile, "only glTF and OBJ are read in JavaScript");
+}
 
 // Memory comes from the module's own heap, which keeps it anyway.
 Arena::Arena()

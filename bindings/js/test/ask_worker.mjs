@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The other side of worker.mjs.
+
+/** What the worker makes of a message { mesh, options } or { call, model, options }. */
+export function askWorker(worker, message, { signal, onProgress } = {}) {
+  const flag = new Int32Array(new SharedArrayBuffer(4)); // in a browser: for pages that are cross-origin isolated
+  const stop = () => Atomics.store(flag, 0, 1);
+  if (signal?.aborted) stop();
+  signal?.addEventListener("abort", stop);
+  return new Promise((resolve, reject) => {
+    const finish = (end, value) => {
+      worker.off("message", listen);
+      worker.off("error", reject);
+      signal?.removeEventListener("abort", stop);
+      end(value);
+    };
+    const listen = ({ made, progress, error }) => {
+      if (progress) onProgress?.(progress);
+      else if (error) finish(reject, error);
+      else finish(resolve, made);
+    };
+    worker.on("message", listen);
+    worker.on("error", reject);
+    worker.postMessage({ ...message, flag });
+  });
+}
