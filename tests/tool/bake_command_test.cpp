@@ -2,7 +2,9 @@
 // tspace bake.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "maps/float_image.h"
@@ -278,6 +280,40 @@ TEST_F(BakeCommand, EachMaterialOfTheWrittenModelHasItsMap) {
         const ToolRun measured = runTool(
             folder, std::string("map-error n.") + name + ".png two.gltf --high high.obj --json --material " + name);
         EXPECT_LT(meanOf(measured.out, false), 0.5) << measured.err;
+    }
+}
+
+/// Every n-th of the bad models, in the order of their names.
+std::vector<std::string> badModels(std::size_t wanted) {
+    std::vector<std::string> all, some;
+    const std::filesystem::path folder = std::filesystem::path(TSPACE_SHARED_DIR) / "bad";
+    if (!std::filesystem::is_directory(folder)) return {};
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        const std::string ending = entry.path().extension().string();
+        if (ending == ".glb" || ending == ".gltf" || ending == ".obj") all.push_back(entry.path().string());
+    }
+    std::sort(all.begin(), all.end());
+    for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(1, all.size() / wanted)) some.push_back(all[i]);
+    return some;
+}
+
+TEST_F(BakeCommand, BadModelsAreOneLineAndLeaveNothing) {
+    const std::vector<std::string> models = badModels(12);
+    if (models.empty()) GTEST_SKIP() << "the bad models are not there";
+    for (const std::string& model : models) {
+        for (const std::string& inputs : {"'" + model + "' --high high.obj", "low.obj --high '" + model + "'",
+                                          "low.obj --high high.obj --cage '" + model + "'"}) {
+            const ToolRun run = runTool(folder, "bake " + inputs + " -q --size 8 -o n.png --out-mesh n.glb");
+            EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 3 || run.exit_code == 4) << inputs;
+            if (run.exit_code == 0) {
+                std::filesystem::remove(folder.path("n.png"));
+                std::filesystem::remove(folder.path("n.glb"));
+                continue;
+            }
+            EXPECT_EQ(run.errorLines(), 1) << inputs << run.err;
+            EXPECT_FALSE(std::filesystem::exists(folder.path("n.png"))) << inputs;
+            EXPECT_FALSE(std::filesystem::exists(folder.path("n.glb"))) << inputs;
+        }
     }
 }
 
