@@ -70,10 +70,12 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
 
+/// Those of a group, the same triangles once.
 MapMesh joinedSide(const MapGroup& group, MapMesh ShownMap::*side) {
     MapMesh mesh;
-    for (const ShownMap* one : group) {
-        const MapMesh& part = one->*side;
+    for (auto one = group.begin(); one != group.end(); ++one) {
+        if (std::any_of(group.begin(), one, [&](const ShownMap* other) { return (*one)->isLike(*other); })) continue;
+        const MapMesh& part = (*one)->*side;
         append(mesh.uvs, part.uvs);
         append(mesh.positions, part.positions);
         append(mesh.normals, part.normals);
