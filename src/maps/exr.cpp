@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // EXR by OpenEXR's C library, which is loaded when the first such image comes.
-#include <dlfcn.h>
 #include <openexr.h>
 
 #include <algorithm>
@@ -8,10 +7,10 @@
 #include <cmath>
 #include <cstring>
 #include <string_view>
-#include <type_traits>
 
 #include "maps/codecs.h"
 #include "maps/float_image.h"
+#include "maps/loaded_library.h"
 
 namespace tspace {
 
@@ -131,37 +130,32 @@ struct OpenExr {
     bool is_loaded = false;
 
     OpenExr() {
-        void* library = dlopen(TSPACE_OPENEXR_LIBRARY, RTLD_NOW | RTLD_LOCAL);
-        if (library == nullptr) return;
-        is_loaded = true;
-        const auto load = [&](auto& function, const char* name) {
-            function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
-            if (function == nullptr) is_loaded = false;
-        };
-        load(startRead, "exr_start_read");
-        load(startWrite, "exr_start_write");
-        load(finish, "exr_finish");
-        load(getStorage, "exr_get_storage");
-        load(getChannels, "exr_get_channels");
-        load(getDataWindow, "exr_get_data_window");
-        load(getDisplayWindow, "exr_get_display_window");
-        load(getScanlinesPerChunk, "exr_get_scanlines_per_chunk");
-        load(getTileSizes, "exr_get_tile_sizes");
-        load(readScanlineChunkInfo, "exr_read_scanline_chunk_info");
-        load(readTileChunkInfo, "exr_read_tile_chunk_info");
-        load(decodingInitialize, "exr_decoding_initialize");
-        load(decodingChooseDefaultRoutines, "exr_decoding_choose_default_routines");
-        load(decodingRun, "exr_decoding_run");
-        load(decodingDestroy, "exr_decoding_destroy");
-        load(addPart, "exr_add_part");
-        load(initializeRequiredAttrSimple, "exr_initialize_required_attr_simple");
-        load(addChannel, "exr_add_channel");
-        load(writeHeader, "exr_write_header");
-        load(writeScanlineChunkInfo, "exr_write_scanline_chunk_info");
-        load(encodingInitialize, "exr_encoding_initialize");
-        load(encodingChooseDefaultRoutines, "exr_encoding_choose_default_routines");
-        load(encodingRun, "exr_encoding_run");
-        load(encodingDestroy, "exr_encoding_destroy");
+        LoadedLibrary library(TSPACE_OPENEXR_LIBRARY);
+        library.find(startRead, "exr_start_read");
+        library.find(startWrite, "exr_start_write");
+        library.find(finish, "exr_finish");
+        library.find(getStorage, "exr_get_storage");
+        library.find(getChannels, "exr_get_channels");
+        library.find(getDataWindow, "exr_get_data_window");
+        library.find(getDisplayWindow, "exr_get_display_window");
+        library.find(getScanlinesPerChunk, "exr_get_scanlines_per_chunk");
+        library.find(getTileSizes, "exr_get_tile_sizes");
+        library.find(readScanlineChunkInfo, "exr_read_scanline_chunk_info");
+        library.find(readTileChunkInfo, "exr_read_tile_chunk_info");
+        library.find(decodingInitialize, "exr_decoding_initialize");
+        library.find(decodingChooseDefaultRoutines, "exr_decoding_choose_default_routines");
+        library.find(decodingRun, "exr_decoding_run");
+        library.find(decodingDestroy, "exr_decoding_destroy");
+        library.find(addPart, "exr_add_part");
+        library.find(initializeRequiredAttrSimple, "exr_initialize_required_attr_simple");
+        library.find(addChannel, "exr_add_channel");
+        library.find(writeHeader, "exr_write_header");
+        library.find(writeScanlineChunkInfo, "exr_write_scanline_chunk_info");
+        library.find(encodingInitialize, "exr_encoding_initialize");
+        library.find(encodingChooseDefaultRoutines, "exr_encoding_choose_default_routines");
+        library.find(encodingRun, "exr_encoding_run");
+        library.find(encodingDestroy, "exr_encoding_destroy");
+        is_loaded = library.hasAll();
     }
 };
 

@@ -8,12 +8,13 @@
 #include <vector>
 
 #ifdef TSPACE_HAS_EMBREE
-#include <dlfcn.h>
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
 #include <embree3/rtcore.h>
 #endif
+
+#include "maps/loaded_library.h"
 #endif
 
 #include "core/border.h"
@@ -43,27 +44,22 @@ struct Embree {
     bool is_loaded = false;
 
     Embree() {
-        void* library = dlopen(TSPACE_EMBREE_LIBRARY, RTLD_NOW | RTLD_LOCAL);
-        if (library == nullptr) return;
-        is_loaded = true;
-        const auto load = [&](auto& function, const char* name) {
-            function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
-            if (function == nullptr) is_loaded = false;
-        };
-        load(newDevice, "rtcNewDevice");
-        load(releaseDevice, "rtcReleaseDevice");
-        load(getDeviceError, "rtcGetDeviceError");
-        load(newScene, "rtcNewScene");
-        load(releaseScene, "rtcReleaseScene");
-        load(setSceneFlags, "rtcSetSceneFlags");
-        load(commitScene, "rtcCommitScene");
-        load(newGeometry, "rtcNewGeometry");
-        load(releaseGeometry, "rtcReleaseGeometry");
-        load(setSharedGeometryBuffer, "rtcSetSharedGeometryBuffer");
-        load(setGeometryIntersectFilterFunction, "rtcSetGeometryIntersectFilterFunction");
-        load(commitGeometry, "rtcCommitGeometry");
-        load(attachGeometry, "rtcAttachGeometry");
-        load(intersect1, "rtcIntersect1");
+        LoadedLibrary library(TSPACE_EMBREE_LIBRARY);
+        library.find(newDevice, "rtcNewDevice");
+        library.find(releaseDevice, "rtcReleaseDevice");
+        library.find(getDeviceError, "rtcGetDeviceError");
+        library.find(newScene, "rtcNewScene");
+        library.find(releaseScene, "rtcReleaseScene");
+        library.find(setSceneFlags, "rtcSetSceneFlags");
+        library.find(commitScene, "rtcCommitScene");
+        library.find(newGeometry, "rtcNewGeometry");
+        library.find(releaseGeometry, "rtcReleaseGeometry");
+        library.find(setSharedGeometryBuffer, "rtcSetSharedGeometryBuffer");
+        library.find(setGeometryIntersectFilterFunction, "rtcSetGeometryIntersectFilterFunction");
+        library.find(commitGeometry, "rtcCommitGeometry");
+        library.find(attachGeometry, "rtcAttachGeometry");
+        library.find(intersect1, "rtcIntersect1");
+        is_loaded = library.hasAll();
     }
 };
 
