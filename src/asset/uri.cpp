@@ -71,6 +71,8 @@ Bytes decodeBase64(std::string_view text, const std::string& place) {
     return bytes;
 }
 
+}  // namespace
+
 std::string encodeBase64(const Bytes& bytes) {
     std::string text;
     text.reserve((bytes.size() + 2) / 3 * 4);
@@ -86,8 +88,6 @@ std::string encodeBase64(const Bytes& bytes) {
     }
     return text;
 }
-
-}  // namespace
 
 void refuseUri(std::string_view uri, const char* why, const std::string& place) {
     failFile(ErrorCode::forbiddenPath, "the URI " + inQuotes(uri, 200) + " " + why, place);

@@ -23,6 +23,8 @@ struct DataUri {
 /// Decodes a data URI, base64 or percent-encoded. Fails with invalidFile at `place`.
 DataUri decodeDataUri(std::string_view uri, const std::string& place);
 
+std::string encodeBase64(const Bytes& bytes);
+
 std::string encodeDataUri(std::string_view mime_type, const Bytes& bytes);
 
 /// %41 -> A. A percent sign that starts no valid escape stays as it is, because file names contain them.

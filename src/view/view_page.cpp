@@ -2,7 +2,6 @@
 // The files of a model as blocks of data in the page. A script whose type is no language is never run.
 #include "view/view_page.h"
 
-#include <algorithm>
 #include <map>
 #include <span>
 #include <string_view>
@@ -11,6 +10,7 @@
 #include "asset/atomic_output.h"
 #include "asset/file_error.h"
 #include "asset/file_io.h"
+#include "asset/uri.h"
 
 namespace tspace {
 namespace {
@@ -21,17 +21,6 @@ struct EmbeddedFile {
     std::string name;
     Bytes bytes;
 };
-
-void appendBase64(std::string& out, std::span<const std::uint8_t> bytes) {
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    out.reserve(out.size() + (bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t here = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t word = 0;
-        for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (k < here ? bytes[i + k] : 0U);
-        for (std::size_t k = 0; k < 4; ++k) out += k <= here ? digits[word >> (18 - 6 * k) & 63] : '=';
-    }
-}
 
 /// Fit for an attribute in quotation marks. Bytes that are no UTF-8 are for the browser to replace.
 std::string escaped(std::string_view text) {
@@ -98,7 +87,7 @@ Result<ViewReport> writeViewPage(const Path& input, const Path& output, const Pa
         std::string made(text.substr(0, place));
         for (const EmbeddedFile& file : filesOf(input, options)) {
             made += "<script type=\"application/octet-stream\" data-name=\"" + escaped(file.name) + "\">";
-            appendBase64(made, file.bytes);
+            made += encodeBase64(file.bytes);
             made += "</script>\n";
             report.files.push_back(file.name);
         }
