@@ -2,11 +2,11 @@
 #include "bake/model_maps.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
 
+#include "asset/disk_paths.h"
 #include "asset/file_error.h"
 #include "asset/gltf/container.h"
 #include "asset/gltf/editor.h"
@@ -16,20 +16,8 @@ namespace tspace {
 
 namespace {
 
-namespace fs = std::filesystem;
 using gltf::Document;
 using gltf::Editor;
-
-/// Where a file lies below the folder of another one, with slashes; empty: elsewhere.
-std::string pathBelow(const std::string& file, const std::string& model) {
-    std::error_code error;
-    const fs::path folder = fs::weakly_canonical(fs::absolute(model).parent_path(), error);
-    const fs::path whole = fs::weakly_canonical(fs::absolute(file), error);
-    if (error) return {};
-    const fs::path relative = whole.lexically_relative(folder);
-    if (relative.empty() || *relative.begin() == "..") return {};
-    return relative.generic_string();
-}
 
 /// How often materials name a texture.
 std::size_t referencesTo(const Json& value, std::size_t texture) {
@@ -152,7 +140,7 @@ class MapPlacing {
         }
         if (old_view) editor_.letGoOfView(*old_view);
         Json image = Json::object();
-        image["name"] = fs::path(map.path).stem().string();
+        image["name"] = stemOf(map.path);
         if (name) {
             image["uri"] = percentEncode(*name);
         } else {
@@ -166,7 +154,7 @@ class MapPlacing {
     /// The name that a .gltf has for the file.
     [[nodiscard]] std::optional<std::string> nameBeside(const std::string& path) const {
         if (target_.container == gltf::Container::glb) return {};
-        std::string name = pathBelow(path, target_.path.string());
+        std::string name = pathBelow(folderOf(target_.path), path);
         if (name.empty() || gltf::namesFile(document_, name)) return {};
         return name;
     }
