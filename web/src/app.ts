@@ -13,8 +13,8 @@ import type { PlaceView } from "./views/place.js";
 import type { Progress } from "./views/progress.js";
 import type { Stage } from "./views/stage.js";
 import type { UvMapView } from "./views/uv_map.js";
-import { WorkError, type Work } from "./work/client.js";
-import { nameOf, type Arrays, type Calls, type Right } from "./work/protocol.js";
+import { WorkError, type Work } from "./worker/client.js";
+import { nameOf, type Arrays, type Calls, type Right } from "./worker/protocol.js";
 
 export interface Views {
   stage: Stage;

@@ -14,7 +14,7 @@ import { Progress } from "./views/progress.js";
 import { Stage } from "./views/stage.js";
 import { TexelView } from "./views/texel.js";
 import { UvMapView } from "./views/uv_map.js";
-import { Work } from "./work/client.js";
+import { Work } from "./worker/client.js";
 
 // The library is read and compiled by the worker while WebGL starts, which holds this thread up for longer than all else.
 const work = new Work();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The arrays of a geometry of three.js as plain numbers.
 import type { BufferAttribute, BufferGeometry, InterleavedBufferAttribute, Matrix3 } from "three";
-import type { Arrays } from "../work/protocol.js";
+import type { Arrays } from "../worker/protocol.js";
 
 type Attribute = BufferAttribute | InterleavedBufferAttribute;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A primitive of a model, as the page shows it.
 import type { Matrix4, Texture, Vector3 } from "three";
-import type { Arrays } from "../work/protocol.js";
+import type { Arrays } from "../worker/protocol.js";
 
 export interface Part {
   mesh: number;

@@ -2,7 +2,7 @@
 // The parts of a model as drawable objects. Each place of a part is an object of its own; all share one geometry.
 import { BufferAttribute, BufferGeometry, DataTexture, Group, Matrix3, Matrix4, Mesh, Sphere, Vector3, type RawShaderMaterial, type Texture } from "three";
 import type { Part } from "../model/part.js";
-import type { Corners, Frames } from "../work/protocol.js";
+import type { Corners, Frames } from "../worker/protocol.js";
 import { makeMaterial } from "./shader.js";
 
 export interface Drawn {

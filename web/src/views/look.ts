@@ -3,7 +3,7 @@
 import { checkbox, choice, count, el, replaceChildren, select } from "../dom.js";
 import { frameLines, usualEdge, type Axis } from "../picture/overlays.js";
 import { replaceOverlay, type Viewport } from "../picture/viewport.js";
-import { methods, nameOf, type Right } from "../work/protocol.js";
+import { methods, nameOf, type Right } from "../worker/protocol.js";
 import type { Stage } from "./stage.js";
 import type { Object3D } from "three";
 

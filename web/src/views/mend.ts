@@ -3,7 +3,7 @@
 import { choice, count, el, plural, replaceChildren, select } from "../dom.js";
 import type { ModelFiles } from "../files.js";
 import type { GenerateFile, GeneratedPrimitive } from "../report.js";
-import { methods, type Method } from "../work/protocol.js";
+import { methods, type Method } from "../worker/protocol.js";
 
 type Tangents = "repair" | "overwrite" | "missing";
 

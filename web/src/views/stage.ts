@@ -3,7 +3,7 @@
 import { choice, el } from "../dom.js";
 import type { Look } from "../picture/shader.js";
 import { Viewport } from "../picture/viewport.js";
-import { nameOf, type Right } from "../work/protocol.js";
+import { nameOf, type Right } from "../worker/protocol.js";
 import { Legend } from "./legend.js";
 
 const lookNames: readonly (readonly [Look, string])[] = [
