@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""trimesh: vertices with UVs in, vertices with tangents out, as a vertex attribute that its exporters write."""
+"""trimesh: vertices with UVs in, vertices with tangents out; and a GLB that has them."""
 
 import numpy
 import trimesh
@@ -7,19 +7,24 @@ import tspace
 
 
 def with_frames(mesh, convention="opengl"):
-    """A trimesh.Trimesh whose vertex_attributes has "tangent", of one with UVs."""
+    """A trimesh.Trimesh whose vertex_attributes has "tangent", of one with UVs. trimesh's V points up: "opengl"."""
     uvs = mesh.visual.uv
     made = tspace.make_indexed_frames(mesh.vertices, mesh.vertex_normals, uvs, mesh.faces, convention=convention)
-    visual = trimesh.visual.TextureVisuals(uv=uvs[made.source_vertex], material=mesh.visual.material)
     result = trimesh.Trimesh(
         vertices=mesh.vertices[made.source_vertex],
         faces=made.indices.reshape(-1, 3),
         vertex_normals=made.normals,
-        visual=visual,
+        visual=trimesh.visual.TextureVisuals(uv=uvs[made.source_vertex], material=mesh.visual.material),
         process=False,  # it would merge the vertices that were split
     )
     result.vertex_attributes["tangent"] = made.tangents
     return result
+
+
+def to_glb(mesh):
+    """Bytes of a GLB with TANGENT. trimesh's exporter would call the attribute "_tangent", which no renderer reads."""
+    plain = mesh.export(file_type="glb", include_normals=True)
+    return tspace.generate_bytes(plain, all=True)  # all: also where the material has no normal map
 
 
 def main():
@@ -27,9 +32,18 @@ def main():
     around = numpy.arctan2(mesh.vertices[:, 1], mesh.vertices[:, 0]) / (2 * numpy.pi) + 0.5
     uvs = numpy.column_stack([around, mesh.vertices[:, 2] / 2 + 0.5])
     mesh.visual = trimesh.visual.TextureVisuals(uv=uvs)
+
     framed = with_frames(mesh)
     tangents = framed.vertex_attributes["tangent"]
     print(f"{len(mesh.vertices)} vertices became {len(framed.vertices)}, with tangents of shape {tangents.shape}")
+    across = abs((tangents[:, :3] * framed.vertex_normals).sum(1)).max()
+    print(f"T stands across N within {across:.1e}")
+    assert across < 1e-5
+
+    glb = to_glb(mesh)
+    wrong = [finding.message for finding in tspace.check(glb).findings if finding.severity == "error"]
+    assert not wrong, wrong
+    print(f"a GLB of {len(glb)} bytes, whose tangents are those of {tspace.identify(glb).method}")
 
 
 if __name__ == "__main__":
