@@ -6,7 +6,7 @@ import { glbOfObj } from "./model/obj.js";
 import { triangleCount, type Part } from "./model/part.js";
 import { Refusal, type ModelFiles } from "./files.js";
 import { Scene, type Drawn } from "./picture/scene.js";
-import type { CheckFile, IdentifyFile } from "./report.js";
+import type { CheckFile, IdentifyFile, InspectFile } from "./report.js";
 import type { FindingsView } from "./views/findings.js";
 import type { LookView } from "./views/look.js";
 import type { PlaceView } from "./views/place.js";
@@ -25,6 +25,7 @@ export interface Views {
   progress: Progress;
   /** The model, its reports, or null before there is one. */
   opened: (model: ModelFiles | null) => void;
+  inspected: (report: InspectFile) => void;
 }
 
 export interface Reports {
@@ -95,6 +96,7 @@ export class App {
       opened(model);
       this.reports.inspect = await this.work.run("report", { verb: "inspect", model });
       if (!isCurrent()) return;
+      this.views.inspected(this.reports.inspect as InspectFile);
       await this.#draw(model, isObj ? ["An OBJ is shown and judged as the GLB that it becomes."] : [], isCurrent);
       await this.#judge(model, isCurrent);
     } catch (error) {
@@ -116,7 +118,7 @@ export class App {
     progress.at("Drawing", 0.1);
     stage.say("");
     try {
-      const { parts, remarks: own } = await loadModel(model);
+      const { parts, remarks: own } = await loadModel(model, this.work);
       const remarks = [...before, ...own];
       if (!isCurrent()) return;
       const scene = new Scene();
@@ -174,7 +176,7 @@ export class App {
   /** Puts the file that Mend has made right of the slider: its frames and its normal maps, as they are in it. */
   async showMended(model: ModelFiles): Promise<void> {
     const generation = this.#generation;
-    const { parts } = await loadModel(model);
+    const { parts } = await loadModel(model, this.work);
     if (generation !== this.#generation) return;
     this.#mended = parts;
     this.views.look.offerMended(true);

@@ -32,6 +32,7 @@ export interface CheckFile {
   generator: string;
   primitives: number;
   primitivesWithTangents: number;
+  normalMaps: number;
   counts: Record<Severity, number>;
   findings: Finding[];
 }
@@ -79,10 +80,19 @@ export interface GeneratedPrimitive {
   normalsGenerated: boolean;
 }
 
+export interface JudgedMap {
+  image: number;
+  name: string;
+  flipped: boolean;
+  reason: string;
+}
+
 export interface GenerateFile {
   changed: boolean;
   inputBytes: number;
   outputBytes: number;
   warnings: string[];
+  /** Where green was to be turned. */
+  normalMaps?: JudgedMap[];
   primitives: GeneratedPrimitive[];
 }

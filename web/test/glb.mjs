@@ -25,6 +25,10 @@ export class Glb {
     return this.binary().subarray(byteOffset, byteOffset + byteLength);
   }
 
+  bytesOfImage(index) {
+    return this.bytesOfView(this.json.images[index].bufferView);
+  }
+
   /** All numbers of an accessor; those that stand for 0 to 1 or -1 to 1 are that. */
   numbers(index) {
     const { bufferView, byteOffset = 0, componentType, count, type, normalized } = this.json.accessors[index];

@@ -13,10 +13,16 @@ const models = [
   "features/many-cubes/many-cubes.gltf", "features/chr_knight.glb", "features/TexCoord0to7/TexCoord2.gltf", "blender/01_sphere/01_sphere.gltf",
   "blender/09_texture_transform/09_texture_transform.gltf", "assets/Cat.glb", "assets/Ghost.glb",
 ].map((name) => join(shared ?? "", "models", name));
+const compressed = [
+  "features/BoxMeshopt.glb", "features/BoxDraco/BoxDraco.gltf", "features/pirate_meshopt.glb", "features/DracoSparseMesh/DracoSparseMesh.gltf",
+  "features/meshopt-fallback/meshopt-fallback.gltf", "features/BoxTextured_meshopt.glb", "features/meshopt-no-fallback/meshopt-no-fallback.gltf",
+  "derived/BoomBoxWithAxes_meshopt.glb", "derived/Suzanne_draco.glb", "derived/NormalTangentTest_draco.glb", "assets/Sneaker_draco.glb",
+  "assets/MaterialsVariantsShoe_draco.glb", "assets/ChessBoard_draco.glb", "features/DenseSphere.glb",
+].map((name) => join(shared ?? "", "models", name));
 
-/** The tool's report on one file, and its exit code. The page does not look at the pixels of normal maps. */
+/** The tool's report on one file, and its exit code. */
 function reportOf(verb, path) {
-  const run = () => execFileSync(tool, [verb, "--json", ...(verb === "check" ? ["--no-images"] : []), basename(path)], { cwd: dirname(path), encoding: "utf8", maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "ignore"] });
+  const run = () => execFileSync(tool, [verb, "--json", basename(path)], { cwd: dirname(path), encoding: "utf8", maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "ignore"] });
   let text;
   try {
     text = run();
@@ -27,20 +33,22 @@ function reportOf(verb, path) {
   return { ...files[0], exitCode };
 }
 
-test("models of each kind are drawn, and their reports are the tool's", { skip: noTool }, async () => {
-  await withPage(async (tab) => {
-    const there = models.filter((path, i) => existsSync(path) && (isLong || i % 3 === 0));
-    assert.ok(there.length > 4);
-    for (const path of there) {
-      assert.equal(await openFile(tab, path, { others: named(path) }), "ready", path);
-      assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "drawn", path);
-      const reports = await tab.evaluate(() => window.tspaceView.reports);
-      for (const verb of ["inspect", "check", "identify"]) assert.deepEqual(reports[verb], reportOf(verb, path), `${verb} of ${path}`);
-      assert.equal(await tab.locator(".finding").count(), Math.min(180, reports.check.findings.length), path);
-      await shoot(tab, `model-${basename(path).replace(/\.\w+$/, "")}`);
-    }
-  }, { allowMessages: true });
-});
+for (const [kind, paths, every] of [["models of each kind", models, 3], ["models compressed by meshopt and Draco", compressed, 3]]) {
+  test(`${kind} are drawn, and their reports are the tool's`, { skip: noTool, timeout: 4 * kPatience }, async () => {
+    await withPage(async (tab) => {
+      const there = paths.filter((path, i) => existsSync(path) && (isLong || i % every === 0));
+      assert.ok(there.length > 3);
+      for (const path of there) {
+        assert.equal(await openFile(tab, path, { others: named(path) }), "ready", path);
+        assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "drawn", path);
+        const reports = await tab.evaluate(() => window.tspaceView.reports);
+        for (const verb of ["inspect", "check", "identify"]) assert.deepEqual(reports[verb], reportOf(verb, path), `${verb} of ${path}`);
+        assert.equal(await tab.locator(".finding").count(), Math.min(180, reports.check.findings.length), path);
+        await shoot(tab, `model-${basename(path).replace(/\.\w+$/, "")}`);
+      }
+    }, { allowMessages: true });
+  });
+}
 
 test("an OBJ is shown as the GLB that it becomes", { skip: noShared }, async () => {
   await withPage(async (tab) => {

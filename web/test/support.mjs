@@ -98,6 +98,14 @@ export async function shoot(tab, name, options = {}) {
 /** Chooses a look, a method's frame or anything else that is a radio button. */
 export const choose = (tab, label, scope = "body") => tab.locator(`${scope} label`, { hasText: new RegExp(`^${label}$`) }).locator("input").check({ force: true });
 
+/** Mends the model as the page is set to, and downloads it. */
+export async function mended(tab) {
+  await tab.locator(".mend .main").click();
+  await tab.waitForSelector(".result a");
+  const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(".result a").click()]);
+  return readFileSync(await download.path());
+}
+
 /** Shares of the picture's pixels that are nearest to each of the named colours; what is far from all counts as "other". */
 export async function shares(tab, colors, area = { left: 0, top: 0, right: 1, bottom: 1 }) {
   await drawn(tab);

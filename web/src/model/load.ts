@@ -3,7 +3,9 @@
 import { InstancedMesh, LoadingManager, Matrix3, Matrix4, Mesh, SkinnedMesh, Vector3, type Group, type Material, type MeshStandardMaterial, type Object3D, type Texture } from "three";
 import { GLTFLoader, type GLTF } from "three/examples/jsm/loaders/GLTFLoader.js";
 import type { ModelFiles } from "../files.js";
+import type { Work } from "../worker/client.js";
 import { arraysOf, uvsOf } from "./arrays.js";
+import { giveDecoders } from "./compressed.js";
 import type { Model, Part } from "./part.js";
 
 /** More is not drawn, since a browser's memory ends there; findings are complete all the same. */
@@ -106,10 +108,11 @@ async function sceneOf(gltf: GLTF, remarks: string[]): Promise<Object3D[]> {
   return meshes;
 }
 
-export async function loadModel(model: ModelFiles): Promise<Model> {
+export async function loadModel(model: ModelFiles, work: Work): Promise<Model> {
   const urls: string[] = [];
   const remarks: string[] = [];
   const loader = new GLTFLoader(managerFor(model, urls));
+  giveDecoders(loader, work);
   try {
     const buffer = model.bytes.buffer.slice(model.bytes.byteOffset, model.bytes.byteOffset + model.bytes.byteLength);
     const isText = /\.gltf$/i.test(model.name);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Mends the model as `tspace generate` does: what to do, the same as a command line, what changed, and the file.
-import { choice, count, el, plural, replaceChildren, select } from "../dom.js";
+import { checkbox, choice, count, el, replaceChildren, select } from "../dom.js";
 import type { ModelFiles } from "../files.js";
-import type { GenerateFile, GeneratedPrimitive } from "../report.js";
+import type { GenerateFile, GeneratedPrimitive, JudgedMap } from "../report.js";
 import { methods, type Method } from "../worker/protocol.js";
 
 type Tangents = "repair" | "overwrite" | "missing";
@@ -28,6 +28,8 @@ export class MendView {
   #tangents: Tangents = "repair";
   #method: Method = "mikktspace";
   #isTurned = false;
+  #turnsGreen = false;
+  #isCompressed = false;
   #model: ModelFiles | null = null;
   #command = el("code", { class: "command" });
   #button = el("button", { type: "button", class: "main" }, "Mend");
@@ -42,15 +44,23 @@ export class MendView {
     const tangents = choice("Tangents", [["repair", "repair"], ["overwrite", "all anew"], ["missing", "add missing"]] as const, "repair", changed((v: Tangents) => (this.#tangents = v)));
     const method = select("Method", methods.map((name) => [name, name] as const), this.#method, changed((v: Method) => (this.#method = v)));
     const signs = choice("Signs", [["gltf", "as glTF wants"], ["turned", "turned"]] as const, "gltf", changed((v: string) => (this.#isTurned = v === "turned")));
+    const green = checkbox("Turn green of maps where it points down", false, changed((v: boolean) => (this.#turnsGreen = v)));
     this.#signs = signs.element;
     this.#button.addEventListener("click", () => void this.#mend());
-    this.element.append(el("div", { class: "rows" }, tangents.element, method.element, signs.element, this.#command, this.#button, this.#result));
+    this.element.append(el("div", { class: "rows" }, tangents.element, method.element, signs.element, green.element, this.#command, this.#button, this.#result));
     this.#refresh();
   }
 
   reset(model: ModelFiles | null): void {
     this.#model = model;
+    this.#isCompressed = false;
     replaceChildren(this.#result);
+    this.#refresh();
+  }
+
+  /** The page can unpack geometry, and not pack it. */
+  setCompressed(isCompressed: boolean): void {
+    this.#isCompressed = isCompressed;
     this.#refresh();
   }
 
@@ -61,6 +71,8 @@ export class MendView {
       ...(this.#tangents === "overwrite" && { overwrite: true }),
       ...(this.#method !== "mikktspace" && { method: this.#method }),
       ...(this.#tangents === "overwrite" && this.#isTurned && { convention: "opengl" }),
+      ...(this.#turnsGreen && { flipGreen: true }),
+      ...(this.#isCompressed && { compress: "none" }),
     };
   }
 
@@ -92,6 +104,7 @@ export class MendView {
     replaceChildren(this.#result,
       el("p", { class: file.changed ? "fine" : "quiet" }, file.changed ? `Done: ${count(file.inputBytes)} bytes in, ${count(file.outputBytes)} out.` : "Nothing had to change: the file is the same, byte for byte."),
       changeTable(file.primitives),
+      file.normalMaps && file.normalMaps.length > 0 ? mapTable(file.normalMaps) : null,
       ...file.warnings.map((warning) => el("p", { class: "quiet" }, warning)),
       el("div", { class: "row" }, el("a", { class: "button", href: url, download: mended.name }, `Download ${mended.name}`), look));
   }
@@ -100,18 +113,22 @@ export class MendView {
 /** `crate.glb` becomes `crate-mended.glb`; what comes out of memory is always GLB. */
 export const mendedName = (name: string): string => `${name.replace(/^.*\//, "").replace(/\.[^.]*$/, "")}-mended.glb`;
 
-function changeTable(primitives: GeneratedPrimitive[]): HTMLElement {
-  const head = el("tr", {}, ...["Part", "Tangents", "Vertices"].map((text) => el("th", { scope: "col" }, text)));
-  const body = el("tbody", {});
-  for (const one of primitives.slice(0, kMostRows)) {
-    const mended = one.mendedVertices > 0 ? `, ${plural(one.mendedVertices, "vertex").replace("vertexs", "vertices")} mended` : "";
-    const vertices = one.verticesBefore === one.verticesAfter ? count(one.verticesBefore) : `${count(one.verticesBefore)} → ${count(one.verticesAfter)}`;
-    body.append(el("tr", { title: [one.reason, ...one.notes].join(" ") },
-      el("td", {}, `${one.mesh}/${one.primitive} ${one.meshName || one.materialName}`),
-      el("td", {}, `${actions[one.action] ?? one.action}${mended}${one.normalsGenerated ? ", normals made" : ""}`),
-      el("td", {}, vertices)));
-  }
-  const rest = primitives.length - kMostRows;
-  if (rest > 0) body.append(el("tr", {}, el("td", { colspan: "3" }, `and ${count(rest)} more`)));
-  return el("table", { class: "changes" }, el("thead", {}, head), body);
+function table(head: string[], rows: { cells: string[]; title?: string }[], extraClass = ""): HTMLElement {
+  const body = el("tbody", {}, ...rows.slice(0, kMostRows).map(({ cells, title }) => el("tr", { title }, ...cells.map((text) => el("td", {}, text)))));
+  const rest = rows.length - kMostRows;
+  if (rest > 0) body.append(el("tr", {}, el("td", { colspan: head.length }, `and ${count(rest)} more`)));
+  return el("table", { class: `changes ${extraClass}` }, el("thead", {}, el("tr", {}, ...head.map((text) => el("th", { scope: "col" }, text)))), body);
 }
+
+const changeTable = (primitives: GeneratedPrimitive[]): HTMLElement =>
+  table(["Part", "Tangents", "Vertices"], primitives.map((one) => {
+    const mended = one.mendedVertices > 0 ? `, ${count(one.mendedVertices)} ${one.mendedVertices === 1 ? "vertex" : "vertices"} mended` : "";
+    const vertices = one.verticesBefore === one.verticesAfter ? count(one.verticesBefore) : `${count(one.verticesBefore)} → ${count(one.verticesAfter)}`;
+    return {
+      cells: [`${one.mesh}/${one.primitive} ${one.meshName || one.materialName}`, `${actions[one.action] ?? one.action}${mended}${one.normalsGenerated ? ", normals made" : ""}`, vertices],
+      title: [one.reason, ...one.notes].join(" "),
+    };
+  }));
+
+const mapTable = (maps: JudgedMap[]): HTMLElement =>
+  table(["Normal map", "Green"], maps.map(({ image, name, flipped, reason }) => ({ cells: [`${image} ${name}`, flipped ? "turned" : `stays: ${reason}`] })), "maps");

@@ -45,6 +45,24 @@ export interface Frames {
 
 export type Verb = "inspect" | "check" | "identify";
 
+/** Compressed geometry, as the loader of three.js asks for it. */
+export interface MeshoptAsk {
+  count: number;
+  size: number;
+  source: Uint8Array<ArrayBuffer>;
+  mode: string;
+  filter?: string;
+}
+export interface DracoAsk {
+  data: ArrayBuffer;
+  /** `type`: the name of a typed array. */
+  attributes: { name: string; id: number; type: string }[];
+}
+export interface DracoMesh {
+  indices: Uint32Array;
+  attributes: { name: string; size: number; values: Float32Array }[];
+}
+
 export interface Calls {
   report: { ask: { verb: Verb; model: ModelFiles }; answer: unknown };
   generate: { ask: { model: ModelFiles; options: Record<string, unknown> }; answer: { report: unknown; bytes: Uint8Array<ArrayBuffer> } };
@@ -52,6 +70,8 @@ export interface Calls {
   frames: { ask: { part: number; method: Method }; answer: Frames };
   /** Frames of the same part in another file: null where it has none, or has other triangles. */
   otherFrames: { ask: { part: number; arrays: Arrays }; answer: Frames | null };
+  meshopt: { ask: MeshoptAsk; answer: Uint8Array<ArrayBuffer> };
+  draco: { ask: DracoAsk; answer: DracoMesh };
   forget: { ask: Record<string, never>; answer: null };
 }
 export type Call = keyof Calls;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Everything that takes time: reports on files, and frames of the parts that the page shows.
+import { decodeDraco, decodeMeshopt, forgetCodecs } from "./codecs.js";
 import { computeFrames, cornersOf, otherFrames } from "./corners.js";
 import { generateModel, reportOn } from "./model_calls.js";
 import type { Answer, Arrays, Question } from "./protocol.js";
@@ -33,8 +34,17 @@ async function answerTo(question: Question): Promise<{ answer: unknown; transfer
       const answer = otherFrames(known(question.ask.part), question.ask.arrays);
       return { answer, transfer: answer ? [answer.tangents.buffer, answer.errors.buffer] : [] };
     }
+    case "meshopt": {
+      const answer = await decodeMeshopt(question.ask);
+      return { answer, transfer: [answer.buffer] };
+    }
+    case "draco": {
+      const answer = await decodeDraco(question.ask);
+      return { answer, transfer: [answer.indices.buffer, ...answer.attributes.map(({ values }) => values.buffer)] };
+    }
     case "forget":
       parts.clear();
+      forgetCodecs();
       return { answer: null };
   }
 }

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Pixels of normal maps, and files of them. PNG is read and written here, since browsers give 8 bits of it, and colours multiplied by
+// alpha; JPEG and WebP are left to the browser.
+import { convertIndexedToRgb, decode, encode } from "fast-png";
+import { decodeByCanvas, type ImageType, type Pixels, type PixelsToEncode } from "tspace/gltf";
+
+const isOpaque = (rgba: ArrayLike<number>): boolean => {
+  for (let i = 3; i < rgba.length; i += 4) if (rgba[i] !== 255) return false;
+  return true;
+};
+
+/** Null for the rare kinds of PNG that are read by the browser. */
+function pixelsOfPng(file: Uint8Array): Pixels | null {
+  const image = decode(file, { checkCrc: true }), { width, height, depth } = image;
+  if (depth < 8 && !image.palette) return null;
+  const data = image.palette ? convertIndexedToRgb(image) : image.data;
+  const channels = data.length / (width * height), hasColor = channels > 2, hasAlpha = channels % 2 === 0;
+  const rgba = new (depth === 16 ? Uint16Array : Uint8Array)(4 * width * height);
+  for (let to = 0, from = 0; to < rgba.length; to += 4, from += channels) {
+    for (let k = 0; k < 3; ++k) rgba[to + k] = data[hasColor ? from + k : from];
+    rgba[to + 3] = hasAlpha ? data[from + channels - 1] : depth === 16 ? 65535 : 255;
+  }
+  return { width, height, rgba };
+}
+
+export async function decodeImage(file: Uint8Array, type: ImageType): Promise<Pixels> {
+  const png = type === "image/png" ? pixelsOfPng(file) : null;
+  if (png) return png;
+  const pixels = await decodeByCanvas(file, type);
+  if (!isOpaque(pixels.rgba)) throw new Error("it is transparent, of which a browser gives no exact colours");
+  return pixels;
+}
+
+const pngOf = ({ width, height, channels, bits, data }: PixelsToEncode): Uint8Array => encode({ width, height, channels, depth: bits, data }, { zlib: { level: 6 } });
+
+async function fileByCanvas({ width, height, channels, data }: PixelsToEncode, type: ImageType): Promise<Uint8Array> {
+  const image = new ImageData(width, height);
+  for (let i = 0; i < width * height; ++i) {
+    for (let k = 0; k < 3; ++k) image.data[4 * i + k] = data[channels * i + k];
+    image.data[4 * i + 3] = channels === 4 ? data[channels * i + 3] : 255;
+  }
+  const canvas = new OffscreenCanvas(width, height);
+  canvas.getContext("2d")!.putImageData(image, 0, 0);
+  // The best quality: all below average colours, and so directions, over neighbours. A WebP is without loss then.
+  const blob = await canvas.convertToBlob({ type, quality: 1 });
+  if (blob.type !== type) throw new Error(`This browser writes no ${type.slice(6)}: tspace generate --flip-green does.`);
+  return new Uint8Array(await blob.arrayBuffer());
+}
+
+class NotYet extends Error {
+  constructor(readonly pixels: PixelsToEncode, readonly type: ImageType) {
+    super("an image is being written");
+  }
+}
+
+/**
+ * Calls `call` with what encodes images. Calls of tspace cannot wait, and browsers take their time: a call ends at the first image that
+ * is not there yet, and is made once more when it is.
+ */
+export async function withEncoder<T>(call: (encodeImage: (pixels: PixelsToEncode, type: ImageType) => Uint8Array) => T): Promise<T> {
+  const files: Uint8Array[] = [];
+  for (;;) {
+    let next = 0;
+    const encodeImage = (pixels: PixelsToEncode, type: ImageType): Uint8Array => {
+      if (type === "image/png") return pngOf(pixels);
+      if (next === files.length) throw new NotYet(pixels, type);
+      return files[next++];
+    };
+    try {
+      return call(encodeImage);
+    } catch (error) {
+      if (!(error instanceof NotYet)) throw error;
+      files.push(await fileByCanvas(error.pixels, error.type));
+    }
+  }
+}
