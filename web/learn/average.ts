@@ -43,7 +43,7 @@ export function showAverage(host: HTMLElement, rows: HTMLElement) {
       { method: "lengyel", convention: "opengl" });
     const result: Vec3 = [made[0]!, made[1]!, made[2]!];
     figure.arrow(kTop, [0, 0], [0.55 * result[0], 0.55 * result[1]], "tangent", "T");
-    figure.word(kTop, [0, -1.1], "from above: dP/du of each face, and T");
+    figure.word(kTop, [0, -1.1], "dP/du of the faces, and T");
 
     // The side view is the plane of x and z.
     const mean = scale(1 / kRing, sum), along = scale(dot(mean, normal), normal), flat = across(mean, normal);

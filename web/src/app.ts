@@ -73,6 +73,7 @@ export class App {
     look.offerMended(false);
     stage.viewport.show(new Scene());
     look.showLines();
+    look.showFigures();
     uvMap.reset();
   }
 

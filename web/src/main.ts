@@ -45,6 +45,7 @@ const app: App = new App(work, { stage, findings, look, uvMap, place, progress, 
 
 function showName(model: ModelFiles | null): void {
   mend.reset(model);
+  texel.reset();
   replaceChildren(title, model ? model.name : "");
   document.title = model ? `${model.name} – tspace view` : "tspace view";
   for (const button of sampleButtons) button.setAttribute("aria-pressed", String(model !== null && button.dataset.file === model.name));

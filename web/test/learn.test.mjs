@@ -116,4 +116,9 @@ for (const [name, options] of [["wide", {}], ["dark", { colorScheme: "dark" }], 
     const tab = await open(options);
     const picture = await tab.screenshot({ path: join(pictures, `learn-${name}.png`), fullPage: true });
     assert.ok(picture.length > 20_000);
+    const cut = await tab.$$eval("svg text", (words) => words.filter((word) => {
+      const own = word.getBoundingClientRect(), box = word.ownerSVGElement.getBoundingClientRect();
+      return own.width > 0 && (own.left < box.left - 0.5 || own.right > box.right + 0.5);
+    }).map((word) => word.textContent));
+    assert.deepEqual(cut, []);
   });

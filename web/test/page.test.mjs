@@ -5,7 +5,7 @@ import { readFileSync } from "node:fs";
 import { loadavg } from "node:os";
 import { test } from "node:test";
 import { gzipSync } from "node:zlib";
-import { choose, drawn, missing, page, settled, shares, shoot, withPage } from "./support.mjs";
+import { choose, drawn, mended, missing, page, screenshots, settled, shares, shoot, withPage } from "./support.mjs";
 
 const blue = [66, 133, 210], amber = [240, 168, 56], red = [214, 32, 60];
 const codes = (tab) => tab.locator(".finding").evaluateAll((items) => items.map((item) => item.dataset.code));
@@ -104,7 +104,7 @@ test("lines, edges, the UV map and the texel under the pointer are shown", { ski
     assert.ok(await tab.locator(".marker").isVisible());
     await drawn(tab);
     await shoot(tab, "lines-and-texel");
-    await tab.locator(".uv").screenshot({ path: `${process.env.TSPACE_SCREENSHOTS}/uv-map.png` });
+    await tab.locator(".uv").screenshot({ path: `${screenshots}/uv-map.png` });
   });
 });
 
@@ -164,15 +164,42 @@ const leastContrast = (tab) => tab.evaluate(() => {
   return least;
 });
 
+/** Texts that end beyond the window, or beyond what cuts them off. */
+const cutOff = (tab) => tab.evaluate(() => [...document.querySelectorAll("body *")].filter((element) => {
+  const own = [...element.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim() !== "");
+  if (!own || !element.checkVisibility() || getComputedStyle(element).clipPath !== "none") return false;
+  const { left, right } = element.getBoundingClientRect();
+  return left < 0 || right > innerWidth + 0.5 || element.scrollWidth > element.clientWidth + 1 && getComputedStyle(element).display !== "inline";
+}).map((element) => `${element.className}: ${element.textContent.slice(0, 40)}`));
+
+async function looksGood(tab) {
+  const { ratio, text } = await leastContrast(tab);
+  assert.ok(ratio >= 4.5, `${ratio} at ${text}`);
+  assert.ok(await tab.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "nothing is cut off at the side");
+  assert.deepEqual(await cutOff(tab), []);
+}
+
 for (const scheme of ["light", "dark"]) {
   for (const [width, height] of [[1280, 800], [390, 844]]) {
-    test(`the page fits ${width} pixels, ${scheme}, and its text has a contrast of 4.5 and more`, { skip: missing }, async () => {
+    test(`every view fits ${width} pixels, ${scheme}, and its text has a contrast of 4.5 and more`, { skip: missing }, async () => {
       await withPage(async (tab) => {
+        for (const view of ["Lit", "Normals", "Signs", "Mirrored", "Error", "Islands"]) {
+          await choose(tab, view);
+          await looksGood(tab);
+          await shoot(tab, `view-${view.toLowerCase()}-${width}-${scheme}`);
+        }
+        await choose(tab, "Lit");
+        await tab.locator(".finding").click();
         await tab.evaluate(() => document.querySelectorAll("details").forEach((details) => (details.open = true)));
-        const { ratio, text } = await leastContrast(tab);
-        assert.ok(ratio >= 4.5, `${ratio} at ${text}`);
-        assert.ok(await tab.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "nothing is cut off at the side");
+        await mended(tab);
+        await looksGood(tab);
         await shoot(tab, `page-${width}-${scheme}`, { fullPage: true });
+        if (width > 900) await tab.locator(".inspector").screenshot({ path: `${screenshots}/inspector-${scheme}.png` });
+        await tab.evaluate(() => window.tspaceView.fail("This file cannot be opened: it ends before its JSON does."));
+        await tab.evaluate(() => scrollTo(0, 0));
+        assert.equal(await tab.locator(".figures").textContent() + (await tab.locator(".texel dl").count()), "0", "nothing of the model before is left");
+        await looksGood(tab);
+        await shoot(tab, `failure-${width}-${scheme}`);
       }, { width, height, scheme });
     });
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What lies over the picture: T, B and N as lines, and the outlines of triangles that a finding names.
-import { BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, Vector3 } from "three";
+import { Box3, Box3Helper, BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, Sphere, Vector3 } from "three";
 import type { Drawn, Scene } from "./scene.js";
 
 export type Axis = "t" | "b" | "n";
@@ -113,6 +113,18 @@ export function outlineTriangles(drawn: Drawn, triangles: number[]): Place {
   const center = points.reduce((sum, point) => sum.add(point), new Vector3()).divideScalar(Math.max(1, points.length));
   const radius = Math.max(...points.map((point) => point.distanceTo(center)), 0);
   return { outline, center, radius, normal };
+}
+
+/** A box around a part, at its first place. */
+export function outlinePart(drawn: Drawn): Omit<Place, "normal"> {
+  const p = drawn.corners.positions, box = new Box3(), point = new Vector3();
+  for (let i = 0; i < p.length; i += 3) if (Number.isFinite(point.fromArray(p, i).lengthSq())) box.expandByPoint(point);
+  const helper = new Box3Helper(box);
+  helper.material = outlineMaterial;
+  const outline = new Group().add(helper);
+  outline.applyMatrix4(drawn.part.places[0] ?? new Matrix4());
+  const { center, radius } = box.applyMatrix4(outline.matrix).getBoundingSphere(new Sphere());
+  return { outline, center, radius };
 }
 
 const kMostOutlined = 3000;

@@ -86,8 +86,10 @@ export class LookView {
 
   /** How far the file's tangents are from the method's. */
   showFigures(): void {
+    const { drawn } = this.#viewport.scene;
+    if (drawn.length === 0) return replaceChildren(this.#figures);
     let compared = 0, sum = 0, most = 0, signs = 0;
-    for (const { frames } of this.stage.viewport.scene.drawn) {
+    for (const { frames } of drawn) {
       if (!frames) continue;
       compared += frames.compared;
       sum += frames.meanDegrees * frames.compared;

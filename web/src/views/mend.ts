@@ -81,7 +81,8 @@ export class MendView {
     this.#signs.disabled = this.#tangents !== "overwrite";
     const words = Object.entries(this.#options()).map(([name, value]) => `--${name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)}${value === true ? "" : ` ${String(value)}`}`);
     const name = this.#model?.name ?? "model.glb";
-    this.#command.textContent = ["tspace generate", name, "-o", mendedName(name), ...words].join(" ");
+    const parts = ["tspace generate", shellWord(name), whole("-o"), shellWord(mendedName(name)), ...words.map(whole)];
+    replaceChildren(this.#command, ...parts.flatMap((part, i) => (i === 0 ? [part] : [" ", part])));
     this.#button.disabled = this.#model === null;
   }
 
@@ -109,6 +110,11 @@ export class MendView {
       el("div", { class: "row" }, el("a", { class: "button", href: url, download: mended.name }, `Download ${mended.name}`), look));
   }
 }
+
+/** Words of a command line that are not broken at their hyphens. */
+const whole = (words: string): HTMLElement => el("span", { class: "whole" }, words);
+
+const shellWord = (name: string): string => (/^[\w./-]+$/.test(name) ? name : `'${name.replaceAll("'", "'\\''")}'`);
 
 /** `crate.glb` becomes `crate-mended.glb`; what comes out of memory is always GLB. */
 export const mendedName = (name: string): string => `${name.replace(/^.*\//, "").replace(/\.[^.]*$/, "")}-mended.glb`;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Flies to the place of a finding and outlines it.
 import type { Object3D } from "three";
-import { outlineTriangles, trianglesAt } from "../picture/overlays.js";
+import { outlinePart, outlineTriangles, trianglesAt } from "../picture/overlays.js";
+import type { Drawn } from "../picture/scene.js";
 import { replaceOverlay, type Viewport } from "../picture/viewport.js";
 import type { Finding } from "../report.js";
 
@@ -22,10 +23,9 @@ export class PlaceView {
       this.viewport.reset();
       return 0;
     }
-    const size = drawn.corners.positions.length / 9;
-    const own = trianglesAt(drawn, finding.vertices);
+    const triangles = trianglesAt(drawn, finding.vertices);
     // Without vertices the finding is about all of the primitive.
-    const triangles = own.length > 0 ? own : Array.from({ length: Math.min(size, 3000) }, (_, i) => i);
+    if (triangles.length === 0) return this.#showPart(drawn);
     const { outline, center, radius, normal } = outlineTriangles(drawn, triangles);
     if (radius === 0) outline.clear();
     this.#outline = replaceOverlay(this.viewport, null, outline);
@@ -33,5 +33,12 @@ export class PlaceView {
     const near = Math.max(radius * 1.5, all.radius * 0.12);
     if (radius > 0) this.viewport.fly(center, near, normal.lengthSq() > 0.01 ? normal.normalize() : null);
     return triangles.length;
+  }
+
+  #showPart(drawn: Drawn): number {
+    const { outline, center, radius } = outlinePart(drawn);
+    this.#outline = replaceOverlay(this.viewport, null, outline);
+    if (radius > 0) this.viewport.fly(center, radius, null);
+    return drawn.corners.positions.length / 9;
   }
 }

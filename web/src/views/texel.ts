@@ -32,6 +32,7 @@ class TexelReader {
     const wrap = (x: number) => x - Math.floor(x);
     const column = Math.min(image.width - 1, Math.floor(wrap(u) * image.width));
     const row = Math.min(image.height - 1, Math.floor(wrap(v) * image.height));
+    this.#context.globalCompositeOperation = "copy"; // not over the texel before
     this.#context.drawImage(texture.image as CanvasImageSource, column, row, 1, 1, 0, 0, 1, 1);
     const [r, g, b] = this.#context.getImageData(0, 0, 1, 1).data;
     return { column, row, rgb: [r, g, b] };
@@ -49,9 +50,13 @@ export class TexelView {
 
   constructor(private viewport: Viewport, private found: (spot: Spot | null) => void) {
     this.element.append(this.#body);
-    this.#say("Point at the model to read the texel and the frame there.");
+    this.reset();
     viewport.canvas.addEventListener("pointermove", (event) => event.buttons === 0 && void this.#look(event));
     viewport.canvas.addEventListener("pointerdown", (event) => event.pointerType !== "mouse" && void this.#look(event));
+  }
+
+  reset(): void {
+    this.#say("Point at the model to read the texel and the frame there.");
   }
 
   #say(sentence: string): void {
