@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The package bundled by Vite, in headless Chromium: golden meshes, a worker, and a mistake.
+// The package bundled by Vite, in headless Chromium: golden meshes, pictures, and a mistake.
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { createServer } from "node:http";
 import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -8,11 +9,14 @@ import { extname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { it } from "node:test";
 import { gridModel } from "./models.mjs";
+import { shared, tool } from "./tool.mjs";
 
 const project = fileURLToPath(new URL("..", import.meta.url));
 const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
-const [vite, playwright] = await Promise.all(["vite", "playwright-core"].map((name) => import(name).catch(() => null)));
+const [vite, playwright, pngjs] = await Promise.all(["vite", "playwright-core", "pngjs"].map((name) => import(name).catch(() => null)));
 const golden = process.env.TSPACE_GOLDEN;
+/** A normal map as artists have them, with halved colours. */
+const photo = join(shared ?? "", "models/assets/sofa_03/textures/sofa_03_nor_gl_1k.jpg");
 const missing =
   (!chromium && "no Chromium here: scripts/js --all") ||
   (!(vite && playwright) && "Vite or playwright-core is not installed, or this node is too old for them") ||
@@ -54,9 +58,37 @@ const mapped = gridModel(image);
 const noted = (options) => files.check(mapped, options).findings.some(({ code }) => code === "normalMapUnreadable");
 const decoded = await files.decodeByCanvas(png, "image/png");
 const exact = decoded.rgba.every((value, i) => value === [4 * ((i >> 2) % 64), 4 * (i >> 8), ((i >> 2) % 64) ^ (i >> 8), 255][i % 4]);
+const base64 = (bytes) => {
+  let text = "";
+  for (let i = 0; i < bytes.length; i += 8192) text += String.fromCharCode(...bytes.subarray(i, i + 8192));
+  return btoa(text);
+};
+const pictures = [];
+async function decode(name, file) {
+  const { width, height, rgba } = await files.decodeByCanvas(file, "image/" + name.split(" ")[0]);
+  pictures.push({ name, width, height, file: base64(file), rgba: base64(rgba) });
+}
+for (const type of ["jpeg", "webp"]) for (const quality of [0.6, 0.95, 1])
+  await decode(type + " of quality " + quality, new Uint8Array(await (await canvas.convertToBlob({ type: "image/" + type, quality })).arrayBuffer()));
+const photo = await fetch("/photo");
+if (photo.ok) await decode("jpeg of ../shared", new Uint8Array(await photo.arrayBuffer()));
 const images = [noted({}), noted({ decodeImage: await files.decodeImages(mapped, files.decodeByCanvas) }), exact];
-window.result = { images,  compared, wrong, code, refused, glb: made.bytes.length, found: files.check(made.bytes).findings.length };
+window.result = { pictures, images, compared, wrong, code, refused, glb: made.bytes.length, found: files.check(made.bytes).findings.length };
 `;
+
+/** How far the browser's pixels are from those that the tool reads, which it writes as a PNG with green inverted. */
+function stepsFromTool({ name, width, height, file, rgba }, folder) {
+  const [from, to] = [`picture.${name.split(" ")[0]}`, "picture.png"].map((each) => join(folder, each));
+  writeFileSync(from, Buffer.from(file, "base64"));
+  execFileSync(tool, ["flip-green", from, "-o", to, "--quiet"]);
+  const wanted = pngjs.PNG.sync.read(readFileSync(to));
+  assert.deepEqual([width, height], [wanted.width, wanted.height], name);
+  const pixels = Buffer.from(rgba, "base64");
+  assert.equal(pixels.length, wanted.data.length, name);
+  let most = 0;
+  for (let i = 0; i < pixels.length; ++i) most = Math.max(most, Math.abs(pixels[i] - (i % 4 === 1 ? 255 - wanted.data[i] : wanted.data[i])));
+  return most;
+}
 
 it("gives the same bits in Chromium, bundled by Vite", { skip: missing, timeout: 300_000 }, async () => {
   const folder = mkdtempSync(join(project, "page-"));
@@ -72,6 +104,7 @@ it("gives the same bits in Chromium, bundled by Vite", { skip: missing, timeout:
       const path = new URL(request.url, "http://here").pathname;
       try {
         if (path === "/golden/") return answer.end(JSON.stringify(readdirSync(golden).filter((name) => name.endsWith(".tsg"))));
+        if (path === "/photo") return answer.end(readFileSync(photo));
         const file = path.startsWith("/golden/") ? join(golden, path.slice(8)) : join(folder, "dist", path === "/" ? "index.html" : path);
         answer.setHeader("content-type", types[extname(file)] ?? "application/octet-stream");
         answer.end(readFileSync(file));
@@ -86,8 +119,13 @@ it("gives the same bits in Chromium, bundled by Vite", { skip: missing, timeout:
     tab.on("pageerror", (error) => messages.push(String(error)));
     await tab.goto(`http://127.0.0.1:${server.address().port}/`);
     await tab.waitForFunction("window.result", undefined, { timeout: 120_000 }).catch((error) => assert.fail([...messages, error].join("\n")));
-    const { images, compared, wrong, code, refused, glb, found } = await tab.evaluate("window.result");
+    const { pictures, images, compared, wrong, code, refused, glb, found } = await tab.evaluate("window.result");
     assert.deepEqual(images, [true, false, true]); // the note is gone once pixels are there, and they are the right ones
+    if (tool && pngjs) {
+      const steps = pictures.map((picture) => [picture.name, stepsFromTool(picture, folder)]);
+      assert.ok(steps.every(([, most]) => most <= 1), JSON.stringify(steps));
+      assert.equal(steps.length, existsSync(photo) ? 7 : 6);
+    }
     assert.ok(compared > 300);
     assert.deepEqual(wrong, []);
     assert.equal(code, "invalidOption");
