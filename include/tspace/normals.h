@@ -68,7 +68,7 @@ struct NormalReport {
 /// Errors: those of validate(); countMismatch (out, smoothing_groups), invalidOption, outOfMemory.
 /// Angles in triangles are good to 2e-7, those of polygons (face_sizes, or a face_size other than 3) are exact.
 /// O(corners). Scratch memory: about 36 bytes per vertex; with hard edges or polygons less for large meshes, up to 40
-/// bytes per triangle for small ones; `best` 24 bytes per corner more. Thread-safe; same bits for any thread count.
+/// bytes per triangle for small ones; `best` 28 bytes per corner more. Thread-safe; same bits for any thread count.
 Result<NormalReport> generateNormals(const MeshView& mesh, const NormalOptions& options, StridedSpan<Vec3> out);
 
 }  // namespace tspace

@@ -80,7 +80,7 @@ typedef struct tspace_NormalReport {
  * Errors: those of tspace_validate; COUNT_MISMATCH (out, smoothing_groups), INVALID_OPTION, OUT_OF_MEMORY.
  * Angles in triangles are good to 2e-7, those of polygons (face_sizes, or a face_size other than 3) are exact.
  * O(corners). Scratch memory: about 36 bytes per vertex; with hard edges or polygons less for large meshes, up to 40
- * bytes per triangle for small ones; TSPACE_NORMAL_WEIGHTING_BEST 24 bytes per corner more. Thread-safe; same bits
+ * bytes per triangle for small ones; TSPACE_NORMAL_WEIGHTING_BEST 28 bytes per corner more. Thread-safe; same bits
  * for any thread count. */
 tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_NormalOptions* options, tspace_Span out,
                                         tspace_NormalReport* report, tspace_Error* error) TSPACE_NOEXCEPT;

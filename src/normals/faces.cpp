@@ -3,9 +3,11 @@
 // Algorithms", 1974.
 #include "normals/faces.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/face_walk.h"
+#include "core/typed_indices.h"
 
 namespace tspace {
 
@@ -24,6 +26,25 @@ Faces::Faces(const MeshView& mesh, const Allocator* allocator) {
         if (size >= 3) ++used_count_;
     });
     first_corners_[mesh.faceCount()] = static_cast<std::uint32_t>(mesh.cornerCount());
+}
+
+void PointItems::read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* points) const {
+    if (areTriangles(mesh_)) {
+        const std::uint32_t* const v = readIndices(mesh_.indices, 3 * first, 3 * size, points);
+        if (vertices != nullptr) std::copy_n(v, 3 * size, vertices);
+        if (v != points) std::copy_n(v, 3 * size, points);
+        const std::uint32_t* const of_vertex = points_.data();
+        for (std::size_t i = 0; of_vertex != nullptr && i < 3 * size; ++i) points[i] = of_vertex[points[i]];
+        return;
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+        const auto corner = static_cast<std::uint32_t>(first + i);
+        const bool is_used = faces_.isUsed(faces_.of(corner));
+        std::fill_n(points + 3 * i, 3, is_used ? pointOf(corner) : ~std::uint32_t{0});
+        if (vertices == nullptr) continue;
+        const Faces::Around around = faces_.around(corner);
+        for (std::size_t k = 0; k < 3; ++k) vertices[3 * i + k] = mesh_.indices[around.corners[k]];
+    }
 }
 
 /// Newell's sum taken about the first corner: the same value, but far from the origin no digits cancel.

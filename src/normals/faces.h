@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/memory.h"
+#include "core/range_lists.h"
 #include "core/vec_math.h"
 #include "tspace/mesh.h"
 
@@ -32,6 +33,13 @@ class Faces {
         const std::uint32_t face = of(corner);
         return (corner == first(face) ? past(face) : corner) - 1;
     }
+    struct Around {
+        std::uint32_t corners[3];  ///< a corner, the one after it and the one before
+    };
+    [[nodiscard]] Around around(std::uint32_t corner) const {
+        const std::uint32_t face = of(corner), begin = first(face), end = past(face);
+        return {{corner, corner + 1 == end ? begin : corner + 1, (corner == begin ? end : corner) - 1}};
+    }
     /// Faces of fewer than 3 corners are ignored everywhere.
     [[nodiscard]] bool isUsed(std::uint32_t face) const { return past(face) - first(face) >= 3; }
     [[nodiscard]] std::uint64_t usedCount() const { return used_count_; }
@@ -40,6 +48,32 @@ class Faces {
     std::uint32_t size_ = 0;  ///< of every face; 0: they differ
     std::uint64_t used_count_ = 0;
     Buffer<std::uint32_t> first_corners_, corner_faces_;
+};
+
+/// What is listed by points: triangles, or for other faces each corner for itself.
+class PointItems final : public TriangleGroups {
+  public:
+    /// `points`: of each vertex; empty when each is its own.
+    PointItems(const MeshView& mesh, const Faces& faces, const Buffer<std::uint32_t>& points)
+        : TriangleGroups(areTriangles(mesh) ? mesh.faceCount() : mesh.cornerCount()),
+          mesh_(mesh),
+          faces_(faces),
+          points_(points) {}
+
+    static bool areTriangles(const MeshView& mesh) { return mesh.face_sizes.empty() && mesh.face_size == 3; }
+
+    [[nodiscard]] std::uint32_t pointOf(std::uint32_t corner) const {
+        const std::uint32_t vertex = mesh_.indices[corner];
+        return points_.empty() ? vertex : points_[vertex];
+    }
+    /// A corner comes with the next and the previous one, and its own point three times; those of faces with fewer than 3
+    /// corners have none.
+    void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* points) const override;
+
+  private:
+    const MeshView& mesh_;
+    const Faces& faces_;
+    const Buffer<std::uint32_t>& points_;
 };
 
 struct FaceNormal {

@@ -11,11 +11,12 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <numeric>
+#include <utility>
 
 #include "core/angle.h"
-#include "core/typed_indices.h"
 #include "core/vertex_ranges.h"
-#include "normals/best_triangles.h"
+#include "normals/best_rounds.h"
 #include "normals/face_terms.h"
 #include "normals/faces.h"
 #include "normals/smoothing.h"
@@ -30,46 +31,38 @@ using smooth::FaceSource, smooth::FaceTerms, smooth::kDoubtful, smooth::kTermTri
 constexpr std::size_t kMostRange = 4096, kLeastRange = 64, kRanges = 8;  // points; ranges of a small mesh
 constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
 constexpr std::size_t kItemsPerTask = 1024;
+constexpr std::size_t kBehind = 2;  // vectors that are read behind those of all corners, one and a part of another
 
-/// What the lists are made of: triangles, or for other faces each corner for itself.
-class PointItems final : public TriangleGroups {
+/// For `best`: each corner with the next and the previous one, as a triangle of which that corner alone counts, for its
+/// component.
+class ComponentCorners final : public TriangleGroups {
   public:
-    PointItems(const MeshView& mesh, const Faces& faces, const Buffer<std::uint32_t>& points)
-        : TriangleGroups(areTriangles(mesh) ? mesh.faceCount() : mesh.cornerCount()),
-          mesh_(mesh),
-          faces_(faces),
-          points_(points) {}
+    static constexpr std::uint32_t kAside = 0x80000000u;  ///< mark: the corner's face is degenerate, and adds nothing
 
-    static bool areTriangles(const MeshView& mesh) { return mesh.face_sizes.empty() && mesh.face_size == 3; }
+    /// `components`: of each corner the lowest corner of its component, and kAside.
+    ComponentCorners(const MeshView& mesh, const Faces& faces, const Buffer<std::uint32_t>& components)
+        : TriangleGroups(components.size()), mesh_(mesh), faces_(faces), components_(components) {}
 
-    [[nodiscard]] std::uint32_t pointOf(std::uint32_t corner) const {
-        const std::uint32_t vertex = mesh_.indices[corner];
-        return points_.empty() ? vertex : points_[vertex];
-    }
-    void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* points) const override {
-        if (areTriangles(mesh_)) {
-            const std::uint32_t* const v = readIndices(mesh_.indices, 3 * first, 3 * size, points);
-            if (vertices != nullptr) std::copy_n(v, 3 * size, vertices);
-            if (v != points) std::copy_n(v, 3 * size, points);
-            for (std::size_t i = 0; !points_.empty() && i < 3 * size; ++i) points[i] = points_[points[i]];
-            return;
-        }
+    void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const override {
         for (std::size_t i = 0; i < size; ++i) {
             const auto corner = static_cast<std::uint32_t>(first + i);
-            const bool is_used = faces_.isUsed(faces_.of(corner));
-            std::fill_n(points + 3 * i, 3, is_used ? pointOf(corner) : kNoPoint);
+            // The number behind all is no component, but there is something to be read for it.
+            const auto own =
+                (components_[corner] & kAside) != 0 ? static_cast<std::uint32_t>(count) : components_[corner];
+            std::fill_n(groups + 3 * i, 3, own);
             if (vertices == nullptr) continue;
-            for (std::size_t k = 0; k < 3; ++k) vertices[3 * i + k] = mesh_.indices[corner];
-            if (!is_used) continue;
-            vertices[3 * i + 1] = mesh_.indices[faces_.next(corner)];
-            vertices[3 * i + 2] = mesh_.indices[faces_.previous(corner)];
+            const Faces::Around around = faces_.around(corner);
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (k != 0) groups[3 * i + k] = components_[around.corners[k]] & ~kAside;
+                vertices[3 * i + k] = mesh_.indices[around.corners[k]];
+            }
         }
     }
 
   private:
     const MeshView& mesh_;
     const Faces& faces_;
-    const Buffer<std::uint32_t>& points_;
+    const Buffer<std::uint32_t>& components_;
 };
 
 /// A sum of normals times weights.
@@ -120,7 +113,6 @@ struct Setting {
                                         : Buffer<std::uint32_t>()),
           items(m, faces, points),
           kernel(smooth::faceKernelFor(options.execution.simd)),
-          best_kernel(smooth::bestKernelFor(options.execution.simd)),
           is_best(options.weighting == NormalWeighting::best),
           weighting(is_best ? NormalWeighting::angleArea : options.weighting),
           by_area(weighting == NormalWeighting::area || weighting == NormalWeighting::angleArea),
@@ -155,14 +147,14 @@ struct Setting {
     Buffer<std::uint32_t> points;
     PointItems items;
     smooth::FaceKernel kernel;
-    smooth::BestKernel best_kernel;
     bool is_best;
     NormalWeighting weighting;  ///< of the means
     bool by_area, by_angle, are_triangles;
     double factor;
     StridedSpan<Vec3> out;
-    Vec3 *robust = nullptr,
-         *sharp = nullptr;  ///< for `best`, per corner: its means; `sharp` is zero where one vanishes
+    // For `best`, per corner: the means by `max`, zero where one vanishes, and ComponentCorners.
+    Vec3* sharp = nullptr;
+    std::uint32_t* components = nullptr;
 };
 
 /// Memory for one range.
@@ -202,41 +194,20 @@ class RangeWork {
     /// Writes means, or what stands for them; returns how many corners got a substitute.
     std::uint64_t average() {
         std::uint64_t substitutes = 0;
-        forComponents([&](const PointCorners& at, const Link* links, std::uint32_t count) {
-            substitutes += write(at, links, count);
-        });
+        const Surroundings around{setting_.mesh, setting_.faces, setting_.rule, room_.deciding};
+        const bool is_one = !setting_.needsComponents();
+        for (std::uint32_t p = 0; p < count_; ++p) {
+            const std::uint32_t begin = room_.begins[p], count = room_.begins[p + 1] - begin;
+            if (count == 0) continue;
+            const PointCorners at{first_ + p, count, room_.entries + begin, room_.triangles};
+            const Link* const links =
+                is_one ? oneComponent(count, room_.links) : findComponents(around, at, room_.links, room_.parents);
+            for (std::uint32_t first = 0, past = 0; first < count; first = past) {
+                while (past < count && links[past].key == links[first].key) ++past;
+                substitutes += write(at, links + first, past - first);
+            }
+        }
         return substitutes;
-    }
-
-    /// From the means by angle * area to the normals of `best`. Where a mean vanishes, the corners keep what they have.
-    void refine(const smooth::BestSource& source) {
-        forComponents([&](const PointCorners& at, const Link* links, std::uint32_t count) {
-            const std::uint32_t any = at.corner(links[0].slot);
-            if (setting_.sharp[any] == Vec3{}) return;
-            alignas(64) float sums[4 * smooth::kFitRows * smooth::kBestGroup] = {};
-            addAround<smooth::kFitRows>(source, at, links, count, setting_.best_kernel.add_fit, sums);
-            alignas(64) float robust[4 * smooth::kBestGroup] = {}, sharp[4 * smooth::kBestGroup] = {};
-            std::memcpy(robust, setting_.robust + any, sizeof(Vec3));
-            std::memcpy(sharp, setting_.sharp + any, sizeof(Vec3));
-            setting_.best_kernel.finish_fit(sums, robust, sharp, smooth::kBestGroup);
-            for (std::uint32_t i = 0; i < count; ++i)
-                setting_.out[at.corner(links[i].slot)] = {sums[0], sums[1], sums[2]};
-        });
-    }
-
-    /// One step from the normals that are `robust` in the source. Those that are zero there stay as they are.
-    void step(const smooth::BestSource& source) {
-        forComponents([&](const PointCorners& at, const Link* links, std::uint32_t count) {
-            const Vec3& normal = setting_.robust[at.corner(links[0].slot)];
-            if (normal == Vec3{}) return;
-            alignas(64) float sums[4 * smooth::kStepRows * smooth::kBestGroup] = {};
-            addAround<smooth::kStepRows>(source, at, links, count, setting_.best_kernel.add_step, sums);
-            alignas(64) float normals[4 * smooth::kBestGroup] = {};
-            std::memcpy(normals, &normal, sizeof(Vec3));
-            setting_.best_kernel.finish_step(sums, normals, smooth::kBestGroup);
-            for (std::uint32_t i = 0; i < count; ++i)
-                setting_.out[at.corner(links[i].slot)] = {sums[0], sums[1], sums[2]};
-        });
     }
 
   private:
@@ -289,37 +260,6 @@ class RangeWork {
                     triangle.weights[k] = 0;
             }
         }
-    }
-
-    /// What a round's `add` writes for the corners of a component, kRows each.
-    template <std::size_t kRows, class Add>
-    void addAround(const smooth::BestSource& source, const PointCorners& at, const Link* links, std::uint32_t count,
-                   Add add, float* sums) const {
-        for (std::uint32_t i = 0; i < count; i += smooth::kBestTriangles)
-            addBlock<kRows>(source, at, links + i, std::min<std::size_t>(count - i, smooth::kBestTriangles), add, sums);
-    }
-
-    /// Each corner with its neighbours is a triangle, of which that corner counts.
-    template <std::size_t kRows, class Add>
-    void addBlock(const smooth::BestSource& source, const PointCorners& at, const Link* links, std::size_t count,
-                  Add add, float* sums) const {
-        std::uint32_t vertices[3 * smooth::kBestTriangles], corners[3 * smooth::kBestTriangles];
-        std::size_t used = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t corner = at.corner(links[i].slot);
-            if (room_.rows[at.triangle(links[i].slot)].isDegenerate()) continue;
-            const std::uint32_t around[3] = {corner, setting_.faces.next(corner), setting_.faces.previous(corner)};
-            for (std::size_t k = 0; k < 3; ++k) {
-                corners[3 * used + k] = around[k];
-                vertices[3 * used + k] = setting_.mesh.indices[around[k]];
-            }
-            ++used;
-        }
-        if (used == 0) return;
-        fillGroup(corners, used, smooth::kBestGroup, corners);
-        alignas(64) float rows[3 * smooth::kBestTriangles * 4 * kRows];
-        add(source, fillGroup(vertices, used, smooth::kBestGroup, vertices), corners, used, rows);
-        for (std::size_t t = 0; t < used; ++t) smooth::addRows<kRows>(sums, rows + 12 * kRows * t);
     }
 
     [[nodiscard]] FaceSource sourceOf(const StridedSpan<const Vec3>& positions, bool by_angle, bool by_area) const {
@@ -376,33 +316,23 @@ class RangeWork {
         }
     }
 
-    /// body(at, links, count) for each component of each point.
-    template <class Body>
-    void forComponents(const Body& body) {
-        const Surroundings around{setting_.mesh, setting_.faces, setting_.rule, room_.deciding};
-        const bool is_one = !setting_.needsComponents();
-        for (std::uint32_t p = 0; p < count_; ++p) {
-            const std::uint32_t begin = room_.begins[p], count = room_.begins[p + 1] - begin;
-            if (count == 0) continue;
-            const PointCorners at{first_ + p, count, room_.entries + begin, room_.triangles};
-            const Link* const links =
-                is_one ? oneComponent(count, room_.links) : findComponents(around, at, room_.links, room_.parents);
-            for (std::uint32_t first = 0, past = 0; first < count; first = past) {
-                while (past < count && links[past].key == links[first].key) ++past;
-                body(at, links + first, past - first);
-            }
-        }
-    }
-
     std::uint64_t write(const PointCorners& at, const Link* links, std::uint32_t count) {
         Vec3 normal;
         if (setting_.weighting == NormalWeighting::flat || !mean(at, links, count, normal))
             return writeSubstitutes(at, links, count);
         for (std::uint32_t i = 0; i < count; ++i) setting_.out[at.corner(links[i].slot)] = normal;
-        if (setting_.is_best && exactMean(NormalWeighting::max, at, links, count, normal)) {
-            for (std::uint32_t i = 0; i < count; ++i) setting_.sharp[at.corner(links[i].slot)] = normal;
-        }
+        if (setting_.is_best && exactMean(NormalWeighting::max, at, links, count, normal))
+            writeSharp(at, links, count, normal);
         return 0;
+    }
+
+    void writeSharp(const PointCorners& at, const Link* links, std::uint32_t count, const Vec3& normal) const {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const bool adds = !room_.rows[at.triangle(links[i].slot)].isDegenerate();
+            setting_.sharp[at.corner(links[i].slot)] = normal;
+            setting_.components[at.corner(links[i].slot)] =
+                at.corner(links[0].slot) | (adds ? 0 : ComponentCorners::kAside);
+        }
     }
 
     bool mean(const PointCorners& at, const Link* links, std::uint32_t count, Vec3& normal) const {
@@ -501,6 +431,43 @@ class Rooms {
     Buffer<std::uint32_t> numbers_;
 };
 
+/// From the means by angle * area to the normals of `best`, and options.refine steps. Components without a mean stay as
+/// they are.
+void refineComponents(const Setting& setting, const NormalOptions& options, const Buffer<std::uint32_t>& components,
+                      Buffer<Vec3>& sharp, Parallel& parallel) {
+    using smooth::BestRound;
+    const Allocator* const allocator = options.execution.allocator;
+    const StridedSpan<Vec3>& out = setting.out;
+    const auto forCorners = [&](const auto& body) {
+        parallel.forRanges(components.size(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t c = begin; c < end; ++c) body(c);
+        });
+    };
+    Buffer<Vec3> robust(allocator, components.size() + kBehind, Vec3{});
+    forCorners([&](std::size_t c) { robust[c] = out[c]; });
+    smooth::BestSource source = smooth::bestSource(setting.items, setting.posed.positions, options.convention);
+    source.robust_stride = source.sharp_stride = sizeof(Vec3);
+    source.robust = reinterpret_cast<const std::byte*>(robust.data());
+    source.sharp = reinterpret_cast<const std::byte*>(sharp.data());
+    const smooth::BestKernel kernel = smooth::bestKernelFor(options.execution.simd);
+    const ComponentCorners corners(setting.mesh, setting.faces, components);
+    SumRounds rounds(corners, 1, components.size(), smooth::kFitRows, allocator, parallel);
+    rounds.run(BestRound(BestRound::Kind::fit, kernel, source, out.data, out.stride_bytes));
+    forCorners([&](std::size_t c) { robust[c] = sharp[c] == Vec3{} ? Vec3{} : out[c]; });
+    for (unsigned step = 0; step < options.refine; ++step) {
+        source.robust = reinterpret_cast<const std::byte*>(robust.data());
+        rounds.run(BestRound(BestRound::Kind::step, kernel, source, sharp.data(), sizeof(Vec3)));
+        std::swap(robust, sharp);
+    }
+    forCorners([&](std::size_t c) {
+        const std::uint32_t component = components[c] & ~ComponentCorners::kAside;
+        if (robust[component] != Vec3{})
+            out[c] = robust[component];
+        else if (component != c)
+            out[c] = out[component];
+    });
+}
+
 }  // namespace
 
 NormalReport smoothFaces(const MeshView& mesh, const MeshView& posed, const NormalOptions& options,
@@ -522,42 +489,27 @@ NormalReport smoothFaces(const MeshView& mesh, const MeshView& posed, const Norm
     const RangeLists lists(setting.items, kTermTriangles, point_count, range_points, allocator, parallel);
     const std::size_t tasks = std::min(lists.count(), most_tasks);
     Rooms rooms(setting, lists, range_points, tasks, allocator);
-    const auto forRanges = [&](const auto& body) {
-        parallel.forTasks(tasks, [&](std::size_t task) {
-            RangeWork work(setting, rooms.of(task));
-            for (std::size_t r = lists.count() * task / tasks; r < lists.count() * (task + 1) / tasks; ++r) {
-                const std::size_t first = r * range_points;
-                body(work, work.read(lists.entries(r), first, std::min(range_points, point_count - first)));
-            }
-        });
-    };
-    Buffer<Vec3> robust, sharp;
-    if (setting.is_best) sharp = Buffer<Vec3>(allocator, corner_count + 1, Vec3{});
-    setting.sharp = sharp.data();
+    Buffer<Vec3> sharp;
+    Buffer<std::uint32_t> components;
+    if (setting.is_best) {
+        sharp = Buffer<Vec3>(allocator, corner_count + kBehind, Vec3{});
+        components = Buffer<std::uint32_t>(allocator, corner_count);
+        std::iota(components.begin(), components.end(), 0u);
+        setting.sharp = sharp.data();
+        setting.components = components.data();
+    }
     std::atomic<std::uint64_t> degenerate{0}, substitutes{0};
-    forRanges([&](RangeWork& work, std::uint64_t degenerate_here) {
-        degenerate += degenerate_here;
-        substitutes += work.average();
+    parallel.forTasks(tasks, [&](std::size_t task) {
+        RangeWork work(setting, rooms.of(task));
+        for (std::size_t r = lists.count() * task / tasks; r < lists.count() * (task + 1) / tasks; ++r) {
+            const std::size_t first = r * range_points;
+            degenerate += work.read(lists.entries(r), first, std::min(range_points, point_count - first));
+            substitutes += work.average();
+        }
     });
     report.degenerate_face_count = degenerate;
     report.fallback_corner_count = substitutes;
-    if (!setting.is_best) return report;
-    robust = Buffer<Vec3>(allocator, corner_count + 1, Vec3{});
-    setting.robust = robust.data();
-    parallel.forRanges(corner_count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) robust[c] = out[c];
-    });
-    smooth::BestSource source = smooth::bestSource(setting.items, posed.positions, setting.factor);
-    source.robust = reinterpret_cast<const std::byte*>(robust.data());
-    source.sharp = reinterpret_cast<const std::byte*>(sharp.data());
-    source.robust_stride = source.sharp_stride = sizeof(Vec3);
-    forRanges([&](RangeWork& work, std::uint64_t) { work.refine(source); });
-    for (unsigned step = 0; step < options.refine; ++step) {
-        parallel.forRanges(corner_count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t c = begin; c < end; ++c) robust[c] = sharp[c] == Vec3{} ? Vec3{} : out[c];
-        });
-        forRanges([&](RangeWork& work, std::uint64_t) { work.step(source); });
-    }
+    if (setting.is_best) refineComponents(setting, options, components, sharp, parallel);
     return report;
 }
 

@@ -20,8 +20,9 @@
 #include "core/typed_indices.h"
 #include "core/vec_math.h"
 #include "core/vertex_ranges.h"
-#include "normals/best_triangles.h"
+#include "normals/best_rounds.h"
 #include "normals/face_terms.h"
+#include "normals/faces.h"
 #include "normals/weld.h"
 
 namespace tspace {
@@ -158,7 +159,11 @@ class TriangleSmoother {
                 sum(index, {sums_.data() + range.begin, range, doubtful.data() + range.begin / 64 + task});
         });
         report.degenerate_face_count = std::accumulate(degenerate.begin(), degenerate.end(), std::uint64_t{0});
-        if (is_best_) smooth::refineTriangles(mesh_, positions_, points_, options_, sums_.data()->floats(), parallel_);
+        if (is_best_) {
+            const Faces faces(mesh_, allocator_);
+            smooth::refineTriangles(PointItems(mesh_, faces, points_), mesh_.vertexCount(), positions_, options_,
+                                    sums_.data()->floats(), parallel_);
+        }
         copyToRepeated();
         report.fallback_corner_count =
             sumRanges(parallel_, triangle_count_, Parallel::kGrain,

@@ -25,7 +25,6 @@ struct VertexSource : VertexArrays {
 
 inline constexpr std::size_t kBlockTriangles = 32;  ///< its rows stay in the first cache
 inline constexpr std::size_t kLaneGroup = 16;       ///< kernels work on whole groups of so many lanes
-inline constexpr std::size_t kMostRows = 7;         ///< of four floats each, per group
 inline constexpr std::size_t kStepRows = 2;         ///< the same, of a step
 /// What a step reads of a group: dP/du and the robust mean's share, dP/dv and 0. Zeros: the group takes no part.
 inline constexpr std::size_t kStepFloats = 8;
