@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Makes the modules of a folder smaller, where the rolldown of Vite is installed: node bundle.mjs PROJECT FOLDER. An entry
+// becomes one module, and what entries share a few: together they compress better than one by one.
+import { readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const [project, folder] = process.argv.slice(2);
+const { exports, imports } = JSON.parse(readFileSync(join(folder, "../package.json"), "utf8"));
+const entries = [...Object.values(exports).map((entry) => entry.default), ...Object.values(imports["#load"])].map((path) => path.match(/(\w[\w-]*)\.js$/)[1]);
+
+async function bundled({ rolldown }) {
+  const input = Object.fromEntries(entries.map((name) => [name, resolve(folder, `${name}.js`)]));
+  const bundle = await rolldown({ input, external: (id) => id.startsWith("#") || /^[\w@]/.test(id) });
+  const names = { entryFileNames: "[name].js", chunkFileNames: "[name].js" };
+  return (await bundle.generate({ ...names, format: "es", minify: true })).output;
+}
+
+let rolldown;
+try {
+  rolldown = await import(pathToFileURL(createRequire(resolve(project, "package.json")).resolve("rolldown")));
+} catch (error) {
+  console.log(`the modules stay as they are, for rolldown cannot be loaded: ${error.message.split("\n")[0]}`);
+}
+if (rolldown) {
+  const modules = await bundled(rolldown);
+  for (const name of readdirSync(folder).filter((file) => file.endsWith(".js"))) rmSync(join(folder, name));
+  for (const { fileName, code } of modules) {
+    // Some bundlers know only URLs in quotes.
+    const known = code.replace(/new URL\(`([^`$]+)`/g, 'new URL("$1"');
+    writeFileSync(join(folder, fileName), `// SPDX-License-Identifier: MIT\n${known}`);
+  }
+}
