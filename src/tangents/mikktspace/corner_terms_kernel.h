@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The kernel behind corner_terms.h. Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its
-// namespace. Each lane is one triangle and does what vector_rules.h and triangle_pass.cpp do, operation by
-// operation.
+// namespace. Each lane is one triangle and does what the reference does with it, operation by operation; zero and
+// unit are those of vector_rules.h.
 #pragma once
 
 #include "simd/arc_cosine_kernel.h"
@@ -57,7 +57,7 @@ struct Group {
     }
 };
 
-/// dP/du and dP/dv of triangles: triangleShape() of triangle_pass.h.
+/// dP/du and dP/dv of triangles.
 struct Shape {
     Vectors s, t;
     Floats length_s, length_t;
@@ -92,9 +92,9 @@ inline unsigned countBits(unsigned bits) {
 }
 
 /// Marks of a corner about the way from its tangent to its bitangent (corner_terms.h).
-inline Bits markTurn(Bits marks, Vectors normal, Vectors s, Floats flattened_square, Vectors t) {
+inline Bits markTurn(Bits marks, Vectors normal, Vectors s, Floats projected_square, Vectors t) {
     const Floats along = absolute(dot(t, s)) + broadcast(kTurnMargin), across = dot(t, cross(normal, s));
-    const Mask steady = flattened_square > broadcast(kSmallestSquare);
+    const Mask steady = projected_square > broadcast(kSmallestSquare);
     marks = orWhere(marks, steady & (across > along), kTurnsLeft);
     return orWhere(marks, steady & (broadcast(-0.0f) - across > along), kTurnsRight);
 }
@@ -120,10 +120,10 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
     group.load(source, vertices, exact);
     const Mask degenerate = group.isDegenerate();
     const Shape shape(group);
-    const unsigned bad = bitsOf(degenerate), flat = bitsOf(shape.no_area) & ~bad & valid;
+    const unsigned bad = bitsOf(degenerate), degenerate_uv = bitsOf(shape.no_area) & ~bad & valid;
     terms.degenerate_count += countBits(bad & valid);
-    terms.no_uv_area_count += countBits(flat);
-    terms.mirrored_count += countBits(~(bitsOf(shape.positive) | bad | flat) & valid);
+    terms.no_uv_area_count += countBits(degenerate_uv);
+    terms.mirrored_count += countBits(~(bitsOf(shape.positive) | bad | degenerate_uv) & valid);
     Bits facing = orWhere(broadcastBits(0), shape.positive, kFacesUp);
     facing = orWhere(facing, !shape.positive, kFacesDown);
     const Mask usable = shape.finite & !shape.no_area;
@@ -134,7 +134,7 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
         for (std::size_t k = 0; k < 3; ++k) store(terms.marks[k] + first, all_marks);
         return;
     }
-    if (source.adding_only && ((bad | flat) & valid) == valid) [[unlikely]] {
+    if (source.adding_only && ((bad | degenerate_uv) & valid) == valid) [[unlikely]] {
         for (std::size_t k = 0; k < 3; ++k) store(terms.marks[k] + first, flags);
         return;
     }
@@ -144,9 +144,9 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
     Bits marks[3];
     for (std::size_t k = 0; k < 3; ++k) {
         const Vectors normal = gatherVectors(source.normals, source.normal_stride, vertices + k, exact);
-        const Vectors flat_s = alongPlane(normal, shape.s);
-        const Floats square = dot(flat_s, flat_s);
-        s[k] = unitByRules(flat_s, square);
+        const Vectors projected = alongPlane(normal, shape.s);
+        const Floats square = dot(projected, projected);
+        s[k] = unitByRules(projected, square);
         if (!source.tangents_only) t[k] = flatten(normal, shape.t);
         const Vectors here = group.position[k];
         weights[k] = weightOrCosine(source.weighting, normal, group.position[(k + 2) % 3] - here,

@@ -7,7 +7,7 @@
 // for the same neighbour, there is nothing to choose, and the links make paths, each of which is known by its
 // two waiting ends. A fan has room for two paths, which is enough for triangles in mesh order. Where triangles
 // come in any order, more begin before they meet: such a fan borrows room for four until two are left again.
-// Whatever else happens makes the fan unclear, and the node is left to the vertex path.
+// Whatever else happens makes the fan complex, and the node is left to the vertex path.
 #pragma once
 
 #include <cstdint>
@@ -61,7 +61,7 @@ struct Fan {
     [[nodiscard]] bool isOne() const { return leaves[0] != kFree && leaves[1] == kFree; }
 
     /// Adds the triangle whose corner here goes on to `next` and comes from `previous`. Returns false when
-    /// the fan has become unclear; then it stays so, whatever isOne() says.
+    /// the fan has become complex; then it stays so, whatever isOne() says.
     bool add(std::uint32_t next, std::uint32_t previous, FanRoom& room) {
         const bool extends_end = leaves[0] == previous, extends_start = arrives[0] == next;
         if (leaves[1] != kFree || !(extends_end || extends_start)) return addToPaths(next, previous, room);
@@ -117,11 +117,11 @@ struct Fan {
         ManyPaths& paths = room[leaves[1]];
         const std::uint32_t count = arrives[1] - kMany;
         std::uint32_t end = count, start = count;
-        bool clear = true;
+        bool simple = true;
         for (std::uint32_t i = 0; i < count; ++i) {
             if (paths.leaves[i] == previous) end = i;
             if (paths.arrives[i] == next) start = i;
-            clear &= paths.leaves[i] != next && paths.arrives[i] != previous;
+            simple &= paths.leaves[i] != next && paths.arrives[i] != previous;
         }
         if (end < count && start < count) {
             if (end == start) return false;  // a ring, and other paths
@@ -142,7 +142,7 @@ struct Fan {
             paths.arrives[count] = previous;
             ++arrives[1];
         }
-        return clear;
+        return simple;
     }
 
     /// Two paths are left.

@@ -185,7 +185,7 @@ class BucketFinder {
     }
 
     /// Where the last `length` triangles begin, or a few more: a face is not cut in two.
-    [[nodiscard]] std::size_t tailOf(std::size_t length) const {
+    [[nodiscard]] std::size_t beginOfLast(std::size_t length) const {
         std::size_t begin = length < triangles_.count ? triangles_.count - length : 0;
         while (begin > 0 && triangles_.face(begin) == triangles_.face(begin - 1)) --begin;
         return begin;
@@ -193,18 +193,18 @@ class BucketFinder {
 
     /// All half-edges whose ends both have a corner from L on; among them are those of the last bucket.
     void findEdges() {
-        constexpr std::size_t kTinyMesh = 64, kSmallMesh = 1024, kTinyTail = 2, kSmallTail = 8,
-                              kTail = 24;   // triangles
+        constexpr std::size_t kTinyMesh = 64, kSmallMesh = 1024, kLastOfTiny = 2, kLastOfSmall = 8,
+                              kLast = 24;   // triangles
         constexpr std::size_t kLonger = 4;  // times, when that was not enough
         ranges_ = Buffer<CornerRange>(allocator_, nodes_.count);
         const std::size_t count = triangles_.count;
-        const std::size_t first_length = count < kTinyMesh ? kTinyTail : count < kSmallMesh ? kSmallTail : kTail;
+        const std::size_t first_length = count < kTinyMesh ? kLastOfTiny : count < kSmallMesh ? kLastOfSmall : kLast;
         for (std::size_t length = first_length;; length *= kLonger) {
-            const std::size_t begin = tailOf(length);
+            const std::size_t begin = beginOfLast(length);
             const std::uint32_t first_corner = findRanges(begin);
             least_ = leastKey();
             if (begin == 0 || least_ >= first_corner) break;
-            if (length == kTinyTail) continue;
+            if (length == kLastOfTiny) continue;
             findExactly([](std::uint32_t) { return true; });
             least_ = leastKey();
             if (least_ >= first_corner) break;
@@ -387,7 +387,7 @@ class BucketFinder {
         return end;
     }
 
-    /// Within a run the oldest waiting half-edge of the opposite direction is the partner (see pairing.h);
+    /// Within a run the oldest waiting half-edge of the opposite direction is the partner (see corner_links.h);
     /// runs know nothing of each other.
     [[gnu::cold]] void pairUp(std::uint32_t BucketEdge::*partner) {
         for (std::size_t begin = 0, end = 0; begin < bucket_.size(); begin = end) {

@@ -59,7 +59,7 @@ struct NodeSums {
     }
     void setNumber(std::size_t node, std::uint32_t number) { std::memcpy(row(node), &number, sizeof number); }
 
-    /// Whether no triangle adds to the node: there are none, or all are flat.
+    /// Whether no triangle adds to the node: there are none, or all have degenerate UVs.
     [[nodiscard]] bool isEmpty(std::size_t node) const {
         return (marks[node] & (kFacesUp | kFacesDown)) == (kFacesUp | kFacesDown);
     }

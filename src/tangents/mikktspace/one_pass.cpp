@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sum, look at what is clear, write, and give the rest to the vertex path.
+// Sum, look at what is simple, write, and give the rest to the vertex path.
 #include "tangents/mikktspace/one_pass.h"
 
 #include <algorithm>
@@ -213,13 +213,13 @@ class OnePass {
     /// body(triangle) for those of [begin, end) without UV area.
     template <class Body>
     void forEachDegenerateUv(std::size_t begin, std::size_t end, const Body& body) const {
-        constexpr std::uint64_t kFlat = 0x0101010101010101u * kDegenerateUv;
+        constexpr std::uint64_t kDegenerateUvs = 0x0101010101010101u * kDegenerateUv;
         const Buffer<std::uint8_t>& kinds = sums_.kinds;
         for (; begin < end; begin += sizeof(std::uint64_t)) {
             const std::size_t count = std::min(sizeof(std::uint64_t), end - begin);
             std::uint64_t any = 0;
             std::memcpy(&any, kinds.data() + begin, count);
-            for (std::size_t t = begin; (any & kFlat) != 0 && t < begin + count; ++t) {
+            for (std::size_t t = begin; (any & kDegenerateUvs) != 0 && t < begin + count; ++t) {
                 if ((kinds[t] & kDegenerateUv) != 0) body(t);
             }
         }
@@ -236,9 +236,10 @@ class OnePass {
             if (end - first == 1) continue;
             const std::uint32_t facing = kinds & (kUvFacesUp | kUvFacesDown);
             // One without UV area takes the orientation of others, and gives its own only as the first one of a quad.
-            const bool flat_one_may_choose =
+            const bool degenerate_uv_may_choose =
                 end - first == 2 && (sums_.kinds[first] & kDegenerateUv) != 0 && facing != 0;
-            if (facing != (kUvFacesUp | kUvFacesDown) && (kinds & kDegenerateTriangle) == 0 && !flat_one_may_choose)
+            if (facing != (kUvFacesUp | kUvFacesDown) && (kinds & kDegenerateTriangle) == 0 &&
+                !degenerate_uv_may_choose)
                 continue;
             for (std::size_t i = 3 * first; i < 3 * end; ++i) {
                 leaveNode(nodeAt(i));
@@ -256,7 +257,7 @@ class OnePass {
         }
     }
 
-    /// Turns the sums of clear nodes into results, in place, but for methods that estimate; finds the others. `first`: a
+    /// Turns the sums of simple nodes into results, in place, but for methods that estimate; finds the others. `first`: a
     /// multiple of 64.
     void finishNodes(std::size_t first, std::size_t end) {
         std::uint64_t complex_here = 0, groups_here = 0;
@@ -337,22 +338,22 @@ class OnePass {
         Float4 x = loadFloat4(sum[0].s), y = loadFloat4(sum[1].s), z = loadFloat4(sum[2].s), w = loadFloat4(sum[3].s);
         transpose4(x, y, z, w);
         const Float4 square = dot(Vec3x4{x, y, z}, Vec3x4{x, y, z});
-        Mask4 clear = (square > splat(0)) & (square < splat(__builtin_huge_valf()));  // it does not vanish
+        Mask4 simple = (square > splat(0)) & (square < splat(__builtin_huge_valf()));  // it does not vanish
         if (splits) {
             const auto normal = [&](std::size_t i) -> const Vec3& { return mesh_.normals[nodes_.vertex(n + i)]; };
-            clear = cannotSplit(square, w, marks, gatherVec3(normal(0), normal(1), normal(2), normal(3)));
+            simple = cannotSplit(square, w, marks, gatherVec3(normal(0), normal(1), normal(2), normal(3)));
         }
-        const unsigned clear_bits = laneBits(clear);
-        if (clear_bits != 15) [[unlikely]] {
+        const unsigned simple_bits = laneBits(simple);
+        if (simple_bits != 15) [[unlikely]] {
             if (!splits) return false;
             for (unsigned i = 0; i < 4; ++i) {
-                if ((clear_bits >> i & 1) == 0) leave(n + i);
+                if ((simple_bits >> i & 1) == 0) leave(n + i);
             }
         }
         for (std::size_t i = 0; !sums_.rest.empty() && i < 4; ++i) finishRest(n + i, false, sum[i].s[3]);
         const Float4 inverse = splat(1) / sqrt4(square);
         const Mask4 down = ~marks << 31;  // the bit of kFacesUp becomes that of the sign
-        w = select4(clear, std::bit_cast<Float4>(std::bit_cast<Mask4>(splat(sign_factor_)) ^ down),
+        w = select4(simple, std::bit_cast<Float4>(std::bit_cast<Mask4>(splat(sign_factor_)) ^ down),
                     splat(kComplexSign));
         x = inverse * x;
         y = inverse * y;

@@ -41,7 +41,7 @@ class CornerReader {
 
   private:
     struct Counts {
-        std::uint64_t degenerate = 0, flat = 0, mirrored = 0;
+        std::uint64_t degenerate = 0, degenerate_uvs = 0, mirrored = 0;
     };
 
     Buffer<std::uint32_t> aroundChosen() {
@@ -66,16 +66,16 @@ class CornerReader {
         if (from_.sums != nullptr) to_.places = Buffer<std::uint32_t>(from_.allocator, 3 * count_);
         to_.flags = Buffer<std::uint8_t>(from_.allocator, count_);
         to_.terms = Buffer<CornerTerms>(from_.allocator, (count_ + kTermTriangles - 1) / kTermTriangles);
-        std::atomic<std::uint64_t> degenerate{0}, flat{0}, mirrored{0};
+        std::atomic<std::uint64_t> degenerate{0}, degenerate_uvs{0}, mirrored{0};
         from_.parallel.forRanges(to_.terms.size(), kBlockGrain, [&](std::size_t begin, std::size_t end) {
             Counts counts;
             for (std::size_t block = begin; block < end; ++block) readBlock(block, counts);
             degenerate += counts.degenerate;
-            flat += counts.flat;
+            degenerate_uvs += counts.degenerate_uvs;
             mirrored += counts.mirrored;
         });
         to_.degenerate_count = degenerate;
-        to_.no_uv_area_count = flat;
+        to_.no_uv_area_count = degenerate_uvs;
         to_.mirrored_count = mirrored;
     }
 
@@ -97,7 +97,7 @@ class CornerReader {
         CornerTerms& terms = to_.terms[block];
         from_.terms(from_.source, vertices, count, terms);
         counts.degenerate += terms.degenerate_count;
-        counts.flat += terms.no_uv_area_count;
+        counts.degenerate_uvs += terms.no_uv_area_count;
         counts.mirrored += terms.mirrored_count;
         std::uint8_t* flags = to_.flags.data() + begin;
         for (std::size_t t = 0; t < count; ++t) {
@@ -258,8 +258,8 @@ class CornerReader {
             up |= flags == kPositive;
             down |= flags == 0;
         }
-        const bool flat_one_may_choose = good_.size() == 2 && isAny(0) && (up || down);
-        if (!(up && down) && !flat_one_may_choose) return;
+        const bool degenerate_uv_may_choose = good_.size() == 2 && isAny(0) && (up || down);
+        if (!(up && down) && !degenerate_uv_may_choose) return;
         const std::uint32_t orientation = uvArea(orientingTriangle()) > 0 ? kPositive : 0;
         for (const std::uint32_t t : good_) {
             to_.flags[t] = static_cast<std::uint8_t>((to_.flags[t] & ~unsigned{kPositive}) | orientation);

@@ -1,0 +1,11 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# Sources that a comment names exist: a file that was renamed or removed leaves no trail.
+# usage: named_files.sh SOURCE_FOLDER
+set -euo pipefail
+cd "${1:?usage: named_files.sh SOURCE_FOLDER}"
+named=$(grep -rhoE '//.*' --include='*.h' --include='*.cpp' src include tools tests bench |
+    grep -oE '\b[a-z][a-z0-9_]{2,}\.(h|cpp)\b' | sort -u)
+[ "$(wc -l <<<"$named")" -gt 50 ] || { echo "only these names were found: $named"; exit 1; }
+missing=$(comm -23 <(echo "$named") <(find src include tools tests bench examples -name '*.h' -o -name '*.cpp' | sed 's|.*/||' | sort -u))
+[ -z "$missing" ] || { echo "there are no such files: $missing"; exit 1; }
