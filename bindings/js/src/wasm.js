@@ -123,7 +123,7 @@ class Call {
 
   /** A copy of what lies at a place. */
   get(Type, place, count) {
-    return new Type(this.wasm.memory.buffer, place >>> 0, count).slice();
+    return new Type(new Type(this.wasm.memory.buffer, place >>> 0, count)); // slice() fills it with zeros first
   }
 
   /** The same for an array that the module allocated for its caller. */

@@ -29,7 +29,8 @@ const notHere = new Set([
   "maps/exr.cpp", "maps/float_image.cpp", "maps/jpeg.cpp", "maps/png.cpp", "maps/png_pixels.cpp", "maps/rays.cpp",
   "maps/webp.cpp", "report/diff_text.cpp",
 ]);
-const hot = /mikktspace\/corner_terms_kernel|^pack\//;
+const hot = /mikktspace\/(corner_terms_kernel|one_pass\.cpp|node_sums\.cpp)|^pack\/\w+_kernel/;
+const fastFlags = ["-O2", "-DTSPACE_FAST_KERNELS"];
 
 const modules = {
   core: { sources: ["memory.cpp", "common.cpp", "core.cpp"], isFast: true, defines: [], rooms, kernels: ["normals", "tangents"] },
@@ -76,17 +77,18 @@ function kernelSources(room, isFast) {
     write(join(out, `${name}.cpp`), head + list.map((kernel) => `#include "${kernel}"\n`).join(""));
   const [fast, small] = [kernels.filter((k) => hot.test(k)), kernels.filter((k) => !hot.test(k))];
   const sources = [{ path: source(`kernels_${room}`, small) }];
-  if (fast.length !== 0) sources.push({ path: source(`kernels_${room}_hot`, fast), flags: isFast ? ["-O2", "-DTSPACE_FAST_KERNELS"] : [] });
+  if (fast.length !== 0) sources.push({ path: source(`kernels_${room}_hot`, fast), flags: isFast ? fastFlags : [] });
   return sources;
 }
 
-/// Twelve files of a library as one, which takes a third of the time. Names are unique within a library: the core, the file
-/// layer, and the C API over it.
-function inBatches(name, rooms, more = []) {
-  const files = rooms.flatMap((room) => readdirSync(join(root, "src", room)).sort()
-    .filter((file) => file.endsWith(".cpp") && !notHere.has(`${room}/${file}`))
-    .map((file) => `${room}/${file}`)).concat(more);
-  const batches = [];
+/// Twelve files of a library as one, which takes a third of the time; hot ones alone. Names are unique within a library: the
+/// core, the file layer, and the C API over it.
+function inBatches(name, rooms, isFast, more = []) {
+  const all = rooms.flatMap((room) => readdirSync(join(root, "src", room)).sort().map((file) => `${room}/${file}`))
+    .filter((file) => file.endsWith(".cpp") && !notHere.has(file)).concat(more);
+  const isAlone = (file) => isFast && hot.test(file);
+  const files = all.filter((file) => !isAlone(file));
+  const batches = all.filter(isAlone).map((file) => ({ path: join(root, "src", file), flags: fastFlags }));
   for (let i = 0; i < files.length; i += 12)
     batches.push({ path: write(join(out, `${name}_${i / 12}.cpp`), files.slice(i, i + 12).map((file) => `#include "${file}"\n`).join("")) });
   return batches;
@@ -100,7 +102,7 @@ function sourcesOf(name, module) {
     c_files: module.rooms.filter(isOf(["c_files"])),
   };
   const sources = Object.entries(libraries).flatMap(([library, list]) =>
-    inBatches(`${name}_${library}`, list, library === "c_files" ? module.more : []));
+    inBatches(`${name}_${library}`, list, module.isFast, library === "c_files" ? module.more : []));
   for (const room of module.kernels) sources.push(...kernelSources(room, module.isFast));
   // The parser of OBJ lets exponents of numbers overflow.
   for (const file of ["new.cpp", "state.cpp", ...module.sources])
