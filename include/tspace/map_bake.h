@@ -11,9 +11,9 @@ namespace tspace {
 
 /// How texels are found.
 enum class MapFit : std::uint32_t {
-    /// All together, so that the bilinear-filtered map is right at 3 x 3 points a texel: least squares, counted across the
-    /// wanted direction. Integers are chosen so too: with 8 bits with any length
-    /// from 0.7 to 1.
+    /// All together, so that the bilinear-filtered map is right between texels too: least squares, counted across the wanted
+    /// direction. Integers are chosen so too: with 8 bits with any length from 0.7 to 1. Rays at each texel's centre, and at
+    /// 2 x 2 or 3 x 3 points a texel where what lies between centres does not follow from them.
     solve = 0,
     texel = 1,  ///< each alone: right at its centre
 };
@@ -56,11 +56,11 @@ struct BakedMap {
     MapError error = {};                    ///< against the high poly, as shaded
 };
 
-/// What a bake takes at its peak, about.
+/// What a bake takes at its peak, about; with `solve` that of one whose texels all need rays between them.
 std::uint64_t bakeBytes(const BakeOptions& options, std::uint64_t low_triangles, std::uint64_t high_triangles);
 
 /// Bakes one image. UVs outside of 0 to 1 wrap. The same texels for any thread count. Time: rays, about 1 microsecond
-/// each, 1 or 9 a texel, and 1 to 3 microseconds a texel for `solve`. Errors as measureMap;
+/// each, 1 a texel or, with `solve`, 1 to 10; and with `solve` 1 to 3 microseconds a texel. Errors as measureMap;
 /// tooLarge; missingAttribute also where no line meets the high poly, or the UVs cover no texel. Thread-safe.
 Result<BakedMap> bakeMap(const LowPoly& low, const HighPoly& high, const BakeOptions& options = {});
 

@@ -9,6 +9,7 @@
 #include "maps/map_stop.h"
 #include "maps/quantize.h"
 #include "maps/solve_texels.h"
+#include "maps/texel_plan.h"
 #include "maps/trace_texels.h"
 
 namespace tspace {
@@ -21,7 +22,7 @@ constexpr std::uint32_t kMostPadding = 256;
 constexpr std::uint32_t kFilterTexels = 2;
 /// Smaller images have texels that are their own neighbours.
 constexpr std::uint32_t kLeastSolved = 4;
-constexpr unsigned kIntegerRounds = 3;
+constexpr unsigned kIntegerRounds = 3, kRoundings = 2;
 
 class Baking {
   public:
@@ -44,15 +45,11 @@ class Baking {
                              "the triangles of the low poly cover the image too often");
         if (triangles->counts.inside == 0)
             return makeError(ErrorCode::missingAttribute, kNoElement, "the UVs of the low poly cover no texel");
-        std::optional<TexelSystem> system;
-        if (solves()) system.emplace(allocator_, options_.width, options_.height);
-        if (!traceTexels(*surfaces, *triangles, options_, parallel_, traced_, system ? &*system : nullptr))
-            return stoppedError();
+        if (!traceTexels(*surfaces, *triangles, options_, parallel_, traced_)) return stoppedError();
         if (Error error = countOrigins(*triangles); error.code != ErrorCode::ok) return error;
         fillFromNeighbours(traced_, options_.width, options_.height);
-        if (options_.stop && options_.stop()) return stoppedError();
-        if (options_.progress) options_.progress("fitting", 0, 1);
-        fit(system ? &*system : nullptr);
+        if (solves() ? !solve(*surfaces, *triangles) : !isGoingOn()) return stoppedError();
+        if (!solves() && options_.bits == 8) takeNearest();
         writeTexels();
         return measured(*surfaces);
     }
@@ -77,27 +74,51 @@ class Baking {
         return makeError(ErrorCode::missingAttribute, kNoElement, "no line from the low poly meets the high poly");
     }
 
-    void fit(const TexelSystem* system) {
+    [[nodiscard]] bool isGoingOn() const {
+        if (options_.stop && options_.stop()) return false;
+        if (options_.progress) options_.progress("fitting", 0, 1);
+        return true;
+    }
+
+    /// False when stopped.
+    bool solve(const MapSurfaces& surfaces, const TexelTriangles& triangles) {
         const std::span<Vec3> texels(traced_.wanted.data(), traced_.wanted.size());
-        IntegerChoice choice;
-        choice.is_two_channel = options_.reading.two_channels;
-        if (options_.bits == 16) {
-            if (system == nullptr) return;
-            solveTexels(*system, texels, parallel_, allocator_);
-            choice.most = 65535;
-            choice.most_steps = 0;
+        const bool has_integers = options_.bits == 8;
+        const CellSampling sampling = samplingOf(options_);
+        const TexelPlan plan = planTexels(traced_, triangles, sampling.tolerance, has_integers, parallel_, allocator_);
+        TexelSystem system(allocator_, options_.width, options_.height, {plan.roles.data(), plan.roles.size()});
+        if (!traceBetween(surfaces, plan, sampling.points, options_, parallel_, system) || !isGoingOn()) return false;
+        sharpenTexels(plan, texels, parallel_, allocator_);
+        if (has_integers) {
+            addSmoothCells(plan, texels, options_, parallel_, system);
+            const IntegerChoice choice{.is_two_channel = options_.reading.two_channels};
+            chooseIntegers(system, choice, texels, kIntegerRounds, parallel_, allocator_);
+            return true;
         }
-        if (system != nullptr) {
-            chooseIntegers(*system, choice, texels, kIntegerRounds, parallel_, allocator_);
-        } else {
-            const IntegerVectors numbers{.most = choice.most,
-                                         .least_length = static_cast<double>(choice.least_length),
-                                         .is_two_channel = choice.is_two_channel};
-            parallel_.forRanges(texels.size(), 64, [&](std::size_t begin, std::size_t end) {
-                for (std::size_t i = begin; i < end; ++i)
-                    texels[i] = toFloat(nearestIntegers(numbers, toDouble(texels[i])));
-            });
+        if (!options_.reading.two_channels) {
+            for (Vec3& texel : texels) texel = kWantedLength * texel;
         }
+        solveTexels(system, texels, parallel_, allocator_);
+        roundTexels(texels, options_.width, 65535, kRoundings, parallel_, allocator_);
+        if (options_.reading.two_channels) settleThirds(texels);
+        return true;
+    }
+
+    /// z follows from x and y, which may be those of no unit vector by then.
+    void settleThirds(std::span<Vec3> texels) {
+        for (Vec3& texel : texels) {
+            const float flat = texel.x * texel.x + texel.y * texel.y;
+            if (flat <= 1) texel.z = std::sqrt(1 - flat);
+        }
+    }
+
+    void takeNearest() {
+        const IntegerVectors numbers{.is_two_channel = options_.reading.two_channels};
+        Buffer<Vec3>& texels = traced_.wanted;
+        parallel_.forRanges(texels.size(), 64, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                texels[i] = toFloat(nearestIntegers(numbers, toDouble(texels[i])));
+        });
     }
 
     void writeTexels() {
@@ -170,7 +191,7 @@ Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, st
 
 std::uint64_t bakeBytes(const BakeOptions& options, std::uint64_t low_triangles, std::uint64_t high_triangles) {
     // TexelTriangles, the vectors and their votes, the result; and the system with what solving it needs.
-    constexpr std::uint64_t kPlain = 26 + 16 + 13, kSolve = sizeof(TexelRow) + 36, kHeat = 6;
+    constexpr std::uint64_t kPlain = 26 + 16 + 13, kSolve = sizeof(TexelRow) + 36 + 24, kHeat = 6;
     const std::uint64_t texel = kPlain + (options.fit == MapFit::solve ? kSolve : 0) + (options.heat ? kHeat : 0);
     // Boxes of Embree; points of the measure.
     constexpr std::uint64_t kLow = 120, kHigh = 200, kPoints = 100000 * 64;

@@ -192,9 +192,10 @@ std::vector<float> heatOf(const MapImage& map, const MapSurfaces& surfaces, cons
             const std::size_t texel =
                 (first_row + static_cast<std::size_t>(sample.row) / kSide) * map.width + sample.column / kSide;
             DVec3 truth;
-            if (counts[texel] == 0xffff || !surfaces.truthAt(sample.triangle, sample.weights, guess, truth)) return;
-            const DVec3 shaded = shadedAt(map, candidate, surfaces.corners(sample.triangle, tangents), sample.weights,
-                                          uvAt(surfaces.low(), sample.triangle, sample.weights));
+            const std::array<double, 3> weights = sample.weights();
+            if (counts[texel] == 0xffff || !surfaces.truthAt(sample.triangle, weights, guess, truth)) return;
+            const DVec3 shaded = shadedAt(map, candidate, surfaces.corners(sample.triangle, tangents), weights,
+                                          uvAt(surfaces.low(), sample.triangle, weights));
             const double angle = degreesBetween(shaded, truth);
             heat[texel] += std::isfinite(angle) ? static_cast<float>(angle) : 180.0F;
             ++counts[texel];

@@ -15,7 +15,10 @@ struct BandSample {
     std::uint32_t triangle = 0;
     std::int64_t row = 0;      ///< of the grid, from where the band begins
     std::uint32_t column = 0;  ///< of the grid, in the image
-    std::array<double, 3> weights = {};
+    double x = 0, y = 0;       ///< in texels, where the triangle is placed
+    const ExactTriangle* exact = nullptr;
+
+    [[nodiscard]] std::array<double, 3> weights() const { return exact->weights(x, y); }
 };
 
 /// The image repeats. Band b has the grid rows b * kBandTexels * n + shift and on, as many as kBandTexels texels have or are
@@ -72,8 +75,8 @@ class SampleBands {
                     for (std::int64_t column = columns.first; column <= columns.last; ++column) {
                         const double x = (static_cast<double>(column) + 0.5) / n_;
                         const double y = (static_cast<double>(row) + 0.5) / n_;
-                        visit(BandSample{entries_[i], row - begin, static_cast<std::uint32_t>(column % width),
-                                         exact.weights(x, y)});
+                        visit(BandSample{entries_[i], row - begin, static_cast<std::uint32_t>(column % width), x, y,
+                                         &exact});
                     }
                 }
             }

@@ -11,19 +11,22 @@ namespace tspace {
 
 namespace {
 
-/// Sums over rows are added in the order of rows, so that they do not depend on threads.
-class RowSums {
+/// Rows of a system are worked on so many at a time, and the sums over them added in order, so that they do not depend on
+/// threads.
+constexpr std::size_t kRowsOfTask = 2048;
+
+class TaskSums {
   public:
-    RowSums(const Allocator* allocator, std::uint32_t height) : of_rows_(allocator, height, 0.0) {}
-    double& operator[](std::uint32_t row) { return of_rows_[row]; }
+    TaskSums(const Allocator* allocator, std::size_t tasks) : of_tasks_(allocator, tasks, 0.0) {}
+    double& operator[](std::size_t task) { return of_tasks_[task]; }
     [[nodiscard]] double total() const {
         double sum = 0;
-        for (const double of_row : of_rows_) sum += of_row;
+        for (const double of_task : of_tasks_) sum += of_task;
         return sum;
     }
 
   private:
-    Buffer<double> of_rows_;
+    Buffer<double> of_tasks_;
 };
 
 /// The inverse of a texel's block with itself, for the preconditioner.
@@ -48,11 +51,12 @@ class Gradients {
         : system_(system),
           texels_(texels),
           parallel_(parallel),
-          residual_(allocator, texels.size()),
-          direction_(allocator, texels.size()),
-          image_(allocator, texels.size()),
-          first_(allocator, system.height()),
-          second_(allocator, system.height()) {}
+          residual_(allocator, system.rowCount(), Vec3{}),
+          direction_(allocator, system.rowCount(), Vec3{}),
+          image_(allocator, system.rowCount(), Vec3{}),
+          tasks_((system.rowCount() + kRowsOfTask - 1) / kRowsOfTask),
+          first_(allocator, tasks_),
+          second_(allocator, tasks_) {}
 
     void run() {
         // Each step takes the error down by a factor of about 2; what is left after these is far below a 16-bit step.
@@ -73,65 +77,64 @@ class Gradients {
     }
 
   private:
+    /// Sets sums[task] to the sum of body(row) over the unknown rows of each task.
     template <class Body>
-    void forRows(Body body) {
-        parallel_.forRanges(system_.height(), 8, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t y = begin; y < end; ++y) body(static_cast<std::uint32_t>(y));
+    void forUnknowns(TaskSums& sums, const Body& body) {
+        parallel_.forTasks(tasks_, [&](std::size_t task) {
+            double sum = 0;
+            const std::size_t end = std::min((task + 1) * kRowsOfTask, system_.rowCount());
+            for (std::size_t row = task * kRowsOfTask; row < end; ++row) {
+                if (system_.isUnknown(row)) sum += body(row);
+            }
+            sums[task] = sum;
         });
+    }
+
+    /// What the texels around ask, where `of(row, texel)` says what they are.
+    template <class Of>
+    Vec3 around(std::size_t row, const Of& of) const {
+        const std::uint32_t texel = system_.texelOf(row);
+        return system_.aroundTexel(texel % system_.width(), texel / system_.width(),
+                                   [&](std::uint32_t x, std::uint32_t y) {
+                                       return of(system_.rowOf(x, y), std::size_t{y} * system_.width() + x);
+                                   });
     }
 
     static double product(const Vec3& a, const Vec3& b) { return static_cast<double>(dot(a, b)); }
 
     void begin() {
-        forRows([&](std::uint32_t y) {
-            double sum = 0;
-            for (std::uint32_t x = 0; x < system_.width(); ++x) {
-                const std::size_t at = std::size_t{y} * system_.width() + x;
-                const TexelRow& row = system_.row(y)[x];
-                residual_[at] =
-                    row.side - blockTimes(row.blocks[0], texels_[at]) - system_.aroundTexel(texels_.data(), x, y);
-                direction_[at] = blockTimes(inverseOf(row.blocks[0]), residual_[at]);
-                sum += product(residual_[at], direction_[at]);
-            }
-            first_[y] = sum;
+        forUnknowns(first_, [&](std::size_t row) {
+            const TexelRow& own = system_.row(row);
+            residual_[row] = own.side - blockTimes(own.blocks[0], texels_[system_.texelOf(row)]) -
+                             around(row, [&](std::size_t, std::size_t texel) { return texels_[texel]; });
+            direction_[row] = blockTimes(inverseOf(own.blocks[0]), residual_[row]);
+            return product(residual_[row], direction_[row]);
         });
     }
 
     /// image = system times direction
     void multiply() {
-        forRows([&](std::uint32_t y) {
-            double sum = 0;
-            for (std::uint32_t x = 0; x < system_.width(); ++x) {
-                const std::size_t at = std::size_t{y} * system_.width() + x;
-                const Vec3& own = direction_[at];
-                image_[at] = blockTimes(system_.row(y)[x].blocks[0], own) + kHold * own +
-                             system_.aroundTexel(direction_.data(), x, y);
-                sum += product(own, image_[at]);
-            }
-            first_[y] = sum;
+        forUnknowns(first_, [&](std::size_t row) {
+            const Vec3& own = direction_[row];
+            image_[row] = blockTimes(system_.row(row).blocks[0], own) + kHold * own +
+                          around(row, [&](std::size_t other, std::size_t) { return direction_[other]; });
+            return product(own, image_[row]);
         });
     }
 
     void advance(float length) {
-        forRows([&](std::uint32_t y) {
-            double sum = 0;
-            for (std::uint32_t x = 0; x < system_.width(); ++x) {
-                const std::size_t at = std::size_t{y} * system_.width() + x;
-                texels_[at] = texels_[at] + length * direction_[at];
-                residual_[at] = residual_[at] - length * image_[at];
-                image_[at] = blockTimes(inverseOf(system_.row(y)[x].blocks[0]), residual_[at]);
-                sum += product(residual_[at], image_[at]);
-            }
-            second_[y] = sum;
+        forUnknowns(second_, [&](std::size_t row) {
+            Vec3& texel = texels_[system_.texelOf(row)];
+            texel = texel + length * direction_[row];
+            residual_[row] = residual_[row] - length * image_[row];
+            image_[row] = blockTimes(inverseOf(system_.row(row).blocks[0]), residual_[row]);
+            return product(residual_[row], image_[row]);
         });
     }
 
     void turn(float kept) {
-        forRows([&](std::uint32_t y) {
-            for (std::uint32_t x = 0; x < system_.width(); ++x) {
-                const std::size_t at = std::size_t{y} * system_.width() + x;
-                direction_[at] = image_[at] + kept * direction_[at];
-            }
+        parallel_.forRanges(system_.rowCount(), kRowsOfTask, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t row = begin; row < end; ++row) direction_[row] = image_[row] + kept * direction_[row];
         });
     }
 
@@ -139,7 +142,8 @@ class Gradients {
     std::span<Vec3> texels_;
     Parallel& parallel_;
     Buffer<Vec3> residual_, direction_, image_;
-    RowSums first_, second_;
+    std::size_t tasks_;
+    TaskSums first_, second_;
 };
 
 }  // namespace
@@ -256,30 +260,50 @@ void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std:
     const auto chooseRow = [&](std::uint32_t y) {
         for (std::uint32_t x = 0; x < width; ++x) {
             const std::size_t at = std::size_t{y} * width + x;
-            const TexelRow& row = system.row(y)[x];
+            const TexelRow& row = system.row(system.rowOf(x, y));
             // Held to its direction a little, for texels that no sample asks anything of.
             DVec3 unit_wanted = toDouble(wanted[at]);
             if (!normalize(unit_wanted)) continue;
             const FitSample hold = holdAt(choice, toFloat(unit_wanted));
             SymmetricBlock block = row.blocks[0];
             for (std::size_t i = 0; i < block.size(); ++i) block[i] += kHold * hold.metric[i];
-            const Vec3 rest = system.aroundTexel(texels.data(), x, y) - row.side - kHold * hold.side;
+            const Vec3 around = system.aroundTexel(x, y, [&](std::uint32_t column, std::uint32_t line) {
+                return texels[std::size_t{line} * width + column];
+            });
+            const Vec3 rest = around - row.side - kHold * hold.side;
             texels[at] = IntegerTexel(choice, block, rest).best(wanted[at]);
         }
     };
-    // Texels of every second row have no sample in common; the last of an odd number goes alone.
-    for (unsigned round = 0; round < rounds; ++round) {
-        for (std::uint32_t first = 0; first < 3; ++first) {
-            const std::uint32_t even = height / 2;
-            if (first == 2) {
-                if (height % 2 == 1) chooseRow(height - 1);
-                continue;
-            }
-            parallel.forRanges(even, 4, [&](std::size_t begin, std::size_t end) {
-                for (std::size_t i = begin; i < end; ++i) chooseRow(static_cast<std::uint32_t>(2 * i) + first);
-            });
+    for (unsigned round = 0; round < rounds; ++round) forRowsApart(parallel, height, chooseRow);
+}
+
+void roundTexels(std::span<Vec3> texels, std::uint32_t width, unsigned most, unsigned rounds, Parallel& parallel,
+                 const Allocator* allocator) {
+    const auto height = static_cast<std::uint32_t>(texels.size() / width);
+    const float scale = static_cast<float>(most) / 2;
+    // What is wrong so far, in steps; each texel's own number is settled with those around as they are.
+    Buffer<Vec3> off(allocator, texels.size(), Vec3{});
+    const auto roundRow = [&](std::uint32_t y) {
+        const std::size_t here = std::size_t{y} * width, above = std::size_t{y > 0 ? y - 1 : height - 1} * width,
+                          below = std::size_t{y + 1 < height ? y + 1 : 0} * width;
+        for (std::uint32_t x = 0; x < width; ++x) {
+            const std::size_t left = x > 0 ? x - 1 : width - 1, right = x + 1 < width ? x + 1 : 0;
+            const Vec3 sides = (off[here + left] + off[here + right]) + (off[above + x] + off[below + x]);
+            const Vec3 corners = (off[above + left] + off[above + right]) + (off[below + left] + off[below + right]);
+            // The integral of two filters: 4/9 at the texel itself, 1/9 at its sides, 1/36 at its corners.
+            const Vec3 wanted = 0.25F * sides + 0.0625F * corners;
+            const auto rounded = [&](float value, float others) {
+                const float steps = (value + 1) * scale;
+                return std::clamp(std::floor(steps - others + 0.5F), 0.0F, static_cast<float>(most)) - steps;
+            };
+            const Vec3& texel = texels[here + x];
+            off[here + x] = {rounded(texel.x, wanted.x), rounded(texel.y, wanted.y), rounded(texel.z, wanted.z)};
         }
-    }
+    };
+    for (unsigned round = 0; round < rounds; ++round) forRowsApart(parallel, height, roundRow);
+    parallel.forRanges(texels.size(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) texels[i] = texels[i] + (1 / scale) * off[i];
+    });
 }
 
 }  // namespace tspace

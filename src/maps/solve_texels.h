@@ -13,7 +13,19 @@ namespace tspace {
 /// where samples say next to nothing: at the rim of a chart.
 inline constexpr float kHold = 0.004F;
 
-/// Moves `texels` (width * height) to the least squares, by conjugate gradients. The same bits for any number of threads.
+/// row(y) for all rows of an image: first every second one, then the others, then the last of an odd number. No two at the same
+/// time are beside each other in an image that repeats.
+template <class Row>
+void forRowsApart(Parallel& parallel, std::uint32_t height, const Row& row) {
+    for (const std::uint32_t first : {0U, 1U}) {
+        parallel.forRanges(height / 2, 4, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) row(static_cast<std::uint32_t>(2 * i) + first);
+        });
+    }
+    if (height % 2 == 1) row(height - 1);
+}
+
+/// Moves the unknown ones of `texels` (width * height) to the least squares, by conjugate gradients. The same bits for any number of threads.
 void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator);
 
 /// What integers stand for: n from 0 to `most` for 2 n / most - 1.
@@ -28,5 +40,11 @@ struct IntegerChoice {
 /// it can be with those around; `rounds` times. The same bits for any number of threads.
 void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, unsigned rounds,
                     Parallel& parallel, const Allocator* allocator);
+
+/// Makes of each component of `texels` a number that an integer from 0 to `most` stands for, such that those around make good
+/// under the filter what is rounded off: as chooseIntegers, where integers are so many that all count the same. `rounds` times
+/// over the image, which repeats. The same bits for any number of threads.
+void roundTexels(std::span<Vec3> texels, std::uint32_t width, unsigned most, unsigned rounds, Parallel& parallel,
+                 const Allocator* allocator);
 
 }  // namespace tspace

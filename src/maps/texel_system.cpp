@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "maps/texel_system.h"
 
-#include <algorithm>
-
 namespace tspace {
 
 namespace {
@@ -13,15 +11,30 @@ void addBlock(SymmetricBlock& to, float weight, const SymmetricBlock& metric) {
 
 }  // namespace
 
-void TexelRow::add(const TexelRow& other) {
-    for (std::size_t i = 0; i < blocks.size(); ++i) addBlock(blocks[i], 1, other.blocks[i]);
-    side = side + other.side;
+TexelSystem::TexelSystem(const Allocator* allocator, std::uint32_t width, std::uint32_t height,
+                         std::span<const TexelRole> roles)
+    : width_(width), height_(height), row_of_(allocator, roles.size(), 0U) {
+    std::uint32_t count = 1;
+    for (std::size_t i = 0; i < roles.size(); ++i) {
+        if (roles[i] != TexelRole::apart) row_of_[i] = count++;
+    }
+    texel_of_ = Buffer<std::uint32_t>(allocator, count, 0U);
+    is_unknown_ = Buffer<bool>(allocator, count, false);
+    rows_ = Buffer<TexelRow>(allocator, count, TexelRow{});
+    for (std::size_t i = 0; i < roles.size(); ++i) {
+        if (row_of_[i] == 0) continue;
+        texel_of_[row_of_[i]] = static_cast<std::uint32_t>(i);
+        is_unknown_[row_of_[i]] = roles[i] == TexelRole::unknown;
+    }
 }
 
-void addSample(TexelRow* here, TexelRow* next, std::uint32_t x, std::uint32_t right, float fx, float fy,
-               const FitSample& sample) {
+void TexelSystem::add(std::uint32_t x, std::uint32_t y, float fx, float fy, const FitSample& sample) {
+    const std::uint32_t right_x = right(x), below_y = below(y);
+    const std::uint32_t at00 = rowOf(x, y), at10 = rowOf(right_x, y), at01 = rowOf(x, below_y),
+                        at11 = rowOf(right_x, below_y);
+    if (at00 == 0 || (fx > 0 && at10 == 0) || (fy > 0 && (at01 == 0 || (fx > 0 && at11 == 0)))) return;
     const float w00 = (1 - fx) * (1 - fy), w10 = fx * (1 - fy), w01 = (1 - fx) * fy, w11 = fx * fy;
-    TexelRow &t00 = here[x], &t10 = here[right], &t01 = next[x], &t11 = next[right];
+    TexelRow &t00 = rows_[at00], &t10 = rows_[at10], &t01 = rows_[at01], &t11 = rows_[at11];
     addBlock(t00.blocks[0], w00 * w00, sample.metric);
     t00.side = t00.side + w00 * sample.side;
     if (fx > 0) {
@@ -40,21 +53,6 @@ void addSample(TexelRow* here, TexelRow* next, std::uint32_t x, std::uint32_t ri
     addBlock(t01.blocks[1], w01 * w11, sample.metric);
     addBlock(t11.blocks[0], w11 * w11, sample.metric);
     t11.side = t11.side + w11 * sample.side;
-}
-
-Vec3 TexelSystem::aroundTexel(const Vec3* texels, std::uint32_t x, std::uint32_t y) const {
-    const std::uint32_t left_x = left(x), right_x = right(x), above_y = above(y), below_y = below(y);
-    const TexelRow *here = row(y), *up = row(above_y);
-    const Vec3* at = texels + std::size_t{y} * width_;
-    const Vec3 *at_above = texels + std::size_t{above_y} * width_, *at_below = texels + std::size_t{below_y} * width_;
-    Vec3 sum = blockTimes(here[x].blocks[1], at[right_x]);
-    sum = sum + blockTimes(here[x].blocks[2], at_below[left_x]);
-    sum = sum + blockTimes(here[x].blocks[3], at_below[x]);
-    sum = sum + blockTimes(here[x].blocks[4], at_below[right_x]);
-    sum = sum + blockTimes(here[left_x].blocks[1], at[left_x]);
-    sum = sum + blockTimes(up[right_x].blocks[2], at_above[right_x]);
-    sum = sum + blockTimes(up[x].blocks[3], at_above[x]);
-    return sum + blockTimes(up[left_x].blocks[4], at_above[left_x]);
 }
 
 FitSample acrossSample(const Vec3& wanted, float along, float wanted_length) {

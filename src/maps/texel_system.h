@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The texels of a map as unknowns, and what samples ask of them under the bilinear filter: least squares, one symmetric 3 x 3
-// block for each pair of texels that a sample mixes. The image repeats.
+// block for each pair of texels that a sample mixes. The image repeats. Only texels that samples mix take memory.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/memory.h"
 #include "core/vec_math.h"
@@ -25,8 +26,6 @@ inline Vec3 blockTimes(const SymmetricBlock& m, const Vec3& v) {
 struct TexelRow {
     std::array<SymmetricBlock, 5> blocks = {};
     Vec3 side = {};
-
-    void add(const TexelRow& other);
 };
 
 /// A sample: the filtered map shall be `target` at a place between four texels, and errors count as `metric` says.
@@ -35,31 +34,60 @@ struct FitSample {
     Vec3 side = {};  ///< metric times target
 };
 
+/// What becomes of a texel.
+enum class TexelRole : std::uint8_t {
+    apart,   ///< samples ask nothing of it that is remembered
+    fixed,   ///< samples mix it with others, which are unknown
+    unknown  ///< is to be found. Of all samples that read it, all that they mix have a row
+};
+
 class TexelSystem {
   public:
-    TexelSystem(const Allocator* allocator, std::uint32_t width, std::uint32_t height)
-        : width_(width), height_(height), rows_(allocator, std::size_t{width} * height, TexelRow{}) {}
+    /// `roles`: one per texel.
+    TexelSystem(const Allocator* allocator, std::uint32_t width, std::uint32_t height,
+                std::span<const TexelRole> roles);
 
     [[nodiscard]] std::uint32_t width() const { return width_; }
     [[nodiscard]] std::uint32_t height() const { return height_; }
-    TexelRow* row(std::uint32_t y) { return rows_.data() + std::size_t{y} * width_; }
-    [[nodiscard]] const TexelRow* row(std::uint32_t y) const { return rows_.data() + std::size_t{y} * width_; }
     [[nodiscard]] std::uint32_t right(std::uint32_t x) const { return x + 1 < width_ ? x + 1 : 0; }
     [[nodiscard]] std::uint32_t left(std::uint32_t x) const { return x > 0 ? x - 1 : width_ - 1; }
     [[nodiscard]] std::uint32_t below(std::uint32_t y) const { return y + 1 < height_ ? y + 1 : 0; }
     [[nodiscard]] std::uint32_t above(std::uint32_t y) const { return y > 0 ? y - 1 : height_ - 1; }
 
-    /// What the samples ask of a texel, times the texels around it: all but its block with itself.
-    [[nodiscard]] Vec3 aroundTexel(const Vec3* texels, std::uint32_t x, std::uint32_t y) const;
+    /// Row 0 belongs to all texels that are apart, and asks nothing.
+    [[nodiscard]] std::size_t rowCount() const { return rows_.size(); }
+    [[nodiscard]] std::uint32_t rowOf(std::uint32_t x, std::uint32_t y) const {
+        return row_of_[std::size_t{y} * width_ + x];
+    }
+    [[nodiscard]] const TexelRow& row(std::size_t row) const { return rows_[row]; }
+    [[nodiscard]] std::uint32_t texelOf(std::size_t row) const { return texel_of_[row]; }
+    [[nodiscard]] bool isUnknown(std::size_t row) const { return is_unknown_[row]; }
+
+    /// Adds a sample that lies `fx`, `fy` (0 to 1) right of and below the centre of a texel. A sample that mixes a texel
+    /// that is apart is left out.
+    void add(std::uint32_t x, std::uint32_t y, float fx, float fy, const FitSample& sample);
+
+    /// What the samples ask of a texel, times the texels around it, which `at(x, y)` gives: all but its block with itself.
+    template <class At>
+    [[nodiscard]] Vec3 aroundTexel(std::uint32_t x, std::uint32_t y, const At& at) const {
+        const std::uint32_t left_x = left(x), right_x = right(x), above_y = above(y), below_y = below(y);
+        const TexelRow& here = row(rowOf(x, y));
+        Vec3 sum = blockTimes(here.blocks[1], at(right_x, y));
+        sum = sum + blockTimes(here.blocks[2], at(left_x, below_y));
+        sum = sum + blockTimes(here.blocks[3], at(x, below_y));
+        sum = sum + blockTimes(here.blocks[4], at(right_x, below_y));
+        sum = sum + blockTimes(row(rowOf(left_x, y)).blocks[1], at(left_x, y));
+        sum = sum + blockTimes(row(rowOf(right_x, above_y)).blocks[2], at(right_x, above_y));
+        sum = sum + blockTimes(row(rowOf(x, above_y)).blocks[3], at(x, above_y));
+        return sum + blockTimes(row(rowOf(left_x, above_y)).blocks[4], at(left_x, above_y));
+    }
 
   private:
     std::uint32_t width_ = 0, height_ = 0;
-    Buffer<TexelRow> rows_;
+    Buffer<std::uint32_t> row_of_, texel_of_ = {};
+    Buffer<bool> is_unknown_ = {};
+    Buffer<TexelRow> rows_ = {};
 };
-
-/// Adds a sample that lies `fx`, `fy` (0 to 1) right of and below the centre of texel `x` of `here`; `next` is the row below.
-void addSample(TexelRow* here, TexelRow* next, std::uint32_t x, std::uint32_t right, float fx, float fy,
-               const FitSample& sample);
 
 /// Errors count across the unit vector `wanted`; along it, where only the length changes, by the part `along`.
 FitSample acrossSample(const Vec3& wanted, float along, float wanted_length);

@@ -2,29 +2,71 @@
 #include "maps/trace_texels.h"
 
 #include "maps/sample_bands.h"
+#include "maps/solve_texels.h"
+#include "maps/texel_plan.h"
 
 namespace tspace {
 
 namespace {
 
-constexpr std::uint32_t kGrid = 3;  // samples of a texel in a row
 /// The cosine of half of two degrees: how short the mean of two unit vectors may be.
 constexpr float kAgreeing = 0.99985F;
 /// How much an error of the length counts beside one of the direction.
 constexpr float kAlong = 0.02F;
-/// Below 1, so that no channel of a texel around has to be more.
-constexpr float kWantedLength = 0.98F;
+
+/// The vector wanted at a point of a triangle.
+class WantedVectors {
+  public:
+    WantedVectors(const MapSurfaces& surfaces, const BakeOptions& options) : surfaces_(surfaces), options_(options) {}
+
+    bool at(std::uint32_t triangle, const std::array<double, 3>& weights, Vec3& wanted) {
+        if (triangle != triangle_) {
+            triangle_ = triangle;
+            corners_ = surfaces_.corners(triangle, surfaces_.low().tangents);
+        }
+        DVec3 normal;
+        if (!surfaces_.truthAt(triangle, weights, guess_, normal)) return false;
+        if (options_.space == MapSpace::tangent)
+            normal = vectorFor(shadingFrame(corners_, weights, options_.reading), normal);
+        wanted = toFloat(normal);
+        return isDirection(wanted);
+    }
+
+  private:
+    const MapSurfaces& surfaces_;
+    const BakeOptions& options_;
+    std::uint32_t triangle_ = kNoTriangle;
+    CornerFrames corners_ = {};
+    double guess_ = 0;
+};
+
+FitSample sampleOf(const BakeOptions& options, const Vec3& wanted) {
+    if (options.reading.two_channels) return twoChannelSample(wanted);
+    // Integers are chosen with any length; real numbers would shrink.
+    return acrossSample(wanted, options.bits == 8 ? 0.0F : kAlong, kWantedLength);
+}
+
+/// task(band) for all bands, those at the same time that have no texel row beside each other: first every second one, then the
+/// others; and the last of an odd number, which is beside the first. False when stopped.
+template <class Task>
+bool forBandsApart(Parallel& parallel, std::size_t count, const char* what, const BakeOptions& options,
+                   const Task& task) {
+    const auto some = [&](std::size_t first, std::size_t number) {
+        return forTasksTold(parallel, number, what, options.progress, options.stop,
+                            [&](std::size_t i) { task(first + 2 * i); });
+    };
+    return some(0, count / 2) && some(1, count / 2) && some(count - 1, count % 2);
+}
 
 class Tracing {
   public:
     Tracing(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
-            Parallel& parallel, TracedTexels& traced, TexelSystem* system)
+            Parallel& parallel, TracedTexels& traced)
         : surfaces_(surfaces),
           triangles_(triangles),
           options_(options),
           parallel_(parallel),
           traced_(traced),
-          system_(system),
           uvs_(surfaces.low(), options.execution.allocator) {}
 
     bool run() {
@@ -38,57 +80,20 @@ class Tracing {
 
   private:
     bool traceInside() {
-        const std::uint32_t n = system_ != nullptr ? kGrid : 1;
-        const Allocator* const allocator = options_.execution.allocator;
-        const SampleBands bands(uvs_.triangles(), options_.width, options_.height, n, (n - 1) / 2, allocator);
-        if (system_ != nullptr) spills_ = Buffer<TexelRow>(allocator, bands.bandCount() * options_.width, TexelRow{});
-        const auto trace = [&](std::size_t band) { traceBand(bands, band, n); };
-        if (!forTasksTold(parallel_, bands.bandCount(), "tracing", options_.progress, options_.stop, trace))
+        const SampleBands bands(uvs_.triangles(), options_.width, options_.height, 1, 0, options_.execution.allocator);
+        const auto traceBand = [&](std::size_t band) {
+            WantedVectors vectors(surfaces_, options_);
+            bands.forSamples(band, [&](const BandSample& sample) {
+                const std::size_t row = band * SampleBands::kBandTexels + static_cast<std::size_t>(sample.row);
+                Vec3 wanted;
+                const bool is_hit = vectors.at(sample.triangle, sample.weights(), wanted);
+                vote(row * options_.width + sample.column, is_hit, wanted);
+            });
+        };
+        if (!forTasksTold(parallel_, bands.bandCount(), "tracing", options_.progress, options_.stop, traceBand))
             return false;
-        // What the last samples of a band ask of the row after it.
-        for (std::size_t band = 0; system_ != nullptr && band < bands.bandCount(); ++band) {
-            const auto next = static_cast<std::uint32_t>((band + 1) * SampleBands::kBandTexels);
-            TexelRow* const row = system_->row(next < options_.height ? next : 0);
-            for (std::uint32_t x = 0; x < options_.width; ++x) row[x].add(spills_[band * options_.width + x]);
-        }
         settleVotes();
         return true;
-    }
-
-    void traceBand(const SampleBands& bands, std::size_t band, std::uint32_t n) {
-        const std::uint32_t grid_width = options_.width * n, shift = (n - 1) / 2;
-        const std::size_t first_row = band * SampleBands::kBandTexels;
-        double guess = 0;
-        std::uint32_t triangle = kNoTriangle;
-        CornerFrames corners;
-        bands.forSamples(band, [&](const BandSample& sample) {
-            if (sample.triangle != triangle) {
-                triangle = sample.triangle;
-                corners = surfaces_.corners(triangle, surfaces_.low().tangents);
-            }
-            const std::uint32_t column = (sample.column + grid_width - shift) % grid_width;
-            const std::uint32_t x = column / n, x_part = column % n;
-            const auto row = static_cast<std::uint32_t>(sample.row);
-            const std::uint32_t y = row / n, y_part = row % n;
-            const std::size_t texel = (first_row + y) * options_.width + x;
-            const bool is_centre = x_part == 0 && y_part == 0;
-            Vec3 wanted;
-            const bool is_hit = wantedAt(corners, triangle, sample.weights, guess, wanted);
-            if (is_centre) vote(texel, is_hit, wanted);
-            if (!is_hit || system_ == nullptr) return;
-            TexelRow* const next = y + 1 < bands.rowCount(band)
-                                       ? system_->row(static_cast<std::uint32_t>(first_row) + y + 1)
-                                       : spills_.data() + band * options_.width;
-            addSample(system_->row(static_cast<std::uint32_t>(first_row) + y), next, x, system_->right(x),
-                      static_cast<float>(x_part) / static_cast<float>(n),
-                      static_cast<float>(y_part) / static_cast<float>(n), sampleOf(wanted));
-        });
-    }
-
-    [[nodiscard]] FitSample sampleOf(const Vec3& wanted) const {
-        if (options_.reading.two_channels) return twoChannelSample(wanted);
-        // Integers are chosen with any length; real numbers would shrink.
-        return acrossSample(wanted, options_.bits == 8 ? 0.0F : kAlong, kWantedLength);
     }
 
     void vote(std::size_t texel, bool is_hit, const Vec3& wanted) {
@@ -113,7 +118,7 @@ class Tracing {
         const TextureShape& shape = triangles_.shape;
         constexpr std::size_t kRows = 8;
         const auto trace = [&](std::size_t task) {
-            double guess = 0;
+            WantedVectors vectors(surfaces_, options_);
             const std::size_t end = std::min<std::size_t>((task + 1) * kRows * shape.width, votes_.size());
             for (std::size_t texel = task * kRows * shape.width; texel < end; ++texel) {
                 if (triangles_.kinds[texel] != TexelKind::beside || traced_.origins[texel] != TexelOrigin::background)
@@ -121,8 +126,7 @@ class Tracing {
                 const TexelPlace& place = triangles_.places[texel];
                 traced_.origins[texel] = TexelOrigin::padding;
                 Vec3 wanted;
-                const CornerFrames corners = surfaces_.corners(place.triangle, surfaces_.low().tangents);
-                if (wantedAt(corners, place.triangle, weightsAt(uvs_.triangles(), shape, place), guess, wanted))
+                if (vectors.at(place.triangle, weightsAt(uvs_.triangles(), shape, place), wanted))
                     traced_.wanted[texel] = wanted;
             }
         };
@@ -130,32 +134,73 @@ class Tracing {
         return forTasksTold(parallel_, tasks, "padding", options_.progress, options_.stop, trace);
     }
 
-    bool wantedAt(const CornerFrames& corners, std::uint32_t triangle, const std::array<double, 3>& weights,
-                  double& guess, Vec3& wanted) const {
-        DVec3 normal;
-        if (!surfaces_.truthAt(triangle, weights, guess, normal)) return false;
-        if (options_.space == MapSpace::tangent)
-            normal = vectorFor(shadingFrame(corners, weights, options_.reading), normal);
-        wanted = toFloat(normal);
-        return isDirection(wanted);
-    }
-
     const MapSurfaces& surfaces_;
     const TexelTriangles& triangles_;
     const BakeOptions& options_;
     Parallel& parallel_;
     TracedTexels& traced_;
-    TexelSystem* system_;
     LowUvs uvs_;
     Buffer<std::uint16_t> votes_ = {};
-    Buffer<TexelRow> spills_ = {};
 };
 
 }  // namespace
 
 bool traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
-                 Parallel& parallel, TracedTexels& traced, TexelSystem* system) {
-    return Tracing(surfaces, triangles, options, parallel, traced, system).run();
+                 Parallel& parallel, TracedTexels& traced) {
+    return Tracing(surfaces, triangles, options, parallel, traced).run();
+}
+
+bool traceBetween(const MapSurfaces& surfaces, const TexelPlan& plan, std::uint32_t n, const BakeOptions& options,
+                  Parallel& parallel, TexelSystem& system) {
+    const std::uint32_t shift = n / 2;
+    const float first = n % 2 == 0 ? 0.5F / static_cast<float>(n) : 0.0F;
+    const LowUvs uvs(surfaces.low(), options.execution.allocator);
+    const SampleBands bands(uvs.triangles(), options.width, options.height, n, shift, options.execution.allocator);
+    const auto traceBand = [&](std::size_t band) {
+        WantedVectors vectors(surfaces, options);
+        bands.forSamples(band, [&](const BandSample& sample) {
+            // Columns before the first centre belong to the last texel.
+            const std::uint32_t column =
+                sample.column >= shift ? sample.column - shift : sample.column + options.width * n - shift;
+            const auto row = static_cast<std::uint32_t>(sample.row);
+            const std::uint32_t x = column / n,
+                                y = static_cast<std::uint32_t>(band) * SampleBands::kBandTexels + row / n;
+            const TexelCell cell = plan.cells[std::size_t{y} * options.width + x];
+            Vec3 wanted;
+            if (cell == TexelCell::outside || cell == TexelCell::smooth) return;
+            if (!vectors.at(sample.triangle, sample.weights(), wanted)) return;
+            const auto place = [&](std::uint32_t part) {
+                return first + static_cast<float>(part) / static_cast<float>(n);
+            };
+            system.add(x, y, place(column % n), place(row % n), sampleOf(options, wanted));
+        });
+    };
+    return forBandsApart(parallel, bands.bandCount(), "tracing between texels", options, traceBand);
+}
+
+void addSmoothCells(const TexelPlan& plan, std::span<const Vec3> texels, const BakeOptions& options, Parallel& parallel,
+                    TexelSystem& system) {
+    // Gauss's two points of a line, twice: the integral over the cell, since what is asked is a product of two filters.
+    constexpr float kNear = 0.21132487F, kFar = 1 - kNear, kPointsOfTexel = 9.0F / 4;
+    const auto addCell = [&](std::uint32_t x, std::uint32_t y) {
+        const std::size_t here = std::size_t{y} * plan.width, below = std::size_t{system.below(y)} * plan.width;
+        if (plan.cells[here + x] != TexelCell::smooth) return;
+        const std::uint32_t right = system.right(x);
+        for (const float fy : {kNear, kFar}) {
+            const Vec3 left_side = (1 - fy) * texels[here + x] + fy * texels[below + x];
+            const Vec3 right_side = (1 - fy) * texels[here + right] + fy * texels[below + right];
+            for (const float fx : {kNear, kFar}) {
+                const Vec3 mixed = (1 - fx) * left_side + fx * right_side;
+                FitSample sample = sampleOf(options, (1 / length(mixed)) * mixed);
+                for (float& part : sample.metric) part *= kPointsOfTexel;
+                sample.side = kPointsOfTexel * sample.side;
+                system.add(x, y, fx, fy, sample);
+            }
+        }
+    };
+    forRowsApart(parallel, plan.height, [&](std::uint32_t y) {
+        for (std::uint32_t x = 0; x < plan.width; ++x) addCell(x, y);
+    });
 }
 
 void fillFromNeighbours(TracedTexels& traced, std::uint32_t width, std::uint32_t height) {

@@ -16,10 +16,20 @@ struct TracedTexels {
     std::uint64_t conflict_count = 0;  ///< texels whose triangles want over 2 degrees different vectors
 };
 
-/// Traces all samples; those of `system`, where it is not null, are 3 x 3 a texel. Texels beside triangles get their
-/// own rays. False when stopped.
+/// A ray at the centre of each texel that a triangle shows or that continues one. False when stopped.
 bool traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
-                 Parallel& parallel, TracedTexels& traced, TexelSystem* system);
+                 Parallel& parallel, TracedTexels& traced);
+
+struct TexelPlan;
+
+/// Rays at n x n points a texel in the cells of the plan that are asked or rough; what they say is added to the system. False when
+/// stopped.
+bool traceBetween(const MapSurfaces& surfaces, const TexelPlan& plan, std::uint32_t n, const BakeOptions& options,
+                  Parallel& parallel, TexelSystem& system);
+
+/// Adds what `texels`, filtered, say in the smooth cells of the plan.
+void addSmoothCells(const TexelPlan& plan, std::span<const Vec3> texels, const BakeOptions& options, Parallel& parallel,
+                    TexelSystem& system);
 
 /// Gives texels that have an origin but no vector the mean of their neighbours, ring by ring, and flat ones where there is
 /// none.

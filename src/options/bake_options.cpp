@@ -77,8 +77,7 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
     add(list, group,
         choice("--fit", "HOW", kFits, map.fit,
                "solve: all texels together, such that the filtered map is right between texels too; texel: each alone, "
-               "right "
-               "at its centre, three times as fast."));
+               "right at its centre, which is faster."));
     add(list, group,
         number("--padding", map.padding, kMostPadding,
                "Texels around the triangles that continue them, so that filters and smaller mip levels meet no "

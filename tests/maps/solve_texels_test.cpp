@@ -38,11 +38,10 @@ std::vector<Sample> waves(std::uint32_t width, std::uint32_t height) {
 }
 
 TexelSystem systemOf(const std::vector<Sample>& samples, std::uint32_t width, std::uint32_t height, float along) {
-    TexelSystem system(nullptr, width, height);
-    for (const Sample& sample : samples) {
-        addSample(system.row(sample.y), system.row(system.below(sample.y)), sample.x, system.right(sample.x), sample.fx,
-                  sample.fy, acrossSample(sample.wanted, along, 0.98F));
-    }
+    const std::vector<TexelRole> roles(std::size_t{width} * height, TexelRole::unknown);
+    TexelSystem system(nullptr, width, height, roles);
+    for (const Sample& sample : samples)
+        system.add(sample.x, sample.y, sample.fx, sample.fy, acrossSample(sample.wanted, along, 0.98F));
     return system;
 }
 
@@ -106,7 +105,8 @@ TEST(SolveTexels, IntegersCancelEachOthersErrors) {
 }
 
 TEST(SolveTexels, TexelsWithoutSamplesStay) {
-    const TexelSystem system(nullptr, 8, 8);
+    const std::vector<TexelRole> roles(64, TexelRole::unknown);
+    const TexelSystem system(nullptr, 8, 8, roles);
     std::vector<Vec3> texels(64, Vec3{0.6F, 0, 0.8F});
     Parallel parallel({.thread_count = 1});
     solveTexels(system, texels, parallel, nullptr);

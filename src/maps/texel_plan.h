@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Where the map between texel centres follows from what is wanted at the centres, and where rays have to say it: at creases
+// of the low poly, edges and small detail of the high poly, and the rims of charts.
+#pragma once
+
+#include "core/parallel.h"
+#include "maps/texel_system.h"
+#include "maps/texel_triangles.h"
+#include "maps/trace_texels.h"
+
+namespace tspace {
+
+/// The square between the centres of four texels, by its upper left one.
+enum class TexelCell : std::uint8_t {
+    outside,  ///< shows nothing of a triangle
+    smooth,   ///< what is wanted between the centres follows from them
+    asked,    ///< smooth; rays say it all the same, for what lies beside it
+    rough     ///< rays have to say what is wanted
+};
+
+struct TexelPlan {
+    std::uint32_t width = 0, height = 0;
+    Buffer<TexelCell> cells = {};
+    Buffer<TexelRole> roles = {};
+};
+
+/// How much is asked between texel centres.
+struct CellSampling {
+    /// A cell is smooth where the vectors of four texels in a row are that near to a parabola, in radians. A crease between
+    /// two of them is then wrong by a quarter of it at most.
+    float tolerance = 2e-5F;
+    std::uint32_t points = 3;  ///< points of a texel in a row, in cells that are not smooth
+};
+
+/// Of 16 bits, as much as they can tell; less in maps of more than 1024 x 1024 texels, whose texels are small beside what
+/// they show, and take most of the time. Of 8 bits, whose rounding is far larger, less always.
+CellSampling samplingOf(const BakeOptions& options);
+
+/// How long vectors of real numbers shall be: below 1, so that no channel of a texel around has to be more.
+inline constexpr float kWantedLength = 0.98F;
+
+/// `all_unknown`: all texels that are read are unknown, and no cell is asked; else those of rough cells are, and other cells
+/// that share a texel with them are asked. Memory: 5 bytes a texel while it runs, 2 stay.
+TexelPlan planTexels(const TracedTexels& traced, const TexelTriangles& triangles, float tolerance, bool all_unknown,
+                     Parallel& parallel, const Allocator* allocator);
+
+/// Moves texels, all of whose cells are smooth, from what is wanted at their centres to the least squares of the filtered map:
+/// against a parabola, of second difference c, the chord between texels is off by c/12 in the mean.
+void sharpenTexels(const TexelPlan& plan, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator);
+
+}  // namespace tspace

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// Where the map between texels follows from their centres.
+#include "maps/texel_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/unit.h"
+#include "maps/solve_texels.h"
+
+namespace tspace::test {
+namespace {
+
+constexpr std::uint32_t kSide = 40;
+
+/// A field over texels, all of which a triangle shows but those of the rim, which are read.
+struct Field {
+    TracedTexels traced = {};
+    TexelTriangles triangles = {};
+
+    template <class Of>
+    explicit Field(const Of& of) {
+        const std::size_t count = std::size_t{kSide} * kSide;
+        triangles.shape = {kSide, kSide};
+        triangles.kinds = Buffer<TexelKind>(nullptr, count, TexelKind::inside);
+        triangles.is_read = Buffer<bool>(nullptr, count, false);
+        triangles.overlaps = Buffer<bool>(nullptr, count, false);
+        traced.wanted = Buffer<Vec3>(nullptr, count, Vec3{});
+        traced.origins = Buffer<TexelOrigin>(nullptr, count, TexelOrigin::hit);
+        for (std::uint32_t y = 0; y < kSide; ++y) {
+            for (std::uint32_t x = 0; x < kSide; ++x) {
+                traced.wanted[y * kSide + x] = toFloat(of(x, y));
+                if (x > 0 && y > 0 && x + 1 < kSide && y + 1 < kSide) continue;
+                triangles.kinds[y * kSide + x] = TexelKind::beside;
+                triangles.is_read[y * kSide + x] = true;
+                traced.origins[y * kSide + x] = TexelOrigin::padding;
+            }
+        }
+    }
+    [[nodiscard]] TexelPlan plan(float tolerance = 1e-3F) const {
+        Parallel parallel({.thread_count = 1});
+        return planTexels(traced, triangles, tolerance, false, parallel, nullptr);
+    }
+};
+
+DVec3 waveAt(double x, double y) {
+    DVec3 wave{0.3 * std::sin(x / 4), 0.2 * std::cos(y / 5 + x / 9), 1};
+    normalize(wave);
+    return wave;
+}
+
+TEST(TexelPlan, SmoothFieldsAreAskedAtTheRimAlone) {
+    const TexelPlan plan = Field(waveAt).plan(0.1F);
+    for (std::uint32_t y = 0; y < kSide; ++y) {
+        for (std::uint32_t x = 0; x < kSide; ++x) {
+            const bool is_inner = std::min(x, y) >= 5 && std::max(x, y) < kSide - 6;
+            if (!is_inner) continue;
+            EXPECT_EQ(plan.cells[y * kSide + x], TexelCell::smooth) << x << ' ' << y;
+            EXPECT_EQ(plan.roles[y * kSide + x], TexelRole::apart);
+        }
+    }
+    EXPECT_EQ(plan.cells[1 * kSide + 20], TexelCell::rough);
+    EXPECT_EQ(plan.cells[0 * kSide + 20], TexelCell::rough)
+        << "the cell at the edge shows half a texel of the triangle";
+}
+
+TEST(TexelPlan, CellsAtACreaseAreRough) {
+    const TexelPlan plan = Field([](double x, double) {
+                               DVec3 roof{x < 20.4 ? 0.3 : 0.3 - 0.02 * (x - 20.4), 0, 1};
+                               normalize(roof);
+                               return roof;
+                           }).plan();
+    EXPECT_EQ(plan.cells[15 * kSide + 20], TexelCell::rough) << "the crease lies in this cell";
+    EXPECT_EQ(plan.roles[15 * kSide + 20], TexelRole::unknown);
+    EXPECT_EQ(plan.roles[15 * kSide + 21], TexelRole::unknown);
+    EXPECT_EQ(plan.cells[15 * kSide + 10], TexelCell::smooth);
+    EXPECT_EQ(plan.cells[15 * kSide + 30], TexelCell::smooth);
+}
+
+TEST(TexelPlan, TexelsThatSeveralTrianglesShowAreAsked) {
+    Field field(waveAt);
+    field.triangles.overlaps[20 * kSide + 20] = true;
+    EXPECT_EQ(field.plan(0.1F).cells[20 * kSide + 20], TexelCell::rough);
+}
+
+/// The mean angle between the filtered texels and a field, away from the rim.
+double errorOf(std::span<const Vec3> texels) {
+    double sum = 0;
+    int count = 0;
+    for (std::uint32_t y = 6; y < kSide - 7; ++y) {
+        for (std::uint32_t x = 6; x < kSide - 7; ++x) {
+            for (int i = 0; i < 25; ++i) {
+                const float fx = static_cast<float>(i % 5) * 0.2F + 0.1F, fy = static_cast<float>(i / 5) * 0.2F + 0.1F;
+                const Vec3* at = texels.data() + y * kSide + x;
+                const Vec3 mixed = ((1 - fx) * (1 - fy)) * at[0] + (fx * (1 - fy)) * at[1] +
+                                   ((1 - fx) * fy) * at[kSide] + (fx * fy) * at[kSide + 1];
+                DVec3 unit = toDouble(mixed);
+                normalize(unit);
+                sum += length(cross(unit, waveAt(x + static_cast<double>(fx), y + static_cast<double>(fy))));
+                ++count;
+            }
+        }
+    }
+    return sum / count;
+}
+
+TEST(TexelPlan, SharpenedTexelsHalveTheErrorOfTheFilter) {
+    Field field(waveAt);
+    const TexelPlan plan = field.plan(0.1F);
+    std::vector<Vec3> texels(field.traced.wanted.begin(), field.traced.wanted.end());
+    const double exact = errorOf(texels);
+    Parallel parallel({.thread_count = 1});
+    sharpenTexels(plan, texels, parallel, nullptr);
+    EXPECT_LT(errorOf(texels), 0.5 * exact);
+}
+
+TEST(SolveTexels, RoundedTexelsCancelEachOthersErrors) {
+    const Field field([](double x, double y) { return waveAt(x / 20, y / 20); });
+    std::vector<Vec3> wanted(field.traced.wanted.begin(), field.traced.wanted.end()), plain = wanted, together = wanted;
+    const auto round = [](float value) { return std::floor((value + 1) * 2000 + 0.5F) / 2000 - 1; };
+    for (Vec3& texel : plain) texel = {round(texel.x), round(texel.y), round(texel.z)};
+    Parallel parallel({.thread_count = 1});
+    roundTexels(together, kSide, 4000, 2, parallel, nullptr);
+    double plain_sum = 0, together_sum = 0;
+    // What the filter shows between four texels.
+    for (std::size_t i = 0; i + kSide + 1 < wanted.size(); ++i) {
+        const auto mixed = [&](const std::vector<Vec3>& texels) {
+            return 0.25F * ((texels[i] + texels[i + 1]) + (texels[i + kSide] + texels[i + kSide + 1]));
+        };
+        plain_sum += static_cast<double>(length(mixed(plain) - mixed(wanted)));
+        together_sum += static_cast<double>(length(mixed(together) - mixed(wanted)));
+    }
+    EXPECT_LT(together_sum, 0.75 * plain_sum);
+    for (const Vec3& texel : together) {
+        for (const float value : {texel.x, texel.y, texel.z})
+            EXPECT_NEAR((value + 1) * 2000, std::round((value + 1) * 2000), 1e-2F);
+        EXPECT_LE(texel.z, 1.0001F);
+    }
+}
+
+}  // namespace
+}  // namespace tspace::test
