@@ -25,17 +25,36 @@ bool slopes(const std::uint8_t* texel, float& p, float& q) {
     return true;
 }
 
-/// dq/dx and dp/drow at a texel that is not on the border; false where a neighbour says nothing.
-bool derivatives(const RgbImage& image, const TexelMask& inside, std::uint32_t x, std::uint32_t y, float& a, float& b) {
-    if (!inside.has(x, y) || !inside.has(x - 1, y) || !inside.has(x + 1, y) || !inside.has(x, y - 1) ||
-        !inside.has(x, y + 1)) {
-        return false;
+/// The mean over a square of texels; false where one of them says nothing.
+bool slopesOfSquare(const RgbImage& image, const TexelMask& inside, std::uint32_t left, std::uint32_t top,
+                    std::uint32_t side, float& p, float& q) {
+    p = q = 0;
+    for (std::uint32_t y = top; y < top + side; ++y) {
+        for (std::uint32_t x = left; x < left + side; ++x) {
+            float own_p = 0, own_q = 0;
+            const std::size_t texel = std::size_t{y} * image.width + x;
+            if (!inside.has(x, y) || !slopes(image.rgb.data() + 3 * texel, own_p, own_q)) return false;
+            p += own_p;
+            q += own_q;
+        }
     }
-    const std::size_t row = std::size_t{3} * image.width;
-    const std::uint8_t* centre = image.rgb.data() + y * row + std::size_t{3} * x;
+    p /= static_cast<float>(side * side);
+    q /= static_cast<float>(side * side);
+    return true;
+}
+
+/// dq/dx and dp/drow between the squares around the one at (x, y), none of them beyond the border; false where one says
+/// nothing.
+bool derivatives(const RgbImage& image, const TexelMask& inside, std::uint32_t x, std::uint32_t y, std::uint32_t side,
+                 float& a, float& b) {
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+        if (!inside.has(x + i % side, y + i / side)) return false;
+    }
     float p_left, q_left, p_right, q_right, p_above, q_above, p_below, q_below;
-    if (!slopes(centre - 3, p_left, q_left) || !slopes(centre + 3, p_right, q_right) ||
-        !slopes(centre - row, p_above, q_above) || !slopes(centre + row, p_below, q_below)) {
+    if (!slopesOfSquare(image, inside, x - side, y, side, p_left, q_left) ||
+        !slopesOfSquare(image, inside, x + side, y, side, p_right, q_right) ||
+        !slopesOfSquare(image, inside, x, y - side, side, p_above, q_above) ||
+        !slopesOfSquare(image, inside, x, y + side, side, p_below, q_below)) {
         return false;
     }
     a = std::clamp(0.5f * (q_right - q_left), -kMostDerivative, kMostDerivative);
@@ -68,7 +87,8 @@ struct Votes {
 constexpr std::uint64_t kLeastBlocks = 16;
 /// Of a whole map, or of what one primitive shows.
 constexpr double kLeastCorrelation = 0.1, kLeastAgreement = 0.65;
-/// Of a part of a map that is to stand against another part: chance and odd relief must not make one.
+/// Of a part of a map that is to stand against another part, and of means where single texels do not say it: chance and
+/// odd relief must not make one.
 constexpr double kPartCorrelation = 0.3, kPartAgreement = 0.8;
 /// A part has this many blocks, and this share of all that vote.
 constexpr std::uint64_t kLeastPartBlocks = 16;
@@ -90,25 +110,32 @@ GreenBlocks::GreenBlocks(const RgbImage& image, const TexelMask& inside)
       height_(image.height),
       columns_((image.width + kBlock - 1) / kBlock),
       rows_((image.height + kBlock - 1) / kBlock),
-      blocks_(std::size_t{columns_} * rows_) {
-    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      blocks_(measured(image, inside, 1)) {
+    findParts();
+    if (all().verdict == GreenVerdict::unknown) means_ = measured(image, inside, 2);
+}
+
+std::vector<GreenBlocks::Block> GreenBlocks::measured(const RgbImage& image, const TexelMask& inside,
+                                                      std::uint32_t side) const {
+    std::vector<Block> blocks(std::size_t{columns_} * rows_);
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
         const TexelRect rect = rectOf(i);
-        Block& block = blocks_[i];
+        Block& block = blocks[i];
         std::uint32_t count = 0;
-        for (std::uint32_t y = std::max(rect.top, 1U); y < std::min(rect.bottom, height_ - 1); ++y) {
-            for (std::uint32_t x = std::max(rect.left, 1U); x < std::min(rect.right, width_ - 1); ++x) {
+        for (std::uint32_t y = std::max(rect.top, side); y < rect.bottom && y + 2 * side <= height_; y += side) {
+            for (std::uint32_t x = std::max(rect.left, side); x < rect.right && x + 2 * side <= width_; x += side) {
                 float a = 0, b = 0;
-                if (!derivatives(image, inside, x, y, a, b)) continue;
+                if (!derivatives(image, inside, x, y, side, a, b)) continue;
                 block.ab += a * b;
                 block.aa += a * a;
                 block.bb += b * b;
                 ++count;
             }
         }
-        block.votes =
-            count >= kBlock * kBlock / 4 && std::min(block.aa, block.bb) >= kLeastRelief * static_cast<float>(count);
+        block.votes = 4 * side * side * count >= kBlock * kBlock &&
+                      std::min(block.aa, block.bb) >= kLeastRelief * static_cast<float>(count);
     }
-    findParts();
+    return blocks;
 }
 
 TexelRect GreenBlocks::rectOf(std::size_t block) const {
@@ -202,11 +229,28 @@ GreenTest GreenBlocks::judge(const IsChosen& isChosen) const {
             if (blocks_[i].part == up_part) test.up_part.include(rectOf(i));
         }
     } else if (all.count >= kLeastBlocks) {
-        const int side = all.side(kLeastCorrelation, kLeastAgreement);
+        int side = all.side(kLeastCorrelation, kLeastAgreement);
+        if (side == 0) side = sideOfMeans(isChosen, test);
         if (side > 0 && up_part == 0) test.verdict = GreenVerdict::down;
         if (side < 0 && down_part == 0) test.verdict = GreenVerdict::up;
     }
     return test;
+}
+
+/// Compression and noise blur what single texels say more than what their means do. These decide where both lean to one
+/// side: +1 down, -1 up, 0: neither. The test then has their votes.
+template <class IsChosen>
+int GreenBlocks::sideOfMeans(const IsChosen& isChosen, GreenTest& test) const {
+    Votes votes;
+    for (std::size_t i = 0; i < means_.size(); ++i) {
+        if (means_[i].votes && isChosen(i)) votes.add(means_[i].ab, means_[i].aa, means_[i].bb);
+    }
+    const int side = votes.count < kLeastBlocks ? 0 : votes.side(kPartCorrelation, kPartAgreement);
+    if (side == 0 || (side > 0) != (test.correlation > 0)) return 0;
+    test.block_count = votes.count;
+    test.down_block_count = votes.down_count;
+    test.correlation = votes.correlation();
+    return side;
 }
 
 GreenTest GreenBlocks::all() const {

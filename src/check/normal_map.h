@@ -50,7 +50,7 @@ class GreenBlocks {
 
     /// What it takes of memory.
     static std::uint64_t bytesOf(std::uint64_t width, std::uint64_t height) {
-        return (width / kBlock + 1) * (height / kBlock + 1) * sizeof(Block);
+        return 2 * (width / kBlock + 1) * (height / kBlock + 1) * sizeof(Block);
     }
 
   private:
@@ -63,6 +63,10 @@ class GreenBlocks {
     /// isChosen(block): whether it counts.
     template <class IsChosen>
     [[nodiscard]] GreenTest judge(const IsChosen& isChosen) const;
+    template <class IsChosen>
+    int sideOfMeans(const IsChosen& isChosen, GreenTest& test) const;
+    /// Sums of all blocks, by squares of `side` texels a side.
+    [[nodiscard]] std::vector<Block> measured(const RgbImage& image, const TexelMask& inside, std::uint32_t side) const;
     [[nodiscard]] TexelRect rectOf(std::size_t block) const;
     [[nodiscard]] int leaningOf(std::size_t block) const;
     void findParts();
@@ -70,6 +74,7 @@ class GreenBlocks {
     std::uint32_t width_ = 0, height_ = 0;
     std::uint32_t columns_ = 0, rows_ = 0;
     std::vector<Block> blocks_ = {};
+    std::vector<Block> means_ = {};  ///< by squares of four texels, where single ones do not say it of the whole map
     std::uint32_t part_count_ = 0;
 };
 

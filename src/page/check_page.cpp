@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "asset/file_error.h"
+#include "asset/html_text.h"
 #include "page/finding_pictures.h"
 #include "page/page_parts.h"
 #include "report/counted.h"

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "asset/file_error.h"
+#include "asset/html_text.h"
 #include "page/diff_pictures.h"
 #include "page/page_parts.h"
 #include "report/diff_text.h"

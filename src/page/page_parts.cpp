@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "page/page_parts.h"
 
+#include "asset/html_text.h"
 #include "asset/uri.h"
 
 namespace tspace {
@@ -46,32 +47,6 @@ a{color:inherit}
 std::string pageHead(std::string_view title) { return kBeforeTitle + std::string(title) + kAfterTitle; }
 
 std::string pageEnd() { return "</main></body></html>\n"; }
-
-std::string htmlText(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            case '\'':
-                result += "&#39;";
-                break;
-            default:
-                result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-        }
-    }
-    return result;
-}
 
 std::string figureHtml(const std::vector<std::uint8_t>& png, std::uint32_t width, std::uint32_t height,
                        std::string_view caption) {

@@ -19,9 +19,6 @@ inline constexpr std::uint32_t kPlaceWidth = 320, kPlaceHeight = 240;
 std::string pageHead(std::string_view title);
 std::string pageEnd();
 
-/// Text from a file or of a user, fit to stand in HTML.
-std::string htmlText(std::string_view text);
-
 /// A picture with words below it, which are also for those who do not see it. `caption`: text. Nothing where `png` is empty.
 std::string figureHtml(const std::vector<std::uint8_t>& png, std::uint32_t width, std::uint32_t height,
                        std::string_view caption);

@@ -10,6 +10,7 @@
 #include "asset/atomic_output.h"
 #include "asset/file_error.h"
 #include "asset/file_io.h"
+#include "asset/html_text.h"
 #include "asset/uri.h"
 
 namespace tspace {
@@ -21,30 +22,6 @@ struct EmbeddedFile {
     std::string name;
     Bytes bytes;
 };
-
-/// Fit for an attribute in quotation marks. Bytes that are no UTF-8 are for the browser to replace.
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
-}
 
 /// The model, then each file that it names. A GLB made of it asks for all of them.
 std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options) {
@@ -86,7 +63,7 @@ Result<ViewReport> writeViewPage(const Path& input, const Path& output, const Pa
         ViewReport report;
         std::string made(text.substr(0, place));
         for (const EmbeddedFile& file : filesOf(input, options)) {
-            made += "<script type=\"application/octet-stream\" data-name=\"" + escaped(file.name) + "\">";
+            made += "<script type=\"application/octet-stream\" data-name=\"" + htmlText(file.name) + "\">";
             made += encodeBase64(file.bytes);
             made += "</script>\n";
             report.files.push_back(file.name);

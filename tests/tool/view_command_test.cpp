@@ -49,9 +49,9 @@ TEST(ViewCommand, PutsTheModelAndWhatItNamesIntoThePage) {
 
 TEST(ViewCommand, NamesAreNoMarkup) {
     const Installed installed(kPage);
-    ASSERT_EQ(installed.run("generate a.obj -o '\"><b&.glb'").exit_code, 0);
-    ASSERT_EQ(installed.run("view '\"><b&.glb' -o a.html").exit_code, 0);
-    EXPECT_NE(installed.folder().read("a.html").find("data-name=\"&quot;&gt;&lt;b&amp;.glb\""), std::string::npos);
+    ASSERT_EQ(installed.run("generate a.obj -o '\"><b\t&.glb'").exit_code, 0);
+    ASSERT_EQ(installed.run("view '\"><b\t&.glb' -o a.html").exit_code, 0);
+    EXPECT_NE(installed.folder().read("a.html").find("data-name=\"&quot;&gt;&lt;b&#9;&amp;.glb\""), std::string::npos);
 }
 
 TEST(ViewCommand, PrintsJson) {

@@ -41,7 +41,10 @@ const mend = new MendView(
   },
   ({ name, bytes, others }) => void app.open(async () => ({ name, bytes, others })),
 );
-const app: App = new App(work, { stage, findings, look, uvMap, place, progress, opened: showName, inspected: (report) => mend.setCompressed(report.primitives.some(({ compression }) => compression !== "none")) });
+const app: App = new App(work, {
+  stage, findings, look, uvMap, place, progress, opened: showName,
+  inspected: ({ primitives }) => mend.setCompressed(primitives.some(({ compression }) => compression !== "none")),
+});
 
 function showName(model: ModelFiles | null): void {
   mend.reset(model);

@@ -4,26 +4,27 @@ import { BufferAttribute, BufferGeometry } from "three";
 import type { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import type { Work } from "../worker/client.js";
 
-type DracoLoader = Parameters<GLTFLoader["setDRACOLoader"]>[0];
-
-function geometryOf({ indices, attributes }: Awaited<ReturnType<typeof decode>>): BufferGeometry {
+/** `ids` and `types` of attributes, by their names. */
+async function decodedDraco(work: Work, data: ArrayBuffer, ids: Record<string, number>, types: Record<string, string>): Promise<BufferGeometry> {
+  const wanted = Object.entries(ids).map(([name, id]) => ({ name, id, type: types[name] }));
+  const { indices, attributes } = await work.run("draco", { data, attributes: wanted });
   const geometry = new BufferGeometry().setIndex(new BufferAttribute(indices, 1));
   for (const { name, size, values } of attributes) geometry.setAttribute(name, new BufferAttribute(values, size));
   return geometry;
 }
 
-const decode = (work: Work, data: ArrayBuffer, ids: Record<string, number>, types: Record<string, string>) =>
-  work.run("draco", { data, attributes: Object.entries(ids).map(([name, id]) => ({ name, id, type: types[name] })) });
-
+/** The loader wants whole decoders, and calls these functions of them. */
 export function giveDecoders(loader: GLTFLoader, work: Work): void {
-  loader.setMeshoptDecoder({
+  const meshopt = {
     supported: true,
     ready: Promise.resolve(),
     decodeGltfBufferAsync: (count: number, size: number, source: Uint8Array<ArrayBuffer>, mode: string, filter?: string) => work.run("meshopt", { count, size, source, mode, filter }),
-  } as never);
-  loader.setDRACOLoader({
+  };
+  const draco = {
     preload() {},
     decodeDracoFile: (data: ArrayBuffer, done: (geometry: BufferGeometry) => void, ids: Record<string, number>, types: Record<string, string>, _space: string, failed: (error: unknown) => void) =>
-      decode(work, data, ids, types).then(geometryOf).then(done).catch(failed),
-  } as unknown as DracoLoader);
+      decodedDraco(work, data, ids, types).then(done).catch(failed),
+  };
+  loader.setMeshoptDecoder(meshopt as unknown as Parameters<GLTFLoader["setMeshoptDecoder"]>[0]);
+  loader.setDRACOLoader(draco as unknown as Parameters<GLTFLoader["setDRACOLoader"]>[0]);
 }

@@ -31,6 +31,7 @@ export class MendView {
   #turnsGreen = false;
   #isCompressed = false;
   #model: ModelFiles | null = null;
+  #unpacks = el("p", { class: "quiet" }, "It goes out unpacked, for this page has no encoders. The tool has.");
   #command = el("code", { class: "command" });
   #button = el("button", { type: "button", class: "main" }, "Mend");
   #result = el("div", { class: "result", "aria-live": "polite" });
@@ -47,7 +48,7 @@ export class MendView {
     const green = checkbox("Turn green of maps where it points down", false, changed((v: boolean) => (this.#turnsGreen = v)));
     this.#signs = signs.element;
     this.#button.addEventListener("click", () => void this.#mend());
-    this.element.append(el("div", { class: "rows" }, tangents.element, method.element, signs.element, green.element, this.#command, this.#button, this.#result));
+    this.element.append(el("div", { class: "rows" }, tangents.element, method.element, signs.element, green.element, this.#unpacks, this.#command, this.#button, this.#result));
     this.#refresh();
   }
 
@@ -79,6 +80,7 @@ export class MendView {
   #refresh(): void {
     // A repair would turn such signs back.
     this.#signs.disabled = this.#tangents !== "overwrite";
+    this.#unpacks.hidden = !this.#isCompressed;
     const words = Object.entries(this.#options()).map(([name, value]) => `--${name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)}${value === true ? "" : ` ${String(value)}`}`);
     const name = this.#model?.name ?? "model.glb";
     const parts = ["tspace generate", shellWord(name), whole("-o"), shellWord(mendedName(name)), ...words.map(whole)];
