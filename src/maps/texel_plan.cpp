@@ -8,7 +8,7 @@ namespace tspace {
 
 namespace {
 
-constexpr std::size_t kRowsOfTask = 16;
+constexpr std::size_t kRowsOfPlan = 16;
 
 class Planning {
   public:
@@ -71,7 +71,7 @@ class Planning {
 
     template <class Body>
     void forTexels(const Body& body) {
-        parallel_.forRanges(height_, kRowsOfTask, [&](std::size_t begin, std::size_t end) {
+        parallel_.forRanges(height_, kRowsOfPlan, [&](std::size_t begin, std::size_t end) {
             for (std::size_t y = begin; y < end; ++y) {
                 Around around;
                 for (std::size_t i = 0; i < 4; ++i) around.rows[i] = (y + height_ + i - 1) % height_ * width_;
@@ -137,7 +137,7 @@ void sharpenTexels(const TexelPlan& plan, std::span<Vec3> texels, Parallel& para
     const std::size_t width = plan.width, height = plan.height;
     Buffer<Vec3> wanted(allocator, texels.size());
     std::copy(texels.begin(), texels.end(), wanted.begin());
-    parallel.forRanges(height, kRowsOfTask, [&](std::size_t begin, std::size_t end) {
+    parallel.forRanges(height, kRowsOfPlan, [&](std::size_t begin, std::size_t end) {
         for (std::size_t y = begin; y < end; ++y) {
             const std::size_t here = y * width, above = (y + height - 1) % height * width,
                               below = (y + 1) % height * width;
