@@ -28,8 +28,12 @@ function packedWasm(): Plugin {
     name: "packed-wasm",
     enforce: "pre",
     load: (id) => (id.endsWith(".wasm?packed") ? `export default ${packed(id.replace("?packed", ""))}` : null),
-    transform: (code, id) =>
-      /\/tspace\/src\/\w+\.js$/.test(id) ? code.replace(/new URL\("(\.\/\w+\.wasm)",\s*import\.meta\.url\)/, (_, name: string) => `new URL(${packed(resolve(dirname(id), name))})`) : null,
+    transform(code, id) {
+      if (!/\/tspace\/src\/\w+\.js$/.test(id)) return null;
+      const made = code.replace(/new URL\("(\.\/\w+\.wasm)",\s*import\.meta\.url\)/, (_, name: string) => `new URL(${packed(resolve(dirname(id), name))})`);
+      if (made.includes("import.meta.url")) throw new Error(`${id} names its WebAssembly in a way that is not known here`);
+      return made;
+    },
   };
 }
 
