@@ -46,23 +46,26 @@ test("green that points down is found, shown and mended", { skip: missing }, asy
   });
 });
 
-/** The ring's map as other files hold it, of 8 and 16 bits, with heights in alpha, and lossy. */
+/** The ring's map as other files hold it, of 8 and 16 bits, with heights in alpha, and as JPEG and WebP. */
 const kinds = {
   "8 bits": ({ image }) => encode(image),
   "8 bits and alpha": ({ image }) => encode({ ...image, channels: 4, data: withAlpha(image, Uint8Array, (i) => i % 256) }),
   "16 bits": ({ image }) => encode({ ...image, depth: 16, data: Uint16Array.from(image.data, (value, i) => 257 * value ^ i % 4) }),
   "16 bits and alpha": ({ image }) => encode({ ...image, channels: 4, depth: 16, data: withAlpha(image, Uint16Array, (i) => 99 * (i % 600), 257) }),
-  "JPEG": ({ image, tab }) => lossy(tab, image, "image/jpeg"),
+  "JPEG": ({ image, tab }) => byCanvas(tab, image, "image/jpeg", 0.9),
+  "WebP": ({ image, tab }) => byCanvas(tab, image, "image/webp", 1),
 };
+/** How far pixels may be from the tool's on average, of 255. */
+const kMostDifference = { "JPEG": 1.5, "WebP": 0 };
 
 const withAlpha = ({ width, height, data }, Type, alpha, scale = 1) => Type.from({ length: 4 * width * height }, (_, i) => (i % 4 === 3 ? alpha(i >> 2) : scale * data[3 * (i >> 2) + (i % 4)]));
 
-const lossy = async (tab, { width, height, data }, type) => Buffer.from(await tab.evaluate(async ([width, height, data, type]) => {
+const byCanvas = async (tab, { width, height, data }, type, quality) => Buffer.from(await tab.evaluate(async ([width, height, data, type, quality]) => {
   const canvas = new OffscreenCanvas(width, height), image = new ImageData(width, height);
   for (let i = 0; i < image.data.length; ++i) image.data[i] = i % 4 === 3 ? 255 : data[3 * (i >> 2) + (i % 4)];
   canvas.getContext("2d").putImageData(image, 0, 0);
-  return [...new Uint8Array(await (await canvas.convertToBlob({ type, quality: 0.9 })).arrayBuffer())];
-}, [width, height, [...data], type]));
+  return [...new Uint8Array(await (await canvas.convertToBlob({ type, quality })).arrayBuffer())];
+}, [width, height, [...data], type, quality]));
 
 const decodedByTab = (tab, file) => tab.evaluate(async (bytes) => {
   const bitmap = await createImageBitmap(new Blob([Uint8Array.from(bytes)]));
@@ -85,7 +88,7 @@ test("turned maps have the pixels that the tool gives them, and all else its byt
       const sample = await ring(tab), image = decode(sample.bytesOfImage(0));
       for (const [kind, fileOf] of Object.entries(kinds)) {
         const file = await fileOf({ image, tab }), glb = new Glb(sample.finish()), path = join(folder, "ring.glb"), wantedPath = join(folder, "wanted.glb");
-        glb.json.images[0] = { ...glb.json.images[0], bufferView: glb.addView(file), mimeType: kind === "JPEG" ? "image/jpeg" : "image/png" };
+        glb.json.images[0] = { ...glb.json.images[0], bufferView: glb.addView(file), mimeType: `image/${kind in kMostDifference ? kind.toLowerCase() : "png"}` };
         writeFileSync(path, glb.finish());
         await openFile(tab, path);
         assert.ok((await codes(tab)).includes("greenFlipped"), kind);
@@ -94,10 +97,10 @@ test("turned maps have the pixels that the tool gives them, and all else its byt
         const wanted = new Glb(readFileSync(wantedPath));
         assert.deepEqual(withoutImage(made), withoutImage(wanted), kind);
         assert.equal(made.bytesOfImage(0).equals(wanted.bytesOfImage(0)), false, `${kind}: had they the same bytes, the page need not say that they differ`);
-        if (kind === "JPEG") {
+        if (kind in kMostDifference) {
           const [a, b] = [await decodedByTab(tab, made.bytesOfImage(0)), await decodedByTab(tab, wanted.bytesOfImage(0))];
           const far = a.reduce((sum, x, i) => sum + Math.abs(x - b[i]), 0) / a.length;
-          assert.ok(far < 1.5, `${far} of 255 on average`);
+          assert.ok(far <= kMostDifference[kind], `${kind}: ${far} of 255 on average`);
         } else {
           const [a, b] = [made, wanted].map((one) => decode(one.bytesOfImage(0), { checkCrc: true }));
           assert.deepEqual([a.depth, a.channels, a.data], [b.depth, b.channels, b.data], kind);
