@@ -17,7 +17,7 @@ const project = ([x, y, z]: Vec3): Vec2 => [0.86 * x - 0.5 * y, 0.28 * x + 0.42 
 
 const flatten = (values: readonly (readonly number[])[]) => new Float32Array(values.flat());
 
-export function tangentsOf(surface: Surface, method: (typeof kMethods)[number]): Vec3[] {
+function tangentsOf(surface: Surface, method: (typeof kMethods)[number]): Vec3[] {
   const made = generateTangents(
     { positions: flatten(surface.positions), normals: flatten(surface.normals), uvs: flatten(surface.uvs), indices: new Uint32Array(surface.indices) },
     { method, convention: "opengl" });

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The parts of tspace's reports on a file that the page reads. docs/json.md describes them whole (`files[]`).
 
-export interface ReportError {
-  code: string;
-  message: string;
-  place: string;
-}
-
 export type Severity = "error" | "warning" | "note";
 
 export interface Finding {

@@ -20,9 +20,9 @@ const named = (geometry: BufferGeometry, name: string, size: number): Float32Arr
   return attribute && attribute.itemSize >= size ? floats(attribute, size) : null;
 };
 
-export const uvName = (channel: number): string => (channel === 0 ? "uv" : `uv${channel}`);
+const uvName = (channel: number): string => (channel === 0 ? "uv" : `uv${channel}`);
 
-export function transformed(uvs: Float32Array<ArrayBuffer>, matrix: Matrix3 | null): Float32Array<ArrayBuffer> {
+function transformed(uvs: Float32Array<ArrayBuffer>, matrix: Matrix3 | null): Float32Array<ArrayBuffer> {
   if (!matrix) return uvs;
   const m = matrix.elements, out = new Float32Array(uvs.length);
   for (let i = 0; i < uvs.length; i += 2) {

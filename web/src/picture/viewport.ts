@@ -15,12 +15,6 @@ export interface Settings {
   errorEnd: number;
 }
 
-export interface Hit {
-  drawnTriangle: number;
-  x: number;
-  y: number;
-}
-
 const kStep = Math.PI / 24;
 
 export class Viewport {

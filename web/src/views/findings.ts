@@ -90,7 +90,7 @@ export class FindingsView {
 }
 
 /** Where, in words: the names that a person gave, and the place in the file. */
-export function placeOf({ mesh, primitive, meshName, materialName, place }: Finding): string {
+function placeOf({ mesh, primitive, meshName, materialName, place }: Finding): string {
   if (place === "") return "";
   const parts = [mesh >= 0 && `mesh ${mesh}${meshName ? ` “${meshName}”` : ""}, primitive ${primitive}`, materialName && `material “${materialName}”`];
   return [...parts.filter(Boolean), `at ${place}`].join(", ");

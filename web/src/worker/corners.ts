@@ -111,7 +111,7 @@ export async function cornersOf(arrays: Arrays): Promise<Corners> {
 }
 
 /** Degrees between two directions, or -1 where one of them is none. */
-export function degreesBetween(a: ArrayLike<number>, i: number, b: ArrayLike<number>, j: number): number {
+function degreesBetween(a: ArrayLike<number>, i: number, b: ArrayLike<number>, j: number): number {
   const cross = Math.hypot(a[i + 1] * b[j + 2] - a[i + 2] * b[j + 1], a[i + 2] * b[j] - a[i] * b[j + 2], a[i] * b[j + 1] - a[i + 1] * b[j]);
   const dot = a[i] * b[j] + a[i + 1] * b[j + 1] + a[i + 2] * b[j + 2];
   if (!(Number.isFinite(cross + dot) && (cross !== 0 || dot !== 0))) return -1;
