@@ -19,13 +19,12 @@ namespace {
 /// Above this many corners ears are not tested for emptiness, which would take quadratic time.
 constexpr std::uint32_t kMaxTestedCorners = 1024;
 
+constexpr std::uint64_t kTaken = ~std::uint64_t{0};  // above the order of any vertex that is left
+
 /// Points closer to a line than this part of the polygon's extent count as on it. Coordinates in the plane
 /// carry rounding of about 1e-15 of the extent; floats, from which they come, are a million times coarser
 /// than this.
 constexpr double kOnLine = 1e-12;
-
-/// Of more corners the next ear is never searched among all: they are bits of a word.
-constexpr std::uint32_t kMostSearched = 64;
 
 /// Numbers that sort as the floats do: -0 with +0, every NaN last.
 std::uint32_t sortable(float value) {
@@ -92,17 +91,38 @@ class Cutter {
         next_ = scratch.next.data();
         reflex_ = scratch.reflex.data();
         is_reflex_ = scratch.is_reflex.data();
+        order_ = scratch.order.data();
+        tree_ = scratch.tree.data();
     }
 
-    void cut(bool few, std::uint32_t* triangles) {
+    void cut(std::uint32_t* triangles) {
         for (std::uint32_t v = 0; v < count_; ++v) positions_[v] = toDouble(corner_positions_[original(v)]);
         projectToPlane();
         link();
         findReflex();
-        if (few)
-            cutBy<SearchAll>(triangles);
-        else
-            cutBy<Heap>(triangles);
+        startTournament();
+        std::uint32_t any_left = 0;
+        for (std::uint32_t left = count_; left > 3; --left) {
+            const std::uint32_t ear = tree_[1], before = previous_[ear], after = next_[ear];
+            *triangles++ = original(before);
+            *triangles++ = original(ear);
+            *triangles++ = original(after);
+            if (is_reflex_[ear] != 0) dropReflex(ear);
+            next_[before] = after;
+            previous_[after] = before;
+            any_left = std::min(before, after);
+            if (left == 4) break;
+            noteReflex(before);
+            noteReflex(after);
+            renew(ear, kTaken);
+            renew(before, orderOf(before));
+            renew(after, orderOf(after));
+        }
+        // Of the three vertices left, the first in canonical order.
+        const std::uint32_t last = std::min({any_left, previous_[any_left], next_[any_left]});
+        *triangles++ = original(previous_[last]);
+        *triangles++ = original(last);
+        *triangles++ = original(next_[last]);
     }
 
   private:
@@ -113,6 +133,8 @@ class Cutter {
         scratch_.next.resize(count);
         scratch_.reflex.resize(count);
         scratch_.is_reflex.resize(count);
+        scratch_.order.resize(count);
+        scratch_.tree.resize(std::size_t{2} * count);
     }
 
     [[nodiscard]] std::uint32_t original(std::uint32_t v) const {
@@ -136,18 +158,7 @@ class Cutter {
         std::uint32_t least = 0, same = 0;
         for (std::uint32_t c = 1; c < count_; ++c) least = x(c) < x(least) ? c : least;
         for (std::uint32_t c = 0; c < count_; ++c) same += x(c) == x(least) ? 1 : 0;
-        return same == 1 ? least : canonicalStartOfTies();
-    }
-
-    [[nodiscard]] std::uint32_t canonicalStartOfTies() const {
-        std::uint32_t least = 0;
-        bool is_alone = true;
-        for (std::uint32_t corner = 1; corner < count_; ++corner) {
-            const int c = compareCorners(corner, least);
-            if (c < 0) least = corner;
-            if (c <= 0) is_alone = c < 0;
-        }
-        return is_alone ? least : startOfLeastRotation();
+        return same == 1 ? least : startOfLeastRotation();
     }
 
     /// Two candidates that leap over each other, O(n).
@@ -249,166 +260,63 @@ class Cutter {
         });
     }
 
-    /// See PolygonEar. `is_blocked`: v is no ear.
-    [[nodiscard]] std::uint64_t orderOf(std::uint32_t v, bool is_blocked) const {
-        const DVec3 diagonal = positions_[next_[v]] - positions_[previous_[v]];
-        return std::bit_cast<std::uint64_t>(orderedLength(dot(diagonal, diagonal))) | std::uint64_t{is_blocked} << 63;
+    /// Of the diagonal that cuts a vertex off, squared.
+    [[nodiscard]] double lengthInUv(std::uint32_t v) const {
+        if (corner_uvs_ == nullptr) return 0;
+        const Vec2 from = corner_uvs_[original(previous_[v])], to = corner_uvs_[original(next_[v])];
+        const double du = double{to.x} - double{from.x}, dv = double{to.y} - double{from.y};
+        return orderedLength(du * du + dv * dv);
     }
 
-    /// `is_reflex_` must be there for v.
-    [[nodiscard]] bool isBlocked(std::uint32_t v) const { return is_reflex_[v] != 0 || isOccupied(v); }
-
-    /// Sets all but order and version.
-    void setEar(PolygonEar& ear, std::uint32_t v) const {
-        const std::uint32_t a = previous_[v], b = next_[v];
-        double length2_uv = 0;
-        if (corner_uvs_ != nullptr) {
-            const Vec2 from = corner_uvs_[original(a)], to = corner_uvs_[original(b)];
-            const double du = double{to.x} - double{from.x}, dv = double{to.y} - double{from.y};
-            length2_uv = du * du + dv * dv;
-        }
-        ear.length2_uv = orderedLength(length2_uv);
-        ear.ends[0] = a;
-        ear.ends[1] = b;
-        ear.vertex = v;
+    [[nodiscard]] bool isBefore(std::uint32_t v, std::uint32_t w) const {
+        if (order_[v] != order_[w]) return order_[v] < order_[w];
+        return order_[v] == kTaken ? v < w : isBeforeOfSameOrder(v, w);
     }
 
-    [[nodiscard]] bool haveOneDiagonal(std::uint32_t v, std::uint32_t w) const {
-        return previous_[v] == next_[w] && next_[v] == previous_[w];
-    }
-
-    /// Whether a is cut off before b.
-    [[nodiscard]] bool isBefore(const PolygonEar& a, const PolygonEar& b) const {
-        return a.order != b.order ? a.order < b.order : isBeforeOfSameOrder(a, b);
-    }
-
-    [[nodiscard, gnu::noinline]] bool isBeforeOfSameOrder(const PolygonEar& a, const PolygonEar& b) const {
-        if (a.length2_uv != b.length2_uv) return a.length2_uv < b.length2_uv;
+    [[nodiscard, gnu::noinline]] bool isBeforeOfSameOrder(std::uint32_t v, std::uint32_t w) const {
+        const double uv_v = lengthInUv(v), uv_w = lengthInUv(w);
+        if (uv_v != uv_w) return uv_v < uv_w;
         struct Ends {
             std::uint32_t lesser, greater;
         };
-        const auto compareAt = [&](std::uint32_t v, std::uint32_t w) {
-            return compareCorners(original(v), original(w));
+        const auto compareAt = [&](std::uint32_t a, std::uint32_t b) {
+            return compareCorners(original(a), original(b));
         };
-        const auto endsOf = [&](const PolygonEar& ear) {
-            const auto [v, w] = ear.ends;
-            return compareAt(v, w) <= 0 ? Ends{v, w} : Ends{w, v};
+        const auto endsOf = [&](std::uint32_t ear) {
+            const std::uint32_t a = previous_[ear], b = next_[ear];
+            return compareAt(a, b) <= 0 ? Ends{a, b} : Ends{b, a};
         };
-        const Ends of_a = endsOf(a), of_b = endsOf(b);
-        if (int c = compareAt(of_a.lesser, of_b.lesser); c != 0) return c < 0;
-        if (int c = compareAt(of_a.greater, of_b.greater); c != 0) return c < 0;
-        return a.vertex < b.vertex;
+        const Ends of_v = endsOf(v), of_w = endsOf(w);
+        if (int c = compareAt(of_v.lesser, of_w.lesser); c != 0) return c < 0;
+        if (int c = compareAt(of_v.greater, of_w.greater); c != 0) return c < 0;
+        return v < w;
     }
 
-    /// The vertices that are left, by the order of their ears.
-    class SearchAll {
-      public:
-        explicit SearchAll(Cutter& cutter) : cutter_(cutter) {
-            for (std::uint32_t v = 0; v < cutter.count_; ++v) renew(v);
-        }
-        void renew(std::uint32_t v) { order_[v] = cutter_.orderOf(v, cutter_.isBlocked(v)); }
+    // A tournament: leaf count_ + v is vertex v, the node above two vertices is the one of them that is cut off before the
+    // other, node 1 the first of all.
 
-        std::uint32_t takeBest() {
-            const std::uint32_t count = cutter_.count_;
-            std::uint64_t least = kTaken, same = 0;
-            for (std::uint32_t v = 0; v < count; ++v) least = std::min(least, order_[v]);
-            for (std::uint32_t v = 0; v < count; ++v) same |= std::uint64_t{order_[v] == least} << v;
-            const std::uint32_t best = (same & (same - 1)) == 0 ? lowestBit(same) : firstOf(same);
-            order_[best] = kTaken;
-            return best;
-        }
+    /// When a vertex is cut off: by the squared length of the diagonal in space, as the bits of a double, which sort as
+    /// lengths do. The highest bit: no ear, cut only when no ear is left.
+    [[nodiscard]] std::uint64_t orderOf(std::uint32_t v) const {
+        const DVec3 diagonal = positions_[next_[v]] - positions_[previous_[v]];
+        const bool is_blocked = is_reflex_[v] != 0 || isOccupied(v);
+        return std::bit_cast<std::uint64_t>(orderedLength(dot(diagonal, diagonal))) | std::uint64_t{is_blocked} << 63;
+    }
 
-      private:
-        static constexpr std::uint64_t kTaken = ~std::uint64_t{0};  // above all ears
-
-        static std::uint32_t lowestBit(std::uint64_t bits) {
-            return static_cast<std::uint32_t>(std::countr_zero(bits));
+    void startTournament() {
+        for (std::uint32_t v = 0; v < count_; ++v) {
+            order_[v] = orderOf(v);
+            tree_[count_ + v] = v;
         }
-
-        /// Of ears of the same order.
-        [[nodiscard]] std::uint32_t firstOf(std::uint64_t vertices) const {
-            const std::uint32_t first = lowestBit(vertices);
-            vertices &= vertices - 1;
-            // Of the two ears of one diagonal the first: so it is whenever four vertices are left.
-            if ((vertices & (vertices - 1)) == 0 && cutter_.haveOneDiagonal(first, lowestBit(vertices))) return first;
-            PolygonEar best, ear;
-            cutter_.setEar(best, first);
-            for (; vertices != 0; vertices &= vertices - 1) {
-                cutter_.setEar(ear, lowestBit(vertices));
-                if (cutter_.isBeforeOfSameOrder(ear, best)) best = ear;
-            }
-            return best.vertex;
-        }
-
-        Cutter& cutter_;
-        std::uint64_t order_[kMostSearched];  // one per vertex
-    };
-
-    /// The same in O(log n), for any number.
-    class Heap {
-        [[nodiscard]] auto laterThan() const {
-            return [this](const PolygonEar& a, const PolygonEar& b) { return cutter_.isBefore(b, a); };
-        }
-
-      public:
-        explicit Heap(Cutter& cutter)
-            : cutter_(cutter), heap_(cutter.scratch_.ears), version_(cutter.scratch_.version) {
-            version_.assign(cutter.count_, 0);
-            heap_.assign(cutter.count_, {});
-            for (std::uint32_t v = 0; v < cutter.count_; ++v) set(heap_[v], v);
-            std::make_heap(heap_.begin(), heap_.end(), laterThan());
-        }
-        void renew(std::uint32_t v) {
-            heap_.emplace_back().version = ++version_[v];
-            set(heap_.back(), v);
-            std::push_heap(heap_.begin(), heap_.end(), laterThan());
-        }
-        std::uint32_t takeBest() {
-            for (;;) {
-                std::pop_heap(heap_.begin(), heap_.end(), laterThan());
-                const PolygonEar best = heap_.back();
-                heap_.pop_back();
-                if (best.version != version_[best.vertex]) continue;
-                ++version_[best.vertex];
-                return best.vertex;
-            }
-        }
-
-      private:
-        void set(PolygonEar& ear, std::uint32_t v) const {
-            ear.order = cutter_.orderOf(v, cutter_.isBlocked(v));
-            cutter_.setEar(ear, v);
-        }
-
-        Cutter& cutter_;
-        std::vector<PolygonEar>& heap_;
-        std::vector<std::uint32_t>& version_;
-    };
-
-    template <class Ears>
-    void cutBy(std::uint32_t* triangles) {
-        Ears ears(*this);
-        std::uint32_t any_left = 0;
-        for (std::uint32_t left = count_; left > 3; --left) {
-            const std::uint32_t ear = ears.takeBest(), before = previous_[ear], after = next_[ear];
-            *triangles++ = original(before);
-            *triangles++ = original(ear);
-            *triangles++ = original(after);
-            if (is_reflex_[ear] != 0) dropReflex(ear);
-            next_[before] = after;
-            previous_[after] = before;
-            any_left = std::min(before, after);
-            if (left == 4) break;
-            noteReflex(before);
-            noteReflex(after);
-            ears.renew(before);
-            ears.renew(after);
-        }
-        // Of the three vertices left, the first in canonical order.
-        const std::uint32_t last = std::min({any_left, previous_[any_left], next_[any_left]});
-        *triangles++ = original(previous_[last]);
-        *triangles++ = original(last);
-        *triangles++ = original(next_[last]);
+        for (std::uint32_t node = count_ - 1; node > 0; --node) play(node);
+    }
+    void play(std::uint32_t node) {
+        const std::uint32_t v = tree_[2 * node], w = tree_[2 * node + 1];
+        tree_[node] = isBefore(v, w) ? v : w;
+    }
+    void renew(std::uint32_t v, std::uint64_t order) {
+        order_[v] = order;
+        for (std::uint32_t node = (count_ + v) / 2; node > 0; node /= 2) play(node);
     }
 
     const Vec3* corner_positions_;  // in the caller's order, and so
@@ -422,14 +330,15 @@ class Cutter {
     // The lists of scratch_.
     DVec3* positions_;
     PlanePoint* points_;
-    std::uint32_t *previous_, *next_, *reflex_;
+    std::uint32_t *previous_, *next_, *reflex_, *tree_;
+    std::uint64_t* order_;
     std::uint8_t* is_reflex_;
 };
 
 }  // namespace
 
 void cutPolygon(const Vec3* positions, const Vec2* uvs, std::uint32_t count, std::uint32_t* triangles,
-                PolygonScratch& scratch, std::uint32_t few) {
+                PolygonScratch& scratch) {
     if (count < 3) return;
     if (count == 3) {
         for (std::uint32_t k = 0; k < 3; ++k) triangles[k] = k;
@@ -441,7 +350,7 @@ void cutPolygon(const Vec3* positions, const Vec2* uvs, std::uint32_t count, std
         std::copy_n(quadCutsAlong13(positions, uvs) ? kAlong13 : kAlong02, 6, triangles);
         return;
     }
-    Cutter(positions, uvs, count, scratch).cut(count <= std::min(few, kMostSearched), triangles);
+    Cutter(positions, uvs, count, scratch).cut(triangles);
 }
 
 void FaceCutter::cut(std::size_t first, std::uint32_t size, std::uint32_t* corners) {

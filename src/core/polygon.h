@@ -33,38 +33,23 @@ struct PlanePoint {
     double x, y;
 };
 
-/// A vertex that could be cut off, in the order in which vertices are.
-struct PolygonEar {
-    /// Squared length in space of the diagonal that cuts the vertex off, as the bits of a double: these sort
-    /// as the lengths do. The highest bit: not an ear, cut only when no ear is left.
-    std::uint64_t order = 0;
-    double length2_uv = 0;
-    std::uint32_t ends[2] = {};  ///< of the diagonal
-    std::uint32_t vertex = 0;
-    std::uint32_t version = 0;  ///< stale when it is not the vertex's newest
-};
-
 /// Memory that cutPolygon reuses from call to call: lists that only grow. Vertices in it are numbered in
 /// canonical order: from a start that geometry alone decides.
 struct PolygonScratch {
     std::vector<DVec3> positions;
     std::vector<PlanePoint> points;
     std::vector<std::uint32_t> previous, next;
-    std::vector<std::uint32_t> version;
     std::vector<std::uint32_t> reflex;  ///< vertices that may lie in an ear: those that are not convex
     std::vector<std::uint8_t> is_reflex;
-    std::vector<PolygonEar> ears;  ///< a heap
+    std::vector<std::uint64_t> order;  ///< in which vertices are cut off
+    std::vector<std::uint32_t> tree;   ///< a tournament of them
 };
-
-/// Of so many corners the next ear is searched among all, of more it is the top of a heap. Above 64 it
-/// is a heap in any case.
-inline constexpr std::uint32_t kFewPolygonCorners = 48;
 
 /// Cuts a polygon of `count` >= 3 vertices into count - 2 triangles: writes 3 * (count - 2) local vertex
 /// numbers, winding kept. `uvs` may be null. Quads by quadCutsAlong13: 0-2 gives (0,1,2),(0,2,3); 1-3 gives
-/// (0,1,3),(1,2,3). The triangles do not depend on `few`, which only tests give.
+/// (0,1,3),(1,2,3).
 void cutPolygon(const Vec3* positions, const Vec2* uvs, std::uint32_t count, std::uint32_t* triangles,
-                PolygonScratch& scratch, std::uint32_t few = kFewPolygonCorners);
+                PolygonScratch& scratch);
 
 /// Cuts the faces of a mesh, one after the other, with the same memory.
 class FaceCutter {
