@@ -15,12 +15,12 @@
 #include "core/border.h"
 #include "core/face_walk.h"
 #include "core/float4.h"
-#include "core/hash.h"
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "core/sum_ranges.h"
 #include "core/typed_indices.h"
 #include "core/vec_math.h"
+#include "core/weld.h"
 #include "frames/one_list.h"
 
 namespace tspace {
@@ -38,9 +38,10 @@ constexpr double kOrthogonalTolerance = 5e-7;
 /// Triangles that the scan looks at together. More would draw more sound faces into the slow work.
 constexpr std::size_t kFacesPerBlock = 4;
 constexpr std::size_t kScanGrain = 1024;
-constexpr std::uint32_t kEmptySlot = 0xffffffffu;
+constexpr std::uint32_t kNotAsked = 0xffffffffu;
 
-enum class Cause : std::uint8_t {
+/// What is counted: what is wrong with tangents, what they are mended with, and more.
+enum class Counted : std::uint8_t {
     sound,
     notFinite,
     zero,
@@ -49,59 +50,20 @@ enum class Cause : std::uint8_t {
     placeholder,
     badSign,
     mixedSign,
-    notOrthogonal
+    notOrthogonal,
+    fromOwn,
+    fromNeighbor,
+    fromBasis,
+    badNormal,
+    seeker
 };
-constexpr std::size_t kCauseCount = 9;
-enum class Cure : std::uint8_t { own, neighbor, basis };
+using Cause = Counted;
+using Cure = Counted;
+constexpr std::size_t kCountedCount = 14;
 
-/// What is counted. Added up from all tasks; sums of integers do not depend on their order.
 struct Counts {
-    std::array<std::uint64_t, kCauseCount> by_cause{};
-    std::array<std::uint64_t, 3> by_cure{};
-    std::uint64_t bad_normals = 0;
-    std::uint64_t seekers = 0;
-
-    void count(Cause cause, Cure cure) {
-        ++by_cause[static_cast<std::size_t>(cause)];
-        ++by_cure[static_cast<std::size_t>(cure)];
-    }
-};
-
-class SharedCounts {
-  public:
-    void add(const Counts& counts) {
-        for (std::size_t i = 0; i < kCauseCount; ++i) by_cause_[i] += counts.by_cause[i];
-        for (std::size_t i = 0; i < 3; ++i) by_cure_[i] += counts.by_cure[i];
-        bad_normals_ += counts.bad_normals;
-        seekers_ += counts.seekers;
-    }
-
-    [[nodiscard]] std::uint64_t seekers() const { return seekers_; }
-
-    [[nodiscard]] SanitizeReport report() const {
-        const auto of = [&](Cause cause) { return by_cause_[static_cast<std::size_t>(cause)].load(); };
-        const auto by = [&](Cure cure) { return by_cure_[static_cast<std::size_t>(cure)].load(); };
-        SanitizeReport report;
-        report.not_finite_count = of(Cause::notFinite);
-        report.zero_count = of(Cause::zero);
-        report.not_unit_count = of(Cause::notUnit);
-        report.parallel_count = of(Cause::parallel);
-        report.placeholder_count = of(Cause::placeholder);
-        report.bad_sign_count = of(Cause::badSign);
-        report.mixed_sign_count = of(Cause::mixedSign);
-        report.orthogonalized_count = of(Cause::notOrthogonal);
-        report.normalized_count = by(Cure::own);
-        report.from_neighbor_count = by(Cure::neighbor);
-        report.from_basis_count = by(Cure::basis);
-        report.bad_normal_count = bad_normals_;
-        return report;
-    }
-
-  private:
-    std::array<std::atomic<std::uint64_t>, kCauseCount> by_cause_{};
-    std::array<std::atomic<std::uint64_t>, 3> by_cure_{};
-    std::atomic<std::uint64_t> bad_normals_ = 0;
-    std::atomic<std::uint64_t> seekers_ = 0;
+    std::array<std::uint64_t, kCountedCount> of{};
+    void count(Counted what) { ++of[static_cast<std::size_t>(what)]; }
 };
 
 bool isSign(float w) { return w == 1.0f || w == -1.0f; }
@@ -187,62 +149,6 @@ struct SurelySound {
     }
 };
 
-/// The first sound tangent at each of the positions that were asked for.
-class SoundPositions {
-  public:
-    SoundPositions(const Allocator* allocator, std::size_t most_positions)
-        : slots_(allocator, slotCount(most_positions), Slot{}) {}
-
-    void ask(const Vec3& position, std::uint32_t corner) {
-        Slot& slot = slots_[slotOf(position)];
-        if (slot.corner != kEmptySlot) return;
-        slot.position = position;
-        slot.corner = corner;
-    }
-
-    void offer(const Vec3& position, const Vec4& tangent) {
-        Slot& slot = slots_[slotOf(position)];
-        if (slot.corner == kEmptySlot || slot.is_filled) return;
-        slot.tangent = tangent;
-        slot.is_filled = true;
-    }
-
-    [[nodiscard]] bool isAsked(const Vec3& position) const {
-        return position == position && slots_[slotOf(position)].corner != kEmptySlot;
-    }
-
-    /// Null when there is none.
-    [[nodiscard]] const Vec4* find(const Vec3& position) const {
-        if (slots_.empty()) return nullptr;
-        const Slot& slot = slots_[slotOf(position)];
-        return slot.is_filled ? &slot.tangent : nullptr;
-    }
-
-  private:
-    struct Slot {
-        Vec3 position;
-        std::uint32_t corner = kEmptySlot;
-        Vec4 tangent;
-        bool is_filled = false;
-    };
-
-    static std::size_t slotCount(std::size_t most_positions) {
-        std::size_t count = most_positions == 0 ? 0 : 16;
-        while (count < 2 * most_positions) count *= 2;
-        return count;
-    }
-
-    /// Where the position is, or would be. A NaN equals nothing and so is never asked for.
-    [[nodiscard]] std::size_t slotOf(const Vec3& position) const {
-        const std::size_t mask = slots_.size() - 1;
-        std::size_t slot = hashPosition(position) & mask;
-        while (slots_[slot].corner != kEmptySlot && !(slots_[slot].position == position)) slot = (slot + 1) & mask;
-        return slot;
-    }
-
-    Buffer<Slot> slots_;
-};
-
 bool equalsItself(const Vec3& v) { return v == v; }
 
 class Sanitizer {
@@ -258,14 +164,29 @@ class Sanitizer {
         causes_ = Buffer<Cause>(allocator, mesh_.cornerCount(), Cause::sound);
         seeks_ = Buffer<std::uint8_t>(allocator, mesh_.cornerCount(), std::uint8_t{0});
         forEachSuspect([this](std::size_t first, std::uint32_t size, Counts& counts) { detect(first, size, counts); });
-        SoundPositions positions(allocator, counts_.seekers());
-        if (counts_.seekers() != 0) lookAtPositions(positions);
-        forEachSuspect(
-            [&](std::size_t first, std::uint32_t size, Counts& counts) { mend(first, size, positions, counts); });
-        return counts_.report();
+        if (countOf(Counted::seeker) != 0) lookAtPositions();
+        forEachSuspect([this](std::size_t first, std::uint32_t size, Counts& counts) { mend(first, size, counts); });
+        return report();
     }
 
   private:
+    [[nodiscard]] std::uint64_t countOf(Counted what) const { return counts_[static_cast<std::size_t>(what)]; }
+
+    [[nodiscard]] SanitizeReport report() const {
+        return {.not_finite_count = countOf(Cause::notFinite),
+                .zero_count = countOf(Cause::zero),
+                .not_unit_count = countOf(Cause::notUnit),
+                .parallel_count = countOf(Cause::parallel),
+                .placeholder_count = countOf(Cause::placeholder),
+                .bad_sign_count = countOf(Cause::badSign),
+                .mixed_sign_count = countOf(Cause::mixedSign),
+                .orthogonalized_count = countOf(Cause::notOrthogonal),
+                .normalized_count = countOf(Cure::fromOwn),
+                .from_neighbor_count = countOf(Cure::fromNeighbor),
+                .from_basis_count = countOf(Cure::fromBasis),
+                .bad_normal_count = countOf(Counted::badNormal)};
+    }
+
     void cutIntoBlocks() {
         const std::size_t faces = mesh_.faceCount();
         const Allocator* allocator = options_.execution.allocator;
@@ -353,7 +274,7 @@ class Sanitizer {
                 if (suspects_[block] == 0) continue;
                 forEachFaceOf(block, [&](std::size_t first, std::uint32_t size) { body(first, size, counts); });
             }
-            counts_.add(counts);
+            for (std::size_t i = 0; i < kCountedCount; ++i) counts_[i] += counts.of[i];
         });
     }
 
@@ -373,7 +294,7 @@ class Sanitizer {
         for (std::size_t c = first; c < first + size; ++c) {
             if (SurelySound::of(tangents_[c], mesh_.normals[mesh_.indices[c]])) continue;  // as causes_ begins
             const DVec3 n = normalAt(c);
-            if (isZero(n)) ++counts.bad_normals;
+            if (isZero(n)) counts.count(Counted::badNormal);
             causes_[c] = causeOf(tangents_[c], n);
             all_sound = all_sound && causes_[c] == Cause::sound;
         }
@@ -390,41 +311,47 @@ class Sanitizer {
             }
             if (!equalsItself(positionAt(c))) continue;
             seeks_[c] = 1;
-            ++counts.seekers;
+            counts.count(Counted::seeker);
         }
     }
 
-    void lookAtPositions(SoundPositions& positions) {
-        for (std::size_t block = 0; block < suspects_.size(); ++block) {
-            if (suspects_[block] == 0) continue;
-            forEachFaceOf(block, [&](std::size_t first, std::uint32_t size) {
-                for (std::size_t c = first; c < first + size; ++c) {
-                    if (seeks_[c] != 0) positions.ask(positionAt(c), static_cast<std::uint32_t>(c));
-                }
-            });
+    /// Finds the first sound tangent at each position where a corner seeks one.
+    void lookAtPositions() {
+        const Allocator* allocator = options_.execution.allocator;
+        points_ = weldPositions(mesh_, allocator, parallel_);
+        asked_ = Buffer<std::uint32_t>(allocator, mesh_.vertexCount(), kNotAsked);
+        found_ = Buffer<Vec4>(allocator, countOf(Counted::seeker), Vec4{});
+        std::uint32_t asked_count = 0;
+        for (std::size_t c = 0; c < mesh_.cornerCount(); ++c) {
+            std::uint32_t& asked = asked_[pointAt(c)];
+            if (seeks_[c] != 0 && asked == kNotAsked) asked = asked_count++;
         }
-        // Few positions are asked for, so vertices are sorted out before corners are offered in their order.
-        Buffer<std::uint8_t> is_asked(options_.execution.allocator, mesh_.vertexCount());
-        parallel_.forRanges(is_asked.size(), kScanGrain * kFacesPerBlock, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t v = begin; v < end; ++v) is_asked[v] = positions.isAsked(mesh_.positions[v]) ? 1 : 0;
-        });
         withIndices(mesh_.indices, [&](auto vertexOf) {
-            const auto offerCorners = [&](std::size_t begin, std::size_t end) {
-                for (std::size_t c = begin; c < end; ++c) {
-                    if (is_asked[vertexOf(c)] != 0 && causes_[c] == Cause::sound)
-                        positions.offer(positionAt(c), tangents_[c]);
-                }
-            };
-            if (mesh_.face_sizes.empty()) return offerCorners(0, mesh_.cornerCount());
             forEachFace(mesh_, [&](std::size_t, std::size_t first, std::uint32_t size) {
-                if (size >= 3) offerCorners(first, first + size);
+                for (std::size_t c = first; size >= 3 && c < first + size; ++c) {
+                    const std::uint32_t vertex = vertexOf(c), point = points_.empty() ? vertex : points_[vertex];
+                    if (asked_[point] == kNotAsked || causes_[c] != Cause::sound) continue;
+                    Vec4& found = found_[asked_[point]];
+                    if (found.w == 0) found = tangents_[c];
+                }
             });
         });
+    }
+
+    [[nodiscard]] std::uint32_t pointAt(std::size_t corner) const {
+        const std::uint32_t vertex = mesh_.indices[corner];
+        return points_.empty() ? vertex : points_[vertex];
+    }
+    /// What a corner found at its position; null: it seeks nothing, or there is nothing.
+    [[nodiscard]] const Vec4* foundBy(std::size_t corner) const {
+        if (seeks_[corner] == 0) return nullptr;
+        const Vec4& found = found_[asked_[pointAt(corner)]];
+        return found.w != 0 ? &found : nullptr;
     }
 
     /// What the sound corners say; without any, what the broken ones with a sign say; without any, what the
     /// first sound corner at one of the face's positions says; else +1.
-    [[nodiscard]] float signOf(std::size_t first, std::uint32_t size, const SoundPositions& positions) const {
+    [[nodiscard]] float signOf(std::size_t first, std::uint32_t size) const {
         for (const bool only_sound : {true, false}) {
             std::int64_t sum = 0;
             float first_sign = 0;
@@ -437,8 +364,7 @@ class Sanitizer {
             if (first_sign != 0) return sum == 0 ? first_sign : (sum > 0 ? 1.0f : -1.0f);
         }
         for (std::size_t c = first; c < first + size; ++c) {
-            if (seeks_[c] == 0) continue;
-            if (const Vec4* sound = positions.find(positionAt(c))) return sound->w;
+            if (const Vec4* sound = foundBy(c)) return sound->w;
         }
         return 1.0f;
     }
@@ -450,9 +376,9 @@ class Sanitizer {
         return true;
     }
 
-    void mend(std::size_t first, std::uint32_t size, const SoundPositions& positions, Counts& counts) {
+    void mend(std::size_t first, std::uint32_t size, Counts& counts) {
         if (!options_.orthogonalize_all && isSound(first, size)) return;
-        const float sign = signOf(first, size, positions);
+        const float sign = signOf(first, size);
         const std::size_t sound = firstSound(first, size);
         const Vec4 neighbor = sound < first + size ? tangents_[sound] : Vec4{};
         for (std::size_t c = first; c < first + size; ++c) {
@@ -464,20 +390,21 @@ class Sanitizer {
                 if (isOrthonormal(xyz(tangents_[c]), n)) continue;
                 cause = Cause::notOrthogonal;
             }
-            const auto [tangent, cure] = mended(c, cause, n, neighbor, positions);
+            const auto [tangent, cure] = mended(c, cause, n, neighbor);
             tangents_[c] = {tangent.x, tangent.y, tangent.z, sign};
-            counts.count(cause, cure);
+            counts.count(cause);
+            counts.count(cure);
         }
     }
 
-    [[nodiscard]] std::pair<Vec3, Cure> mended(std::size_t corner, Cause cause, const DVec3& n, const Vec4& neighbor,
-                                               const SoundPositions& positions) const {
+    [[nodiscard]] std::pair<Vec3, Cure> mended(std::size_t corner, Cause cause, const DVec3& n,
+                                               const Vec4& neighbor) const {
         if (hasUsable(cause) || isUsable(xyz(tangents_[corner]), n))
-            return {orthonormal(xyz(tangents_[corner]), n), Cure::own};
-        if (isUsable(xyz(neighbor), n)) return {orthonormal(xyz(neighbor), n), Cure::neighbor};
-        const Vec4* sound = seeks_[corner] != 0 ? positions.find(positionAt(corner)) : nullptr;
-        if (sound != nullptr && isUsable(xyz(*sound), n)) return {orthonormal(xyz(*sound), n), Cure::neighbor};
-        return {fromBasis(n), Cure::basis};
+            return {orthonormal(xyz(tangents_[corner]), n), Cure::fromOwn};
+        if (isUsable(xyz(neighbor), n)) return {orthonormal(xyz(neighbor), n), Cure::fromNeighbor};
+        const Vec4* sound = foundBy(corner);
+        if (sound != nullptr && isUsable(xyz(*sound), n)) return {orthonormal(xyz(*sound), n), Cure::fromNeighbor};
+        return {fromBasis(n), Cure::fromBasis};
     }
 
     const MeshView& mesh_;
@@ -488,7 +415,12 @@ class Sanitizer {
     Buffer<std::uint32_t> block_corners_;  ///< each block's first corner; empty when all faces have one size
     Buffer<Cause> causes_;
     Buffer<std::uint8_t> seeks_;
-    SharedCounts counts_;
+    // Where corners seek: the point of each vertex (empty: its own), the number of each point that is asked, and the first
+    // sound tangent there; its sign is 0 where there is none.
+    Buffer<std::uint32_t> points_, asked_;
+    Buffer<Vec4> found_;
+    /// Of all tasks together: sums of whole numbers do not depend on their order.
+    std::array<std::atomic<std::uint64_t>, kCountedCount> counts_{};
 };
 
 Error check(const MeshView& mesh, const StridedSpan<Vec4>& tangents) {

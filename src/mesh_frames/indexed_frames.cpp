@@ -6,8 +6,8 @@
 
 #include "core/border.h"
 #include "core/parallel.h"
+#include "core/weld.h"
 #include "frames/one_list.h"
-#include "normals/weld.h"
 #include "tspace/frame.h"
 
 namespace tspace {

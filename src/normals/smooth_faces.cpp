@@ -16,11 +16,11 @@
 
 #include "core/angle.h"
 #include "core/vertex_ranges.h"
+#include "core/weld.h"
 #include "normals/best_rounds.h"
 #include "normals/face_terms.h"
 #include "normals/faces.h"
 #include "normals/smoothing.h"
-#include "normals/weld.h"
 
 namespace tspace {
 

@@ -6,24 +6,22 @@
 #include "normals/smooth_triangles.h"
 
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
-#include <numeric>
 
 #include "core/angle.h"
 #include "core/border.h"
 #include "core/float4.h"
-#include "core/sum_ranges.h"
 #include "core/typed_indices.h"
 #include "core/vec_math.h"
 #include "core/vertex_ranges.h"
+#include "core/weld.h"
 #include "normals/best_rounds.h"
 #include "normals/face_terms.h"
 #include "normals/faces.h"
-#include "normals/weld.h"
 
 namespace tspace {
 
@@ -107,67 +105,47 @@ class TriangleSmoother {
         const bool threads = parallel_.width() > 1 && triangle_count_ >= Parallel::kGrain;
         const std::size_t near = std::max(mesh_.vertexCount() / kNearPoints,
                                           threads ? kRangesPerThread * parallel_.width() : std::size_t{1});
-        NormalReport report{triangle_count_, 0, 0};
-        if (!is_best_ && near > 1 && ranges_.wouldBeCompact(near)) {
-            if (!ranges_.cut(near, allocator_, parallel_)) return indexError();
-            sumNear(report);
-        } else {
-            if (threads) {
-                if (!ranges_.cut(parallel_.width(), allocator_, parallel_)) return indexError();
-            } else if (Error e = indexError(); e.code != ErrorCode::ok) {
-                return e;
-            }
-            sumFar(report);
+        const bool is_near = !is_best_ && near > 1 && ranges_.wouldBeCompact(near);
+        if (is_near || threads) {
+            if (!ranges_.cut(is_near ? near : parallel_.width(), allocator_, parallel_)) return indexError();
+        } else if (Error e = indexError(); e.code != ErrorCode::ok) {
+            return e;
         }
-        return report;
+        return sumAndWrite(is_near);
     }
 
   private:
     [[nodiscard]] Error indexError() const { return checkIndices(mesh_.indices, mesh_.vertexCount()); }
 
-    /// Range by range, with memory for the sums of one range per task, which stays in the cache.
-    void sumNear(NormalReport& report) {
+    /// `is_near`: each range is written when it is summed, with memory for the sums of one per task, which stays in the
+    /// cache. Otherwise all corners are written behind all sums.
+    NormalReport sumAndWrite(bool is_near) {
         const std::size_t ranges = ranges_.count(), size = ranges_.range(0).end;
         const std::size_t tasks = parallel_.width() == 1 ? 1 : std::min(ranges, kRangesPerThread * parallel_.width());
-        Buffer<PointSum> sums(allocator_, tasks * size);
+        sums_ = Buffer<PointSum>(allocator_, is_near ? tasks * size : mesh_.vertexCount());
         Buffer<std::uint64_t> doubtful(allocator_, tasks * wordsFor(size));
-        std::array<NormalReport, kRangesPerThread * VertexRanges::kMost> reports{};
+        std::atomic<std::uint64_t> degenerate{0}, substitutes{0};
         parallel_.forTasks(tasks, [&](std::size_t task) {
             for (std::size_t r = ranges * task / tasks; r < ranges * (task + 1) / tasks; ++r) {
                 const auto index = static_cast<unsigned>(r);
-                const RangeSums place{sums.data() + task * size, ranges_.range(index),
+                const VertexRange range = ranges_.range(index);
+                const RangeSums place{sums_.data() + (is_near ? task * size : range.begin), range,
                                       doubtful.data() + task * wordsFor(size)};
-                reports[task].degenerate_face_count += sum(index, place);
-                reports[task].fallback_corner_count += writeRange(index, place);
+                degenerate += sum(index, place);
+                if (is_near) substitutes += writeRange(index, place);
             }
         });
-        for (const NormalReport& part : reports) {
-            report.degenerate_face_count += part.degenerate_face_count;
-            report.fallback_corner_count += part.fallback_corner_count;
-        }
-    }
-
-    /// All sums, and then all corners.
-    void sumFar(NormalReport& report) {
-        sums_ = Buffer<PointSum>(allocator_, mesh_.vertexCount());
-        Buffer<std::uint64_t> doubtful(allocator_, wordsFor(mesh_.vertexCount()) + ranges_.count());
-        std::array<std::uint64_t, VertexRanges::kMost> degenerate{};
-        parallel_.forTasks(ranges_.count(), [&](std::size_t task) {
-            const auto index = static_cast<unsigned>(task);
-            const VertexRange range = ranges_.range(index);
-            degenerate[task] =
-                sum(index, {sums_.data() + range.begin, range, doubtful.data() + range.begin / 64 + task});
-        });
-        report.degenerate_face_count = std::accumulate(degenerate.begin(), degenerate.end(), std::uint64_t{0});
         if (is_best_) {
             const Faces faces(mesh_, allocator_);
             smooth::refineTriangles(PointItems(mesh_, faces, points_), mesh_.vertexCount(), positions_, options_,
                                     sums_.data()->floats(), parallel_);
         }
-        copyToRepeated();
-        report.fallback_corner_count =
-            sumRanges(parallel_, triangle_count_, Parallel::kGrain,
-                      [&](std::size_t begin, std::size_t end) { return writeCorners(begin, end); });
+        if (!is_near) {
+            copyToRepeated();
+            parallel_.forRanges(triangle_count_, Parallel::kGrain,
+                                [&](std::size_t begin, std::size_t end) { substitutes += writeCorners(begin, end); });
+        }
+        return {triangle_count_, degenerate, substitutes};
     }
 
     /// The points of the corners of `count` triangles: `vertices` itself or `buffer`, which may be the same.
@@ -415,7 +393,7 @@ class TriangleSmoother {
     std::size_t triangle_count_;
     Buffer<std::uint32_t> points_;  ///< the point of each vertex; empty when each is its own
     VertexRanges ranges_;
-    Buffer<PointSum> sums_;  ///< of all points; empty where these are done range by range
+    Buffer<PointSum> sums_;  ///< of all points, or of one range for each task
 };
 
 }  // namespace

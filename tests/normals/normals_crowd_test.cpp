@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "normals/weld.h"
+#include "core/weld.h"
 #include "support/simple_mesh.h"
 #include "support/thread_team.h"
 #include "tspace/normals.h"

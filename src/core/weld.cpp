@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Welding by a hash table of vertices; and, for input that defeats the hash, by sorting. Few vertices of an indexed
 // mesh share a position with another one: there only those are looked up whose hash occurs more than once.
-#include "normals/weld.h"
+#include "core/weld.h"
 
 #include <algorithm>
 #include <atomic>
