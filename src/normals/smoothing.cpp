@@ -61,8 +61,7 @@ inline bool isSmooth(const SmoothingRule& rule, const FaceRow& a, const FaceRow&
 
 using Four = std::int32_t __attribute__((vector_size(16)));
 
-/// The usual point: few corners, and edges that two faces share, so that its faces follow one another in one ring, or
-/// in one row between two edges that one face has.
+/// The usual point: few corners, and edges that two faces share, all but the two ends of a row.
 class FewCorners {
   public:
     static constexpr std::uint32_t kMost = 16;
@@ -71,9 +70,18 @@ class FewCorners {
 
     /// Null when it is not the usual point.
     const Link* find(Link* links) {
-        if (!read() || !(count_ <= 8 ? follow<2>() : follow<4>()) || !isRing()) return nullptr;
-        findHard();
-        return hard_ == 0 ? oneComponent(count_, links) : cut(links);
+        if (!read() || !(count_ <= 8 ? connect<2>() : connect<4>())) return nullptr;
+        const std::uint32_t all = (1u << count_) - 1;
+        Link* link = links;
+        for (std::uint32_t left = all; left != 0;) {
+            const std::uint32_t component = componentOf(left);
+            if (component == all) return oneComponent(count_, links);
+            const auto first = static_cast<std::uint32_t>(std::countr_zero(component));
+            for (std::uint32_t rest = component; rest != 0; rest &= rest - 1)
+                *link++ = {first, static_cast<std::uint32_t>(std::countr_zero(rest))};
+            left &= ~component;
+        }
+        return links;
     }
 
   private:
@@ -88,85 +96,58 @@ class FewCorners {
         return sound;
     }
 
-    /// Finds who follows whom. False where an edge has more than two faces, or two that do not agree on its direction.
+    /// Finds who may share a normal with whom over an edge. False where an edge has more than two faces, or two that do
+    /// not agree on its direction.
     template <std::uint32_t kFours>
-    bool follow() {
+    bool connect() {
         Four previous[kFours];
         std::memcpy(previous, previous_, sizeof previous);
         const std::uint32_t all = (1u << count_) - 1;
-        std::uint32_t led_to = 0, last = count_, broken = 0;
+        std::uint32_t led_to = 0;
+        bool has_end = false;
         for (std::uint32_t i = 0; i < count_; ++i) {
             std::uint32_t followers = 0;
             for (std::uint32_t k = 0; k < kFours; ++k)
                 followers |= laneBits(previous[k] == static_cast<std::int32_t>(next_[i])) << 4 * k;
             followers &= all;
-            broken |= followers & (led_to | (followers - 1));
+            if ((followers & (led_to | (followers - 1))) != 0) return false;
             led_to |= followers;
             if (followers == 0) {
-                if (last != count_) return false;
-                last = i;
+                if (has_end) return false;  // of two, each may be the same edge seen from the other side
+                has_end = true;
                 continue;
             }
-            follower_[i] = static_cast<std::uint32_t>(std::countr_zero(followers));
+            const auto follower = static_cast<std::uint32_t>(std::countr_zero(followers));
+            if (!isSmooth(around_.rule, *rows_[i], *rows_[follower]) || !mayConnect(i, follower)) continue;
+            connected_[i] |= followers;
+            connected_[follower] |= 1u << i;
         }
-        if (last == count_) return broken == 0;
-        follower_[last] =
-            static_cast<std::uint32_t>(std::countr_zero(all & ~led_to));  // from the row's end to its begin
-        row_end_ = 1u << last;
-        return broken == 0;
+        return true;
     }
 
-    [[nodiscard]] bool isRing() const {
-        std::uint32_t steps = 1;
-        for (std::uint32_t i = follower_[0]; i != 0; i = follower_[i]) ++steps;
-        return steps == count_;
+    /// Of the bits `left`, the lowest one and all that are connected with it.
+    [[nodiscard]] std::uint32_t componentOf(std::uint32_t left) const {
+        std::uint32_t component = left & -left;
+        for (std::uint32_t rest = component; rest != 0;) {
+            const std::uint32_t more = connected_[std::countr_zero(rest)] & ~component;
+            component |= more;
+            rest = (rest & (rest - 1)) | more;
+        }
+        return component;
     }
 
-    void findHard() {
-        const bool has_groups = !around_.rule.groups.empty();
-        for (std::uint32_t i = 0; i < count_; ++i) {
-            if (!isSmooth(around_.rule, *rows_[i], *rows_[follower_[i]]) ||
-                (has_groups && !mayConnect(i, follower_[i]))) {
-                hard_ |= 1u << i;
-            }
-        }
-        hard_ &= ~row_end_;
-    }
-    [[nodiscard, gnu::noinline]] bool mayConnect(std::uint32_t a, std::uint32_t b) const {
-        const std::uint32_t face_a = around_.faces.of(at_.corner(a)), face_b = around_.faces.of(at_.corner(b));
-        const std::uint32_t g = around_.rule.groups[face_a], h = around_.rule.groups[face_b];
-        return face_a == face_b || (around_.rule.groups_are_masks ? (g & h) != 0 : g == h && g != 0);
-    }
-
-    /// Cuts the ring at its hard edges.
-    const Link* cut(Link* links) const {
-        std::uint32_t keys[kMost];
-        const std::uint32_t ends = hard_ | row_end_;
-        std::uint32_t i = follower_[std::countr_zero(ends)], begin = i, key = i;
-        Link* link = links;
-        for (std::uint32_t step = 0; step < count_; ++step, i = follower_[i]) {
-            key = std::min(key, i);
-            if ((ends >> i & 1) == 0) continue;
-            for (std::uint32_t k = begin;; k = follower_[k]) {
-                keys[k] = key;
-                if (k == i) break;
-            }
-            begin = key = follower_[i];
-        }
-        for (std::uint32_t first = 0; first < count_; ++first) {
-            if (keys[first] != first) continue;
-            for (std::uint32_t slot = first; slot < count_; ++slot) {
-                if (keys[slot] == first) *link++ = {first, slot};
-            }
-        }
-        return links;
+    [[nodiscard]] bool mayConnect(std::uint32_t a, std::uint32_t b) const {
+        // An edge of length zero connects a face to itself.
+        if (around_.rule.groups.empty() || next_[a] == at_.point) return true;
+        const std::uint32_t g = around_.rule.groups[around_.faces.of(at_.corner(a))];
+        const std::uint32_t h = around_.rule.groups[around_.faces.of(at_.corner(b))];
+        return around_.rule.groups_are_masks ? (g & h) != 0 : g == h && g != 0;
     }
 
     const Surroundings& around_;
     const PointCorners& at_;
     std::uint32_t count_;
-    std::uint32_t hard_ = 0, row_end_ = 0;  ///< bits of corners: before a hard edge, and with no edge to the next one
-    std::uint32_t follower_[kMost] = {}, next_[kMost];
+    std::uint32_t connected_[kMost] = {}, next_[kMost];  ///< bits of other corners; points
     alignas(16) std::uint32_t previous_[kMost];
     const FaceRow* rows_[kMost];
 };
