@@ -191,7 +191,7 @@ Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, st
 
 std::uint64_t bakeBytes(const BakeOptions& options, std::uint64_t low_triangles, std::uint64_t high_triangles) {
     // TexelTriangles, the vectors and their votes, the result; and the system with what solving it needs.
-    constexpr std::uint64_t kPlain = 26 + 16 + 13, kSolve = sizeof(TexelRow) + 36 + 24, kHeat = 6;
+    constexpr std::uint64_t kPlain = 26 + 16 + 13, kSolve = sizeof(TexelRow) + 36, kHeat = 6;
     const std::uint64_t texel = kPlain + (options.fit == MapFit::solve ? kSolve : 0) + (options.heat ? kHeat : 0);
     // Boxes of Embree; points of the measure.
     constexpr std::uint64_t kLow = 120, kHigh = 200, kPoints = 100000 * 64;

@@ -2,6 +2,7 @@
 #include "maps/solve_texels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -13,7 +14,7 @@ namespace {
 
 /// Rows of a system are worked on so many at a time, and the sums over them added in order, so that they do not depend on
 /// threads.
-constexpr std::size_t kRowsOfTask = 2048;
+constexpr std::size_t kSystemRows = 2048;
 
 class TaskSums {
   public:
@@ -54,14 +55,14 @@ class Gradients {
           residual_(allocator, system.rowCount(), Vec3{}),
           direction_(allocator, system.rowCount(), Vec3{}),
           image_(allocator, system.rowCount(), Vec3{}),
-          tasks_((system.rowCount() + kRowsOfTask - 1) / kRowsOfTask),
+          tasks_((system.rowCount() + kSystemRows - 1) / kSystemRows),
           first_(allocator, tasks_),
           second_(allocator, tasks_) {}
 
     void run() {
         // Each step takes the error down by a factor of about 2; what is left after these is far below a 16-bit step.
         constexpr int kMostSteps = 24;
-        constexpr double kSmall = 1e-10;
+        constexpr double kSmall = 1e-6;
         begin();
         double product = first_.total();
         const double enough = kSmall * product;
@@ -82,8 +83,8 @@ class Gradients {
     void forUnknowns(TaskSums& sums, const Body& body) {
         parallel_.forTasks(tasks_, [&](std::size_t task) {
             double sum = 0;
-            const std::size_t end = std::min((task + 1) * kRowsOfTask, system_.rowCount());
-            for (std::size_t row = task * kRowsOfTask; row < end; ++row) {
+            const std::size_t end = std::min((task + 1) * kSystemRows, system_.rowCount());
+            for (std::size_t row = task * kSystemRows; row < end; ++row) {
                 if (system_.isUnknown(row)) sum += body(row);
             }
             sums[task] = sum;
@@ -133,7 +134,7 @@ class Gradients {
     }
 
     void turn(float kept) {
-        parallel_.forRanges(system_.rowCount(), kRowsOfTask, [&](std::size_t begin, std::size_t end) {
+        parallel_.forRanges(system_.rowCount(), kSystemRows, [&](std::size_t begin, std::size_t end) {
             for (std::size_t row = begin; row < end; ++row) direction_[row] = image_[row] + kept * direction_[row];
         });
     }
@@ -164,83 +165,118 @@ namespace {
 class IntegerTexel {
   public:
     IntegerTexel(const IntegerChoice& choice, const SymmetricBlock& m, const Vec3& h)
-        : choice_(choice), step_(2.0f / static_cast<float>(choice.most)), m_(m), h_(h) {}
+        : choice_(choice),
+          step_(2.0f / static_cast<float>(choice.most)),
+          half_(static_cast<float>(choice.most) / 2),
+          last_(static_cast<float>(choice.most) - 1),
+          m_(m),
+          h_(h) {
+        // The best real numbers x and y beside a z lie on a line.
+        const float factor = 1 / (m[0] * m[3] - m[1] * m[1]);
+        start_x_ = factor * (m[1] * h.y - m[3] * h.x);
+        slope_x_ = factor * (m[1] * m[4] - m[3] * m[2]);
+        start_y_ = factor * (m[1] * h.x - m[0] * h.y);
+        slope_y_ = factor * (m[1] * m[2] - m[0] * m[4]);
+    }
 
     Vec3 best(const Vec3& start) {
         best_ = start;
-        least_ = INFINITY;
-        settle(start.z);
         if (choice_.is_two_channel) {
-            tryPlane(start.z);
+            tryTwoChannels(start.z);
             return best_;
         }
+        // The value is a sum of squares but for what the texels around add, which only they change. At the z where the texel
+        // is, real numbers are taken to leave next to nothing: squared, of a sample that the texel is half of.
+        constexpr float kLeftOver = 2e-6F;
+        const float x = start_x_ + slope_x_ * start.z, y = start_y_ + slope_y_ * start.z;
+        const float rest = kLeftOver * (m_[0] + m_[3] + m_[5]) / 8;
+        const float linear = 2 * (m_[2] * x + m_[4] * y + m_[5] * start.z + h_.z);
+        const float square = m_[2] * slope_x_ + m_[4] * slope_y_ + m_[5];
         // z of a vector of the least and the most length that points as the start does, and some around.
         const float size = std::max(length(start), 1e-6F), slope = start.z / size;
         const float a = slope * choice_.least_length, b = slope * choice_.most_length;
-        const int near = indexOf(start.z), most = static_cast<int>(choice_.most);
-        const int first = std::max({0, indexOf(std::min(a, b)) - 1, near - choice_.most_steps});
-        const int last = std::min({most, indexOf(std::max(a, b)) + 1, near + choice_.most_steps});
-        for (int z = first; z <= last; ++z) tryPlane(valueOf(z));
+        const int first = std::max(0, indexOf(std::min(a, b)) - 1);
+        const int last = std::min(static_cast<int>(choice_.most), indexOf(std::max(a, b)) + 1);
+        for (int i = first; i <= last; i += static_cast<int>(kPlanes))
+            tryPlanes(i, last, start.z, rest, linear, square);
         return best_;
     }
 
   private:
+    /// So many z are looked at side by side, in loops without branches, which compilers make lanes of.
+    static constexpr std::size_t kPlanes = 8;
+    using Planes = std::array<float, kPlanes>;
+
     [[nodiscard]] int indexOf(float value) const { return static_cast<int>(std::floor((value + 1) / step_ + 0.5f)); }
-    [[nodiscard]] float valueOf(int index) const { return static_cast<float>(index) * step_ - 1; }
 
-    /// The best real numbers x and y beside this z.
-    [[nodiscard]] Vec3 bestBeside(float z) const {
-        const float hx = h_.x + m_[2] * z, hy = h_.y + m_[4] * z;
-        const float determinant = m_[0] * m_[3] - m_[1] * m_[1];
-        return {(m_[1] * hy - m_[3] * hx) / determinant, (m_[1] * hx - m_[0] * hy) / determinant, z};
+    /// The integer below a real number, and the number that it stands for; so that the next one is an integer too.
+    [[nodiscard]] float below(float real) const {
+        const auto index = static_cast<float>(static_cast<int>((real + 1) * half_));
+        return std::max(0.0F, std::min(index, last_)) * step_ - 1;
     }
-    [[nodiscard]] float valueAt(const Vec3& q) const { return dot(q, blockTimes(m_, q)) + 2 * dot(q, h_); }
+    [[nodiscard]] bool isInside(float real) const { return real >= -1 && real <= 1; }
+    /// What is added to the value of real numbers by integers that are off by so much.
+    [[nodiscard]] float added(float dx, float dy) const { return dx * (m_[0] * dx + 2 * m_[1] * dy) + m_[3] * dy * dy; }
 
-    /// The value is a sum of squares but for what the texels around add, which only they change. It is taken for so much
-    /// that real numbers would leave next to nothing.
-    void settle(float z) {
-        constexpr float kLeftOver = 2e-6F;  // squared, of a sample that the texel is half of
-        rest_ = kLeftOver * (m_[0] + m_[3] + m_[5]) / 8 - valueAt(bestBeside(z));
-    }
-
-    /// The four integers around the best x and y beside this z.
-    void tryPlane(float z) {
-        const Vec3 real = bestBeside(z);
-        const float low_x = std::floor((real.x + 1) / step_), low_y = std::floor((real.y + 1) / step_);
-        const auto most = static_cast<float>(choice_.most);
-        if (!(low_x > -1 && low_x <= most && low_y > -1 && low_y <= most)) return;
-        const float value = valueAt(real) + rest_;
-        for (int i = 0; i < 4; ++i) {
-            const float column = low_x + static_cast<float>(i & 1), row = low_y + static_cast<float>(i >> 1);
-            if (column > most || row > most) continue;
-            const Vec3 q{column * step_ - 1, row * step_ - 1, z};
-            const float dx = q.x - real.x, dy = q.y - real.y;
-            take(q, value, dx * (m_[0] * dx + 2 * m_[1] * dy) + m_[3] * dy * dy);
+    /// The four integers around the best x and y beside the z from `first` on, where real numbers have the value
+    /// rest + moved (linear + moved square).
+    void tryPlanes(int first, int last, float start_z, float rest, float linear, float square) {
+        Planes z, x, y, left, top, value;
+        for (std::size_t i = 0; i < kPlanes; ++i) {
+            z[i] = static_cast<float>(std::min(first + static_cast<int>(i), last)) * step_ - 1;
+            x[i] = start_x_ + slope_x_ * z[i];
+            y[i] = start_y_ + slope_y_ * z[i];
+            left[i] = below(x[i]);
+            top[i] = below(y[i]);
+            const float moved = z[i] - start_z;
+            value[i] = rest + moved * (linear + moved * square);
+        }
+        const float least_square = choice_.least_length * choice_.least_length,
+                    most_square = choice_.most_length * choice_.most_length;
+        std::array<Planes, 4> scores;
+        Planes lowest;
+        lowest.fill(INFINITY);
+        for (std::size_t corner = 0; corner < 4; ++corner) {
+            const float right = corner % 2 == 0 ? 0 : step_, down = corner < 2 ? 0 : step_;
+            for (std::size_t i = 0; i < kPlanes; ++i) {
+                const float column = left[i] + right, row = top[i] + down;
+                const float squared = column * column + row * row + z[i] * z[i];
+                // What does not fit loses, without a branch.
+                const float beyond = std::max(0.0F, least_square - squared) + std::max(0.0F, squared - most_square) +
+                                     std::max(0.0F, std::fabs(x[i]) - 1) + std::max(0.0F, std::fabs(y[i]) - 1);
+                // Angles are errors in parts of the length.
+                scores[corner][i] = (value[i] + added(column - x[i], row - y[i])) / squared + 1e20F * beyond;
+                lowest[i] = std::min(lowest[i], scores[corner][i]);
+            }
+        }
+        if (!(*std::min_element(lowest.begin(), lowest.end()) < least_)) return;
+        for (std::size_t corner = 0; corner < 4; ++corner) {
+            for (std::size_t i = 0; i < kPlanes; ++i) {
+                if (!(scores[corner][i] < std::min(least_, 1e6F))) continue;
+                least_ = scores[corner][i];
+                best_ = {left[i] + (corner % 2 == 0 ? 0 : step_), top[i] + (corner < 2 ? 0 : step_), z[i]};
+            }
         }
     }
 
-    /// `more`: what is added to the value of its z, which may be far larger.
-    void take(const Vec3& q, float value, float more) {
-        const float flat = q.x * q.x + q.y * q.y, squared = flat + q.z * q.z;
-        if (choice_.is_two_channel) {
-            if (flat > 1) return;
-        } else if (squared < choice_.least_length * choice_.least_length ||
-                   squared > choice_.most_length * choice_.most_length) {
-            return;
+    /// The same where z follows from x and y, and errors of them alone count.
+    void tryTwoChannels(float z) {
+        const float x = start_x_ + slope_x_ * z, y = start_y_ + slope_y_ * z;
+        if (!isInside(x) || !isInside(y)) return;
+        for (int corner = 0; corner < 4; ++corner) {
+            const float column = below(x) + (corner % 2 == 0 ? 0 : step_), row = below(y) + (corner < 2 ? 0 : step_);
+            const float flat = column * column + row * row, score = added(column - x, row - y);
+            if (flat > 1 || !(score < least_)) continue;
+            least_ = score;
+            best_ = {column, row, std::sqrt(1 - flat)};
         }
-        // Angles are errors in parts of the length.
-        const float score = choice_.most_steps == 0 || choice_.is_two_channel ? more : (value + more) / squared;
-        if (!(score < least_)) return;
-        least_ = score;
-        best_ = q;
-        if (choice_.is_two_channel) best_.z = std::sqrt(1 - flat);
     }
 
     const IntegerChoice& choice_;
-    float step_;
+    float step_, half_, last_;
     SymmetricBlock m_;
     Vec3 h_;
-    float rest_ = 0;
+    float start_x_ = 0, slope_x_ = 0, start_y_ = 0, slope_y_ = 0;
     Vec3 best_ = {};
     float least_ = INFINITY;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Texels that solve a TexelSystem: as real numbers, or as integers of 8 or 16 bits.
+// Texels that solve a TexelSystem: as real numbers, or as integers.
 #pragma once
 
 #include <span>
@@ -32,7 +32,6 @@ void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& pa
 struct IntegerChoice {
     unsigned most = 255;
     float least_length = 0.7F, most_length = 1;  ///< of vectors
-    int most_steps = 255;                        ///< how far z may go from where it is
     bool is_two_channel = false;                 ///< z follows from x and y, whose vector is unit
 };
 

@@ -13,7 +13,7 @@
 namespace tspace::test {
 namespace {
 
-constexpr std::uint32_t kSide = 40;
+constexpr std::uint32_t kFieldSide = 40;
 
 /// A field over texels, all of which a triangle shows but those of the rim, which are read.
 struct Field {
@@ -22,20 +22,20 @@ struct Field {
 
     template <class Of>
     explicit Field(const Of& of) {
-        const std::size_t count = std::size_t{kSide} * kSide;
-        triangles.shape = {kSide, kSide};
+        const std::size_t count = std::size_t{kFieldSide} * kFieldSide;
+        triangles.shape = {kFieldSide, kFieldSide};
         triangles.kinds = Buffer<TexelKind>(nullptr, count, TexelKind::inside);
         triangles.is_read = Buffer<bool>(nullptr, count, false);
         triangles.overlaps = Buffer<bool>(nullptr, count, false);
         traced.wanted = Buffer<Vec3>(nullptr, count, Vec3{});
         traced.origins = Buffer<TexelOrigin>(nullptr, count, TexelOrigin::hit);
-        for (std::uint32_t y = 0; y < kSide; ++y) {
-            for (std::uint32_t x = 0; x < kSide; ++x) {
-                traced.wanted[y * kSide + x] = toFloat(of(x, y));
-                if (x > 0 && y > 0 && x + 1 < kSide && y + 1 < kSide) continue;
-                triangles.kinds[y * kSide + x] = TexelKind::beside;
-                triangles.is_read[y * kSide + x] = true;
-                traced.origins[y * kSide + x] = TexelOrigin::padding;
+        for (std::uint32_t y = 0; y < kFieldSide; ++y) {
+            for (std::uint32_t x = 0; x < kFieldSide; ++x) {
+                traced.wanted[y * kFieldSide + x] = toFloat(of(x, y));
+                if (x > 0 && y > 0 && x + 1 < kFieldSide && y + 1 < kFieldSide) continue;
+                triangles.kinds[y * kFieldSide + x] = TexelKind::beside;
+                triangles.is_read[y * kFieldSide + x] = true;
+                traced.origins[y * kFieldSide + x] = TexelOrigin::padding;
             }
         }
     }
@@ -53,16 +53,16 @@ DVec3 waveAt(double x, double y) {
 
 TEST(TexelPlan, SmoothFieldsAreAskedAtTheRimAlone) {
     const TexelPlan plan = Field(waveAt).plan(0.1F);
-    for (std::uint32_t y = 0; y < kSide; ++y) {
-        for (std::uint32_t x = 0; x < kSide; ++x) {
-            const bool is_inner = std::min(x, y) >= 5 && std::max(x, y) < kSide - 6;
+    for (std::uint32_t y = 0; y < kFieldSide; ++y) {
+        for (std::uint32_t x = 0; x < kFieldSide; ++x) {
+            const bool is_inner = std::min(x, y) >= 5 && std::max(x, y) < kFieldSide - 6;
             if (!is_inner) continue;
-            EXPECT_EQ(plan.cells[y * kSide + x], TexelCell::smooth) << x << ' ' << y;
-            EXPECT_EQ(plan.roles[y * kSide + x], TexelRole::apart);
+            EXPECT_EQ(plan.cells[y * kFieldSide + x], TexelCell::smooth) << x << ' ' << y;
+            EXPECT_EQ(plan.roles[y * kFieldSide + x], TexelRole::apart);
         }
     }
-    EXPECT_EQ(plan.cells[1 * kSide + 20], TexelCell::rough);
-    EXPECT_EQ(plan.cells[0 * kSide + 20], TexelCell::rough)
+    EXPECT_EQ(plan.cells[1 * kFieldSide + 20], TexelCell::rough);
+    EXPECT_EQ(plan.cells[0 * kFieldSide + 20], TexelCell::rough)
         << "the cell at the edge shows half a texel of the triangle";
 }
 
@@ -72,30 +72,30 @@ TEST(TexelPlan, CellsAtACreaseAreRough) {
                                normalize(roof);
                                return roof;
                            }).plan();
-    EXPECT_EQ(plan.cells[15 * kSide + 20], TexelCell::rough) << "the crease lies in this cell";
-    EXPECT_EQ(plan.roles[15 * kSide + 20], TexelRole::unknown);
-    EXPECT_EQ(plan.roles[15 * kSide + 21], TexelRole::unknown);
-    EXPECT_EQ(plan.cells[15 * kSide + 10], TexelCell::smooth);
-    EXPECT_EQ(plan.cells[15 * kSide + 30], TexelCell::smooth);
+    EXPECT_EQ(plan.cells[15 * kFieldSide + 20], TexelCell::rough) << "the crease lies in this cell";
+    EXPECT_EQ(plan.roles[15 * kFieldSide + 20], TexelRole::unknown);
+    EXPECT_EQ(plan.roles[15 * kFieldSide + 21], TexelRole::unknown);
+    EXPECT_EQ(plan.cells[15 * kFieldSide + 10], TexelCell::smooth);
+    EXPECT_EQ(plan.cells[15 * kFieldSide + 30], TexelCell::smooth);
 }
 
 TEST(TexelPlan, TexelsThatSeveralTrianglesShowAreAsked) {
     Field field(waveAt);
-    field.triangles.overlaps[20 * kSide + 20] = true;
-    EXPECT_EQ(field.plan(0.1F).cells[20 * kSide + 20], TexelCell::rough);
+    field.triangles.overlaps[20 * kFieldSide + 20] = true;
+    EXPECT_EQ(field.plan(0.1F).cells[20 * kFieldSide + 20], TexelCell::rough);
 }
 
 /// The mean angle between the filtered texels and a field, away from the rim.
-double errorOf(std::span<const Vec3> texels) {
+double waveErrorOf(std::span<const Vec3> texels) {
     double sum = 0;
     int count = 0;
-    for (std::uint32_t y = 6; y < kSide - 7; ++y) {
-        for (std::uint32_t x = 6; x < kSide - 7; ++x) {
+    for (std::uint32_t y = 6; y < kFieldSide - 7; ++y) {
+        for (std::uint32_t x = 6; x < kFieldSide - 7; ++x) {
             for (int i = 0; i < 25; ++i) {
                 const float fx = static_cast<float>(i % 5) * 0.2F + 0.1F, fy = static_cast<float>(i / 5) * 0.2F + 0.1F;
-                const Vec3* at = texels.data() + y * kSide + x;
+                const Vec3* at = texels.data() + y * kFieldSide + x;
                 const Vec3 mixed = ((1 - fx) * (1 - fy)) * at[0] + (fx * (1 - fy)) * at[1] +
-                                   ((1 - fx) * fy) * at[kSide] + (fx * fy) * at[kSide + 1];
+                                   ((1 - fx) * fy) * at[kFieldSide] + (fx * fy) * at[kFieldSide + 1];
                 DVec3 unit = toDouble(mixed);
                 normalize(unit);
                 sum += length(cross(unit, waveAt(x + static_cast<double>(fx), y + static_cast<double>(fy))));
@@ -110,10 +110,10 @@ TEST(TexelPlan, SharpenedTexelsHalveTheErrorOfTheFilter) {
     Field field(waveAt);
     const TexelPlan plan = field.plan(0.1F);
     std::vector<Vec3> texels(field.traced.wanted.begin(), field.traced.wanted.end());
-    const double exact = errorOf(texels);
+    const double exact = waveErrorOf(texels);
     Parallel parallel({.thread_count = 1});
     sharpenTexels(plan, texels, parallel, nullptr);
-    EXPECT_LT(errorOf(texels), 0.5 * exact);
+    EXPECT_LT(waveErrorOf(texels), 0.5 * exact);
 }
 
 TEST(SolveTexels, RoundedTexelsCancelEachOthersErrors) {
@@ -122,12 +122,12 @@ TEST(SolveTexels, RoundedTexelsCancelEachOthersErrors) {
     const auto round = [](float value) { return std::floor((value + 1) * 2000 + 0.5F) / 2000 - 1; };
     for (Vec3& texel : plain) texel = {round(texel.x), round(texel.y), round(texel.z)};
     Parallel parallel({.thread_count = 1});
-    roundTexels(together, kSide, 4000, 2, parallel, nullptr);
+    roundTexels(together, kFieldSide, 4000, 2, parallel, nullptr);
     double plain_sum = 0, together_sum = 0;
     // What the filter shows between four texels.
-    for (std::size_t i = 0; i + kSide + 1 < wanted.size(); ++i) {
+    for (std::size_t i = 0; i + kFieldSide + 1 < wanted.size(); ++i) {
         const auto mixed = [&](const std::vector<Vec3>& texels) {
-            return 0.25F * ((texels[i] + texels[i + 1]) + (texels[i + kSide] + texels[i + kSide + 1]));
+            return 0.25F * ((texels[i] + texels[i + 1]) + (texels[i + kFieldSide] + texels[i + kFieldSide + 1]));
         };
         plain_sum += static_cast<double>(length(mixed(plain) - mixed(wanted)));
         together_sum += static_cast<double>(length(mixed(together) - mixed(wanted)));
