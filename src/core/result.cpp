@@ -3,6 +3,7 @@
 #include "tspace/result.h"
 
 #include <cstdarg>
+#include <iterator>
 #include <new>
 #include <string_view>
 
@@ -12,43 +13,17 @@
 namespace tspace {
 
 const char* errorName(ErrorCode code) {
-    switch (code) {
-        case ErrorCode::ok:
-            return "ok";
-        case ErrorCode::nullData:
-            return "nullData";
-        case ErrorCode::countMismatch:
-            return "countMismatch";
-        case ErrorCode::indexOutOfRange:
-            return "indexOutOfRange";
-        case ErrorCode::strideTooSmall:
-            return "strideTooSmall";
-        case ErrorCode::misaligned:
-            return "misaligned";
-        case ErrorCode::tooLarge:
-            return "tooLarge";
-        case ErrorCode::missingAttribute:
-            return "missingAttribute";
-        case ErrorCode::invalidOption:
-            return "invalidOption";
-        case ErrorCode::outOfMemory:
-            return "outOfMemory";
-        case ErrorCode::planMismatch:
-            return "planMismatch";
-        case ErrorCode::internal:
-            return "internal";
-        case ErrorCode::invalidFile:
-            return "invalidFile";
-        case ErrorCode::unsupportedFile:
-            return "unsupportedFile";
-        case ErrorCode::forbiddenPath:
-            return "forbiddenPath";
-        case ErrorCode::cannotRead:
-            return "cannotRead";
-        case ErrorCode::cannotWrite:
-            return "cannotWrite";
-    }
-    return "unknown";
+    static constexpr std::uint32_t kFirstOfFiles = 100;
+    static constexpr const char* kNames[] = {
+        "ok",       "nullData",         "countMismatch", "indexOutOfRange", "strideTooSmall", "misaligned",
+        "tooLarge", "missingAttribute", "invalidOption", "outOfMemory",     "planMismatch",   "internal"};
+    static constexpr const char* kNamesOfFiles[] = {"invalidFile", "unsupportedFile", "forbiddenPath", "cannotRead",
+                                                    "cannotWrite"};
+    static_assert(std::size(kNames) == static_cast<std::size_t>(ErrorCode::internal) + 1);
+    static_assert(std::size(kNamesOfFiles) == static_cast<std::size_t>(ErrorCode::cannotWrite) + 1 - kFirstOfFiles);
+    const auto number = static_cast<std::uint32_t>(code);
+    if (number < std::size(kNames)) return kNames[number];
+    return number - kFirstOfFiles < std::size(kNamesOfFiles) ? kNamesOfFiles[number - kFirstOfFiles] : "unknown";
 }
 
 const Convention* findConvention(const char* name) {

@@ -9,6 +9,7 @@
 #include "core/early_lines.h"
 #include "core/float4.h"
 #include "core/sum_ranges.h"
+#include "core/typed_indices.h"
 #include "tangents/derivative_terms.h"
 #include "tangents/face_sums.h"
 #include "tangents/indexed_methods.h"
@@ -193,12 +194,9 @@ std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std
 
 std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std::uint8_t* is_default,
                            const StridedSpan<Vec4>& out, std::size_t begin, std::size_t end) {
-    const IndexView& view = plan.corner_vertices;
-    if (view.type != IndexType::u32) {
-        return copyTangents(plan, from, is_default, out, begin, end, [&](std::size_t c) { return view[c]; });
-    }
-    const auto* const vertices = static_cast<const std::uint32_t*>(view.data);
-    return copyTangents(plan, from, is_default, out, begin, end, [=](std::size_t c) { return vertices[c]; });
+    return withIndices(plan.corner_vertices, [&](const auto& vertexOf) {
+        return copyTangents(plan, from, is_default, out, begin, end, vertexOf);
+    });
 }
 
 /// The places of the sums. Fresh memory costs time, so what the outputs' memory can hold meanwhile is there:

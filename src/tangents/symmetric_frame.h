@@ -8,16 +8,12 @@
 
 namespace tspace {
 
-/// Turns each tangent, in the plane across its normal, half of the way to the direction that is perpendicular
-/// to the bitangent. So cross(N, T) and T are each off by half of the UVs' shear, where T alone was exact
-/// before. normalOf(i): the normal of entry i. An entry without tangent, bitangent or normal stays as it is.
-template <class NormalOf>
-void makeSymmetric(const StridedSpan<Vec4>& tangents, const StridedSpan<Vec3>& bitangents, const NormalOf& normalOf,
-                   Parallel& parallel);
-
 /// The bisector that takes the place of the tangent, or the tangent itself.
 Vec3 symmetricTangent(const Vec3& tangent, const Vec3& bitangent, const Vec3& normal);
 
+/// Turns each tangent, in the plane across its normal, half of the way to the direction that is perpendicular
+/// to the bitangent. So cross(N, T) and T are each off by half of the UVs' shear, where T alone was exact
+/// before. normalOf(i): the normal of entry i. An entry without tangent, bitangent or normal stays as it is.
 template <class NormalOf>
 void makeSymmetric(const StridedSpan<Vec4>& tangents, const StridedSpan<Vec3>& bitangents, const NormalOf& normalOf,
                    Parallel& parallel) {
