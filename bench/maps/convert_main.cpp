@@ -145,11 +145,14 @@ struct Rows {
     Row narrow_unconverted{"unconverted, 8 bits", 0};
     Row narrow{"8 to 8 bits", 0};
     Row object{"object to tangent, of the floor", 1.05};
+    Row object_itself{"the object map itself, of it", 0};
+    Row object_floats{"object to tangent, floats, of it", 0};
 
     [[nodiscard]] bool print(bool relief) {
         if (relief) narrow = narrow.withTarget(0.045);
         bool all = true;
-        for (const Row* row : {&unconverted, &once, &round_trip, &widened, &narrow_unconverted, &narrow, &object})
+        for (const Row* row : {&unconverted, &once, &round_trip, &widened, &narrow_unconverted, &narrow, &object,
+                               &object_itself, &object_floats})
             all = row->print() && all;
         return all;
     }
@@ -177,9 +180,13 @@ void measure(const accuracy::Surface& surface, Charts charts, bool relief, std::
     options.bits = 16;
     options.space = MapSpace::object;
     const Map object{size, orStop(bakeMap(mikk.view(), high.view(), options)).texels};
-    const Map tangent = converted(object, {.space = MapSpace::object}, from, 16);
-    const MapError error = orStop(measureMap(tangent.image(), mikk.view(), high.view()));
-    rows.object.add({error.mean_deg / baked.error.mean_deg, error.p99_deg / baked.error.p99_deg});
+    const auto addObject = [&](Row& row, const Map& texels, MapSpace space) {
+        const MapError error = orStop(measureMap(texels.image(), mikk.view(), high.view(), {.space = space}));
+        row.add({error.mean_deg / baked.error.mean_deg, error.p99_deg / baked.error.p99_deg});
+    };
+    addObject(rows.object, converted(object, {.space = MapSpace::object}, from, 16), MapSpace::tangent);
+    addObject(rows.object_itself, object, MapSpace::object);
+    addObject(rows.object_floats, converted(object, {.space = MapSpace::object}, from, 32), MapSpace::tangent);
 }
 
 }  // namespace
