@@ -209,15 +209,25 @@ void fillFromNeighbours(TracedTexels& traced, std::uint32_t width, std::uint32_t
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         if (traced.origins[i] != TexelOrigin::background && isZero(wanted[i])) empty.push_back(i);
     }
+    // The first ring goes on as the two texels before it do: at a rim, a filter reads it beside them. Further away the mean
+    // around, which cannot grow.
+    bool is_first_ring = true;
     const auto meanAround = [&](std::size_t texel) {
         const std::size_t x = texel % width, y = texel / width;
-        DVec3 sum{};
-        for (std::size_t dy = 0; dy < 3; ++dy) {
-            for (std::size_t dx = 0; dx < 3; ++dx) {
-                const std::size_t row = (y + height + dy - 1) % height, column = (x + width + dx - 1) % width;
-                sum = sum + toDouble(wanted[row * width + column]);
+        const auto at = [&](std::size_t dx, std::size_t dy) {
+            return toDouble(wanted[(y + height + dy) % height * width + (x + width + dx) % width]);
+        };
+        DVec3 sum{}, ahead{};
+        for (const int dy : {-1, 0, 1}) {
+            for (const int dx : {-1, 0, 1}) {
+                const DVec3 near = at(static_cast<std::size_t>(dx), static_cast<std::size_t>(dy));
+                const DVec3 far = at(static_cast<std::size_t>(2 * dx), static_cast<std::size_t>(2 * dy));
+                sum = sum + near;
+                // A jump is no slope.
+                if (dot(near, far) > 0.9) ahead = ahead + (2.0 * near - far);
             }
         }
+        if (is_first_ring && normalize(ahead)) return toFloat(ahead);
         return normalize(sum) ? toFloat(sum) : Vec3{};
     };
     std::vector<Vec3> means;
@@ -231,6 +241,7 @@ void fillFromNeighbours(TracedTexels& traced, std::uint32_t width, std::uint32_t
         }
         if (next.size() == empty.size()) break;
         empty.swap(next);
+        is_first_ring = false;
     }
     for (Vec3& vector : wanted) {
         if (isZero(vector)) vector = {0, 0, 1};
