@@ -83,12 +83,17 @@ TSPACE_ROWS inline void loadPairs(const float* pairs, Floats& x, Floats& y) {
     x = {mix<0, 2, 4, 6>(ab, cd)};
     y = {mix<1, 3, 5, 7>(ab, cd)};
 }
+/// Ascending, for rows of three floats overlap: each is one float too long, and the next one mends that.
+template <std::size_t kStep, std::size_t kFirst = 0>
+TSPACE_ROWS inline void storeFours(float* rows, const FloatVector (&r)[4]) {
+    for (std::size_t j = 0; j < 4; ++j) storeRow(rows + kStep * (kFirst + j), rowFrom<kFirst>(r[j]));
+    if constexpr (kFirst + 4 < kWidth) storeFours<kStep, kFirst + 4>(rows, r);
+}
 template <std::size_t kStep = 12>
 TSPACE_ROWS inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     FloatVector r[4] = {x.v, y.v, z.v, w.v};
     transpose(r);
-    for (std::size_t j = 0; j < 4; ++j)
-        forRows(r[j], [&](std::size_t i, Row row) { storeRow(rows + kStep * (i + j), row); });
+    storeFours<kStep>(rows, r);
 }
 template <std::size_t kStep>
 TSPACE_ROWS inline void loadRows(const float* rows, Floats& x, Floats& y, Floats& z, Floats& w) {
