@@ -3,7 +3,6 @@
 // namespace of each lanes_*.h of more than one lane, behind its kWidth, so that each CPU has functions of its own: see
 // the rules in lanes_scalar.h, which also says what each function means. Without a guard, for the same reason.
 
-using Row = float __attribute__((vector_size(16)));
 using FloatVector = float __attribute__((vector_size(4 * kWidth)));
 using WordVector = std::uint32_t __attribute__((vector_size(4 * kWidth)));
 using WholeVector = decltype(FloatVector{} < FloatVector{});

@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <utility>
 
 #define TSPACE_ROWS
 
@@ -22,6 +21,7 @@ inline constexpr std::size_t kWidth = 4;
 #include "simd/lanes_arithmetic.h"
 #include "simd/lanes_masks.h"
 #include "simd/lanes_of_four.h"
+#include "simd/lanes_rows_of_four.h"
 
 inline unsigned bitsOf(Mask m) {
     constexpr WholeVector kBits = {1, 2, 4, 8};

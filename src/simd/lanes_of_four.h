@@ -13,15 +13,42 @@ inline Bits smaller(Bits a, Bits b) {
     return asBits(select(m, asFloats(a), asFloats(b)));
 }
 
-template <class RowAt>
-inline FloatVector joinRows(const RowAt& rowAt) {
-    return rowAt(0);
+using RowInMemory = float __attribute__((vector_size(16), aligned(4), may_alias));
+inline FloatVector loadRow(const void* p) { return *static_cast<const RowInMemory*>(p); }
+inline void storeRow(void* to, FloatVector row) { *static_cast<RowInMemory*>(to) = row; }
+
+/// Two floats as one double.
+inline double loadTwo(const void* p) {
+    double d;
+    std::memcpy(&d, p, sizeof d);
+    return d;
 }
-template <std::size_t>
-inline Row rowFrom(FloatVector v) {
-    return v;
+inline void storeTwo(void* to, double two) { std::memcpy(to, &two, sizeof two); }
+/// Three floats. `exact` reads no more; otherwise the four bytes after them are read too.
+inline FloatVector loadVector(const std::byte* p, bool exact) {
+    if (!exact) return loadRow(p);
+    float z;
+    std::memcpy(&z, p + 8, sizeof z);
+    const FloatVector xy = reinterpret_cast<FloatVector>(DoubleVector{loadTwo(p), 0}), zz = {z, 0, 0, 0};
+    return __builtin_shufflevector(xy, zz, 0, 1, 4, 5);
 }
-#include "simd/lanes_rows.h"
+
+/// Rows become columns.
+inline void transpose(FloatVector (&r)[4]) {
+    const FloatVector ab_low = __builtin_shufflevector(r[0], r[1], 0, 4, 1, 5);
+    const FloatVector ab_high = __builtin_shufflevector(r[0], r[1], 2, 6, 3, 7);
+    const FloatVector cd_low = __builtin_shufflevector(r[2], r[3], 0, 4, 1, 5);
+    const FloatVector cd_high = __builtin_shufflevector(r[2], r[3], 2, 6, 3, 7);
+    r[0] = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
+    r[1] = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+    r[2] = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+    r[3] = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+}
+
+inline void splitPairs(FloatVector ab, FloatVector cd, Floats& x, Floats& y) {
+    x = {__builtin_shufflevector(ab, cd, 0, 2, 4, 6)};
+    y = {__builtin_shufflevector(ab, cd, 1, 3, 5, 7)};
+}
 
 inline void storeDoubleRows(double* rows, Doubles x, Doubles y, Doubles z, Doubles w) {
     storeDoubles(rows, {__builtin_shufflevector(x.v, y.v, 0, 2)});

@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <utility>
 
 // Programs are compiled for size, and then Clang calls functions of one instruction. What moves rows has many long ones:
 // it is called, but for the kernels that are compiled for speed.
@@ -67,6 +66,8 @@ inline Floats join(const Doubles* parts) {
                                        wasm_f32x4_demote_f64x2_zero(wasmOf(parts[1])), 0, 2));
 }
 #pragma clang attribute pop
+
+#include "simd/lanes_rows_of_four.h"
 
 }  // namespace tspace::simd::wasm
 
