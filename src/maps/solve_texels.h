@@ -13,19 +13,26 @@ namespace tspace {
 /// where samples say next to nothing: at the rim of a chart.
 inline constexpr float kHold = 0.004F;
 
-/// row(y) for all rows of an image: first every second one, then the others, then the last of an odd number. No two at the same
-/// time are beside each other in an image that repeats.
-template <class Row>
-void forRowsApart(Parallel& parallel, std::uint32_t height, const Row& row) {
-    for (const std::uint32_t first : {0U, 1U}) {
-        parallel.forRanges(height / 2, 4, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) row(static_cast<std::uint32_t>(2 * i) + first);
-        });
-    }
-    if (height % 2 == 1) row(height - 1);
+/// Things in a ring, of which no two at the same time are beside each other: some(first, number) for every second one from
+/// `first` on, of the even ones, then the odd ones, then the last of an odd number. False as soon as some() says so.
+template <class Some>
+bool forApart(std::size_t count, const Some& some) {
+    return some(std::size_t{0}, count / 2) && some(std::size_t{1}, count / 2) && some(count - 1, count % 2);
 }
 
-/// Moves the unknown ones of `texels` (width * height) to the least squares, by conjugate gradients. The same bits for any number of threads.
+/// row(y) for all rows of an image that repeats.
+template <class Row>
+void forRowsApart(Parallel& parallel, std::uint32_t height, const Row& row) {
+    forApart(height, [&](std::size_t first, std::size_t number) {
+        parallel.forRanges(number, 4, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) row(static_cast<std::uint32_t>(first + 2 * i));
+        });
+        return true;
+    });
+}
+
+/// Moves the unknown ones of `texels` (width * height) to the least squares, by conjugate gradients. The same bits for any
+/// number of threads.
 void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator);
 
 /// What integers stand for: n from 0 to `most` for 2 n / most - 1.

@@ -46,18 +46,6 @@ FitSample sampleOf(const BakeOptions& options, const Vec3& wanted) {
     return acrossSample(wanted, options.bits == 8 ? 0.0F : kAlong, kWantedLength);
 }
 
-/// task(band) for all bands, those at the same time that have no texel row beside each other: first every second one, then the
-/// others; and the last of an odd number, which is beside the first. False when stopped.
-template <class Task>
-bool forBandsApart(Parallel& parallel, std::size_t count, const char* what, const BakeOptions& options,
-                   const Task& task) {
-    const auto some = [&](std::size_t first, std::size_t number) {
-        return forTasksTold(parallel, number, what, options.progress, options.stop,
-                            [&](std::size_t i) { task(first + 2 * i); });
-    };
-    return some(0, count / 2) && some(1, count / 2) && some(count - 1, count % 2);
-}
-
 class Tracing {
   public:
     Tracing(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
@@ -175,7 +163,11 @@ bool traceBetween(const MapSurfaces& surfaces, const TexelPlan& plan, std::uint3
             system.add(x, y, place(column % n), place(row % n), sampleOf(options, wanted));
         });
     };
-    return forBandsApart(parallel, bands.bandCount(), "tracing between texels", options, traceBand);
+    // Bands beside each other share a row of texels.
+    return forApart(bands.bandCount(), [&](std::size_t begin, std::size_t number) {
+        return forTasksTold(parallel, number, "tracing between texels", options.progress, options.stop,
+                            [&](std::size_t i) { traceBand(begin + 2 * i); });
+    });
 }
 
 void addSmoothCells(const TexelPlan& plan, std::span<const Vec3> texels, const BakeOptions& options, Parallel& parallel,

@@ -31,8 +31,8 @@ bool traceBetween(const MapSurfaces& surfaces, const TexelPlan& plan, std::uint3
 void addSmoothCells(const TexelPlan& plan, std::span<const Vec3> texels, const BakeOptions& options, Parallel& parallel,
                     TexelSystem& system);
 
-/// Gives texels that have an origin but no vector the mean of their neighbours, ring by ring, and flat ones where there is
-/// none.
+/// Gives texels that have an origin but no vector one, ring by ring: the first ring what the slope before it leads to, the
+/// others the mean of their neighbours; flat ones where there is none.
 void fillFromNeighbours(TracedTexels& traced, std::uint32_t width, std::uint32_t height);
 
 }  // namespace tspace
