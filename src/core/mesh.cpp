@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "core/border.h"
-#include "core/early_lines.h"
 #include "core/parallel.h"
+#include "core/prefetch.h"
 #include "core/typed_indices.h"
 
 namespace tspace {
@@ -53,7 +53,7 @@ bool allBelow(const Index* indices, std::size_t count, std::uint32_t limit) {
     std::fill_n(below, kLanes, 0x80000000u);
     std::size_t c = 0;
     for (; c + kLanes <= count; c += kLanes) {
-        askForLines(indices + c, kLanes * sizeof(Index));
+        prefetchLines(indices + c, kLanes * sizeof(Index));
         for (std::size_t i = 0; i < kLanes; ++i) {
             const std::uint32_t index = indices[c + i];
             below[i] &= (index - limit) & ~index;

@@ -5,7 +5,7 @@
 #include <bit>
 #include <utility>
 
-#include "core/early_lines.h"
+#include "core/prefetch.h"
 #include "core/typed_indices.h"
 
 namespace tspace {
@@ -86,7 +86,7 @@ std::uint64_t VertexRanges::markOf(std::size_t block, unsigned shift) const {
     const std::size_t count = 3 * blockSize(block);
     if (count == 0) return 0;
     const std::uint32_t* v = readIndices(vertices_, 3 * block * kBlock, count, buffer);
-    askForLines(v, 3 * kBlock * sizeof *v);
+    prefetchLines(v, 3 * kBlock * sizeof *v);
     RangeBits bits = bitsOf(v, count, limit_);
     if (!bits.are_below) return 0;
     std::uint64_t mark = 0;

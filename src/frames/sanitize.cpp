@@ -190,9 +190,9 @@ class Sanitizer {
     void cutIntoBlocks() {
         const std::size_t faces = mesh_.faceCount();
         const Allocator* allocator = options_.execution.allocator;
-        suspects_ = Buffer<std::uint8_t>(allocator, (faces + kFacesPerBlock - 1) / kFacesPerBlock);
+        candidates_ = Buffer<std::uint8_t>(allocator, (faces + kFacesPerBlock - 1) / kFacesPerBlock);
         if (mesh_.face_sizes.empty()) return;
-        block_corners_ = Buffer<std::uint32_t>(allocator, suspects_.size());
+        block_corners_ = Buffer<std::uint32_t>(allocator, candidates_.size());
         forEachFace(mesh_, [&](std::size_t face, std::size_t first, std::uint32_t) {
             if (face % kFacesPerBlock == 0) {
                 block_corners_[face / kFacesPerBlock] = static_cast<std::uint32_t>(first);
@@ -216,11 +216,11 @@ class Sanitizer {
     /// Marks the blocks in which something may have to be counted or changed; false when there is none.
     bool scan() {
         const std::uint64_t found =
-            sumRanges(parallel_, suspects_.size(), kScanGrain, [this](std::size_t begin, std::size_t end) {
+            sumRanges(parallel_, candidates_.size(), kScanGrain, [this](std::size_t begin, std::size_t end) {
                 std::uint64_t count = 0;
                 for (std::size_t block = begin; block < end; ++block) {
                     const bool fine = !options_.orthogonalize_all && isFine(block);
-                    suspects_[block] = fine ? 0 : 1;
+                    candidates_[block] = fine ? 0 : 1;
                     count += fine ? 0 : 1;
                 }
                 return count;
@@ -268,10 +268,10 @@ class Sanitizer {
     /// body(first_corner, corner_count, counts) for each face that scan() did not clear; faces are independent.
     template <class Body>
     void forEachSuspect(Body&& body) {
-        parallel_.forRanges(suspects_.size(), kScanGrain, [&](std::size_t begin, std::size_t end) {
+        parallel_.forRanges(candidates_.size(), kScanGrain, [&](std::size_t begin, std::size_t end) {
             Counts counts;
             for (std::size_t block = begin; block < end; ++block) {
-                if (suspects_[block] == 0) continue;
+                if (candidates_[block] == 0) continue;
                 forEachFaceOf(block, [&](std::size_t first, std::uint32_t size) { body(first, size, counts); });
             }
             for (std::size_t i = 0; i < kCountedCount; ++i) counts_[i] += counts.of[i];
@@ -411,7 +411,7 @@ class Sanitizer {
     StridedSpan<Vec4> tangents_;
     const SanitizeOptions& options_;
     Parallel parallel_;
-    Buffer<std::uint8_t> suspects_;        ///< one per block
+    Buffer<std::uint8_t> candidates_;      ///< one per block
     Buffer<std::uint32_t> block_corners_;  ///< each block's first corner; empty when all faces have one size
     Buffer<Cause> causes_;
     Buffer<std::uint8_t> seeks_;

@@ -73,7 +73,7 @@ TriangleCounts FaceSums::sum(unsigned index) const {
         const std::size_t first = b * Block::kMost;
         block.count = std::min(Block::kMost, plan_.triangleCount() - first);
         block.vertices = readIndices(plan_.triangle_vertices, 3 * first, 3 * block.count, block.buffer);
-        askForLines(block.vertices, 3 * Block::kMost * sizeof(std::uint32_t));
+        prefetchLines(block.vertices, 3 * Block::kMost * sizeof(std::uint32_t));
         const bool is_whole = ranges_.isWithinOne(b);
         if (!is_whole) block.select(range);
         block.vertices = fillGroup(block.vertices, block.count, derivatives::kTermGroup, block.buffer);

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/early_lines.h"
 #include "core/parallel.h"
+#include "core/prefetch.h"
 #include "core/vec_math.h"
 #include "core/vertex_ranges.h"
 #include "tangents/derivative_terms.h"
@@ -37,7 +37,7 @@ struct VertexSums {
     static void fill(float* begin, float* end, float value) {
         constexpr std::ptrdiff_t kFloats = 16;  // a line
         for (; end - begin >= kFloats; begin += kFloats) {
-            askForLines<true>(begin, kFloats * sizeof(float));
+            prefetchLines<true>(begin, kFloats * sizeof(float));
             std::fill_n(begin, kFloats, value);
         }
         std::fill(begin, end, value);

@@ -6,8 +6,8 @@
 #include <bit>
 #include <cstddef>
 
-#include "core/early_lines.h"
 #include "core/float4.h"
+#include "core/prefetch.h"
 #include "core/sum_ranges.h"
 #include "core/typed_indices.h"
 #include "tangents/derivative_terms.h"
@@ -70,9 +70,9 @@ class VertexFrames {
 
     void finishInPlace(std::uint32_t first, std::uint32_t count, VertexCounts& counts) const {
         const auto* normals = reinterpret_cast<const std::byte*>(&normals_[first]);
-        askForLines<true>(sums_.head(first), kMost * 4 * sizeof(float));
-        askForLines(sums_.tail(first), kMost * 2 * sizeof(float));
-        askForLines(normals, kMost * normals_.stride_bytes);
+        prefetchLines<true>(sums_.head(first), kMost * 4 * sizeof(float));
+        prefetchLines(sums_.tail(first), kMost * 2 * sizeof(float));
+        prefetchLines(normals, kMost * normals_.stride_bytes);
         const std::uint64_t safe =
             kernel_.finish({sums_.head(first), sums_.tail(first)}, normals, normals_.stride_bytes, sign_factor_, count);
         counts.used += static_cast<unsigned>(std::popcount(safe));
@@ -183,7 +183,7 @@ std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std
     std::uint64_t defaults = 0;
     for (std::size_t c = begin; c < end; ++c, to += stride) {
         // Writing waits for the lines that it will replace, unless they were asked for before.
-        askForLines<true>(to, 1, kAhead);
+        prefetchLines<true>(to, 1, kAhead);
         if (used != nullptr && used[c] == 0) continue;
         const std::size_t vertex = vertexOf(c);
         storeFloat4(&reinterpret_cast<Vec4*>(to)->x, loadFloat4(from + 4 * vertex));

@@ -7,7 +7,7 @@
 
 #include "asset/gltf/draco_primitives.h"
 #include "asset/gltf/gather_elements.h"
-#include "asset/gltf/idle_buffers.h"
+#include "asset/gltf/unreferenced_buffers.h"
 #include "asset/uri.h"
 
 namespace tspace::gltf {

@@ -12,8 +12,8 @@
 #include "asset/gltf/editor.h"
 #include "asset/gltf/extension_lists.h"
 #include "asset/gltf/gather_elements.h"
-#include "asset/gltf/idle_buffers.h"
 #include "asset/gltf/primitive_reader.h"
+#include "asset/gltf/unreferenced_buffers.h"
 
 namespace tspace::gltf {
 
@@ -154,7 +154,7 @@ bool edit(Document& document, const std::string& new_file_name, Body&& body) {
     body(editor);
     if (!editor.changed()) return false;
     editor.finish();
-    removeIdleBuffers(document);
+    removeUnreferencedBuffers(document);
     return true;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finding and removing idle buffers.
-#include "asset/gltf/idle_buffers.h"
+// Finding and removing unreferenced buffers.
+#include "asset/gltf/unreferenced_buffers.h"
 
 #include <algorithm>
 #include <utility>
@@ -48,7 +48,7 @@ void keepOnly(Document& document, const std::vector<bool>& is_kept) {
 
 }  // namespace
 
-void removeIdleBuffers(Document& document) {
+void removeUnreferencedBuffers(Document& document) {
     std::vector<bool> is_kept = usedBuffers(document);
     for (std::size_t i = 0; i < is_kept.size(); ++i) is_kept[i] = is_kept[i] || document.buffers[i].own;
     keepOnly(document, is_kept);

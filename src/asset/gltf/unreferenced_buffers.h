@@ -8,7 +8,7 @@ namespace tspace::gltf {
 
 /// Removes buffers that no view and no compression extension names, but for those that the output writes itself. Views
 /// and extensions follow.
-void removeIdleBuffers(Document& document);
+void removeUnreferencedBuffers(Document& document);
 
 /// Removes buffers of the output that lost all their bytes: a buffer of length 0 is not valid.
 void removeEmptiedBuffers(Document& document);
