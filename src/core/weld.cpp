@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Welding by a hash table of vertices; and, for input that defeats the hash, by sorting. Few vertices of an indexed
-// mesh share a position with another one: there only those are looked up whose hash occurs more than once.
+// Welding by hashes, in three steps. Most vertices of an indexed mesh are equal to no other: so each hash counts in a small
+// table, by its upper bits, up to two, and only vertices whose place in it counts two are looked up; where most vertices
+// are equal to others, all are. Then each finds the first vertex with its hash. Then the data of each and of that one are
+// compared, in order, which reads memory as it lies; the few that differ are sorted by their data.
+//
+// Threads share nothing: each counts its own vertices, and looks up the vertices of its own range of hashes.
 #include "core/weld.h"
 
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <compare>
-#include <utility>
 
 #include "core/repeated_hashes.h"
 #include "core/sort.h"
@@ -17,183 +19,246 @@ namespace tspace {
 
 namespace {
 
-constexpr std::uint32_t kFree = ~std::uint32_t{0};
-constexpr std::size_t kBatch = 32;  ///< vertices whose places are fetched into the cache together
-// In vertices. An estimate, from some 50 us for a thread to start; not yet measured on idle cores.
-constexpr std::size_t kFew = 4096;           ///< vertices; so few are all looked up
-constexpr std::size_t kHashBlock = 256;      ///< vertices; their hashes stay in the first cache
-constexpr std::size_t kPlacesPerVertex = 4;  ///< of a counting table: leaves 1 vertex of 5 or fewer to be looked up
+constexpr std::size_t kGrain = 16384;  // vertices per task at least: below, starting threads costs more than it saves
+constexpr std::size_t kFew = 4096;     // vertices; so few are all looked up
+constexpr std::size_t kPlacesPerVertex = 8;  // of a counting table: leaves 1 vertex of 9 to be looked up
+constexpr std::size_t kBlock = 256;          // vertices; their hashes stay in the first cache
+constexpr std::size_t kBatch = 32;           // lookups; all that they touch has to stay in the first cache
 
-struct Key {
-    std::uint32_t x, y, z;
-    friend auto operator<=>(const Key&, const Key&) = default;
+class Welder {
+  public:
+    Welder(Weldable& vertices, std::size_t count, const Allocator* allocator, const Allocator* transient,
+           Parallel& parallel)
+        : vertices_(vertices),
+          count_(count),
+          allocator_(allocator),
+          transient_(transient),
+          parallel_(parallel),
+          hashes_(transient, count) {}
+
+    Roots run(bool is_indexed) {
+        std::size_t distinct = count_;
+        if (!is_indexed || count_ < kFew) {
+            hashAll(nullptr, std::clamp<std::size_t>(count_ / kGrain, 1, parallel_.width()));
+            if (count_ >= kFew) distinct = guessDistinct();
+        } else {
+            distinct = listCandidates();
+        }
+        entry_count_ = to_.list.empty() ? count_ : distinct;
+        to_.roots = Buffer<std::uint32_t>(to_.list.empty() ? allocator_ : transient_, entry_count_);
+        const bool matched = count_ < kFew ? matchFew() : matchHashes(distinct);
+        if (!matched) std::fill_n(to_.roots.data(), entry_count_, Weldable::kNoRoot);
+        std::atomic<bool> different{!matched};
+        if (matched) {
+            parallel_.forRanges(entry_count_, kGrain, [&](std::size_t begin, std::size_t end) {
+                if (vertices_.compare(to_.list.data(), begin, end, to_.roots.data()))
+                    different.store(true, std::memory_order_relaxed);
+            });
+        }
+        if (different) matchBySorting();
+        return std::move(to_);
+    }
+
+  private:
+    struct Slot {
+        std::uint32_t hash = 0, vertex = Weldable::kNoRoot;
+    };
+    struct Item {
+        std::uint32_t hash, vertex;
+        std::size_t index;
+    };
+
+    [[nodiscard]] std::uint32_t vertexOf(std::size_t i) const {
+        return to_.list.empty() ? static_cast<std::uint32_t>(i) : to_.list[i];
+    }
+
+    void hashAll(RepeatedHashes* counting, std::size_t ranges) {
+        parallel_.forTasks(ranges, [&](std::size_t range) {
+            if (counting != nullptr) counting->clear(range);
+            const std::size_t end = count_ * (range + 1) / ranges;
+            for (std::size_t v = count_ * range / ranges; v < end; v += kBlock) {
+                const std::size_t stop = std::min(v + kBlock, end);
+                vertices_.hash(v, stop, hashes_.data());
+                if (counting != nullptr) counting->add(range, hashes_.data() + v, stop - v);
+            }
+        });
+    }
+
+    /// Hashes all, and lists those that may be equal to others, unless they are too many. Returns how many are listed, or
+    /// about how many different ones there are.
+    std::size_t listCandidates() {
+        const std::size_t ranges = RepeatedHashes::rangesFor(count_, parallel_);
+        RepeatedHashes counting(kPlacesPerVertex, transient_, count_, ranges);
+        hashAll(&counting, ranges);
+        const std::size_t distinct = counting.sum(ranges, parallel_);
+        if (distinct < count_ - count_ / 4) return distinct;
+        to_.list = Buffer<std::uint32_t>(transient_, count_);
+        return counting.collect(hashes_.data(), count_, ranges, to_.list.data(), parallel_);
+    }
+
+    /// Counts a sample of the hashes, chosen by their value, so that equal vertices are in it together or not at all.
+    std::size_t guessDistinct() {
+        constexpr std::uint32_t kShare = 32;
+        RepeatedHashes counting(kPlacesPerVertex, transient_, count_ / kShare, 1);
+        counting.clear(0);
+        for (std::size_t v = 0; v < count_; ++v) {
+            if (hashes_[v] % kShare == 0) counting.add(0, hashes_.data() + v, 1);
+        }
+        return std::min(count_, kShare * counting.sum(1, parallel_));
+    }
+
+    /// All of few vertices, by hashes alone: what is read and written stays in the first cache.
+    bool matchFew() {
+        Buffer<std::uint32_t> table(transient_, std::bit_ceil(2 * count_), Weldable::kNoRoot);
+        for (std::uint32_t v = 0, mask = static_cast<std::uint32_t>(table.size() - 1); v < count_; ++v) {
+            std::uint32_t at = hashes_[v] & mask;
+            while (table[at] != Weldable::kNoRoot && hashes_[table[at]] != hashes_[v]) at = (at + 1) & mask;
+            if (table[at] == Weldable::kNoRoot) table[at] = v;
+            to_.roots[v] = table[at];
+        }
+        return true;
+    }
+
+    /// The same for many: each task has those of one range, and a part of the table. Returns false where hashes collide more
+    /// than chance explains.
+    bool matchHashes(std::size_t distinct) {
+        const std::size_t tasks =
+            entry_count_ < 2 * kGrain
+                ? 1
+                : std::min<std::size_t>(parallel_.width(), std::size_t{2} * RepeatedHashes::kMostRanges);
+        // The guess may be bad.
+        for (std::size_t slots = std::bit_ceil(2 * distinct / tasks + 2 * kBatch);; slots *= 4) {
+            Buffer<Slot> table(transient_, tasks * slots);
+            std::atomic<std::size_t> done{0};
+            parallel_.forTasks(tasks, [&](std::size_t task) {
+                Slot* part = table.data() + task * slots;
+                std::fill_n(part, slots, Slot{});
+                if (matchRange(task, tasks, part, slots)) ++done;
+            });
+            if (done == tasks) return true;
+            if (slots > 2 * entry_count_) return false;
+        }
+    }
+
+    /// Those of one range of hashes. Returns false when the table is too small, or its rows of taken slots too long.
+    bool matchRange(std::size_t task, std::size_t tasks, Slot* table, std::size_t slots) {
+        const std::size_t mask = slots - 1;
+        std::size_t room = slots - slots / 4, steps = 16 * entry_count_ + 1024;
+        Item items[kBatch];
+        for (std::size_t begin = 0; begin < entry_count_; begin += kBatch) {
+            const std::size_t end = std::min(begin + kBatch, entry_count_);
+            std::size_t count = 0;
+            for (std::size_t i = begin; i < end; ++i) {
+                const std::uint32_t vertex = vertexOf(i), hash = hashes_[vertex];
+                items[count] = {hash, vertex, i};
+                count += (std::uint64_t{hash} * tasks) >> 32 == task ? 1 : 0;
+            }
+            if (room < count) return false;
+            for (std::size_t i = 0; i < count; ++i) __builtin_prefetch(&table[items[i].hash & mask]);
+            for (std::size_t i = 0; i < count; ++i) {
+                const Item& item = items[i];
+                std::size_t at = item.hash & mask;
+                for (; table[at].vertex != Weldable::kNoRoot && table[at].hash != item.hash; at = (at + 1) & mask) {
+                    if (--steps == 0) return false;
+                }
+                if (table[at].vertex == Weldable::kNoRoot) {
+                    table[at] = {item.hash, item.vertex};
+                    --room;
+                }
+                to_.roots[item.index] = table[at].vertex;
+            }
+        }
+        return true;
+    }
+
+    /// Those without a root. A NaN equals nothing that it lies beside.
+    [[gnu::cold]] void matchBySorting() {
+        std::uint32_t* const roots = to_.roots.data();
+        Buffer<std::uint32_t> rest(
+            transient_, static_cast<std::size_t>(std::count(roots, roots + entry_count_, Weldable::kNoRoot)));
+        for (std::size_t i = 0, n = 0; i < entry_count_; ++i) {
+            if (roots[i] == Weldable::kNoRoot) rest[n++] = static_cast<std::uint32_t>(i);
+        }
+        sortList(rest.begin(), rest.end(), [&](std::uint32_t a, std::uint32_t b) {
+            const int order = vertices_.order(vertexOf(a), vertexOf(b));
+            return order != 0 ? order < 0 : a < b;
+        });
+        for (std::size_t n = 0; n < rest.size(); ++n) {
+            const std::size_t i = rest[n];
+            roots[i] = n == 0 ? vertexOf(i) : roots[rest[n - 1]];
+            if (vertices_.compare(to_.list.data(), i, i + 1, roots)) roots[i] = vertexOf(i);
+        }
+    }
+
+    Weldable& vertices_;
+    std::size_t count_, entry_count_ = 0;
+    const Allocator *allocator_, *transient_;
+    Parallel& parallel_;
+    Buffer<std::uint32_t> hashes_;
+    Roots to_;
 };
 
 std::uint32_t bitsOf(float f) { return std::bit_cast<std::uint32_t>(f + 0.0f); }  // -0 as +0
 
-Key keyOf(const Vec3& p) { return {bitsOf(p.x), bitsOf(p.y), bitsOf(p.z)}; }
-
-bool hasNan(const Vec3& p) { return p.x != p.x || p.y != p.y || p.z != p.z; }
-
-/// Good enough for meshes, and cheaper than hashPosition: every bit of the position reaches the high bits.
-std::uint64_t hashOf(const Vec3& p) {
-    const std::uint64_t xy = bitsOf(p.x) | std::uint64_t{bitsOf(p.y)} << 32;
-    std::uint64_t h = (xy ^ bitsOf(p.z) * 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
-    h = (h ^ h >> 32) * 0x94d049bb133111ebu;
-    return h ^ h >> 29;
-}
-
-/// Linear probing over a power of two of places, cut into one part per task by the highest bits of the hash.
-/// A place holds a vertex, and in the bits that vertices leave free some of its hash: so another vertex's
-/// position is hardly ever read in vain. Vertices come in order, so the one that is found is the lowest.
-class WeldTable {
+class Positions final : public Weldable {
   public:
-    /// `candidates`: ascending vertices, which are looked up; null: all.
-    WeldTable(StridedSpan<const Vec3> positions, const std::uint32_t* candidates, std::size_t count, unsigned part_bits,
-              const Allocator* allocator)
-        : positions_(positions),
-          candidates_(candidates),
-          count_(count),
-          part_bits_(part_bits),
-          vertex_mask_(static_cast<std::uint32_t>(std::bit_ceil(positions.count + 1) - 1)),
-          places_(allocator, std::bit_ceil(std::max<std::size_t>(2 * count, 64)), kFree),
-          part_mask_((places_.size() >> part_bits) - 1) {}
+    explicit Positions(StridedSpan<const Vec3> positions) : positions_(positions) {}
 
-    /// False when the vertices of this part collide more than chance explains.
-    bool weldPart(std::size_t part, std::uint32_t* lowest) {
-        std::uint32_t* const places = places_.data() + part * (part_mask_ + 1);
-        std::size_t steps = 16 * count_ + 1024;
-        std::uint32_t entries[kBatch];
-        std::uint32_t homes[kBatch];
-        for (std::size_t first = 0; first < count_; first += kBatch) {
-            const std::size_t end = std::min(first + kBatch, count_);
-            std::size_t count = 0;
-            for (std::size_t i = first; i < end; ++i) {
-                const std::uint32_t v = candidates_ == nullptr ? static_cast<std::uint32_t>(i) : candidates_[i];
-                const std::uint64_t hash = hashOf(positions_[v]);
-                const auto mark = static_cast<std::uint32_t>(hash >> 26) & ~vertex_mask_;
-                entries[count] = mark | v;
-                homes[count] = static_cast<std::uint32_t>(hash & part_mask_);
-                __builtin_prefetch(places + homes[count], 1);
-                count += part_bits_ == 0 || hash >> (64 - part_bits_) == part ? 1 : 0;
-            }
-            for (std::size_t i = 0; i < count; ++i) {
-                if (!insert(places, entries[i], homes[i], steps, lowest)) return false;
-            }
+    /// Every bit of the position reaches the high bits.
+    void hash(std::size_t begin, std::size_t end, std::uint32_t* hashes) override {
+        for (std::size_t v = begin; v < end; ++v) {
+            const Vec3& p = positions_[v];
+            const std::uint64_t xy = bitsOf(p.x) | std::uint64_t{bitsOf(p.y)} << 32;
+            std::uint64_t h = (xy ^ bitsOf(p.z) * 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
+            h = (h ^ h >> 32) * 0x94d049bb133111ebu;
+            hashes[v] = static_cast<std::uint32_t>(h >> 32);
         }
-        return true;
+    }
+    bool compare(const std::uint32_t* list, std::size_t begin, std::size_t end, std::uint32_t* roots) override {
+        bool different = false;
+        for (std::size_t i = begin; i < end; ++i) {
+            if (i + kBatch < end) __builtin_prefetch(&positions_[roots[i + kBatch]]);
+            const std::size_t vertex = list == nullptr ? i : list[i];
+            if (roots[i] == vertex || positions_[vertex] == positions_[roots[i]]) continue;
+            roots[i] = kNoRoot;
+            different = true;
+        }
+        return different;
+    }
+    [[nodiscard]] int order(std::uint32_t a, std::uint32_t b) const override {
+        const Vec3 &p = positions_[a], &q = positions_[b];
+        for (float Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+            const std::uint32_t here = bitsOf(p.*axis), there = bitsOf(q.*axis);
+            if (here != there) return here < there ? -1 : 1;
+        }
+        return 0;
     }
 
   private:
-    bool insert(std::uint32_t* places, std::uint32_t entry, std::size_t place, std::size_t& steps,
-                std::uint32_t* lowest) const {
-        const std::uint32_t vertex = entry & vertex_mask_;
-        const Vec3& here = positions_[vertex];
-        lowest[vertex] = vertex;
-        if (hasNan(here)) return true;
-        for (; places[place] != kFree; place = (place + 1) & part_mask_) {
-            const std::uint32_t other = places[place];
-            if (((other ^ entry) & ~vertex_mask_) == 0 && positions_[other & vertex_mask_] == here) {
-                lowest[vertex] = other & vertex_mask_;
-                return true;
-            }
-            if (--steps == 0) return false;  // also the end of a part that is full
-        }
-        places[place] = entry;
-        return true;
-    }
-
     StridedSpan<const Vec3> positions_;
-    const std::uint32_t* candidates_;
-    std::size_t count_;
-    unsigned part_bits_;
-    std::uint32_t vertex_mask_;  ///< bits that hold a vertex; all of them are set in no vertex
-    Buffer<std::uint32_t> places_;
-    std::size_t part_mask_;
 };
-
-/// O(n log n) whatever the input.
-void weldBySorting(StridedSpan<const Vec3> positions, const Allocator* allocator, std::uint32_t* lowest) {
-    Buffer<std::uint32_t> order(allocator, positions.count);
-    for (std::size_t v = 0; v < positions.count; ++v) order[v] = static_cast<std::uint32_t>(v);
-    sortList(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        const auto relation = keyOf(positions[a]) <=> keyOf(positions[b]);
-        return relation != 0 ? relation < 0 : a < b;
-    });
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const std::uint32_t v = order[i];
-        const bool same = i > 0 && positions[v] == positions[order[i - 1]];
-        lowest[v] = same ? lowest[order[i - 1]] : v;
-    }
-}
-
-/// Vertices that may share a position with another one, ascending; their number in `count`. Writes its own number to
-/// each vertex's place of `lowest`. Empty, and the count unchanged, when they would be too many.
-Buffer<std::uint32_t> findCandidates(StridedSpan<const Vec3> positions, std::uint32_t* lowest, std::size_t& count,
-                                     const Allocator* allocator, Parallel& parallel) {
-    Buffer<std::uint32_t> hashes(allocator, positions.count);
-    const std::size_t ranges = RepeatedHashes::rangesFor(positions.count, parallel);
-    RepeatedHashes repeated(kPlacesPerVertex, allocator, positions.count, ranges);
-    parallel.forTasks(ranges, [&](std::size_t range) {
-        repeated.clear(range);
-        const std::size_t end = positions.count * (range + 1) / ranges;
-        for (std::size_t v = positions.count * range / ranges; v < end;) {
-            const std::size_t first = v, stop = std::min(v + kHashBlock, end);
-            for (; v < stop; ++v) {
-                hashes[v] = static_cast<std::uint32_t>(hashOf(positions[v]) >> 32);
-                lowest[v] = static_cast<std::uint32_t>(v);
-            }
-            repeated.add(range, hashes.data() + first, stop - first);
-        }
-    });
-    if (repeated.sum(ranges, parallel) < positions.count - positions.count / 4) return {};
-    count = repeated.collect(hashes.data(), positions.count, ranges, hashes.data(), parallel);
-    return hashes;
-}
-
-/// Most candidates are there because a small table holds their hashes. Leaves those whose hash occurs more than once by
-/// other bits as well, among so few; returns how many.
-std::size_t lookAgain(StridedSpan<const Vec3> positions, std::uint32_t* candidates, std::size_t count,
-                      const Allocator* allocator, Parallel& parallel) {
-    Buffer<std::uint32_t> hashes(allocator, count);
-    const std::size_t ranges = RepeatedHashes::rangesFor(count, parallel);
-    RepeatedHashes repeated(2 * kPlacesPerVertex, allocator, count, ranges);
-    parallel.forTasks(ranges, [&](std::size_t range) {
-        repeated.clear(range);
-        const std::size_t begin = count * range / ranges, end = count * (range + 1) / ranges;
-        for (std::size_t i = begin; i < end; ++i)
-            hashes[i] = static_cast<std::uint32_t>(hashOf(positions[candidates[i]]));
-        repeated.add(range, hashes.data() + begin, end - begin);
-    });
-    if (ranges > 1) repeated.sum(ranges, parallel);
-    const std::size_t left = repeated.collect(hashes.data(), count, ranges, hashes.data(), parallel);
-    for (std::size_t i = 0; i < left; ++i) candidates[i] = candidates[hashes[i]];
-    return left;
-}
 
 }  // namespace
 
+Roots findRoots(Weldable& vertices, std::size_t count, bool is_indexed, const Allocator* allocator,
+                const Allocator* transient, Parallel& parallel) {
+    return Welder(vertices, count, allocator, transient, parallel).run(is_indexed);
+}
+
 Buffer<std::uint32_t> weldPositions(const MeshView& mesh, const Allocator* allocator, Parallel& parallel) {
-    const StridedSpan<const Vec3> positions = mesh.positions;
-    Buffer<std::uint32_t> lowest(allocator, positions.count), candidates;
-    std::size_t count = positions.count;
-    if (mesh.indices.type != IndexType::none && count >= kFew)
-        candidates = findCandidates(positions, lowest.data(), count, allocator, parallel);
-    if (!candidates.empty()) count = lookAgain(positions, candidates.data(), count, allocator, parallel);
-    const bool shared = parallel.width() > 1 && count >= Parallel::kGrain;
-    const unsigned part_bits = shared ? std::min(6u, static_cast<unsigned>(std::bit_width(parallel.width() - 1))) : 0;
-    std::atomic<bool> crowded{false};
-    {
-        WeldTable table(positions, candidates.data(), count, part_bits, allocator);
-        parallel.forTasks(std::size_t{1} << part_bits, [&](std::size_t part) {
-            if (!table.weldPart(part, lowest.data())) crowded = true;
-        });
-    }
-    if (crowded) weldBySorting(positions, allocator, lowest.data());
-    const auto isRepeated = [&](std::uint32_t v) { return lowest[v] != v; };
-    const bool none =
-        !candidates.empty() && !crowded && std::none_of(candidates.begin(), candidates.begin() + count, isRepeated);
-    return none ? Buffer<std::uint32_t>() : std::move(lowest);
+    Positions positions(mesh.positions);
+    const std::size_t count = mesh.vertexCount();
+    Roots found = findRoots(positions, count, mesh.indices.type != IndexType::none, allocator, allocator, parallel);
+    if (found.list.empty()) return std::move(found.roots);
+    Buffer<std::uint32_t> lowest;
+    found.forEachRepeated([&](std::uint32_t vertex, std::uint32_t root) {
+        if (lowest.empty()) {
+            lowest = Buffer<std::uint32_t>(allocator, count);
+            for (std::size_t v = 0; v < count; ++v) lowest[v] = static_cast<std::uint32_t>(v);
+        }
+        lowest[vertex] = root;
+    });
+    return lowest;
 }
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vertices at the same position are one point.
+// Equal vertices are one: the search for them, whatever is compared, and vertices at the same position.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,46 @@
 
 namespace tspace {
 
+/// What is compared. A vertex that does not equal itself (a NaN) equals no other.
+class Weldable {
+  public:
+    static constexpr std::uint32_t kNoRoot = 0xffffffffu;
+
+    /// Writes hashes[v] for the vertices from `begin` to before `end`: the same for equal vertices.
+    virtual void hash(std::size_t begin, std::size_t end, std::uint32_t* hashes) = 0;
+    /// For the entries from `begin` to before `end`: roots[i] becomes kNoRoot where that vertex does not equal vertex list[i],
+    /// or vertex i where there is no list. Returns whether that was so anywhere. All are hashed by then.
+    virtual bool compare(const std::uint32_t* list, std::size_t begin, std::size_t end, std::uint32_t* roots) = 0;
+    /// Less than 0, 0 or more, in any order in which equal vertices lie together.
+    [[nodiscard]] virtual int order(std::uint32_t a, std::uint32_t b) const = 0;
+
+  protected:
+    ~Weldable() = default;
+};
+
+/// The root of a vertex is the lowest vertex that equals it.
+struct Roots {
+    Buffer<std::uint32_t> list;   ///< vertices that may have a root below them, ascending; empty: all vertices
+    Buffer<std::uint32_t> roots;  ///< one per vertex of the list, whose buffer may be longer; or one per vertex
+
+    /// Calls body(vertex, root) for those with a root below them, ascending.
+    template <class Body>
+    void forEachRepeated(const Body& body) const {
+        for (std::size_t i = 0; i < roots.size(); ++i) {
+            const std::uint32_t vertex = list.empty() ? static_cast<std::uint32_t>(i) : list[i];
+            if (roots[i] != vertex) body(vertex, roots[i]);
+        }
+    }
+};
+
+/// Linear for any ordinary input, O(n log n) for one made to defeat the hash. `is_indexed`: few vertices are equal to others,
+/// most likely. Takes 10 to 12 bytes per vertex while it works, up to 24 with four threads, and up to 32 when most vertices
+/// are equal to others; of which up to 4 remain. `transient`: for all but the roots of all vertices.
+Roots findRoots(Weldable& vertices, std::size_t count, bool is_indexed, const Allocator* allocator,
+                const Allocator* transient, Parallel& parallel);
+
 /// For each vertex the lowest vertex at the same position. May be empty when no two vertices share one. Coordinates are
-/// compared exactly, but -0 equals 0; a position with a NaN equals no other. O(n) for any ordinary input, O(n log n)
-/// for one made to defeat the hash. Takes 10 to 20 bytes per vertex, up to 24 with four threads.
+/// compared exactly, but -0 equals 0; a position with a NaN equals no other.
 Buffer<std::uint32_t> weldPositions(const MeshView& mesh, const Allocator* allocator, Parallel& parallel);
 
 }  // namespace tspace

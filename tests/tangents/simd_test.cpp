@@ -218,7 +218,7 @@ Outputs look(const Shape& shape, const TangentOptions& options, mikk::FirstLook 
     Parallel parallel(options.execution);
     const mikk::TriangleList triangles = mikk::cutFaces(mesh, options.ngons, nullptr);
     mikk::Nodes nodes = mikk::weld(mesh, triangles, nullptr, parallel);
-    mikk::listVertices(nodes, nullptr, parallel);
+    mikk::listVertices(nodes, nullptr);
     Outputs outputs(shape.cornerCount());
     TangentOutput to = outputs.view();
     if (tangents_only) to = {.tangents = to.tangents};

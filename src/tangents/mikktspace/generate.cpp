@@ -43,7 +43,7 @@ TangentReport generateWith(const MeshView& mesh, const TangentOptions& options, 
     ScratchBlock transient(allocator, unwritten(out));
     Nodes nodes = weld(mesh, triangles, allocator, parallel, transient.allocator());
     const LastBucket bucket = lastBucketOf(mesh, options, triangles, nodes, transient.allocator(), parallel);
-    listVertices(nodes, allocator, parallel);
+    listVertices(nodes, allocator);
     return evaluateInOnePass({mesh, options, triangles, nodes, out}, bucket, transient, parallel);
 }
 
@@ -68,7 +68,7 @@ EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, 
     TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
     Nodes nodes = weld(mesh, triangles, allocator, parallel);
     const LastBucket bucket = lastBucketOf(mesh, options, triangles, nodes, allocator, parallel);
-    listVertices(nodes, allocator, parallel);
+    listVertices(nodes, allocator);
     const Buffer<std::uint32_t> all = numbersBelow(nodes.count, allocator);
     const NodeSetting setting{mesh, options, triangles, nodes, {}};
     EvaluationPlan plan = planChosen({setting, bucket, {all.data(), all.size()}, nullptr, {}, parallel}, PlanUse::kept);

@@ -33,13 +33,12 @@ struct Nodes {
     }
 };
 
-/// Takes 10 to 12 bytes per vertex while it works, up to 24 with four threads, and up to 32 when most
-/// vertices are equal to others; of which up to 4 remain. Linear, whatever is equal to what. `transient`: for what
-/// does not remain; null: `allocator`.
+/// Takes what findRoots of core/weld.h takes, of which up to 4 bytes per vertex remain. `transient`: for what does not
+/// remain; null: `allocator`.
 Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator, Parallel& parallel,
            const Allocator* transient = nullptr);
 
 /// Makes nodes.vertex() valid.
-void listVertices(Nodes& nodes, const Allocator* allocator, Parallel& parallel);
+void listVertices(Nodes& nodes, const Allocator* allocator);
 
 }  // namespace tspace::mikk
