@@ -25,8 +25,8 @@ using Float4 = float __attribute__((vector_size(16)));
 using Mask4 = std::int32_t __attribute__((vector_size(16)));  ///< per lane all bits or none, from a comparison
 using Double2 = double __attribute__((vector_size(16)));      ///< here a carrier of two pairs of floats
 
-// As they lie in arrays: at any multiple of 4 bytes, and over any type.
-using Float4InMemory = float __attribute__((vector_size(16), aligned(4), may_alias));
+// As they lie in arrays: at any multiple of 4 bytes, and over any type. Clang overlooks `aligned` behind the equals sign.
+using Float4InMemory __attribute__((aligned(4), may_alias)) = Float4;
 
 inline Float4 splat(float f) { return Float4{f, f, f, f}; }
 inline Float4 abs4(Float4 v) { return std::bit_cast<Float4>(std::bit_cast<Mask4>(v) & 0x7fffffff); }

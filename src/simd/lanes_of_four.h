@@ -13,7 +13,8 @@ inline Bits smaller(Bits a, Bits b) {
     return asBits(select(m, asFloats(a), asFloats(b)));
 }
 
-using RowInMemory = float __attribute__((vector_size(16), aligned(4), may_alias));
+// Clang overlooks `aligned` behind the equals sign.
+using RowInMemory __attribute__((aligned(4), may_alias)) = FloatVector;
 inline FloatVector loadRow(const void* p) { return *static_cast<const RowInMemory*>(p); }
 inline void storeRow(void* to, FloatVector row) { *static_cast<RowInMemory*>(to) = row; }
 

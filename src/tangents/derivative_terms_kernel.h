@@ -96,9 +96,9 @@ void compute(const TriangleSource& source, const std::uint32_t* vertices, std::s
     }
 }
 
-// As they lie in arrays: at any multiple of 4 bytes, and over any type.
-using Head = float __attribute__((vector_size(16), aligned(4), may_alias));
-using Tail = float __attribute__((vector_size(8), aligned(4), may_alias));
+// As they lie in arrays: at any multiple of 4 bytes, and over any type. Clang overlooks `aligned` behind the equals sign.
+using Head __attribute__((aligned(4), may_alias)) = float __attribute__((vector_size(16)));
+using Tail __attribute__((aligned(4), may_alias)) = float __attribute__((vector_size(8)));
 
 /// What one triangle adds at a vertex.
 struct Addend {

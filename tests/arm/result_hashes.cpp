@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// result_hashes scalar|neon|best: computes everything that has kernels for each CPU, for meshes made from
+// result_hashes scalar|sse2|neon|best: computes everything that has kernels for each CPU, for meshes made from
 // whole numbers, and prints a hash for each kind of result. What two CPUs print must be the same. Any NaN
 // counts as equal to any NaN.
 #include <algorithm>
@@ -208,11 +208,13 @@ bool print(SimdTarget target) {
 
 int main(int argument_count, char** arguments) {
     using tspace::SimdTarget;
-    const std::map<std::string, SimdTarget> targets = {
-        {"scalar", SimdTarget::scalar}, {"neon", SimdTarget::neon}, {"best", SimdTarget::best}};
+    const std::map<std::string, SimdTarget> targets = {{"scalar", SimdTarget::scalar},
+                                                       {"sse2", SimdTarget::sse2},
+                                                       {"neon", SimdTarget::neon},
+                                                       {"best", SimdTarget::best}};
     const auto target = targets.find(argument_count == 2 ? arguments[1] : "");
     if (target == targets.end()) {
-        std::fputs("usage: result_hashes scalar|neon|best\n", stderr);
+        std::fputs("usage: result_hashes scalar|sse2|neon|best\n", stderr);
         return 2;
     }
     if (target->second != SimdTarget::best && tspace::simd::resolve(target->second) != target->second) {
