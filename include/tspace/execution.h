@@ -27,7 +27,7 @@ struct Allocator {
 /// The instructions that the hot loops use. Results have the same bits with all of them.
 enum class SimdTarget : std::uint32_t {
     best = 0,    ///< the best that this CPU has
-    scalar = 1,  ///< no SIMD
+    scalar = 1,  ///< no SIMD: for CPUs without any of these; elsewhere only tests of tspace have it
     sse2 = 2,    ///< x86-64 without anything else
     avx2 = 3,
     avx512 = 4,  ///< AVX-512 F and DQ

@@ -189,7 +189,7 @@ typedef struct tspace_Allocator {
 typedef uint32_t tspace_SimdTarget;
 enum {
     TSPACE_SIMD_BEST = 0,   /* the best that this CPU has */
-    TSPACE_SIMD_SCALAR = 1, /* no SIMD */
+    TSPACE_SIMD_SCALAR = 1, /* no SIMD: for CPUs without any of these; elsewhere only tests of tspace have it */
     TSPACE_SIMD_SSE2 = 2,   /* x86-64 without anything else */
     TSPACE_SIMD_AVX2 = 3,
     TSPACE_SIMD_AVX512 = 4, /* AVX-512 F and DQ */

@@ -7,34 +7,46 @@
 
 #include "tspace/execution.h"
 
+// Plain C++ is for CPUs without lanes here. Elsewhere only tests need it, to compare with: programs that do not link
+// tspace_scalar_kernels are a sixteenth smaller.
+#if !defined(TSPACE_SIMD_X86) && !defined(TSPACE_SIMD_ARM64)
+#define TSPACE_SCALAR_LINKAGE
+#elif defined(__ELF__)
+#define TSPACE_SCALAR_LINKAGE [[gnu::weak]]
+#define TSPACE_SCALAR_OR_NULL(function, other) scalar::function
+#else  // where a function that is not linked would be an error
+#define TSPACE_SCALAR_LINKAGE
+#define TSPACE_SCALAR_OR_NULL(function, other) static_cast<decltype(&other::function)>(nullptr)
+#endif
+
 /// Declares a function of a kernel in the namespace of each target.
-#define TSPACE_DECLARE_KERNEL(...) \
-    namespace scalar {             \
-    __VA_ARGS__;                   \
-    }                              \
-    namespace sse2 {               \
-    __VA_ARGS__;                   \
-    }                              \
-    namespace avx2 {               \
-    __VA_ARGS__;                   \
-    }                              \
-    namespace avx512 {             \
-    __VA_ARGS__;                   \
-    }                              \
-    namespace neon {               \
-    __VA_ARGS__;                   \
-    }                              \
-    namespace wasm {               \
-    __VA_ARGS__;                   \
+#define TSPACE_DECLARE_KERNEL(...)     \
+    namespace scalar {                 \
+    TSPACE_SCALAR_LINKAGE __VA_ARGS__; \
+    }                                  \
+    namespace sse2 {                   \
+    __VA_ARGS__;                       \
+    }                                  \
+    namespace avx2 {                   \
+    __VA_ARGS__;                       \
+    }                                  \
+    namespace avx512 {                 \
+    __VA_ARGS__;                       \
+    }                                  \
+    namespace neon {                   \
+    __VA_ARGS__;                       \
+    }                                  \
+    namespace wasm {                   \
+    __VA_ARGS__;                       \
     }
 
 /// Those functions that this build has, for simd::choose.
 #if defined(TSPACE_SIMD_X86)
 #define TSPACE_KERNEL_TABLE(function) \
-    { scalar::function, sse2::function, avx2::function, avx512::function }
+    { TSPACE_SCALAR_OR_NULL(function, sse2), sse2::function, avx2::function, avx512::function }
 #elif defined(TSPACE_SIMD_ARM64)
 #define TSPACE_KERNEL_TABLE(function) \
-    { scalar::function, neon::function }
+    { TSPACE_SCALAR_OR_NULL(function, neon), neon::function }
 #elif defined(TSPACE_SIMD_WASM)
 #define TSPACE_KERNEL_TABLE(function) \
     { wasm::function }
@@ -49,12 +61,13 @@ namespace tspace::simd {
 /// this build lacks. Never returns `best`. Thread-safe.
 SimdTarget resolve(SimdTarget wish);
 
-/// The function that runs for a wish.
+/// The function that runs for a wish; without tspace_scalar_kernels that of the least lanes for `scalar`.
 template <class Function, std::size_t kTargets>
 Function* choose(SimdTarget wish, Function* const (&table)[kTargets]) {
     if constexpr (kTargets == 1) return table[0];
     const SimdTarget target = resolve(wish);
-    return target == SimdTarget::neon ? table[kTargets - 1] : table[static_cast<std::size_t>(target) - 1];
+    const std::size_t place = target == SimdTarget::neon ? kTargets - 1 : static_cast<std::size_t>(target) - 1;
+    return table[place] != nullptr ? table[place] : table[1];
 }
 
 }  // namespace tspace::simd

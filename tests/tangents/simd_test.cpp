@@ -11,6 +11,7 @@
 #include "simd/dispatch.h"
 #include "support/thread_team.h"
 #include "tangents/golden_mesh.h"
+#include "tangents/mikktspace/corner_terms.h"
 #include "tangents/mikktspace/one_pass.h"
 #include "tangents/shapes.h"
 
@@ -19,6 +20,9 @@ namespace {
 
 constexpr SimdTarget kTargets[] = {SimdTarget::scalar, SimdTarget::sse2, SimdTarget::avx2, SimdTarget::avx512,
                                    SimdTarget::neon};
+/// Does not link without tspace_scalar_kernels, where SSE2 would run in the place of plain code.
+[[maybe_unused]] const volatile auto kPlainCode = &mikk::scalar::cornerTerms;
+
 constexpr Method kMethods[] = {Method::mikktspace, Method::uniform, Method::angle,  Method::area,
                                Method::fast,       Method::best,    Method::lengyel};
 
