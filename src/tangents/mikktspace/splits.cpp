@@ -2,6 +2,7 @@
 #include "tangents/mikktspace/splits.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/float4.h"
@@ -73,7 +74,39 @@ void triangleDirections(const Vec3 (&p)[3], const Vec2 (&uv)[3], Vec3& s, Vec3& 
     if (notZero(length_t)) t = (facing / length_t) * along_v;
 }
 
+/// Taylor series; |r| <= pi/4 leaves an error below 2^-56.
+double sine(double r) {
+    const double z = r * r;
+    double p = 1.0 / 355687428096000.0;
+    for (const double c : {-1.0 / 1307674368000.0, 1.0 / 6227020800.0, -1.0 / 39916800.0, 1.0 / 362880.0, -1.0 / 5040.0,
+                           1.0 / 120.0, -1.0 / 6.0}) {
+        p = p * z + c;
+    }
+    return r + r * z * p;
+}
+
+double cosine(double r) {
+    const double z = r * r;
+    double p = 1.0 / 20922789888000.0;
+    for (const double c :
+         {-1.0 / 87178291200.0, 1.0 / 479001600.0, -1.0 / 3628800.0, 1.0 / 40320.0, -1.0 / 720.0, 1.0 / 24.0, -0.5}) {
+        p = p * z + c;
+    }
+    return 1.0 + z * p;
+}
+
 }  // namespace
+
+/// Without the C library, so that it has the same bits everywhere. Based on: Cody and Waite, "Software Manual for the
+/// Elementary Functions", 1980: pi/2 in two parts, so that what is taken away from the angle is exact.
+float thresholdCosine(float degrees) {
+    if (degrees == 180.0f) return -1.0f;  // what nearly every call asks for, and what the rest gives
+    const double angle = std::fabs((degrees * 3.14159274f) / 180.0f);
+    if (!(angle < 1e6)) return std::nanf("");  // nothing is within
+    const auto quarter_turns = static_cast<unsigned>(angle * 0x1.45f306dc9c883p-1 + 0.5);
+    const double r = (angle - quarter_turns * 0x1.921fb544p+0) - quarter_turns * 0x1.0b4611a626331p-34;
+    return static_cast<float>(std::array{cosine(r), -sine(r), -cosine(r), sine(r)}[quarter_turns % 4]);
+}
 
 bool areTogether(Members members, const Vec3& sum_s, const Vec3& sum_t, float threshold_cosine) {
     if (members.size() <= 1) return true;

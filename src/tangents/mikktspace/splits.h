@@ -9,7 +9,7 @@
 
 namespace tspace::mikk {
 
-/// Cosine of an angular threshold in degrees, in the reference's arithmetic.
+/// Cosine of an angular threshold in degrees, in the reference's arithmetic: for 0 to 360.
 float thresholdCosine(float degrees);
 
 /// Members of one group that add to it.
