@@ -4,7 +4,7 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "tangents/plan_use.h"
+#include "tangents/method_kind.h"
 #include "tspace/tangents.h"
 
 namespace tspace {

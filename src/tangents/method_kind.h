@@ -31,4 +31,7 @@ constexpr bool isGrouped(Method method) {
 
 #endif
 
+/// Whether a plan outlives the mesh it was made from (and may see other poses), or is used up on it at once.
+enum class PlanUse { kept, once };
+
 }  // namespace tspace

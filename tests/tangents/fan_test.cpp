@@ -8,9 +8,8 @@
 #include <set>
 #include <vector>
 
-#include "tangents/mikktspace/corner_links.h"
 #include "tangents/mikktspace/fan.h"
-#include "tangents/mikktspace/fan_list.h"
+#include "tangents/mikktspace/groups.h"
 
 namespace tspace::mikk {
 namespace {
@@ -25,7 +24,7 @@ struct Places {
     explicit Places(std::size_t count = 2) : places(count), room(places.data(), count) {}
 };
 
-/// How many connected parts the links of corner_links.h make.
+/// How many connected parts the links of groups.h make.
 std::size_t countParts(const Corners& corners) {
     const auto count = static_cast<std::uint32_t>(corners.next.size());
     std::vector<NodeCorner> around(count);

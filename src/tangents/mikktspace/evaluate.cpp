@@ -11,7 +11,6 @@
 
 #include "tangents/estimators/group_estimates.h"
 #include "tangents/method_kind.h"
-#include "tangents/mikktspace/corner_source.h"
 #include "tangents/mikktspace/group_sums.h"
 #include "tangents/mikktspace/results.h"
 

@@ -4,8 +4,7 @@
 
 #include "core/parallel.h"
 #include "tangents/estimators/group_estimates.h"
-#include "tangents/mikktspace/corner_source.h"
-#include "tangents/mikktspace/evaluation_plan.h"
+#include "tangents/mikktspace/results.h"
 
 namespace tspace::mikk {
 

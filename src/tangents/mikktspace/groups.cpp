@@ -2,8 +2,9 @@
 #include "tangents/mikktspace/groups.h"
 
 #include <algorithm>
+#include <bit>
 
-#include "tangents/mikktspace/fan_list.h"
+#include "tangents/mikktspace/fan.h"
 
 namespace tspace::mikk {
 
@@ -37,7 +38,77 @@ void spread(std::uint32_t seed, const CornerLinks& links, std::uint32_t* group, 
     }
 }
 
+/// A member has two neighbours, so there are at most 2 * count keys, and for a proper fan count + 1.
+std::size_t tableSize(std::uint32_t count) { return std::bit_ceil(2 * std::size_t{count} + count / 2 + 2); }
+
 }  // namespace
+
+void linkSmall(std::span<const NodeCorner> around, const CornerLinks& links) {
+    const auto [left, right] = links;
+    for (std::uint32_t i = 0; i < around.size(); ++i) {
+        left[i] = right[i] = kNone;
+        const std::uint32_t next = around[i].next, previous = around[i].previous;
+        for (std::uint32_t j = 0; j < i; ++j) {
+            if (around[j].previous == next && right[j] == kNone) {
+                left[i] = j;
+                right[j] = i;
+                break;
+            }
+        }
+        for (std::uint32_t j = 0; j < i; ++j) {
+            if (around[j].next == previous && left[j] == kNone) {
+                right[i] = j;
+                left[j] = i;
+                break;
+            }
+        }
+    }
+}
+
+LinkTable::LinkTable(const Allocator* allocator, std::uint32_t most)
+    : queues_(allocator, tableSize(most)), behind_(allocator, 2 * std::size_t{most}) {}
+
+LinkTable::Queue& LinkTable::find(std::uint32_t neighbour) {
+    // Nodes with neighbouring numbers, which a fan's rim has, lie side by side in runs of 16.
+    const std::uint64_t run = (neighbour / 16) * std::uint64_t{0x9e3779b97f4a7c15u} >> 32;
+    std::size_t i = (16 * run + neighbour % 16) & mask_;
+    while (queues_[i].neighbour != kNone && queues_[i].neighbour != neighbour) i = (i + 1) & mask_;
+    queues_[i].neighbour = neighbour;
+    return queues_[i];
+}
+
+/// Links a half-edge with the oldest waiting opposite one, or lets it wait. `outgoing` tells which of the
+/// member's two half-edges it is; waiters are stored as 2 * member + outgoing.
+void LinkTable::meet(std::uint32_t member, std::uint32_t neighbour, std::uint32_t* mine, std::uint32_t* theirs,
+                     std::uint32_t outgoing) {
+    Queue& queue = find(neighbour);
+    const std::uint32_t waiter = 2 * member + outgoing;
+    if (queue.first != kNone && (queue.first & 1) != outgoing) {
+        const std::uint32_t other = queue.first / 2;
+        mine[member] = other;
+        theirs[other] = member;
+        queue.first = behind_[queue.first];
+        return;
+    }
+    behind_[waiter] = kNone;
+    if (queue.first == kNone) {
+        queue.first = waiter;
+    } else {
+        behind_[queue.last] = waiter;
+    }
+    queue.last = waiter;
+}
+
+void LinkTable::link(std::span<const NodeCorner> around, const CornerLinks& links) {
+    const std::size_t size = tableSize(static_cast<std::uint32_t>(around.size()));
+    mask_ = size - 1;
+    std::fill_n(queues_.data(), size, Queue{});
+    for (std::uint32_t i = 0; i < around.size(); ++i) {
+        links.left[i] = links.right[i] = kNone;
+        meet(i, around[i].next, links.left, links.right, 1);
+        meet(i, around[i].previous, links.right, links.left, 0);
+    }
+}
 
 GroupRoom::GroupRoom(const Allocator* allocator, std::uint32_t most) {
     if (most <= kSmallNode) return;

@@ -387,7 +387,7 @@ class BucketFinder {
         return end;
     }
 
-    /// Within a run the oldest waiting half-edge of the opposite direction is the partner (see corner_links.h);
+    /// Within a run the oldest waiting half-edge of the opposite direction is the partner (see groups.h);
     /// runs know nothing of each other.
     [[gnu::cold]] void pairUp(std::uint32_t BucketEdge::*partner) {
         for (std::size_t begin = 0, end = 0; begin < bucket_.size(); begin = end) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tangents/mikktspace/node_results.h"
 
-#include "tangents/mikktspace/corner_source.h"
 #include "tangents/mikktspace/node_sums.h"
 #include "tangents/mikktspace/splits.h"
 

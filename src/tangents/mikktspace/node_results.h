@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sums, results and corners of one node whose groups are known, where nothing rare happens.
+// What becomes of nodes whose groups are known: where nothing rare happens, the results of a node are computed and written at
+// once; or groups are written down as a plan, which can be evaluated in any pose (evaluation_plan.h).
 #pragma once
 
 #include <span>
@@ -68,5 +69,20 @@ class NodeResults {
     bool tangents_only_;  // nothing else is written
     bool has_t_;          // terms with bitangents
 };
+
+/// What a plan is made from.
+struct PlanSource {
+    const NodeSetting& setting;
+    std::span<const std::uint32_t> chosen;  ///< the nodes that the corners are read of
+    const VertexCorners& corners;
+    const Grouping& grouping;
+    std::span<const std::uint8_t> planned;  ///< one per chosen node: 1 where it is planned; empty: all are
+    float threshold_cosine = -1;
+    PlanUse use = PlanUse::kept;
+};
+
+/// The plan of some nodes. Skipped corners are left out, and corners of degenerate triangles; of these, the report has
+/// only groups and default corners. Throws OutOfMemory.
+EvaluationPlan planNodes(const PlanSource& source);
 
 }  // namespace tspace::mikk

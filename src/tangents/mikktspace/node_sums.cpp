@@ -17,7 +17,6 @@
 #include "core/range_lists.h"
 #include "core/typed_indices.h"
 #include "core/vertex_ranges.h"
-#include "tangents/mikktspace/fan_list.h"
 
 namespace tspace::mikk {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "tangents/mikktspace/plan.h"
-
+// Groups written down as a plan.
 #include <algorithm>
 #include <cstring>
 #include <functional>
 
 #include "core/sort.h"
+#include "tangents/mikktspace/node_results.h"
 #include "tangents/mikktspace/splits.h"
 
 namespace tspace::mikk {

@@ -1,11 +1,42 @@
 // SPDX-License-Identifier: MIT
-// One result, how several for one corner of the mesh are merged, and where they go.
+// What results are asked for, what one is, how several for one corner of the mesh are merged, and where they go.
 #pragma once
 
+#include "tangents/mikktspace/corner_terms.h"
 #include "tangents/mikktspace/evaluation_plan.h"
 #include "tangents/mikktspace/vector_rules.h"
 
 namespace tspace::mikk {
+
+inline bool wantsTangentsOnly(const TangentOutput& out) {
+#ifdef TSPACE_MIKKTSPACE_ONLY
+    return true;
+#endif
+    return out.bitangents.empty() && out.magnitudes_s.empty() && out.magnitudes_t.empty();
+}
+
+/// `fast` and `best` sum in a way of their own (estimators/), and use these kernels for marks.
+inline Weighting weightingOf(Method method) {
+    switch (method) {
+        case Method::fast:
+        case Method::best:
+            return Weighting::none;
+        case Method::uniform:
+            return Weighting::one;
+        case Method::angle:
+            return Weighting::angle;
+        case Method::area:
+            return Weighting::area;
+        default:
+            return Weighting::projected_angle;
+    }
+}
+
+/// `uvs` has one entry per vertex of the pose, of which there is at least one.
+inline CornerSource cornerSource(const Pose& pose, const StridedSpan<const Vec2>& uvs, Method method,
+                                 bool tangents_only) {
+    return {vertexArrays(pose, uvs), weightingOf(method), tangents_only};
+}
 
 struct Tangents {
     Vec3 s{1, 0, 0}, t{0, 1, 0};

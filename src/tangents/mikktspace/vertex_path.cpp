@@ -5,8 +5,6 @@
 #include <utility>
 
 #include "tangents/method_kind.h"
-#include "tangents/mikktspace/corner_source.h"
-#include "tangents/mikktspace/plan.h"
 #include "tangents/mikktspace/splits.h"
 
 namespace tspace::mikk {

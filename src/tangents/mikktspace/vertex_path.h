@@ -10,7 +10,6 @@
 #include "tangents/mikktspace/evaluation_plan.h"
 #include "tangents/mikktspace/node_results.h"
 #include "tangents/mikktspace/node_sums.h"
-#include "tangents/plan_use.h"
 
 namespace tspace::mikk {
 

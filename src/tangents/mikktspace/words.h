@@ -8,7 +8,7 @@
 // group       half-edges at one node that share tangents
 //
 // The reference names these "tri info", "group" and "tangent space"; its results are described in terms of
-// faces and recursion. Here every node is worked on alone: see corner_links.h for why that gives the same result.
+// faces and recursion. Here every node is worked on alone: see groups.h for why that gives the same result.
 #pragma once
 
 #include "tspace/tangents.h"
