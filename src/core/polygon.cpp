@@ -344,16 +344,13 @@ void cutPolygon(const Vec3* positions, const Vec2* uvs, std::uint32_t count, std
         for (std::uint32_t k = 0; k < 3; ++k) triangles[k] = k;
         return;
     }
-    if (count == 4) {
-        constexpr std::uint32_t kAlong02[6] = {0, 1, 2, 0, 2, 3};
-        constexpr std::uint32_t kAlong13[6] = {0, 1, 3, 1, 2, 3};
-        std::copy_n(quadCutsAlong13(positions, uvs) ? kAlong13 : kAlong02, 6, triangles);
-        return;
-    }
+    if (count == 4) return cutQuad(positions, uvs, 0, triangles);
+#ifndef TSPACE_MIKKTSPACE_ONLY  // which skips n-gons
     Cutter(positions, uvs, count, scratch).cut(triangles);
+#endif
 }
 
-void FaceCutter::cut(std::size_t first, std::uint32_t size, std::uint32_t* corners) {
+void FaceCutter::cutOther(std::size_t first, std::uint32_t size, std::uint32_t* corners) {
     positions_.clear();
     uvs_.clear();
     for (std::size_t c = first; size > 3 && c < first + size; ++c) {

@@ -28,6 +28,13 @@ inline bool quadCutsAlong13(const Vec3 positions[4], const Vec2* uvs) {
     return dot(d13, d13) < dot(d02, d02);
 }
 
+/// Writes the corners of two triangles, of which the quad's first one is `first`.
+inline void cutQuad(const Vec3 positions[4], const Vec2* uvs, std::uint32_t first, std::uint32_t* to) {
+    const std::uint32_t b = quadCutsAlong13(positions, uvs) ? 1 : 0;  // (0,1,2),(0,2,3) or (0,1,3),(1,2,3)
+    const std::uint32_t cut[6] = {0, 1, 2 + b, b, 2, 3};
+    for (std::size_t i = 0; i < 6; ++i) to[i] = first + cut[i];
+}
+
 /// Coordinates in the plane of a polygon.
 struct PlanePoint {
     double x, y;
@@ -46,8 +53,7 @@ struct PolygonScratch {
 };
 
 /// Cuts a polygon of `count` >= 3 vertices into count - 2 triangles: writes 3 * (count - 2) local vertex
-/// numbers, winding kept. `uvs` may be null. Quads by quadCutsAlong13: 0-2 gives (0,1,2),(0,2,3); 1-3 gives
-/// (0,1,3),(1,2,3).
+/// numbers, winding kept. `uvs` may be null.
 void cutPolygon(const Vec3* positions, const Vec2* uvs, std::uint32_t count, std::uint32_t* triangles,
                 PolygonScratch& scratch);
 
@@ -56,9 +62,22 @@ class FaceCutter {
   public:
     explicit FaceCutter(const MeshView& mesh) : mesh_(mesh) {}
     /// The face of `size` >= 3 corners from `first` on: writes 3 * (size - 2) corners of the mesh.
-    void cut(std::size_t first, std::uint32_t size, std::uint32_t* corners);
+    void cut(std::size_t first, std::uint32_t size, std::uint32_t* corners) {
+        if (size != 4) return cutOther(first, size, corners);
+        Vec3 positions[4];
+        Vec2 uvs[4];
+        const bool has_uvs = !mesh_.uvs.empty();
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t vertex = mesh_.indices[first + k];
+            positions[k] = mesh_.positions[vertex];
+            if (has_uvs) uvs[k] = mesh_.uvs[vertex];
+        }
+        cutQuad(positions, has_uvs ? uvs : nullptr, static_cast<std::uint32_t>(first), corners);
+    }
 
   private:
+    void cutOther(std::size_t first, std::uint32_t size, std::uint32_t* corners);
+
     const MeshView& mesh_;
     std::vector<Vec3> positions_;
     std::vector<Vec2> uvs_;

@@ -39,13 +39,6 @@ struct FaceSums::Block {
     }
 };
 
-TriangleCounts& TriangleCounts::operator+=(const TriangleCounts& other) {
-    degenerate += other.degenerate;
-    degenerate_uv += other.degenerate_uv;
-    mirrored += other.mirrored;
-    return *this;
-}
-
 FaceSums::FaceSums(const IndexedPlan& plan, StridedSpan<const Vec3> positions,
                    const derivatives::DerivativeKernel& kernel, VertexSums sums, float* visits)
     : plan_(plan),

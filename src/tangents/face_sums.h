@@ -52,8 +52,6 @@ struct TriangleCounts {
     std::uint64_t degenerate = 0;     ///< two corners at one position
     std::uint64_t degenerate_uv = 0;  ///< no UV area
     std::uint64_t mirrored = 0;       ///< negative UV area
-
-    TriangleCounts& operator+=(const TriangleCounts& other);
 };
 
 /// Adds triangles up, in ranges of vertices that may be summed at the same time.

@@ -7,49 +7,32 @@
 #include <limits>
 
 #include "core/face_walk.h"
-#include "core/polygon.h"
 #include "core/sum_ranges.h"
 #include "core/unit.h"
 #include "core/uv_frame.h"
 #include "tangents/indexed_methods.h"
+#include "tangents/mikktspace/faces.h"
 
 namespace tspace {
 
 namespace {
 
-bool isUsed(std::uint32_t face_size, Ngons ngons) {
-    return face_size >= 3 && (face_size <= 4 || ngons == Ngons::triangulate);
-}
-
-bool hasOnlyTriangles(const MeshView& mesh) {
-    if (mesh.face_sizes.empty()) return mesh.face_size == 3;
-    return std::all_of(mesh.face_sizes.begin(), mesh.face_sizes.end(), [](std::uint32_t s) { return s == 3; });
-}
-
+/// Where there are other faces than triangles.
 void cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator, IndexedPlan& plan) {
-    std::size_t triangle_count = 0;
-    forEachFace(mesh, [&](std::size_t, std::size_t, std::uint32_t size) {
-        if (isUsed(size, ngons))
-            triangle_count += size - 2;
-        else
-            ++plan.report.skipped_face_count;
-    });
-    const std::size_t corner_count = mesh.cornerCount();
-    plan.cut_triangles = Buffer<std::uint32_t>(allocator, 3 * triangle_count);
-    if (plan.report.skipped_face_count != 0) plan.corner_used = Buffer<std::uint8_t>(allocator, corner_count, 0);
-    plan.face_begins = Buffer<std::uint32_t>(allocator, mesh.faceCount() + 1);
-
-    FaceCutter cutter(mesh);
-    std::uint32_t* end = plan.cut_triangles.data();
-    forEachFace(mesh, [&](std::size_t face, std::size_t first_corner, std::uint32_t size) {
-        plan.face_begins[face] = static_cast<std::uint32_t>(first_corner);
-        if (!isUsed(size, ngons)) return;
-        if (!plan.corner_used.empty()) std::fill_n(plan.corner_used.data() + first_corner, size, std::uint8_t{1});
-        cutter.cut(first_corner, size, end);
-        for (std::size_t i = 0; i < 3 * (std::size_t{size} - 2); ++i, ++end) *end = mesh.indices[*end];
-    });
-    plan.face_begins[mesh.faceCount()] = static_cast<std::uint32_t>(corner_count);
+    plan.triangle_vertices = plan.corner_vertices;
+    mikk::TriangleList cut = mikk::cutFaces(mesh, ngons, allocator);
+    if (3 * cut.count == mesh.cornerCount() && cut.corners.empty()) return;
+    plan.report.skipped_face_count = cut.skipped_face_count;
+    plan.cut_triangles = std::move(cut.corners);
+    for (std::uint32_t& corner : plan.cut_triangles) corner = mesh.indices[corner];
     plan.triangle_vertices = {plan.cut_triangles.data(), plan.cut_triangles.size(), IndexType::u32};
+    if (cut.skipped_face_count != 0) plan.corner_used = Buffer<std::uint8_t>(allocator, mesh.cornerCount(), 1);
+    for (const std::uint32_t corner : cut.skipped_corners) plan.corner_used[corner] = 0;
+    plan.face_begins = Buffer<std::uint32_t>(allocator, mesh.faceCount() + 1);
+    forEachFace(mesh, [&](std::size_t face, std::size_t first_corner, std::uint32_t) {
+        plan.face_begins[face] = static_cast<std::uint32_t>(first_corner);
+    });
+    plan.face_begins[mesh.faceCount()] = static_cast<std::uint32_t>(mesh.cornerCount());
 }
 
 void keepIndices(const Allocator* allocator, Parallel& parallel, IndexedPlan& plan) {
@@ -130,10 +113,7 @@ IndexedPlan planIndexed(const MeshView& mesh, const TangentOptions& options, Par
         keepIndices(allocator, parallel, plan);
         keepUvs(allocator, parallel, plan);
     }
-    if (hasOnlyTriangles(mesh))
-        plan.triangle_vertices = plan.corner_vertices;
-    else
-        cutFaces(mesh, options.ngons, allocator, plan);
+    cutFaces(mesh, options.ngons, allocator, plan);
     plan.report.triangle_count = plan.triangleCount();
     if (plan.method == Method::flat) {
         countUvs(parallel, plan);

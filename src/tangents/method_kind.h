@@ -10,7 +10,6 @@ namespace tspace {
 
 inline constexpr Method kLastMethod = Method::mikktspace;
 inline constexpr bool kHasOnePass = false;  ///< a plan for each call: half the speed, and half the code
-inline constexpr bool kCutsNgons = false;   ///< Ngons::skip only
 constexpr bool isMikktspace(Method) { return true; }
 constexpr bool isEstimated(Method) { return false; }
 constexpr bool isGrouped(Method) { return true; }
@@ -19,7 +18,6 @@ constexpr bool isGrouped(Method) { return true; }
 
 inline constexpr Method kLastMethod = Method::best;
 inline constexpr bool kHasOnePass = true;
-inline constexpr bool kCutsNgons = true;
 constexpr bool isMikktspace(Method method) { return method == Method::mikktspace; }
 /// By tangents/estimators, not by sums.
 constexpr bool isEstimated(Method method) { return method == Method::fast || method == Method::best; }

@@ -22,37 +22,11 @@ constexpr std::size_t kGroupGrain = 8192, kWriteGrain = 16384;
 
 // -- groups in which each member has a subset of its own (angular threshold) --
 
-struct Term {
-    Vec3 s, t;
-    float mag_s, mag_t, weight;
-};
-
-struct Sums {
-    Vec3 s, t;
-    float mag_s = 0, mag_t = 0, weight = 0;
-
-    void add(const Term& term) {
-        s = s + term.s;
-        t = t + term.t;
-        mag_s = mag_s + term.mag_s;
-        mag_t = mag_t + term.mag_t;
-        weight = weight + term.weight;
-    }
-    [[nodiscard]] Tangents mean(bool positive) const {
-        Tangents r{unit(s), unit(t), mag_s, mag_t, positive};
-        if (weight > 0) {
-            r.mag_s /= weight;
-            r.mag_t /= weight;
-        }
-        return r;
-    }
-};
-
 /// One task's worth of groups.
 class SplitEvaluator {
   public:
     SplitEvaluator(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction kernel, const Sink& sink,
-                   Term* terms, Tangents* results, Tangents* all_results)
+                   TangentSum* terms, Tangents* results, Tangents* all_results)
         : plan_(plan),
           source_(source),
           kernel_(kernel),
@@ -68,7 +42,7 @@ class SplitEvaluator {
             const std::uint32_t leader = plan_.split_leaders[split.leaders + a];
             if (leader == a) {
                 const std::uint64_t* row = plan_.split_rows.data() + split.rows + a * words;
-                Sums sums;
+                TangentSum sums;
                 for (std::uint32_t b = 0; b < split.count; ++b) {
                     if ((row[b / 64] >> (b % 64) & 1) != 0) sums.add(terms_[b]);
                 }
@@ -104,7 +78,7 @@ class SplitEvaluator {
     const CornerSource& source_;
     CornerTermsFunction kernel_;
     const Sink& sink_;
-    Term* terms_;
+    TangentSum* terms_;
     Tangents* results_;
     Tangents* all_results_;
     std::uint32_t vertices_[kTermCorners] = {};
@@ -119,7 +93,7 @@ Buffer<Tangents> evaluateSplits(const EvaluationPlan& plan, const CornerSource& 
     const std::size_t count = plan.splits.size(), most = plan.largest_split;
     if (count == 0) return all;
     const std::size_t tasks = std::min<std::size_t>(count / 64 + 1, parallel.width() == 1 ? 1 : 4 * parallel.width());
-    Buffer<Term> scratch(allocator, tasks * most);
+    Buffer<TangentSum> scratch(allocator, tasks * most);
     Buffer<Tangents> results(allocator, tasks * most);
     parallel.forTasks(tasks, [&](std::size_t task) {
         SplitEvaluator evaluator(plan, source, terms, sink, scratch.data() + task * most, results.data() + task * most,
@@ -227,18 +201,10 @@ class Evaluation {
     [[nodiscard]] Tangents meanOf(std::size_t g) const {
         if (isEstimated(plan_.method)) return resultOf(g);
         const float* s = sums_.groups[g].s;
-        Tangents r;
-        r.s = unit(Vec3{s[0], s[1], s[2]});
-        if (sums_.rest.empty()) return r;
+        const Vec3 sum{s[0], s[1], s[2]};
+        if (sums_.rest.empty()) return {.s = unit(sum)};
         const GroupRest& rest = sums_.rest[g];
-        r.t = unit(Vec3{rest.t[0], rest.t[1], rest.t[2]});
-        r.mag_s = rest.t[3];
-        r.mag_t = rest.length_t;
-        if (rest.weight > 0) {
-            r.mag_s /= rest.weight;
-            r.mag_t /= rest.weight;
-        }
-        return r;
+        return TangentSum{sum, {rest.t[0], rest.t[1], rest.t[2]}, rest.t[3], rest.length_t, rest.weight}.mean(false);
     }
 
     void store(std::size_t g, const Tangents& r) {

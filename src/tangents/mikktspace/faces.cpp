@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cutting faces into triangles. Triangles stay, quads are cut along the diagonal that MikkTSpace
-// takes, n-gons by the rule of triangulate.h.
+// Cutting faces into triangles, by the rule of polygon.h.
 #include "tangents/mikktspace/faces.h"
 
 #include <algorithm>
@@ -9,7 +8,6 @@
 #include "core/face_walk.h"
 #include "core/polygon.h"
 #include "core/typed_indices.h"
-#include "tangents/method_kind.h"
 #include "tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
@@ -60,51 +58,6 @@ FaceCounts countFaces(const MeshView& mesh, Ngons ngons) {
     return counts;
 }
 
-class Cutter {
-  public:
-    Cutter(const MeshView& mesh, TriangleList& list) : mesh_(mesh), list_(list), faces_(mesh) {}
-
-    void cut(std::size_t face, std::size_t corner, std::uint32_t size) {
-        if (size == 3) {
-            add(face, corner, 0, 1, 2);
-        } else if (size == 4) {
-            const bool along13 = cutsAlong13(corner);
-            add(face, corner, 0, 1, along13 ? 3 : 2);
-            add(face, corner, along13 ? 1 : 0, 2, 3);
-        } else if constexpr (kCutsNgons) {
-            faces_.cut(corner, size, list_.corners.data() + 3 * written_);
-            std::fill_n(list_.faces.data() + written_, size - 2, static_cast<std::uint32_t>(face));
-            written_ += size - 2;
-        }
-    }
-
-  private:
-    void add(std::size_t face, std::size_t corner, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        const auto first = static_cast<std::uint32_t>(corner);
-        std::uint32_t* to = list_.corners.data() + 3 * written_;
-        to[0] = first + a;
-        to[1] = first + b;
-        to[2] = first + c;
-        list_.faces[written_++] = static_cast<std::uint32_t>(face);
-    }
-
-    [[nodiscard]] bool cutsAlong13(std::size_t corner) const {
-        Vec3 positions[4];
-        Vec2 uvs[4];
-        for (std::size_t k = 0; k < 4; ++k) {
-            const std::uint32_t vertex = mesh_.indices[corner + k];
-            positions[k] = mesh_.positions[vertex];
-            uvs[k] = mesh_.uvs[vertex];
-        }
-        return quadCutsAlong13(positions, uvs);
-    }
-
-    const MeshView& mesh_;
-    TriangleList& list_;
-    FaceCutter faces_;
-    std::size_t written_ = 0;
-};
-
 }  // namespace
 
 std::uint64_t countTriangles(const MeshView& mesh, Ngons ngons) { return countFaces(mesh, ngons).triangles; }
@@ -118,16 +71,16 @@ TriangleList cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* alloca
     list.corners = Buffer<std::uint32_t>(allocator, 3 * list.count);
     list.faces = Buffer<std::uint32_t>(allocator, list.count);
     list.skipped_corners = Buffer<std::uint32_t>(allocator, counts.skipped_corners);
-    Cutter cutter(mesh, list);
+    FaceCutter cutter(mesh);
     const UsedSizes used(ngons);
-    std::size_t skip = 0;
+    std::uint32_t *to = list.corners.data(), *face_of = list.faces.data(), *skipped = list.skipped_corners.data();
     forEachFace(mesh, [&](std::size_t face, std::size_t corner, std::uint32_t size) {
         if (used.has(size)) {
-            cutter.cut(face, corner, size);
+            cutter.cut(corner, size, to);
+            to += 3 * (size - 2);
+            face_of = std::fill_n(face_of, size - 2, static_cast<std::uint32_t>(face));
         } else {
-            for (std::uint32_t k = 0; k < size; ++k) {
-                list.skipped_corners[skip++] = static_cast<std::uint32_t>(corner + k);
-            }
+            for (std::uint32_t k = 0; k < size; ++k) *skipped++ = static_cast<std::uint32_t>(corner + k);
         }
     });
     return list;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cutting faces into triangles.
+// Cutting faces into triangles: for all methods.
 #pragma once
 
 #include "core/memory.h"

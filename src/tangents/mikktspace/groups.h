@@ -65,10 +65,11 @@ class LinkTable {
 /// The corners of one node and their groups, which are numbered in the order in which the reference opens them.
 struct NodeGroups {
     std::span<const NodeCorner> corners;
-    const std::uint32_t* group = nullptr;  ///< one per corner, kNone where it has none; null: all are in group 0
-    std::uint32_t count = 0;               ///< of groups
+    const std::uint32_t* group =
+        nullptr;              ///< one per corner, kNone where it has none; null: all are in one, if there is one
+    std::uint32_t count = 0;  ///< of groups
 
-    [[nodiscard]] std::uint32_t of(std::size_t i) const { return group == nullptr ? 0 : group[i]; }
+    [[nodiscard]] std::uint32_t of(std::size_t i) const { return group != nullptr ? group[i] : count == 0 ? kNone : 0; }
 };
 
 /// Room for the links and groups of one node.

@@ -46,10 +46,8 @@ inline void NodeResults::writeCorner(std::uint32_t slot, const Tangents& result)
 }
 
 bool NodeResults::write(std::size_t place, const NodeGroups& groups, NodeCounts& counts) const {
-    if (groups.count == 0) return writeDefaults(groups.corners, counts);
-    // One result can be written any number of times.
-    if (groups.group == nullptr) return writeGroup(place, groups, counts);
-    if (groups.count == 1) return writeGroups<1>(place, groups, counts);
+    if (groups.count == 1 && groups.group == nullptr) return writeGroup(place, groups, counts);
+    if (groups.count <= 1) return writeGroups<1>(place, groups, counts);
     if (groups.count > kFewGroups || (has_polygons_ && !repeatsAgree(groups))) return false;
     return writeGroups<kFewGroups>(place, groups, counts);
 }
@@ -97,19 +95,6 @@ bool NodeResults::writeGroups(std::size_t place, const NodeGroups& groups, NodeC
     return true;
 }
 
-/// Of a node without groups.
-bool NodeResults::writeDefaults(std::span<const NodeCorner> around, NodeCounts& counts) const {
-    if (!repeatsAgree({around, nullptr, 0})) return false;
-    std::uint32_t before = kNone;
-    for (const NodeCorner& corner : around) {
-        counts.default_corners += corner.slot != before ? 1 : 0;
-        before = corner.slot;
-        writeCorner(before, Tangents{});
-        if (!defaults_.empty()) defaults_[before] = 1;
-    }
-    return true;
-}
-
 inline void NodeResults::add(const NodeCorner& corner, bool with_lengths, Sum& sum) const {
     sum.common &= corner.common;
     ++sum.adding;
@@ -143,13 +128,7 @@ bool NodeResults::resultOf(const Sum& sum, Tangents& result) const {
     result.s = unit(vectorOf(sum.s));
     if (!isFinite(result.s) || !(may_split_ || notZero(result.s))) return false;
     if (!has_polygons_ && tangents_only_) return true;
-    result.t = unit(vectorOf(sum.t));
-    result.mag_s = sum.t[3];
-    result.mag_t = sum.length_t;
-    if (sum.s[3] > 0) {
-        result.mag_s /= sum.s[3];
-        result.mag_t /= sum.s[3];
-    }
+    result = TangentSum{vectorOf(sum.s), vectorOf(sum.t), sum.t[3], sum.length_t, sum.s[3]}.mean(result.positive);
     return !has_polygons_ || sameResult(result, result);
 }
 

@@ -53,7 +53,6 @@ class NodeResults {
     template <std::size_t kMost>
     [[nodiscard]] bool writeGroups(std::size_t place, const NodeGroups& groups, NodeCounts& counts) const;
     void add(const NodeCorner& corner, bool with_lengths, Sum& sum) const;
-    [[nodiscard]] bool writeDefaults(std::span<const NodeCorner> around, NodeCounts& counts) const;
     [[nodiscard]] bool maySplit(std::size_t place, const NodeGroups& groups, std::uint32_t group, const Sum& sum) const;
     [[nodiscard]] bool resultOf(const Sum& sum, Tangents& result) const;
     void writeCorner(std::uint32_t slot, const Tangents& result) const;

@@ -412,12 +412,6 @@ void MeshTriangles::read(std::size_t first, std::size_t size, std::uint32_t* ver
     }
 }
 
-bool NodeSums::isOneGroup(std::size_t node, const Vec3& normal, bool may_split) const {
-    const std::uint32_t m = marks[node];
-    if ((m & (kFacesUp | kFacesDown)) == 0 || (m & kFanKnown) == 0 || !nodes[node].fan.isOne()) return false;
-    return !may_split || sumCannotSplit(row(node), m, normal);
-}
-
 bool sumCannotSplit(const float* sum, std::uint32_t marks, const Vec3& normal) {
     if ((marks & (kTurnsLeft | kTurnsRight)) == 0 || (marks & kNotLight) == 0) return false;
     const Float4 x = splat(sum[0]), y = splat(sum[1]), z = splat(sum[2]);

@@ -63,9 +63,6 @@ struct NodeSums {
     [[nodiscard]] bool isEmpty(std::size_t node) const {
         return (marks[node] & (kFacesUp | kFacesDown)) == (kFacesUp | kFacesDown);
     }
-    /// Whether all corners of the node are one group. `may_split`: the reference's angular test applies to
-    /// it.
-    [[nodiscard]] bool isOneGroup(std::size_t node, const Vec3& normal, bool may_split) const;
 };
 
 /// Whether a sum of several tangents and their weights (corner_terms.h), and the marks that they have in

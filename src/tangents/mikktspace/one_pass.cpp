@@ -292,26 +292,16 @@ class OnePass {
     void finishNodes(std::size_t first, std::size_t end) {
         std::uint64_t complex_here = 0, groups_here = 0;
         for (; first < end; first += 64) {
-            std::uint64_t bits = 0, empty = 0;
             const std::size_t last = std::min(first + 64, end);
-            const auto leave = [&](std::size_t n) { bits |= std::uint64_t{1} << (n - first); };
-            for (std::size_t n = first; n < last;) {
-                if (n % 4 == 0 && n + 4 <= last && finishFour(n, leave)) {
-                    n += 4;
-                    continue;
-                }
-                if (!finishNode(n)) {
-                    leave(n);
-                    sums_.row(n)[3] = kComplexSign;
-                } else if (sums_.isEmpty(n)) {
-                    ++empty;
-                }
-                ++n;
+            std::uint64_t complex = 0, empty = 0;
+            for (std::size_t n = first; n < last; n += 4) {
+                const FourKinds kinds = finishFour(n, last - n);
+                complex |= std::uint64_t{kinds.complex} << (n - first);
+                empty |= std::uint64_t{kinds.empty} << (n - first);
             }
-            complex_[first / 64] = bits;
-            const auto complex = static_cast<std::uint64_t>(std::popcount(bits));
-            complex_here += complex;
-            groups_here += last - first - complex - empty;
+            complex_[first / 64] = complex;
+            complex_here += static_cast<std::uint64_t>(std::popcount(complex));
+            groups_here += last - first - static_cast<std::uint64_t>(std::popcount(complex | empty));
         }
         complex_count_ += complex_here;
         group_count_ += groups_here;
@@ -347,64 +337,53 @@ class OnePass {
         return chosen;
     }
 
-    /// The same as finishNode for four nodes, where each has one fan of one orientation; leave(node) for complex ones. Returns
-    /// whether that is so; else nothing is done.
-    template <class Leave>
-    bool finishFour(std::size_t n, const Leave& leave) {
-        constexpr std::uint64_t kOnes = 0x0001000100010001u;
-        std::uint64_t m = 0;  // marks, 16 bits each
-        std::memcpy(&m, sums_.marks.data() + n, sizeof m);
-        const bool splits = isMikktspace(options_.method);
-        static_assert(kFacesUp == 1 && kFacesDown == 2 && kTurnsLeft == 4 && kTurnsRight == 8 && kNotLight == 16 &&
-                      kFanKnown == 128);
-        const std::uint64_t one_facing = (m ^ m >> 1) & m >> 7;  // so it has triangles, which make at least one path
-        if (((splits ? one_facing & (m >> 2 | m >> 3) & m >> 4 : one_facing) & kOnes) != kOnes) return false;
-        NodeSum* const sum = sums_.nodes.data() + n;
-        const std::uint32_t second_paths =
-            sum[0].fan.leaves[1] & sum[1].fan.leaves[1] & sum[2].fan.leaves[1] & sum[3].fan.leaves[1];
-        if (second_paths != Fan::kFree || estimates_) return false;
-        const std::uint16_t* const at = sums_.marks.data() + n;
-        const Mask4 marks = {at[0], at[1], at[2], at[3]};
-        Float4 x = loadFloat4(sum[0].s), y = loadFloat4(sum[1].s), z = loadFloat4(sum[2].s), w = loadFloat4(sum[3].s);
+    struct FourKinds {
+        unsigned complex, empty;  ///< a bit per node
+    };
+
+    /// Finishes the nodes from n on: four, or the `left` ones, of which the last one then stands for those that are missing.
+    /// Simple nodes have one fan of one orientation, and tangents that the angular test cannot separate.
+    FourKinds finishFour(std::size_t n, std::size_t left) {
+        const auto nodeOf = [=](std::size_t i) { return n + std::min(i, left - 1); };
+        const std::size_t at[4] = {n, nodeOf(1), nodeOf(2), nodeOf(3)};
+        const std::uint16_t* const all_marks = sums_.marks.data();
+        NodeSum* const nodes = sums_.nodes.data();
+        const Mask4 marks = {all_marks[at[0]], all_marks[at[1]], all_marks[at[2]], all_marks[at[3]]};
+        const auto has = [&](std::uint32_t mark) { return (marks & static_cast<std::int32_t>(mark)) != 0; };
+        const auto pathOf = [&](std::size_t i) { return static_cast<std::int32_t>(nodes[at[i]].fan.leaves[1]); };
+        const Mask4 second_path = {pathOf(0), pathOf(1), pathOf(2), pathOf(3)};
+        const Mask4 up = has(kFacesUp), down = has(kFacesDown), empty = up & down;
+        // With one orientation it has triangles, which make at least one path.
+        Mask4 simple = (up ^ down) & has(kFanKnown) & (second_path == static_cast<std::int32_t>(Fan::kFree));
+        const unsigned missing = 15u & ~0u << std::min<std::size_t>(left, 4);
+        if (estimates_) return {laneBits(~(simple | empty)) & ~missing, laneBits(empty) & ~missing};
+        Float4 x = loadFloat4(nodes[at[0]].s), y = loadFloat4(nodes[at[1]].s), z = loadFloat4(nodes[at[2]].s),
+               w = loadFloat4(nodes[at[3]].s);
         transpose4(x, y, z, w);
         const Float4 square = dot(Vec3x4{x, y, z}, Vec3x4{x, y, z});
-        Mask4 simple = (square > splat(0)) & (square < splat(__builtin_huge_valf()));  // it does not vanish
-        if (splits) {
-            const auto normal = [&](std::size_t i) -> const Vec3& { return mesh_.normals[nodes_.vertex(n + i)]; };
-            simple = cannotSplit(square, w, marks, gatherVec3(normal(0), normal(1), normal(2), normal(3)));
+        if (isMikktspace(options_.method)) {
+            const auto normal = [&](std::size_t i) -> const Vec3& { return mesh_.normals[nodes_.vertex(at[i])]; };
+            simple &= has(kTurnsLeft | kTurnsRight) & has(kNotLight) &
+                      cannotSplit(square, w, marks, gatherVec3(normal(0), normal(1), normal(2), normal(3)));
+        } else {
+            // The other methods replace a sum that vanishes; the vertex path sees to that.
+            simple &= (square > splat(0)) & (square < splat(__builtin_huge_valf()));
         }
-        const unsigned simple_bits = laneBits(simple);
-        if (simple_bits != 15) [[unlikely]] {
-            if (!splits) return false;
-            for (unsigned i = 0; i < 4; ++i) {
-                if ((simple_bits >> i & 1) == 0) leave(n + i);
-            }
-        }
-        for (std::size_t i = 0; !sums_.rest.empty() && i < 4; ++i) finishRest(n + i, false, sum[i].s[3]);
+        for (std::size_t i = 0; !sums_.rest.empty() && i < std::min<std::size_t>(left, 4); ++i)
+            finishRest(at[i], empty[i] != 0, nodes[at[i]].s[3]);
         const Float4 inverse = splat(1) / sqrt4(square);
-        const Mask4 down = ~marks << 31;  // the bit of kFacesUp becomes that of the sign
-        w = select4(simple, std::bit_cast<Float4>(std::bit_cast<Mask4>(splat(sign_factor_)) ^ down),
-                    splat(kComplexSign));
-        x = inverse * x;
-        y = inverse * y;
-        z = inverse * z;
+        const Mask4 negative = ~(marks & ~empty) << 31;  // the bit of kFacesUp becomes that of the sign
+        const Float4 sign = std::bit_cast<Float4>(std::bit_cast<Mask4>(splat(sign_factor_)) ^ negative);
+        w = select4(simple | empty, sign, splat(kComplexSign));
+        x = select4(empty, splat(1), inverse * x);
+        y = select4(empty, splat(0), inverse * y);
+        z = select4(empty, splat(0), inverse * z);
         transpose4(x, y, z, w);
-        storeFloat4(sum[0].s, x);
-        storeFloat4(sum[1].s, y);
-        storeFloat4(sum[2].s, z);
-        storeFloat4(sum[3].s, w);
-        return true;
-    }
-
-    bool finishNode(std::size_t n) {
-        const bool empty = sums_.isEmpty(n), splits = isMikktspace(options_.method);
-        if (!empty && !sums_.isOneGroup(n, mesh_.normals[nodes_.vertex(n)], splits)) return false;
-        if (estimates_) return true;
-        const Vec3 s = empty ? Vec3{1, 0, 0} : unit(tangentOf(n));
-        // The other methods replace a sum that vanishes; the vertex path sees to that.
-        if (!splits && !notZero(s)) return false;
-        finishResult(n, s, empty);
-        return true;
+        storeFloat4(nodes[at[0]].s, x);
+        storeFloat4(nodes[at[1]].s, y);
+        storeFloat4(nodes[at[2]].s, z);
+        storeFloat4(nodes[at[3]].s, w);
+        return {laneBits(~(simple | empty)) & ~missing, laneBits(empty) & ~missing};
     }
 
     [[nodiscard]] Vec3 tangentOf(std::size_t n) const {

@@ -128,9 +128,8 @@ class Planner {
         sources_.extend(count);
         for (std::size_t i = 0; i < count; ++i) {
             const NodeCorner& corner = groups.corners[i];
-            const bool has_group = groups.count != 0 && groups.of(i) != kNone;
-            sources_[i] = has_group ? first + groups.of(i) : kNone;
-            if (!has_group) continue;
+            sources_[i] = groups.of(i) == kNone ? kNone : first + groups.of(i);
+            if (sources_[i] == kNone) continue;
             to_.groups[halfEdgeOf(corner)] = sources_[i] | (corner.addsNothing() ? kMark : 0);
             if (!corner.addsNothing()) positive_[sources_[i]] = (corner.common & kIsUp) != 0 ? 1 : 0;
         }
@@ -204,7 +203,7 @@ class Planner {
         if (ascending) return false;
         repeats_.drop(repeats_.size());
         for (std::uint32_t i = 0; i < groups.corners.size(); ++i)
-            repeats_.push({groups.corners[i].slot, groups.count == 0 ? kNone : groups.of(i), i});
+            repeats_.push({groups.corners[i].slot, groups.of(i), i});
         sortList(repeats_.begin(), repeats_.end(), std::less<>());
         const Repeat *r = repeats_.begin(), *all_end = repeats_.end();
         while (r != all_end) {

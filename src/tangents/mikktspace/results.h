@@ -44,6 +44,28 @@ struct Tangents {
     bool positive = false;
 };
 
+/// What the members of a group add up to: rows as in corner_terms.h.
+struct TangentSum {
+    Vec3 s, t;
+    float mag_s = 0, mag_t = 0, weight = 0;
+
+    void add(const TangentSum& term) {
+        s = s + term.s;
+        t = t + term.t;
+        mag_s = mag_s + term.mag_s;
+        mag_t = mag_t + term.mag_t;
+        weight = weight + term.weight;
+    }
+    [[nodiscard]] Tangents mean(bool positive) const {
+        Tangents r{unit(s), unit(t), mag_s, mag_t, positive};
+        if (weight > 0) {
+            r.mag_s /= weight;
+            r.mag_t /= weight;
+        }
+        return r;
+    }
+};
+
 inline bool sameResult(const Tangents& a, const Tangents& b) {
     return a.mag_s == b.mag_s && a.mag_t == b.mag_t && a.s == b.s && a.t == b.t;
 }

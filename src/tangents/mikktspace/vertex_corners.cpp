@@ -162,16 +162,7 @@ class CornerReader {
     }
 
     void placeCorners() {
-        if (to_.places.empty()) {
-            placeCorners([](std::uint32_t) { return true; });
-        } else {
-            const auto nowhere = static_cast<std::uint32_t>(from_.chosen.size());
-            placeCorners([nowhere](std::uint32_t place) { return place != nowhere; });
-        }
-    }
-
-    template <class IsChosen>
-    void placeCorners(const IsChosen& isChosen) {
+        const auto nowhere = static_cast<std::uint32_t>(from_.chosen.size());
         const std::uint32_t* slots = triangles_.corners.empty() ? nullptr : triangles_.corners.data();
         const std::uint32_t* found = to_.found.empty() ? nullptr : to_.found.data();
         std::uint32_t* ends = to_.end.data();
@@ -187,7 +178,7 @@ class CornerReader {
                     3 * (found == nullptr ? static_cast<std::uint32_t>(begin + t) : found[begin + t]);
                 const std::uint32_t orientation = orientationOf(flags[t]);
                 const auto place = [&](std::uint32_t k, std::uint32_t next, std::uint32_t previous) {
-                    if (!isChosen(places[k])) return;
+                    if (places[k] == nowhere) return;
                     corners[ends[places[k]]++] = {terms.s[3 * t + k], next, previous,
                                                   slots == nullptr ? first + k : slots[first + k],
                                                   terms.marks[k][t] | orientation};
