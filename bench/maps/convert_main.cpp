@@ -141,6 +141,7 @@ struct Rows {
     Row unconverted{"unconverted, 16 bits", 0};
     Row once{"16 to 16 bits", 0.001, 0.004};
     Row round_trip{"16 bits, there and back", 0.0003};
+    Row object_round_trip{"to object space and back", 0.0003};
     Row widened{"8 to 16 bits", 0.0015};
     Row narrow_unconverted{"unconverted, 8 bits", 0};
     Row narrow{"8 to 8 bits", 0};
@@ -151,8 +152,8 @@ struct Rows {
     [[nodiscard]] bool print(bool relief) {
         if (relief) narrow = narrow.withTarget(0.045);
         bool all = true;
-        for (const Row* row : {&unconverted, &once, &round_trip, &widened, &narrow_unconverted, &narrow, &object,
-                               &object_itself, &object_floats})
+        for (const Row* row : {&unconverted, &once, &round_trip, &object_round_trip, &widened, &narrow_unconverted,
+                               &narrow, &object, &object_itself, &object_floats})
             all = row->print() && all;
         return all;
     }
@@ -171,6 +172,9 @@ void measure(const accuracy::Surface& surface, Charts charts, bool relief, std::
     rows.unconverted.add(apart(shown, pictureOf(map, best)));
     rows.once.add(apart(shown, pictureOf(there, best)));
     rows.round_trip.add(apart(shown, pictureOf(converted(there, to, from, 16), mikk)));
+    const Map in_space = converted(map, from, {.space = MapSpace::object}, 16);
+    rows.object_round_trip.add(
+        apart(shown, pictureOf(converted(in_space, {.space = MapSpace::object}, from, 16), mikk)));
     options.bits = 8;
     const Map eight{size, orStop(bakeMap(mikk.view(), high.view(), options)).texels};
     const std::vector<DVec3> shown_eight = pictureOf(eight, mikk);

@@ -68,6 +68,8 @@ struct ConvertMapReport {
 /// Converts `map` from one side to the other into `out` (width * height; may be where map.texels is).
 ///
 /// - Texels keep their lengths, but for those that would not fit, and with 8 bits.
+/// - With 16 bits between tangent and object space, a channel goes to one of the integers around what was computed, such that
+///   neighbours make good under the filter what is rounded off. Otherwise it goes to the nearest.
 /// - Sides that read a texel alike leave it as it is, bit for bit; where only green differs it becomes 1 - G exactly.
 /// - Without a mesh on both sides, readings alone are converted, of all texels; they may differ in green, scale and channels.
 /// - With a mesh on one side, the other side is in object space, or has the same frames.
@@ -76,8 +78,8 @@ struct ConvertMapReport {
 ///
 /// Errors: nullData, countMismatch, strideTooSmall, misaligned, invalidOption (bits; a scale that is 0 or not finite),
 /// missingAttribute (a mesh, normals or tangents that are needed), tooLarge (more than 2^32 texels, or UVs that show the image
-/// far too often), outOfMemory, cannotWrite (stopped). Time: linear. Memory: about 30 bytes a texel. The same bits for any
-/// number of threads. Thread-safe.
+/// far too often), outOfMemory, cannotWrite (stopped). Time: linear. Memory: about 30 bytes a texel, 55 with 16 bits between
+/// tangent and object space. The same bits for any number of threads. Thread-safe.
 Result<ConvertMapReport> convertMap(const MapImage& map, const MapSide& from, const MapSide& to, std::span<Vec3> out,
                                     const ConvertMapOptions& options = {});
 

@@ -10,6 +10,7 @@
 #include "maps/convert_texel.h"
 #include "maps/map_stop.h"
 #include "maps/matched_triangles.h"
+#include "maps/solve_texels.h"
 #include "tspace/map_convert.h"
 
 namespace tspace {
@@ -88,6 +89,10 @@ class Conversion {
         }
         const std::size_t texels = map_.texels.size(), tasks = (texels + kTexelsOfTask - 1) / kTexelsOfTask;
         if (options_.bits == 8) findSpreads();
+        if (options_.bits == 16 && from_.space != to_.space) {
+            vectors_ = Buffer<Vec3>(options_.execution.allocator, texels);
+            keeps_ = Buffer<bool>(options_.execution.allocator, texels, true);
+        }
         Buffer<Sums> sums(options_.execution.allocator, tasks, Sums{});
         for (std::size_t first = 0; first < tasks; first += kTasksOfStep) {
             if (options_.stop && options_.stop()) return stoppedError();
@@ -101,6 +106,7 @@ class Conversion {
         }
         Sums all;
         for (const Sums& part : sums) all.add(part);
+        if (vectors_.size() > 0) all.changed = roundTogether();
         return reportOf(all);
     }
 
@@ -156,6 +162,22 @@ class Conversion {
         return std::isfinite(sum) ? static_cast<float>(std::sqrt(sum / 4)) : 0.0F;
     }
 
+    /// What comes from another space lies anywhere between integers: those around make good what one rounds off. Returns how
+    /// many texels changed.
+    std::uint64_t roundTogether() {
+        const std::span<Vec3> vectors(vectors_.data(), vectors_.size());
+        roundTexels(vectors, map_.width, {.keeps = {keeps_.data(), keeps_.size()}}, parallel_,
+                    options_.execution.allocator);
+        std::uint64_t changed = 0;
+        for (std::size_t i = 0; i < vectors.size(); ++i) {
+            if (keeps_[i]) continue;
+            const Vec3 texel = channelsOf(toDouble(vectors[i]), {.bits = 16});
+            changed += texel == out_[i] ? 0 : 1;
+            out_[i] = texel;
+        }
+        return changed;
+    }
+
     void convert(std::size_t texel, Sums& sums) {
         const Vec3 before = map_.texels[texel];
         out_[texel] = before;
@@ -174,13 +196,20 @@ class Conversion {
             }
         }
         const double spread = spreads_.size() == 0 ? 0 : static_cast<double>(spreads_[texel]);
-        const auto converted =
-            convertTexel(before, from, readingOf(from_), to, readingOf(to_), {.bits = options_.bits, .spread = spread});
+        const bool is_rounded_later = vectors_.size() > 0;
+        const auto converted = convertTexel(before, from, readingOf(from_), to, readingOf(to_),
+                                            {.bits = is_rounded_later ? 32 : options_.bits, .spread = spread});
         if (!converted) {
             ++sums.without_frame;
             return;
         }
-        out_[texel] = converted->texel;
+        if (is_rounded_later) {
+            const Vec3& channels = converted->texel;
+            vectors_[texel] = {2 * channels.x - 1, 2 * channels.y - 1, 2 * channels.z - 1};
+            keeps_[texel] = channels == before;
+        } else {
+            out_[texel] = converted->texel;
+        }
         ++sums.converted;
         sums.changed += converted->texel == before ? 0 : 1;
         sums.below_horizon += converted->is_below_horizon ? 1 : 0;
@@ -246,6 +275,9 @@ class Conversion {
     const MapSide &main_, &other_;  ///< texels go by the triangles of the first
     CornerTriangles main_corners_, other_corners_;
     TexelTriangles places_ = {}, other_places_ = {};
+    /// With 16 bits from space to space: vectors as computed, and which texels stay as they are.
+    Buffer<Vec3> vectors_ = {};
+    Buffer<bool> keeps_ = {};
     Buffer<float> spreads_ = {};          ///< TexelNumbers::spread of each texel, with 8 bits
     Buffer<std::uint32_t> matches_ = {};  ///< triangles of the other side, by those of the main one
 };

@@ -31,17 +31,6 @@ bool isOnGrid(const Vec3& texel, const TexelNumbers& numbers) {
     return isOnGrid(texel.x, most) && isOnGrid(texel.y, most) && isOnGrid(texel.z, most);
 }
 
-/// Channels for a vector as the image stores it.
-Vec3 channelsOf(const DVec3& stored, const TexelNumbers& numbers) {
-    const auto channel = [&](double component) {
-        const double part = std::clamp(0.5 * (component + 1), 0.0, 1.0);
-        if (numbers.bits == 32) return static_cast<float>(part);
-        const auto most = static_cast<float>(numbers.most());
-        return static_cast<float>(std::floor(part * most + 0.5)) / most;
-    };
-    return {channel(stored.x), channel(stored.y), channel(stored.z)};
-}
-
 /// The texel for a vector, which keeps its length where it can.
 Vec3 storedTexel(const DVec3& vector, const MapReading& reading, const TexelNumbers& numbers) {
     const DVec3 encoded = encodeTexel(vector, reading);
@@ -70,6 +59,16 @@ bool storesAlike(const MapReading& a, const MapReading& b) {
 }
 
 }  // namespace
+
+Vec3 channelsOf(const DVec3& stored, const TexelNumbers& numbers) {
+    const auto channel = [&](double component) {
+        const double part = std::clamp(0.5 * (component + 1), 0.0, 1.0);
+        if (numbers.bits == 32) return static_cast<float>(part);
+        const auto most = static_cast<float>(numbers.most());
+        return static_cast<float>(std::floor(part * most + 0.5)) / most;
+    };
+    return {channel(stored.x), channel(stored.y), channel(stored.z)};
+}
 
 std::optional<ConvertedTexel> convertTexel(const Vec3& texel, const ShadingFrame& from, const MapReading& from_reading,
                                            const ShadingFrame& to, const MapReading& to_reading,

@@ -22,6 +22,9 @@ struct ConvertedTexel {
     bool is_below_horizon = false;
 };
 
+/// The nearest channels for a vector as an image stores it.
+Vec3 channelsOf(const DVec3& stored, const TexelNumbers& numbers);
+
 /// Nothing where there is no answer: a frame that is singular or not finite, a texel without direction.
 std::optional<ConvertedTexel> convertTexel(const Vec3& texel, const ShadingFrame& from, const MapReading& from_reading,
                                            const ShadingFrame& to, const MapReading& to_reading,

@@ -22,7 +22,7 @@ constexpr std::uint32_t kMostPadding = 256;
 constexpr std::uint32_t kFilterTexels = 2;
 /// Smaller images have texels that are their own neighbours.
 constexpr std::uint32_t kLeastSolved = 4;
-constexpr unsigned kIntegerRounds = 3, kRoundings = 2;
+constexpr unsigned kIntegerRounds = 3;
 
 class Baking {
   public:
@@ -99,7 +99,7 @@ class Baking {
             for (Vec3& texel : texels) texel = kWantedLength * texel;
         }
         solveTexels(system, texels, parallel_, allocator_);
-        roundTexels(texels, options_.width, 65535, kRoundings, parallel_, allocator_);
+        roundTexels(texels, options_.width, {}, parallel_, allocator_);
         if (options_.reading.two_channels) settleThirds(texels);
         return true;
     }

@@ -313,16 +313,18 @@ void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std:
     for (unsigned round = 0; round < rounds; ++round) forRowsApart(parallel, height, chooseRow);
 }
 
-void roundTexels(std::span<Vec3> texels, std::uint32_t width, unsigned most, unsigned rounds, Parallel& parallel,
+void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRounding& rounding, Parallel& parallel,
                  const Allocator* allocator) {
     const auto height = static_cast<std::uint32_t>(texels.size() / width);
-    const float scale = static_cast<float>(most) / 2;
+    const auto last = static_cast<float>(rounding.most);
+    const float scale = last / 2;
     // What is wrong so far, in steps; each texel's own number is settled with those around as they are.
     Buffer<Vec3> off(allocator, texels.size(), Vec3{});
     const auto roundRow = [&](std::uint32_t y) {
         const std::size_t here = std::size_t{y} * width, above = std::size_t{y > 0 ? y - 1 : height - 1} * width,
                           below = std::size_t{y + 1 < height ? y + 1 : 0} * width;
         for (std::uint32_t x = 0; x < width; ++x) {
+            if (!rounding.keeps.empty() && rounding.keeps[here + x]) continue;
             const std::size_t left = x > 0 ? x - 1 : width - 1, right = x + 1 < width ? x + 1 : 0;
             const Vec3 sides = (off[here + left] + off[here + right]) + (off[above + x] + off[below + x]);
             const Vec3 corners = (off[above + left] + off[above + right]) + (off[below + left] + off[below + right]);
@@ -330,13 +332,13 @@ void roundTexels(std::span<Vec3> texels, std::uint32_t width, unsigned most, uns
             const Vec3 wanted = 0.25F * sides + 0.0625F * corners;
             const auto rounded = [&](float value, float others) {
                 const float steps = (value + 1) * scale;
-                return std::clamp(std::floor(steps - others + 0.5F), 0.0F, static_cast<float>(most)) - steps;
+                return std::clamp(std::floor(steps - others + 0.5F), 0.0F, last) - steps;
             };
             const Vec3& texel = texels[here + x];
             off[here + x] = {rounded(texel.x, wanted.x), rounded(texel.y, wanted.y), rounded(texel.z, wanted.z)};
         }
     };
-    for (unsigned round = 0; round < rounds; ++round) forRowsApart(parallel, height, roundRow);
+    for (unsigned round = 0; round < rounding.rounds; ++round) forRowsApart(parallel, height, roundRow);
     parallel.forRanges(texels.size(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) texels[i] = texels[i] + (1 / scale) * off[i];
     });

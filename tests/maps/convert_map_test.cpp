@@ -223,11 +223,13 @@ TEST(ConvertMap, LeavesTheBackgroundAlone) {
     const auto texels = randomTexels(64 * 64, 32, 3);
     ConvertMapReport report;
     const auto out = converted(texels, from.side(), to.side(), {}, &report);
+    const auto in_object = converted(texels, from.side(), {.space = MapSpace::object});
     // Filtering between 0.3 * 64 and 0.6 * 64 reads columns 18 (whose centre is 0.7 away) to 38.
     for (std::size_t i = 0; i < texels.size(); ++i) {
         const std::size_t x = i % 64, y = i / 64;
         const bool is_read = x >= 18 && x <= 38 && y >= 18 && y <= 38;
         EXPECT_EQ(out[i] != texels[i], is_read) << x << " " << y;
+        EXPECT_EQ(in_object[i] != texels[i], is_read) << x << " " << y;
     }
     EXPECT_EQ(report.converted, 21u * 21u);
     EXPECT_EQ(report.background, 64u * 64u - 21u * 21u);
@@ -284,6 +286,34 @@ TEST(ConvertMap, GoesToObjectSpaceAndBack) {
     const std::size_t middle = kSize * kSize / 2 + kSize / 2;
     EXPECT_NEAR(decodeTexel(out[middle], {}).x, decodeTexel(in_object[middle], {}).y, 1e-4);
     EXPECT_NEAR(decodeTexel(out[middle], {}).y, -decodeTexel(in_object[middle], {}).x, 1e-4);
+}
+
+// The filter mixes neighbours, which make good what one rounds off. No length changes by more than rounding does.
+TEST(ConvertMap, RoundsTogetherWhatComesFromObjectSpace) {
+    const Corners mesh = cornersOf({.twist = 0.3, .lean = 0.2});
+    const auto texels = randomTexels(kSize * kSize, 32, 6);
+    const MapSide object{.space = MapSpace::object};
+    const auto exact = converted(texels, object, mesh.side(), {.bits = 32}),
+               out = converted(texels, object, mesh.side());
+    const auto rounded = [](float part) { return std::floor(part * 65535 + 0.5f) / 65535; };
+    double plain_sum = 0, sum = 0;
+    for (std::uint32_t y = 4; y < kSize - 5; ++y) {
+        for (std::uint32_t x = 4; x < kSize - 5; ++x) {
+            DVec3 plain_off{}, off{};
+            for (const std::size_t i :
+                 {y * kSize + x, y * kSize + x + 1, (y + 1) * kSize + x, (y + 1) * kSize + x + 1}) {
+                const DVec3 wanted = toDouble(exact[i]);
+                plain_off =
+                    plain_off + toDouble({rounded(exact[i].x), rounded(exact[i].y), rounded(exact[i].z)}) - wanted;
+                off = off + toDouble(out[i]) - wanted;
+                for (const float part : {out[i].x, out[i].y, out[i].z}) EXPECT_EQ(part, rounded(part));
+                EXPECT_LT(length(toDouble(out[i]) - wanted), 2.0 / 65535);
+            }
+            plain_sum += dot(plain_off, plain_off);
+            sum += dot(off, off);
+        }
+    }
+    EXPECT_LT(sum, 0.75 * plain_sum);
 }
 
 /// Texels of length 1 that lean by up to 20 degrees, neighbours nearly alike.
@@ -378,6 +408,9 @@ TEST(ConvertMap, GivesTheSameTexelsForAnyNumberOfThreads) {
     const auto b = converted(texels, from.side(), to.side(), {.padding = 9, .execution = {.thread_count = 4}}, &four);
     EXPECT_EQ(a, b);
     EXPECT_EQ(one.mean_change_deg, four.mean_change_deg);
+    const MapSide object{.space = MapSpace::object};
+    EXPECT_EQ(converted(texels, object, to.side()),
+              converted(texels, object, to.side(), {.execution = {.thread_count = 4}}));
 }
 
 TEST(ConvertMap, StopsWhenAskedTo) {

@@ -122,7 +122,7 @@ TEST(SolveTexels, RoundedTexelsCancelEachOthersErrors) {
     const auto round = [](float value) { return std::floor((value + 1) * 2000 + 0.5F) / 2000 - 1; };
     for (Vec3& texel : plain) texel = {round(texel.x), round(texel.y), round(texel.z)};
     Parallel parallel({.thread_count = 1});
-    roundTexels(together, kFieldSide, 4000, 2, parallel, nullptr);
+    roundTexels(together, kFieldSide, {.most = 4000}, parallel, nullptr);
     double plain_sum = 0, together_sum = 0;
     // What the filter shows between four texels.
     for (std::size_t i = 0; i + kFieldSide + 1 < wanted.size(); ++i) {
