@@ -37,19 +37,25 @@ function(tspace_simd_flags sources)
     endforeach()
 endfunction()
 
-# tspace_simd_kernel(NAME): the kernel NAME_kernel.h of this folder will be compiled for every CPU.
+# tspace_simd_kernel(NAME [NOT avx512]): the kernel NAME_kernel.h of this folder will be compiled for every CPU, but for
+# those that it is not faster on: TSPACE_KERNEL_TABLE_NOT_AVX512.
 function(tspace_simd_kernel name)
+    cmake_parse_arguments(arg "" "NOT" "" ${ARGN})
     file(RELATIVE_PATH kernel "${PROJECT_SOURCE_DIR}/src" "${CMAKE_CURRENT_SOURCE_DIR}/${name}_kernel.h")
     string(REGEX REPLACE "/.*" "" room "${kernel}")
-    set_property(TARGET tspace APPEND_STRING PROPERTY TSPACE_KERNELS_${room} "#include \"${kernel}\"\n")
+    foreach(cpu scalar ${tspace_simd_cpus})
+        if(NOT cpu STREQUAL "${arg_NOT}")
+            set_property(TARGET tspace APPEND_STRING PROPERTY TSPACE_KERNELS_${room}_${cpu} "#include \"${kernel}\"\n")
+        endif()
+    endforeach()
 endfunction()
 
 # tspace_simd_sources(ROOM...): makes one source for each CPU, which includes the lanes of that CPU, then all kernels of the
 # room. Not one for all rooms: a program that makes tangents would have the kernels of normals in it.
 function(tspace_simd_sources)
     foreach(room ${ARGN})
-        get_target_property(kernels tspace TSPACE_KERNELS_${room})
         foreach(cpu scalar ${tspace_simd_cpus})
+            get_target_property(kernels tspace TSPACE_KERNELS_${room}_${cpu})
             set(source "${CMAKE_CURRENT_BINARY_DIR}/kernels_${room}_${cpu}.cpp")
             configure_file("${PROJECT_SOURCE_DIR}/cmake/kernels.cpp.in" "${source}" @ONLY)
             list(APPEND sources "${source}")

@@ -40,10 +40,12 @@
     __VA_ARGS__;                       \
     }
 
-/// Those functions that this build has, for simd::choose.
+/// Those functions that this build has, for simd::choose. NOT_AVX512: where AVX2 is as fast.
 #if defined(TSPACE_SIMD_X86)
 #define TSPACE_KERNEL_TABLE(function) \
     { TSPACE_SCALAR_OR_NULL(function, sse2), sse2::function, avx2::function, avx512::function }
+#define TSPACE_KERNEL_TABLE_NOT_AVX512(function) \
+    { TSPACE_SCALAR_OR_NULL(function, sse2), sse2::function, avx2::function, avx2::function }
 #elif defined(TSPACE_SIMD_ARM64)
 #define TSPACE_KERNEL_TABLE(function) \
     { TSPACE_SCALAR_OR_NULL(function, neon), neon::function }
@@ -53,6 +55,9 @@
 #else
 #define TSPACE_KERNEL_TABLE(function) \
     { scalar::function }
+#endif
+#ifndef TSPACE_KERNEL_TABLE_NOT_AVX512
+#define TSPACE_KERNEL_TABLE_NOT_AVX512(function) TSPACE_KERNEL_TABLE(function)
 #endif
 
 namespace tspace::simd {

@@ -55,7 +55,7 @@ struct DerivativeKernel {
 
 TSPACE_DECLARE_KERNEL(DerivativeKernel derivativeKernel())
 inline DerivativeKernel derivativeKernelFor(SimdTarget wish) {
-    return simd::choose(wish, TSPACE_KERNEL_TABLE(derivativeKernel))();
+    return simd::choose(wish, TSPACE_KERNEL_TABLE_NOT_AVX512(derivativeKernel))();
 }
 
 }  // namespace tspace::derivatives

@@ -69,7 +69,7 @@ function kernelSources(room, isFast) {
   for (const file of readdirSync(join(root, "src", room), { recursive: true })) {
     if (!file.endsWith("CMakeLists.txt")) continue;
     const text = readFileSync(join(root, "src", room, file), "utf8");
-    for (const [, name] of text.matchAll(/tspace_simd_kernel\((\w+)\)/g))
+    for (const [, name] of text.matchAll(/tspace_simd_kernel\((\w+)/g))
       kernels.push(join(room, dirname(file), `${name}_kernel.h`));
   }
   const head = '// SPDX-License-Identifier: MIT\n#include "simd/lanes_wasm.h"\n#define TSPACE_LANES wasm\n';

@@ -54,7 +54,7 @@ struct Estimator {
 TSPACE_DECLARE_KERNEL(Estimator twoWeights(bool tangents_only))
 TSPACE_DECLARE_KERNEL(Estimator quadraticRecovery())
 inline Estimator twoWeightsFor(SimdTarget wish, bool tangents_only) {
-    return simd::choose(wish, TSPACE_KERNEL_TABLE(twoWeights))(tangents_only);
+    return simd::choose(wish, TSPACE_KERNEL_TABLE_NOT_AVX512(twoWeights))(tangents_only);
 }
 inline Estimator quadraticRecoveryFor(SimdTarget wish) {
     return simd::choose(wish, TSPACE_KERNEL_TABLE(quadraticRecovery))();
