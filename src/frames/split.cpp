@@ -24,8 +24,8 @@ namespace {
 constexpr std::size_t kCornersPerTask = 1 << 13;
 /// Fewer tasks are done sooner than threads are started.
 constexpr std::size_t kTasksForThreads = 16;
-/// Corners that are compared without a branch before those that differ are listed.
-constexpr std::size_t kWordBits = 64;
+/// Corners that are compared before those that differ are put behind each other.
+constexpr std::size_t kBlock = 64;
 
 template <class Word>
 Word differingBits(const std::byte* a, const std::byte* b) {
@@ -44,64 +44,69 @@ bool sameBits(const std::byte* a, const std::byte* b) {
     return differing == 0;
 }
 
-/// Exact attributes with these numbers of components, in this order.
-template <std::uint32_t... Counts>
-class ExactAttributes {
-  public:
-    explicit ExactAttributes(std::span<const CornerAttribute> attributes) {
-        std::copy(attributes.begin(), attributes.end(), attributes_.begin());
-    }
-    static bool fits(std::span<const CornerAttribute> attributes) {
-        constexpr std::array<std::uint32_t, sizeof...(Counts)> counts{Counts...};
-        return std::equal(attributes.begin(), attributes.end(), counts.begin(), counts.end(),
-                          [](const CornerAttribute& attribute, std::uint32_t count) {
-                              return attribute.component_count == count && attribute.tolerance == 0.0f;
-                          });
-    }
-    [[nodiscard]] bool areEqual(std::uint32_t corner, std::uint32_t other) const {
-        std::size_t i = 0;
-        std::uint32_t different = 0;
-        ((different |= sameBits<Counts>(at(i, corner), at(i, other)) ? 0u : 1u, ++i), ...);
-        return different == 0;
-    }
-    void fetch(std::uint32_t corner) const {
-        for (std::size_t i = 0; i < sizeof...(Counts); ++i) __builtin_prefetch(at(i, corner));
-    }
+using Attributes = std::span<const CornerAttribute>;
 
-  private:
-    [[nodiscard]] const std::byte* at(std::size_t i, std::uint32_t corner) const {
-        return reinterpret_cast<const std::byte*>(attributes_[i].data) + corner * attributes_[i].stride_bytes;
-    }
-    std::array<CornerAttribute, sizeof...(Counts)> attributes_;
+/// Corners one behind the other, and what is known of their vertices.
+struct Block {
+    std::uint32_t corner;  ///< the first one
+    std::size_t count;
+    const std::uint32_t* vertices;  ///< one per corner
+    std::uint32_t* firsts;          ///< of all vertices: the first corner
 };
 
-/// Any attributes.
-class AnyAttributes {
-  public:
-    explicit AnyAttributes(std::span<const CornerAttribute> attributes) : attributes_(attributes) {}
-    [[nodiscard]] bool areEqual(std::uint32_t corner, std::uint32_t other) const {
-        for (const CornerAttribute& attribute : attributes_) {
-            const float* a = cornerValues(attribute, corner);
-            const float* b = cornerValues(attribute, other);
-            for (std::uint32_t k = 0; k < attribute.component_count; ++k) {
-                if (std::bit_cast<std::uint32_t>(a[k]) == std::bit_cast<std::uint32_t>(b[k])) continue;
-                return equalCorners(attributes_, corner, other);
-            }
+/// Writes those corners that do not equal the first one of their vertex to `different`. Returns how many they are.
+using ListDifferent = std::size_t (*)(Attributes attributes, const Block& block, std::uint32_t* different);
+
+/// Exact attributes with these numbers of components, in this order; any where there are none. Unless it is known, the
+/// first corner of a vertex is found on the way.
+template <bool kFirstsAreKnown, std::uint32_t... Counts>
+std::size_t listDifferent(Attributes attributes, const Block& block, std::uint32_t* different) {
+    std::array<CornerAttribute, sizeof...(Counts)> exact;  // copies, which no store can change
+    std::copy_n(attributes.begin(), exact.size(), exact.begin());
+    const auto at = [&](std::size_t i, std::uint32_t corner) {
+        return reinterpret_cast<const std::byte*>(exact[i].data) + corner * exact[i].stride_bytes;
+    };
+    const auto [corner, count, vertices, firsts] = block;
+    std::size_t different_count = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        static_assert(kNoCorner == 0xffffffffu);  // above all corners
+        const std::uint32_t here = corner + static_cast<std::uint32_t>(k);
+        std::uint32_t first = firsts[vertices[k]], differs = 0;
+        if (!kFirstsAreKnown) firsts[vertices[k]] = first = std::min(first, here);
+        different[different_count] = here;
+        if constexpr (sizeof...(Counts) == 0) {
+            differs = equalCorners(attributes, here, first) ? 0u : 1u;
+        } else {
+            std::size_t i = 0;
+            ((differs |= sameBits<Counts>(at(i, here), at(i, first)) ? 0u : 1u, ++i), ...);
         }
-        return true;
+        different_count += differs;
     }
-    void fetch(std::uint32_t corner) const {
-        for (const CornerAttribute& attribute : attributes_) __builtin_prefetch(cornerValues(attribute, corner));
-    }
+    return different_count;
+}
 
-  private:
-    std::span<const CornerAttribute> attributes_;
-};
+template <std::uint32_t... Counts>
+bool areExact(Attributes attributes) {
+    constexpr std::array<std::uint32_t, sizeof...(Counts)> counts{Counts...};
+    return std::equal(attributes.begin(), attributes.end(), counts.begin(), counts.end(),
+                      [](const CornerAttribute& attribute, std::uint32_t count) {
+                          return attribute.component_count == count && attribute.tolerance == 0.0f;
+                      });
+}
+
+template <bool kFirstsAreKnown>
+ListDifferent listerFor([[maybe_unused]] Attributes attributes) {
+#ifndef TSPACE_SMALL
+    if (areExact<4>(attributes)) return listDifferent<kFirstsAreKnown, 4>;
+    if (areExact<3>(attributes)) return listDifferent<kFirstsAreKnown, 3>;
+    if (areExact<3, 4>(attributes)) return listDifferent<kFirstsAreKnown, 3, 4>;
+#endif
+    return listDifferent<kFirstsAreKnown>;
+}
 
 class Splitter {
   public:
-    Splitter(std::span<const CornerAttribute> attributes, std::size_t vertex_count, std::size_t corner_count,
-             const Execution& execution)
+    Splitter(Attributes attributes, std::size_t vertex_count, std::size_t corner_count, const Execution& execution)
         : attributes_(attributes),
           vertex_count_(vertex_count),
           parallel_(execution, corner_count),
@@ -113,82 +118,58 @@ class Splitter {
     }
 
     SplitResult split(const IndexView& indices) {
-        splitAsFits(indices);
+        if (parallel_.width() == 1 || pending_.size() < kTasksForThreads) {
+            // One after the other, while corners are in the cache.
+            const ListDifferent list = listerFor<false>(attributes_);
+            for (std::size_t task = 0; task < pending_.size(); ++task) {
+                compare(task, indices, list);
+                resolve(task, indices);
+            }
+        } else {
+            splitByAll(indices);
+        }
         writeSources(indices);
         return std::move(result_);
     }
 
   private:
-    void splitAsFits(const IndexView& indices) {
-#ifndef TSPACE_SMALL
-        using Tangents = ExactAttributes<4>;
-        using Normals = ExactAttributes<3>;
-        using Both = ExactAttributes<3, 4>;
-        if (Tangents::fits(attributes_)) return splitAll(indices, Tangents(attributes_));
-        if (Normals::fits(attributes_)) return splitAll(indices, Normals(attributes_));
-        if (Both::fits(attributes_)) return splitAll(indices, Both(attributes_));
-#endif
-        splitAll(indices, AnyAttributes(attributes_));
-    }
-
-    static void resizeAtOnce(std::vector<std::uint32_t>& values, std::size_t count, std::size_t capacity,
+    [[gnu::noinline]] static void resizeAtOnce(std::vector<std::uint32_t>& values, std::size_t count, std::size_t capacity,
                              std::uint32_t value = 0) {
         values.reserve(capacity);
         askForPages(values.data(), count * sizeof(std::uint32_t));
         values.resize(count, value);
     }
 
-    template <class Attributes>
-    [[gnu::noinline]] void splitAll(const IndexView& indices, const Attributes& attributes) {
-        if (parallel_.width() == 1 || pending_.size() < kTasksForThreads) {
-            // One after the other, while corners are in the cache; the first corner of a vertex is found on
-            // the way.
-            for (std::size_t task = 0; task < pending_.size(); ++task) {
-                compare(task, indices, attributes, [](std::uint32_t& first, std::uint32_t corner) {
-                    static_assert(kNoCorner == 0xffffffffu);  // above all corners
-                    return first = std::min(first, corner);
-                });
-                resolve(task, indices);
-            }
-            return;
-        }
+    /// By all threads.
+    void splitByAll(const IndexView& indices) {
         // Backwards, so that the first corner of a vertex is the one that stays.
-        withIndices(indices, [&](auto vertexOf) {
-            for (std::size_t c = result_.indices.size(); c-- > 0;)
-                result_.source_corners[vertexOf(c)] = static_cast<std::uint32_t>(c);
-        });
-        parallel_.forTasks(pending_.size(), [&](std::size_t task) {
-            compare(task, indices, attributes, [](std::uint32_t first, std::uint32_t) { return first; });
-        });
+        for (std::size_t c = result_.indices.size(); c-- > 0;)
+            result_.source_corners[indices[c]] = static_cast<std::uint32_t>(c);
+        const ListDifferent list = listerFor<true>(attributes_);
+        parallel_.forTasks(pending_.size(), [&](std::size_t task) { compare(task, indices, list); });
         for (std::size_t task = 0; task < pending_.size(); ++task) {
             for (std::uint32_t corner = pending_[task]; corner != kNoCorner; corner = result_.indices[corner]) {
-                attributes.fetch(corner);
+                for (const CornerAttribute& attribute : attributes_)
+                    __builtin_prefetch(cornerValues(attribute, corner));
             }
             resolve(task, indices);
         }
     }
 
-    /// Gives corners that equal the first one of their vertex this vertex, and lists the others. `firstOf`
-    /// says which corner is the first one, from what is known of the vertex and the corner itself.
-    template <class Attributes, class FirstOf>
-    void compare(std::size_t task, const IndexView& view, const Attributes& attributes, FirstOf firstOf) {
-        // Copies: numbers that are written might be those of the vectors themselves.
+    /// Gives corners that equal the first one of their vertex this vertex, and lists the others.
+    void compare(std::size_t task, const IndexView& view, ListDifferent list) {
+        // A copy: numbers that are written might be those of the vector itself.
         std::uint32_t* const indices = result_.indices.data();
-        std::uint32_t* const known_firsts = result_.source_corners.data();
         const std::size_t end = std::min((task + 1) * kCornersPerTask, result_.indices.size());
         std::uint32_t first = kNoCorner, last = kNoCorner;
-        for (std::size_t begin = task * kCornersPerTask; begin < end; begin += kWordBits) {
-            const std::size_t count = std::min(kWordBits, end - begin);
-            std::array<std::uint32_t, kWordBits> different, buffer;
+        for (std::size_t begin = task * kCornersPerTask; begin < end; begin += kBlock) {
+            const std::size_t count = std::min(kBlock, end - begin);
+            std::array<std::uint32_t, kBlock> different, buffer;
             const std::uint32_t* const vertices = readIndices(view, begin, count, buffer.data());
-            std::size_t different_count = 0;
-            for (std::size_t i = 0; i < count; ++i) {
-                const auto corner = static_cast<std::uint32_t>(begin + i);
-                const std::uint32_t vertex = vertices[i];
-                indices[begin + i] = vertex;
-                different[different_count] = corner;
-                different_count += attributes.areEqual(corner, firstOf(known_firsts[vertex], corner)) ? 0 : 1;
-            }
+            std::copy_n(vertices, count, indices + begin);
+            const std::size_t different_count =
+                list(attributes_, {static_cast<std::uint32_t>(begin), count, vertices, result_.source_corners.data()},
+                     different.data());
             for (std::size_t i = 0; i < different_count; ++i) {
                 (last == kNoCorner ? first : indices[last]) = different[i];
                 last = different[i];
@@ -216,7 +197,7 @@ class Splitter {
         for (std::size_t v = vertex_count_; v < sources.size(); ++v) sources[v] = indices[result_.source_corners[v]];
     }
 
-    std::span<const CornerAttribute> attributes_;
+    Attributes attributes_;
     std::size_t vertex_count_;
     Parallel parallel_;
     /// For each task the first corner that differs from the first one of its vertex; the rest of them is a list
