@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstring>
 #include <limits>
 
 #include "core/border.h"
@@ -44,25 +45,28 @@ Error checkFaces(const MeshView& mesh) {
     return fine();
 }
 
-/// Without a branch, so that the loop becomes SIMD. For i < 2^31 and limit <= 2^31, i - limit has its highest
-/// bit set exactly when i < limit.
+/// Without a branch, four at a time. For i < 2^31 and limit <= 2^31, i - limit has its highest bit set exactly when
+/// i < limit.
 template <class Index>
 bool allBelow(const Index* indices, std::size_t count, std::uint32_t limit) {
+    using Four = std::uint32_t __attribute__((vector_size(16)));
+    using FourInMemory __attribute__((vector_size(4 * sizeof(Index)))) = Index;
+    const auto below = [=](std::size_t c) {
+        FourInMemory four;
+        std::memcpy(&four, indices + c, sizeof four);
+        const Four index = __builtin_convertvector(four, Four);
+        return (index - limit) & ~index;
+    };
     constexpr std::size_t kLanes = 16;
-    std::uint32_t below[kLanes];
-    std::fill_n(below, kLanes, 0x80000000u);
+    Four all = ~Four{};
     std::size_t c = 0;
     for (; c + kLanes <= count; c += kLanes) {
         prefetchLines(indices + c, kLanes * sizeof(Index));
-        for (std::size_t i = 0; i < kLanes; ++i) {
-            const std::uint32_t index = indices[c + i];
-            below[i] &= (index - limit) & ~index;
-        }
+        all &= below(c) & below(c + 4) & below(c + 8) & below(c + 12);
     }
-    std::uint32_t all = 0x80000000u;
-    for (const std::uint32_t lane : below) all &= lane;
-    for (; c < count; ++c) all &= (indices[c] - limit) & ~std::uint32_t{indices[c]};
-    return all != 0;
+    std::uint32_t rest = all[0] & all[1] & all[2] & all[3];
+    for (; c < count; ++c) rest &= (indices[c] - limit) & ~std::uint32_t{indices[c]};
+    return rest >> 31 != 0;
 }
 
 template <class Index>
@@ -119,16 +123,18 @@ Error checkIndexSpan(const IndexView& indices, const char* name) {
     return checkSpan(indices.data, indices.count, bytes, bytes, kAnyCount, name);
 }
 
-/// One attribute: one entry per vertex, or any number with indices of its own.
-template <class T>
-Error checkAttribute(const StridedSpan<const T>& span, const IndexView& indices, std::size_t vertex_count,
-                     std::size_t corner_count, const char* name, const char* indices_name) {
-    if (indices.type == IndexType::none && indices.count == 0) {
-        return span.empty() ? fine() : checkSpan(span, vertex_count, name);
-    }
-    if (indices.type == IndexType::corners) return span.empty() ? fine() : checkSpan(span, corner_count, name);
+/// One attribute, of bytes: one entry per vertex, or any number with indices of its own.
+Error checkAttribute(const StridedSpan<const std::byte>& span, std::size_t element_bytes, const IndexView& indices,
+                     const MeshView& mesh, const char* name, const char* indices_name) {
+    const std::size_t corner_count = mesh.cornerCount();
+    const auto checkCount = [&](std::size_t count) {
+        return checkSpan(span.data, span.count, span.stride_bytes, element_bytes, count, name);
+    };
+    if (indices.type == IndexType::none && indices.count == 0)
+        return span.empty() ? fine() : checkCount(mesh.vertexCount());
+    if (indices.type == IndexType::corners) return span.empty() ? fine() : checkCount(corner_count);
     if (span.count > kMaxCorners) return makeError(ErrorCode::tooLarge, kNoElement, "more than 2^31-1 %s", name);
-    if (Error e = checkSpan(span, kAnyCount, name); e.code != ErrorCode::ok) return e;
+    if (Error e = checkCount(kAnyCount); e.code != ErrorCode::ok) return e;
     if (Error e = checkIndexSpan(indices, indices_name); e.code != ErrorCode::ok) return e;
     if (indices.count != corner_count) {
         return makeError(ErrorCode::countMismatch, kNoElement,
@@ -139,23 +145,11 @@ Error checkAttribute(const StridedSpan<const T>& span, const IndexView& indices,
     return checkBelow(indices, span.count, nullptr, indices_name, name);
 }
 
-/// checkTheIndices(indices) as checkSpan.
-template <class CheckTheIndices>
-Error check(const MeshView& mesh, const CheckTheIndices& checkTheIndices) {
-    if (mesh.positions.count > kMaxCorners || mesh.indices.count > kMaxCorners) {
-        return {ErrorCode::tooLarge, "more than 2^31-1 vertices or corners"};
-    }
-    const std::size_t vertices = mesh.positions.count;
-    if (Error e = checkSpan(mesh.positions, kAnyCount, "positions"); e.code != ErrorCode::ok) return e;
-    if (Error e = checkTheIndices(mesh.indices); e.code != ErrorCode::ok) return e;
-    const std::size_t corners = mesh.cornerCount();
-    if (Error e = checkAttribute(mesh.normals, mesh.normal_indices, vertices, corners, "normals", "normal_indices");
-        e.code != ErrorCode::ok)
-        return e;
-    if (Error e = checkAttribute(mesh.uvs, mesh.uv_indices, vertices, corners, "uvs", "uv_indices");
-        e.code != ErrorCode::ok)
-        return e;
-    return checkFaces(mesh);
+template <class T>
+Error checkAttribute(const StridedSpan<const T>& span, const IndexView& indices, const MeshView& mesh, const char* name,
+                     const char* indices_name) {
+    return checkAttribute({reinterpret_cast<const std::byte*>(span.data), span.count, span.stride_bytes}, sizeof(T),
+                          indices, mesh, name, indices_name);
 }
 
 }  // namespace
@@ -189,16 +183,32 @@ Error checkIndices(const IndexView& indices, std::size_t vertex_count, Parallel*
 }
 
 Error checkAllButIndices(const MeshView& mesh) {
-    return check(mesh, [](const IndexView& indices) { return checkIndexSpan(indices, "indices"); });
+    if (mesh.positions.count > kMaxCorners || mesh.indices.count > kMaxCorners) {
+        return {ErrorCode::tooLarge, "more than 2^31-1 vertices or corners"};
+    }
+    if (Error e = checkSpan(mesh.positions, kAnyCount, "positions"); e.code != ErrorCode::ok) return e;
+    if (Error e = checkIndexSpan(mesh.indices, "indices"); e.code != ErrorCode::ok) return e;
+    if (Error e = checkAttribute(mesh.normals, mesh.normal_indices, mesh, "normals", "normal_indices");
+        e.code != ErrorCode::ok)
+        return e;
+    if (Error e = checkAttribute(mesh.uvs, mesh.uv_indices, mesh, "uvs", "uv_indices"); e.code != ErrorCode::ok)
+        return e;
+    return checkFaces(mesh);
 }
 
 Error checkMesh(const MeshView& mesh, Parallel* parallel) {
-    return check(mesh, [&](const IndexView& indices) { return checkIndices(indices, mesh.positions.count, parallel); });
+    if (Error e = checkAllButIndices(mesh); e.code != ErrorCode::ok) return e;
+    return checkBelow(mesh.indices, mesh.positions.count, parallel, "index", "vertices");
 }
 
 const std::uint32_t* widenIndices(const IndexView& view, std::size_t first, std::size_t count, std::uint32_t* buffer) {
     const auto fill = [&](const auto& indexAt) {
-        for (std::size_t i = 0; i < count; ++i) buffer[i] = static_cast<std::uint32_t>(indexAt(first + i));
+        constexpr std::size_t kLanes = 16;  // which become SIMD
+        std::size_t i = 0;
+        for (; i + kLanes <= count; i += kLanes) {
+            for (std::size_t k = 0; k < kLanes; ++k) buffer[i + k] = static_cast<std::uint32_t>(indexAt(first + i + k));
+        }
+        for (; i < count; ++i) buffer[i] = static_cast<std::uint32_t>(indexAt(first + i));
     };
     switch (view.type) {
 #ifndef TSPACE_SMALL

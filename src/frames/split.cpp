@@ -133,8 +133,8 @@ class Splitter {
     }
 
   private:
-    [[gnu::noinline]] static void resizeAtOnce(std::vector<std::uint32_t>& values, std::size_t count, std::size_t capacity,
-                             std::uint32_t value = 0) {
+    [[gnu::noinline]] static void resizeAtOnce(std::vector<std::uint32_t>& values, std::size_t count,
+                                               std::size_t capacity, std::uint32_t value = 0) {
         values.reserve(capacity);
         askForPages(values.data(), count * sizeof(std::uint32_t));
         values.resize(count, value);
