@@ -19,11 +19,7 @@ namespace tspace {
 
 namespace {
 
-constexpr std::size_t kGrain = 16384;  // vertices per task at least: below, starting threads costs more than it saves
-constexpr std::size_t kFew = 4096;     // vertices; so few are all looked up
-constexpr std::size_t kPlacesPerVertex = 8;  // of a counting table: leaves 1 vertex of 9 to be looked up
-constexpr std::size_t kBlock = 256;          // vertices; their hashes stay in the first cache
-constexpr std::size_t kBatch = 32;           // lookups; all that they touch has to stay in the first cache
+constexpr std::size_t kAskAhead = 32;  // lookups; all that they touch has to stay in the first cache
 
 class Welder {
   public:
@@ -60,6 +56,11 @@ class Welder {
     }
 
   private:
+    static constexpr std::size_t kGrain = 16384;  // vertices per task: below, starting threads costs more than it saves
+    static constexpr std::size_t kFew = 4096;     // vertices; so few are all looked up
+    static constexpr std::size_t kPlacesPerVertex = 8;  // of a counting table: leaves 1 vertex of 9 to be looked up
+    static constexpr std::size_t kBlock = 256;          // vertices; their hashes stay in the first cache
+
     struct Slot {
         std::uint32_t hash = 0, vertex = Weldable::kNoRoot;
     };
@@ -127,7 +128,7 @@ class Welder {
                 ? 1
                 : std::min<std::size_t>(parallel_.width(), std::size_t{2} * RepeatedHashes::kMostRanges);
         // The guess may be bad.
-        for (std::size_t slots = std::bit_ceil(2 * distinct / tasks + 2 * kBatch);; slots *= 4) {
+        for (std::size_t slots = std::bit_ceil(2 * distinct / tasks + 2 * kAskAhead);; slots *= 4) {
             Buffer<Slot> table(transient_, tasks * slots);
             std::atomic<std::size_t> done{0};
             parallel_.forTasks(tasks, [&](std::size_t task) {
@@ -144,9 +145,9 @@ class Welder {
     bool matchRange(std::size_t task, std::size_t tasks, Slot* table, std::size_t slots) {
         const std::size_t mask = slots - 1;
         std::size_t room = slots - slots / 4, steps = 16 * entry_count_ + 1024;
-        Item items[kBatch];
-        for (std::size_t begin = 0; begin < entry_count_; begin += kBatch) {
-            const std::size_t end = std::min(begin + kBatch, entry_count_);
+        Item items[kAskAhead];
+        for (std::size_t begin = 0; begin < entry_count_; begin += kAskAhead) {
+            const std::size_t end = std::min(begin + kAskAhead, entry_count_);
             std::size_t count = 0;
             for (std::size_t i = begin; i < end; ++i) {
                 const std::uint32_t vertex = vertexOf(i), hash = hashes_[vertex];
@@ -217,7 +218,7 @@ class Positions final : public Weldable {
     bool compare(const std::uint32_t* list, std::size_t begin, std::size_t end, std::uint32_t* roots) override {
         bool different = false;
         for (std::size_t i = begin; i < end; ++i) {
-            if (i + kBatch < end) __builtin_prefetch(&positions_[roots[i + kBatch]]);
+            if (i + kAskAhead < end) __builtin_prefetch(&positions_[roots[i + kAskAhead]]);
             const std::size_t vertex = list == nullptr ? i : list[i];
             if (roots[i] == vertex || positions_[vertex] == positions_[roots[i]]) continue;
             roots[i] = kNoRoot;
