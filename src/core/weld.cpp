@@ -32,7 +32,7 @@ class Welder {
           parallel_(parallel),
           hashes_(transient, count) {}
 
-    Roots run(bool is_indexed) {
+    Buffer<std::uint32_t> run(bool is_indexed) {
         std::size_t distinct = count_;
         if (!is_indexed || count_ < kFew) {
             hashAll(nullptr, std::clamp<std::size_t>(count_ / kGrain, 1, parallel_.width()));
@@ -40,19 +40,19 @@ class Welder {
         } else {
             distinct = listCandidates();
         }
-        entry_count_ = to_.list.empty() ? count_ : distinct;
-        to_.roots = Buffer<std::uint32_t>(to_.list.empty() ? allocator_ : transient_, entry_count_);
+        entry_count_ = list_.empty() ? count_ : distinct;
+        roots_ = Buffer<std::uint32_t>(list_.empty() ? allocator_ : transient_, entry_count_);
         const bool matched = count_ < kFew ? matchFew() : matchHashes(distinct);
-        if (!matched) std::fill_n(to_.roots.data(), entry_count_, Weldable::kNoRoot);
+        if (!matched) std::fill_n(roots_.data(), entry_count_, Weldable::kNoRoot);
         std::atomic<bool> different{!matched};
         if (matched) {
             parallel_.forRanges(entry_count_, kGrain, [&](std::size_t begin, std::size_t end) {
-                if (vertices_.compare(to_.list.data(), begin, end, to_.roots.data()))
+                if (vertices_.compare(list_.data(), begin, end, roots_.data()))
                     different.store(true, std::memory_order_relaxed);
             });
         }
         if (different) matchBySorting();
-        return std::move(to_);
+        return list_.empty() ? std::move(roots_) : rootOfEach();
     }
 
   private:
@@ -70,7 +70,7 @@ class Welder {
     };
 
     [[nodiscard]] std::uint32_t vertexOf(std::size_t i) const {
-        return to_.list.empty() ? static_cast<std::uint32_t>(i) : to_.list[i];
+        return list_.empty() ? static_cast<std::uint32_t>(i) : list_[i];
     }
 
     void hashAll(RepeatedHashes* counting, std::size_t ranges) {
@@ -93,8 +93,8 @@ class Welder {
         hashAll(&counting, ranges);
         const std::size_t distinct = counting.sum(ranges, parallel_);
         if (distinct < count_ - count_ / 4) return distinct;
-        to_.list = Buffer<std::uint32_t>(transient_, count_);
-        return counting.collect(hashes_.data(), count_, ranges, to_.list.data(), parallel_);
+        list_ = Buffer<std::uint32_t>(transient_, count_);
+        return counting.collect(hashes_.data(), count_, ranges, list_.data(), parallel_);
     }
 
     /// Counts a sample of the hashes, chosen by their value, so that equal vertices are in it together or not at all.
@@ -115,7 +115,7 @@ class Welder {
             std::uint32_t at = hashes_[v] & mask;
             while (table[at] != Weldable::kNoRoot && hashes_[table[at]] != hashes_[v]) at = (at + 1) & mask;
             if (table[at] == Weldable::kNoRoot) table[at] = v;
-            to_.roots[v] = table[at];
+            roots_[v] = table[at];
         }
         return true;
     }
@@ -166,7 +166,7 @@ class Welder {
                     table[at] = {item.hash, item.vertex};
                     --room;
                 }
-                to_.roots[item.index] = table[at].vertex;
+                roots_[item.index] = table[at].vertex;
             }
         }
         return true;
@@ -174,7 +174,7 @@ class Welder {
 
     /// Those without a root. A NaN equals nothing that it lies beside.
     [[gnu::cold]] void matchBySorting() {
-        std::uint32_t* const roots = to_.roots.data();
+        std::uint32_t* const roots = roots_.data();
         Buffer<std::uint32_t> rest(
             transient_, static_cast<std::size_t>(std::count(roots, roots + entry_count_, Weldable::kNoRoot)));
         for (std::size_t i = 0, n = 0; i < entry_count_; ++i) {
@@ -187,16 +187,32 @@ class Welder {
         for (std::size_t n = 0; n < rest.size(); ++n) {
             const std::size_t i = rest[n];
             roots[i] = n == 0 ? vertexOf(i) : roots[rest[n - 1]];
-            if (vertices_.compare(to_.list.data(), i, i + 1, roots)) roots[i] = vertexOf(i);
+            if (vertices_.compare(list_.data(), i, i + 1, roots)) roots[i] = vertexOf(i);
         }
     }
 
+    [[nodiscard]] Buffer<std::uint32_t> rootOfEach() const {
+        Buffer<std::uint32_t> root_of;
+        for (std::size_t i = 0; i < entry_count_; ++i) {
+            if (roots_[i] == list_[i]) continue;
+            if (root_of.empty()) {
+                root_of = Buffer<std::uint32_t>(allocator_, count_);
+                for (std::size_t v = 0; v < count_; ++v) root_of[v] = static_cast<std::uint32_t>(v);
+            }
+            root_of[list_[i]] = roots_[i];
+        }
+        return root_of;
+    }
+
     Weldable& vertices_;
-    std::size_t count_, entry_count_ = 0;
+    std::size_t count_, entry_count_ = 0;  // vertices, and those that are looked up
     const Allocator *allocator_, *transient_;
     Parallel& parallel_;
     Buffer<std::uint32_t> hashes_;
-    Roots to_;
+    Buffer<std::uint32_t>
+        list_;  // vertices that may have a root below them, ascending, in the first entry_count_ places;
+                // empty: all
+    Buffer<std::uint32_t> roots_;  // of those
 };
 
 std::uint32_t bitsOf(float f) { return std::bit_cast<std::uint32_t>(f + 0.0f); }  // -0 as +0
@@ -241,25 +257,15 @@ class Positions final : public Weldable {
 
 }  // namespace
 
-Roots findRoots(Weldable& vertices, std::size_t count, bool is_indexed, const Allocator* allocator,
-                const Allocator* transient, Parallel& parallel) {
+Buffer<std::uint32_t> findRoots(Weldable& vertices, std::size_t count, bool is_indexed, const Allocator* allocator,
+                                const Allocator* transient, Parallel& parallel) {
     return Welder(vertices, count, allocator, transient, parallel).run(is_indexed);
 }
 
 Buffer<std::uint32_t> weldPositions(const MeshView& mesh, const Allocator* allocator, Parallel& parallel) {
     Positions positions(mesh.positions);
-    const std::size_t count = mesh.vertexCount();
-    Roots found = findRoots(positions, count, mesh.indices.type != IndexType::none, allocator, allocator, parallel);
-    if (found.list.empty()) return std::move(found.roots);
-    Buffer<std::uint32_t> lowest;
-    found.forEachRepeated([&](std::uint32_t vertex, std::uint32_t root) {
-        if (lowest.empty()) {
-            lowest = Buffer<std::uint32_t>(allocator, count);
-            for (std::size_t v = 0; v < count; ++v) lowest[v] = static_cast<std::uint32_t>(v);
-        }
-        lowest[vertex] = root;
-    });
-    return lowest;
+    const bool is_indexed = mesh.indices.type != IndexType::none;
+    return findRoots(positions, mesh.vertexCount(), is_indexed, allocator, allocator, parallel);
 }
 
 }  // namespace tspace

@@ -27,29 +27,14 @@ class Weldable {
     ~Weldable() = default;
 };
 
-/// The root of a vertex is the lowest vertex that equals it.
-struct Roots {
-    Buffer<std::uint32_t> list;   ///< vertices that may have a root below them, ascending; empty: all vertices
-    Buffer<std::uint32_t> roots;  ///< one per vertex of the list, whose buffer may be longer; or one per vertex
+/// For each vertex its root: the lowest vertex that equals it. May be empty when no two are equal. Linear for any ordinary
+/// input, O(n log n) for one made to defeat the hash. `is_indexed`: few vertices are equal to others, most likely. Takes 10
+/// to 12 bytes per vertex while it works, up to 24 with four threads, and up to 32 when most vertices are equal to others.
+/// `transient`: for all but the result.
+Buffer<std::uint32_t> findRoots(Weldable& vertices, std::size_t count, bool is_indexed, const Allocator* allocator,
+                                const Allocator* transient, Parallel& parallel);
 
-    /// Calls body(vertex, root) for those with a root below them, ascending.
-    template <class Body>
-    void forEachRepeated(const Body& body) const {
-        for (std::size_t i = 0; i < roots.size(); ++i) {
-            const std::uint32_t vertex = list.empty() ? static_cast<std::uint32_t>(i) : list[i];
-            if (roots[i] != vertex) body(vertex, roots[i]);
-        }
-    }
-};
-
-/// Linear for any ordinary input, O(n log n) for one made to defeat the hash. `is_indexed`: few vertices are equal to others,
-/// most likely. Takes 10 to 12 bytes per vertex while it works, up to 24 with four threads, and up to 32 when most vertices
-/// are equal to others; of which up to 4 remain. `transient`: for all but the roots of all vertices.
-Roots findRoots(Weldable& vertices, std::size_t count, bool is_indexed, const Allocator* allocator,
-                const Allocator* transient, Parallel& parallel);
-
-/// For each vertex the lowest vertex at the same position. May be empty when no two vertices share one. Coordinates are
-/// compared exactly, but -0 equals 0; a position with a NaN equals no other.
+/// The same of positions. Coordinates are compared exactly, but -0 equals 0; a position with a NaN equals no other.
 Buffer<std::uint32_t> weldPositions(const MeshView& mesh, const Allocator* allocator, Parallel& parallel);
 
 }  // namespace tspace

@@ -15,12 +15,6 @@
 #include <cstdint>
 #include <cstring>
 
-#if defined(TSPACE_SIMD_X86)
-#include <emmintrin.h>
-#elif defined(TSPACE_SIMD_ARM64)
-#include <arm_neon.h>
-#endif
-
 namespace tspace::mikk {
 
 /// The paths of a fan that has more than two. Those from `count` on mean nothing.
@@ -200,23 +194,11 @@ using EightNumbers = std::uint16_t __attribute__((vector_size(16)));
 
 /// From 256 times a count plus 8 times a place, which are below 256 each.
 inline FanLinks splitLinks(EightNumbers links) {
-#if defined(TSPACE_SIMD_X86)
-    const __m128i both = std::bit_cast<__m128i>(links);
-    const __m128i bytes = _mm_packus_epi16(_mm_and_si128(both, _mm_set1_epi16(0xff)), _mm_srli_epi16(both, 8));
-    return {static_cast<std::uint64_t>(_mm_cvtsi128_si64(bytes)),
-            static_cast<std::uint64_t>(_mm_cvtsi128_si64(_mm_unpackhi_epi64(bytes, bytes)))};
-#elif defined(TSPACE_SIMD_ARM64)
-    const auto both = std::bit_cast<uint16x8_t>(links);
-    return {std::bit_cast<std::uint64_t>(vmovn_u16(both)), std::bit_cast<std::uint64_t>(vshrn_n_u16(both, 8))};
-#else
-    FanLinks split{0, 0};
-    for (std::uint32_t i = 0; i < FanList::kMost; ++i) {
-        const std::uint64_t link = links[i];
-        split.places |= (link & 0xff) << 8 * i;
-        split.counts |= (link >> 8) << 8 * i;
-    }
-    return split;
-#endif
+    using EightBytes = std::uint8_t __attribute__((vector_size(8)));
+    const auto bytes = [](EightNumbers numbers) {
+        return std::bit_cast<std::uint64_t>(__builtin_convertvector(numbers, EightBytes));
+    };
+    return {bytes(links & 0xff), bytes(links >> 8)};
 }
 
 /// Lane by lane, with the other list turned by 0 to 7 lanes: each match adds its place, and 1 to the byte above.

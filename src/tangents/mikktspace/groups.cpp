@@ -10,8 +10,6 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::uint8_t kNearContested = 0x20;  // one more flag: a triangle at a node of contested ones
-
 /// Whether the links between them make one path or ring, without a choice.
 bool areOneFan(std::span<const NodeCorner> around) {
     if (around.size() == 1) return true;

@@ -47,13 +47,6 @@ struct Sweep {
         return mesh.indices[triangles.corner(half_edge)];
     }
     [[nodiscard]] std::uint32_t nodeAt(std::size_t half_edge) const { return nodes.ofVertex(vertexAt(half_edge)); }
-
-    /// The nodes of some vertices, where they lie or in `to`.
-    const std::uint32_t* readNodes(const std::uint32_t* vertices, std::size_t count, std::uint32_t* to) const {
-        if (nodes.of_vertex.empty()) return vertices;
-        for (std::size_t i = 0; i < count; ++i) to[i] = nodes.of_vertex[vertices[i]];
-        return to;
-    }
 };
 
 /// Triangles to compute. The numbers are the caller's own where they can be taken as they are.
@@ -160,7 +153,7 @@ class Summer {
     void finish(Block& block) {
         const Nodes& map = sweep_.nodes;
         if (block.count == 0) return;
-        block.nodes = sweep_.readNodes(block.vertices, 3 * block.count, block.own_nodes);
+        block.nodes = map.ofVertices(block.vertices, 3 * block.count, block.own_nodes);
         if (map.mixed) {
             for (std::size_t i = 0; i < 3 * block.count; ++i) block.own_vertices[i] = map.vertex(block.nodes[i]);
             block.vertices = block.own_vertices;
@@ -399,11 +392,8 @@ unsigned rangeShift(const Sweep& sweep, unsigned width) {
 void MeshTriangles::read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const {
     const std::uint32_t* const found = readTriangles(mesh_, triangles_, first, size, groups);
     if (vertices != nullptr) std::copy_n(found, 3 * size, vertices);
-    if (!nodes_.of_vertex.empty()) {
-        for (std::size_t i = 0; i < 3 * size; ++i) groups[i] = nodes_.of_vertex[found[i]];
-    } else if (found != groups) {
-        std::copy_n(found, 3 * size, groups);
-    }
+    const std::uint32_t* const nodes = nodes_.ofVertices(found, 3 * size, groups);
+    if (nodes != groups) std::copy_n(nodes, 3 * size, groups);
     if (vertices != nullptr && nodes_.mixed) {
         for (std::size_t i = 0; i < 3 * size; ++i) vertices[i] = nodes_.vertex(groups[i]);
     }

@@ -34,7 +34,6 @@ enum TriangleKind : std::uint8_t {
     kUvFacesDown = 2,
     kDegenerateUv = 4,  ///< no usable UV area: it adds nothing, and marks nothing, but links what lies on both sides
     kDegenerateTriangle = 8,  ///< degenerate
-    kDoubtful = 16,           ///< nothing shows that the nodes of this one without UV area agree
 };
 
 struct NodeSums {

@@ -14,7 +14,6 @@
 #include "core/typed_indices.h"
 #include "tangents/method_kind.h"
 #include "tangents/mikktspace/collect.h"
-#include "tangents/mikktspace/group_sums.h"
 #include "tangents/mikktspace/node_sums.h"
 #include "tangents/mikktspace/results.h"
 #include "tangents/mikktspace/splits.h"
@@ -25,7 +24,7 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kCornerGrain = 16384, kTriangleGrain = 16384;
+constexpr std::size_t kCornerGrain = 16384;
 constexpr std::uint32_t kBothFacings = kFacesUp | kFacesDown;
 /// In the place of the sign, with a bit that no sign has.
 constexpr float kComplexSign = 2.0f;
@@ -161,7 +160,7 @@ class OnePass {
             sums_.rest = Buffer<NodeRest>(allocator_, nodes_.count);
             sums_.lengths_t = Buffer<float>(allocator_, nodes_.count);
         }
-        GroupSums planned = estimatedSums(plan, wantsOnlyTangents(plan, out_), allocator_);
+        GroupSums planned = roomForSums(plan, wantsOnlyTangents(plan, out_), allocator_);
         const bool has_degenerate_uvs = sums_.no_uv_area_count != 0;
         const MeshTriangles by_node(mesh_, triangles_, nodes_, has_degenerate_uvs ? sums_.kinds.data() : nullptr);
         const JoinedTriangles joined(by_node, nodes_.count, plan, {complex_.data(), complex_.size()});
@@ -184,41 +183,19 @@ class OnePass {
     /// no other triangle is: there is no group.
     void checkDegenerateUvs() {
         if (sums_.no_uv_area_count == 0) return;
-        const bool has_polygons = !triangles_.faces.empty();
         Marks counted;  // several triangles of a polygon may have one corner of the mesh
-        if (has_polygons) counted = noMarks(allocator_, mesh_.cornerCount());
-        std::atomic<std::uint64_t> defaults{0};
-        std::atomic<bool> any_doubtful{false};
-        const auto look = [&](std::size_t begin, std::size_t end) {
-            std::uint64_t defaults_here = 0;
-            bool doubtful = false;
-            forEachDegenerateUv(begin, end, [&](std::size_t triangle) {
-                std::uint32_t facing = 0;
-                for (std::size_t i = 3 * triangle; i < 3 * triangle + 3; ++i) {
-                    const std::uint32_t here = sums_.marks[nodeAt(i)] & kBothFacings;
-                    // A node that is left aside may have any.
-                    facing |= here == 0 ? kBothFacings : here == kBothFacings ? 0 : here;
-                    const bool counts =
-                        here == kBothFacings &&
-                        (!has_polygons || std::exchange(counted[triangles_.corner(i)], std::uint8_t{1}) == 0);
-                    defaults_here += counts ? 1 : 0;
-                }
-                if (facing != kBothFacings) return;
-                sums_.kinds[triangle] |= kDoubtful;
-                doubtful = true;
-            });
-            defaults += defaults_here;
-            if (doubtful) any_doubtful = true;
-        };
-        parallel_.forRanges(triangles_.count, has_polygons ? triangles_.count : kTriangleGrain, look);
-        default_corner_count_ = defaults;
-        if (any_doubtful) leaveDoubtful();
-    }
-
-    void leaveDoubtful() {
-        forEachDegenerateUv(0, triangles_.count, [&](std::size_t triangle) {
-            if ((sums_.kinds[triangle] & kDoubtful) == 0) return;
-            for (std::size_t k = 0; k < 3; ++k) {
+        if (!triangles_.faces.empty()) counted = noMarks(allocator_, mesh_.cornerCount());
+        forEachDegenerateUv([&](std::size_t triangle) {
+            std::uint32_t facing = 0;
+            for (std::size_t i = 3 * triangle; i < 3 * triangle + 3; ++i) {
+                const std::uint32_t here = sums_.marks[nodeAt(i)] & kBothFacings;
+                // A node that is left aside may have any.
+                facing |= here == 0 ? kBothFacings : here == kBothFacings ? 0 : here;
+                const bool counts = here == kBothFacings && (counted.empty() || counted[triangles_.corner(i)] == 0);
+                default_corner_count_ += counts ? 1 : 0;
+                if (!counted.empty()) counted[triangles_.corner(i)] |= counts ? 1 : 0;
+            }
+            for (std::size_t k = 0; facing == kBothFacings && k < 3; ++k) {
                 const std::uint32_t node = nodeAt(3 * triangle + k);
                 if (!sums_.isEmpty(node)) leaveNode(node);
             }
@@ -240,13 +217,13 @@ class OnePass {
         return nodes_.ofVertex(mesh_.indices[triangles_.corner(i)]);
     }
 
-    /// body(triangle) for those of [begin, end) without UV area.
+    /// body(triangle) for those without UV area, which are few in most meshes.
     template <class Body>
-    void forEachDegenerateUv(std::size_t begin, std::size_t end, const Body& body) const {
+    void forEachDegenerateUv(const Body& body) const {
         constexpr std::uint64_t kDegenerateUvs = 0x0101010101010101u * kDegenerateUv;
         const Buffer<std::uint8_t>& kinds = sums_.kinds;
-        for (; begin < end; begin += sizeof(std::uint64_t)) {
-            const std::size_t count = std::min(sizeof(std::uint64_t), end - begin);
+        for (std::size_t begin = 0; begin < kinds.size(); begin += sizeof(std::uint64_t)) {
+            const std::size_t count = std::min(sizeof(std::uint64_t), kinds.size() - begin);
             std::uint64_t any = 0;
             std::memcpy(&any, kinds.data() + begin, count);
             for (std::size_t t = begin; (any & kDegenerateUvs) != 0 && t < begin + count; ++t) {
@@ -440,11 +417,7 @@ class OnePass {
         std::uint32_t rooms[2][kPart];
         const auto lookUp = [&](std::size_t first, std::uint32_t* room) {
             const std::size_t count = std::min(kPart, end - first);
-            const std::uint32_t* nodes = readIndices(mesh_.indices, first, count, room);
-            if (!nodes_.of_vertex.empty()) {
-                for (std::size_t i = 0; i < count; ++i) room[i] = nodes_.of_vertex[nodes[i]];
-                nodes = room;
-            }
+            const std::uint32_t* nodes = nodes_.ofVertices(readIndices(mesh_.indices, first, count, room), count, room);
             if (!sums_.scattered) return nodes;
             for (std::size_t i = 0; i < count; ++i) __builtin_prefetch(sums_.row(nodes[i]));
             return nodes;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What results are asked for, what one is, how several for one corner of the mesh are merged, and where they go.
+// What results are asked for, what a group sums up to, what one result is, how several for one corner of the mesh are
+// merged, and where they go.
 #pragma once
 
+#include "tangents/estimators/group_estimates.h"
 #include "tangents/mikktspace/corner_terms.h"
 #include "tangents/mikktspace/evaluation_plan.h"
 #include "tangents/mikktspace/vector_rules.h"
@@ -115,5 +117,31 @@ class Sink {
     TangentOutput out_;
     float sign_factor_, bitangent_factor_;
 };
+
+/// Three floats and no more: these are most of what evaluating holds.
+struct GroupSum {
+    float s[3] = {0, 0, 0};  ///< of weighted tangents
+};
+
+/// The rest, when more than tangents is asked for.
+struct alignas(32) GroupRest {
+    float t[4] = {0, 0, 0, 0};  ///< of weighted bitangents, and of weighted |dP/du|
+    float length_t = 0;         ///< of weighted |dP/dv|
+    float weight = 0;
+};
+
+struct GroupSums {
+    Buffer<GroupSum> groups;
+    Buffer<GroupRest> rest;  ///< empty when tangents_only
+};
+
+/// Whether results for one corner are merged or kept depends on all their parts.
+inline bool wantsOnlyTangents(const EvaluationPlan& plan, const TangentOutput& out) {
+    return wantsTangentsOnly(out) && !plan.has_repeats;
+}
+
+/// Room for sums or what the estimators give, and how these reach it.
+GroupSums roomForSums(const EvaluationPlan& plan, bool tangents_only, const Allocator* allocator);
+estimators::GroupEstimates estimatesIn(GroupSums& sums);
 
 }  // namespace tspace::mikk

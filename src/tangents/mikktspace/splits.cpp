@@ -36,26 +36,16 @@ bool areNearSum(Members members, const Vec3& s, const Vec3& t, float limit) {
     return true;
 }
 
-/// Whether all pairs are well within the threshold. One array per component, so that the loop becomes SIMD.
+/// Whether all pairs are well within the threshold.
 bool areNearEachOther(Members members, float limit) {
-    float sx[kFewMembers], sy[kFewMembers], sz[kFewMembers], tx[kFewMembers], ty[kFewMembers], tz[kFewMembers],
-        weight[kFewMembers];
     for (std::size_t i = 0; i < members.size(); ++i) {
         const float *s = members[i]->s, *t = members[i]->t();
-        int near = s[3] > kLeastWeight ? 1 : 0;
+        if (!(s[3] > kLeastWeight)) return false;
         for (std::size_t j = 0; j < i; ++j) {
-            const float least = limit * s[3] * weight[j];
-            near &= int{s[0] * sx[j] + s[1] * sy[j] + s[2] * sz[j] > least} &
-                    int{t[0] * tx[j] + t[1] * ty[j] + t[2] * tz[j] > least};
+            const float *other_s = members[j]->s, *other_t = members[j]->t(), least = limit * s[3] * other_s[3];
+            if (!(dot(vectorOf(s), vectorOf(other_s)) > least && dot(vectorOf(t), vectorOf(other_t)) > least))
+                return false;
         }
-        if (near == 0) return false;
-        sx[i] = s[0];
-        sy[i] = s[1];
-        sz[i] = s[2];
-        weight[i] = s[3];
-        tx[i] = t[0];
-        ty[i] = t[1];
-        tz[i] = t[2];
     }
     return true;
 }

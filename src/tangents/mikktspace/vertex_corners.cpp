@@ -118,12 +118,8 @@ class CornerReader {
     void readNodes(std::size_t first, std::size_t count, std::uint32_t* vertices) {
         const Nodes& map = from_.nodes;
         std::uint32_t* nodes = to_.nodes.data() + first;
-        if (map.of_vertex.empty()) {
-            std::copy_n(vertices, count, nodes);
-        } else {
-            for (std::size_t i = 0; i < count; ++i) nodes[i] = map.of_vertex[vertices[i]];
-            for (std::size_t i = 0; map.mixed && i < count; ++i) vertices[i] = map.vertex(nodes[i]);
-        }
+        if (map.ofVertices(vertices, count, nodes) == vertices) std::copy_n(vertices, count, nodes);
+        for (std::size_t i = 0; map.mixed && i < count; ++i) vertices[i] = map.vertex(nodes[i]);
         if (to_.places.empty()) return;
         for (std::size_t i = 0; i < count; ++i) to_.places[first + i] = placeOf(nodes[i]);
     }

@@ -12,8 +12,14 @@
 
 namespace tspace::mikk {
 
-/// More flags of a triangle, beside TriangleFlag.
-inline constexpr std::uint8_t kContested = 0x40, kDegenerate = 0x80;
+enum TriangleFlag : std::uint8_t {
+    kPositive = 1,   ///< positive UV area (after quads were made uniform): the orientation of the triangle's groups
+    kAny = 2,        ///< no usable UV area: joins groups of either orientation, opens none, adds nothing
+    kGrouped = 4,    ///< used while grouping: some corner of this kAny triangle has a group
+    kContested = 8,  ///< groups.h
+    kNearContested = 16,  ///< at a node of contested ones
+    kDegenerate = 32,
+};
 
 /// In NodeCorner::common, beside marks: the orientation of the triangle.
 inline constexpr std::uint32_t kIsUp = 0x10000, kIsDown = 0x20000;

@@ -23,8 +23,7 @@ namespace {
 
 /// The reference adds the ends of intervals of positions: above this the sum may overflow and welding stops.
 constexpr float kHugePosition = 1.6e38f;
-constexpr std::size_t kGrain = 16384;  // vertices
-constexpr std::size_t kAhead = 32;     // entries, whose roots are in the cache when they are compared
+constexpr std::size_t kAhead = 32;  // entries, whose roots are in the cache when they are compared
 
 struct Vertex {
     Vec3 position, normal;
@@ -150,40 +149,17 @@ class CornerData final : public Weldable {
 };
 
 /// Numbers the nodes by their first vertices.
-void numberAll(Buffer<std::uint32_t> roots, Nodes& nodes) {
+void numberNodes(Buffer<std::uint32_t> root_of, Nodes& nodes) {
     std::uint32_t next = 0;
-    for (std::size_t v = 0; v < roots.size(); ++v) {
-        const std::uint32_t root = roots[v];
-        const std::uint32_t node = roots[root];  // a node already, but for the first vertex itself
-        roots[v] = root == v ? next : node;
+    for (std::size_t v = 0; v < root_of.size(); ++v) {
+        const std::uint32_t root = root_of[v];
+        const std::uint32_t node = root_of[root];  // a node already, but for the first vertex itself
+        root_of[v] = root == v ? next : node;
         next += root == v ? 1 : 0;
     }
+    if (next == root_of.size()) return;
     nodes.count = next;
-    if (next < roots.size()) nodes.of_vertex = std::move(roots);
-}
-
-/// The same where few vertices have a root below them.
-void numberFew(const Roots& roots, std::size_t count, const Allocator* allocator, const Allocator* transient,
-               Parallel& parallel, Nodes& nodes) {
-    struct Repeated {
-        std::uint32_t vertex, root;
-    };
-    Growing<Repeated> repeated(transient);
-    roots.forEachRepeated([&](std::uint32_t vertex, std::uint32_t root) { repeated.push({vertex, root}); });
-    nodes.count = count - repeated.size();
-    if (repeated.empty()) return;
-    nodes.of_vertex = Buffer<std::uint32_t>(allocator, count);
-    parallel.forRanges(count, kGrain, [&](std::size_t begin, std::size_t end) {
-        const Repeated* r = std::lower_bound(repeated.begin(), repeated.end(), begin,
-                                             [](const Repeated& a, std::size_t v) { return a.vertex < v; });
-        for (std::size_t v = begin; v < end; ++v) {  // one step past the repeated vertex, which comes below
-            const std::size_t before = static_cast<std::size_t>(r - repeated.begin());
-            const std::size_t stop = r == repeated.end() ? end : std::min<std::size_t>(r->vertex, end);
-            for (; v < stop; ++v) nodes.of_vertex[v] = static_cast<std::uint32_t>(v - before);
-            if (v < end) ++r;
-        }
-    });
-    for (const Repeated& r : repeated) nodes.of_vertex[r.vertex] = nodes.of_vertex[r.root];
+    nodes.of_vertex = std::move(root_of);
 }
 
 /// Where nodes mix -0 and +0, the reference's representative decides on the bits.
@@ -217,13 +193,9 @@ Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator*
     CornerData data(mesh);
     const std::size_t count = mesh.vertexCount();
     Nodes nodes;
-    {
-        Roots found = findRoots(data, count, mesh.indices.type != IndexType::none, allocator, transient, parallel);
-        if (found.list.empty())
-            numberAll(std::move(found.roots), nodes);
-        else
-            numberFew(found, count, allocator, transient, parallel, nodes);
-    }
+    nodes.count = count;
+    const bool is_indexed = mesh.indices.type != IndexType::none;
+    numberNodes(findRoots(data, count, is_indexed, allocator, transient, parallel), nodes);
     nodes.mixed = data.mixed();
     nodes.all_finite = data.allFinite() || usesFiniteVerticesOnly(mesh, triangles);
     if (nodes.mixed && nodes.all_finite) resolveMixed(mesh, triangles, nodes, allocator, parallel);

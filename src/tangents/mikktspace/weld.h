@@ -24,6 +24,11 @@ struct Nodes {
     [[nodiscard]] std::uint32_t ofVertex(std::uint32_t vertex) const {
         return of_vertex.empty() ? vertex : of_vertex[vertex];
     }
+    /// The nodes of some vertices: where these lie, or in `to`.
+    const std::uint32_t* ofVertices(const std::uint32_t* some, std::size_t some_count, std::uint32_t* to) const {
+        for (std::size_t i = 0; !of_vertex.empty() && i < some_count; ++i) to[i] = of_vertex[some[i]];
+        return of_vertex.empty() ? some : to;
+    }
     [[nodiscard]] std::uint32_t of(const MeshView& mesh, std::uint32_t corner) const {
         return ofVertex(mesh.indices[corner]);
     }

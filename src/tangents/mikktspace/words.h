@@ -22,12 +22,6 @@ inline constexpr std::uint32_t kValue = 0x7fffffffu;
 /// Most half-edges a mesh may have: they share 32 bits with a mark.
 inline constexpr std::uint64_t kMaxHalfEdges = kValue;
 
-enum TriangleFlag : std::uint8_t {
-    kPositive = 1,  ///< positive UV area (after quads were made uniform): the orientation of the triangle's groups
-    kAny = 2,       ///< no usable UV area: joins groups of either orientation, opens none, adds nothing
-    kGrouped = 4,   ///< used while grouping: some corner of this kAny triangle has a group
-};
-
 struct Copy {
     std::uint32_t to = 0, from = 0;  ///< corners of the mesh
 };
