@@ -338,7 +338,7 @@ class Cutter {
 }  // namespace
 
 void cutPolygon(const Vec3* positions, const Vec2* uvs, std::uint32_t count, std::uint32_t* triangles,
-                PolygonScratch& scratch) {
+                [[maybe_unused]] PolygonScratch& scratch) {
     if (count < 3) return;
     if (count == 3) {
         for (std::uint32_t k = 0; k < 3; ++k) triangles[k] = k;

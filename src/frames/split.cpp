@@ -44,7 +44,7 @@ bool sameBits(const std::byte* a, const std::byte* b) {
     return differing == 0;
 }
 
-using Attributes = std::span<const CornerAttribute>;
+using AttributeSpan = std::span<const CornerAttribute>;
 
 /// Corners one behind the other, and what is known of their vertices.
 struct Block {
@@ -55,12 +55,12 @@ struct Block {
 };
 
 /// Writes those corners that do not equal the first one of their vertex to `different`. Returns how many they are.
-using ListDifferent = std::size_t (*)(Attributes attributes, const Block& block, std::uint32_t* different);
+using ListDifferent = std::size_t (*)(AttributeSpan attributes, const Block& block, std::uint32_t* different);
 
 /// Exact attributes with these numbers of components, in this order; any where there are none. Unless it is known, the
 /// first corner of a vertex is found on the way.
 template <bool kFirstsAreKnown, std::uint32_t... Counts>
-std::size_t listDifferent(Attributes attributes, const Block& block, std::uint32_t* different) {
+std::size_t listDifferent(AttributeSpan attributes, const Block& block, std::uint32_t* different) {
     std::array<CornerAttribute, sizeof...(Counts)> exact;  // copies, which no store can change
     std::copy_n(attributes.begin(), exact.size(), exact.begin());
     const auto at = [&](std::size_t i, std::uint32_t corner) {
@@ -86,7 +86,7 @@ std::size_t listDifferent(Attributes attributes, const Block& block, std::uint32
 }
 
 template <std::uint32_t... Counts>
-bool areExact(Attributes attributes) {
+bool areExact(AttributeSpan attributes) {
     constexpr std::array<std::uint32_t, sizeof...(Counts)> counts{Counts...};
     return std::equal(attributes.begin(), attributes.end(), counts.begin(), counts.end(),
                       [](const CornerAttribute& attribute, std::uint32_t count) {
@@ -95,7 +95,7 @@ bool areExact(Attributes attributes) {
 }
 
 template <bool kFirstsAreKnown>
-ListDifferent listerFor([[maybe_unused]] Attributes attributes) {
+ListDifferent listerFor([[maybe_unused]] AttributeSpan attributes) {
 #ifndef TSPACE_SMALL
     if (areExact<4>(attributes)) return listDifferent<kFirstsAreKnown, 4>;
     if (areExact<3>(attributes)) return listDifferent<kFirstsAreKnown, 3>;
@@ -106,7 +106,7 @@ ListDifferent listerFor([[maybe_unused]] Attributes attributes) {
 
 class Splitter {
   public:
-    Splitter(Attributes attributes, std::size_t vertex_count, std::size_t corner_count, const Execution& execution)
+    Splitter(AttributeSpan attributes, std::size_t vertex_count, std::size_t corner_count, const Execution& execution)
         : attributes_(attributes),
           vertex_count_(vertex_count),
           parallel_(execution, corner_count),
@@ -197,7 +197,7 @@ class Splitter {
         for (std::size_t v = vertex_count_; v < sources.size(); ++v) sources[v] = indices[result_.source_corners[v]];
     }
 
-    Attributes attributes_;
+    AttributeSpan attributes_;
     std::size_t vertex_count_;
     Parallel parallel_;
     /// For each task the first corner that differs from the first one of its vertex; the rest of them is a list
