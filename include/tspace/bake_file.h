@@ -71,6 +71,7 @@ struct MapErrorFileOptions {
     std::string cage = {};
     bool two_channels = false;  ///< z is made from x and y: `map.reading.two_channels`, whatever the reading
     std::string material = {};  ///< only triangles of the material with this name; empty: all
+    std::uint32_t tile = 0;     ///< only triangles of this UDIM tile, 1001 and on; 0: all
     std::string heat = {};      ///< where to write a picture of the error; empty: nowhere
 };
 

@@ -2,6 +2,7 @@
 #include "tspace/bake_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -44,15 +45,6 @@ std::string withWord(const std::string& path, const std::string& word) {
     return path.substr(0, at) + "." + word + path.substr(at);
 }
 
-/// The UDIM tile that most of a triangle lies in; 0: none (not finite, or outside of tiles 1001 to 9999).
-std::uint32_t tileOf(const Vec2* uvs) {
-    const double u = (static_cast<double>(uvs[0].x) + uvs[1].x + uvs[2].x) / 3;
-    // Tiles go upwards, and v runs down.
-    const double v = 1 - (static_cast<double>(uvs[0].y) + uvs[1].y + uvs[2].y) / 3;
-    if (!(u >= 0 && u < 10 && v >= 0 && v < 899)) return 0;
-    return 1001 + static_cast<std::uint32_t>(u) + 10 * static_cast<std::uint32_t>(v);
-}
-
 class FileBaking {
   public:
     FileBaking(const std::string& output, const BakeFileOptions& options) : output_(output), options_(options) {
@@ -76,8 +68,15 @@ class FileBaking {
         report_.high_triangle_count = models_.high.corners.size() / 3;
         report_.warnings = models_.low.warnings;
         report_.warnings.insert(report_.warnings.end(), models_.high.warnings.begin(), models_.high.warnings.end());
+        options_.map.reach = models_.reach(options_.map.reach);
         for (const LowModel::Image& image : models_.low.images) {
             const std::string word = models_.low.images.size() > 1 ? freshWord(fileWord(image.material)) : "";
+            if (showsEdges(image))
+                report_.warnings.push_back(
+                    "the texture of " +
+                    (image.material.empty() ? "the low poly" : "the material " + inQuotes(image.material)) +
+                    " does not repeat, and UVs reach its edges: the map is for one that does (--out-mesh writes it "
+                    "so)");
             bakeTiles(image, word);
         }
         if (!options_.out_mesh.empty())
@@ -107,6 +106,17 @@ class FileBaking {
         std::string fresh = word;
         for (int i = 2; !words_.insert(fresh).second; ++i) fresh = word + "_" + std::to_string(i);
         return fresh;
+    }
+
+    /// Whether a texture that repeats, as the map is baked for, differs from the one that the model has.
+    [[nodiscard]] bool showsEdges(const LowModel::Image& image) const {
+        if (options_.udim || !options_.out_mesh.empty()) return false;
+        const auto beyond = [](TextureWrap wrap, float at, std::uint32_t size) {
+            return wrap != TextureWrap::repeat && std::fabs(at - 0.5F) > 0.5F - 0.5F / static_cast<float>(size);
+        };
+        return std::any_of(image.part.uvs.begin(), image.part.uvs.end(), [&](const Vec2& uv) {
+            return beyond(image.wrap_u, uv.x, options_.map.width) || beyond(image.wrap_v, uv.y, options_.map.height);
+        });
     }
 
     void bakeTiles(const LowModel::Image& image, const std::string& word) {

@@ -23,16 +23,24 @@ struct TriedFrames {
     std::vector<Vec4> tangents = {};  ///< empty: those of the low poly
 };
 
-/// All images of a model, or that of one material, as one.
-LowPart partOfMaterial(const LowModel& model, const std::string& material) {
-    LowPart part;
+/// All images of a model, or what of them the options ask for, as one.
+LowModel::Image shownPart(const LowModel& model, const MapErrorFileOptions& options) {
+    LowModel::Image shown;
     for (const LowModel::Image& image : model.images) {
-        if (!material.empty() && image.material != material) continue;
-        for (std::size_t i = 0; i < image.part.triangleCount(); ++i) part.addTriangle(image.part, i);
+        if (!options.material.empty() && image.material != options.material) continue;
+        if (shown.part.positions.empty()) {
+            shown.wrap_u = image.wrap_u;
+            shown.wrap_v = image.wrap_v;
+        }
+        for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {
+            if (options.tile == 0 || tileOf(&image.part.uvs[3 * i]) == options.tile)
+                shown.part.addTriangle(image.part, i);
+        }
     }
-    if (part.positions.empty())
-        failFile(ErrorCode::missingAttribute, "no triangles have the material " + inQuotes(material));
-    return part;
+    if (!shown.part.positions.empty()) return shown;
+    failFile(ErrorCode::missingAttribute, options.tile == 0
+                                              ? "no triangles have the material " + inQuotes(options.material)
+                                              : "no triangles lie in the tile " + std::to_string(options.tile));
 }
 
 std::string degreesWord(double degrees) {
@@ -63,9 +71,15 @@ class FileMeasuring {
         report_.matched_by_name = models.matched_by_name;
         report_.warnings = models.low.warnings;
         report_.warnings.insert(report_.warnings.end(), models.high.warnings.begin(), models.high.warnings.end());
-        const LowPart part = aboutInput(BakeInput::low, [&] { return partOfMaterial(models.low, options_.material); });
+        const LowModel::Image shown = aboutInput(BakeInput::low, [&] { return shownPart(models.low, options_); });
+        const LowPart& part = shown.part;
+        options_.map.reach = models.reach(options_.map.reach);
         listFrames(low, models.low);
-        const MapImage view{image_.width, image_.height, image_.texels};
+        const MapImage view{.width = image_.width,
+                            .height = image_.height,
+                            .texels = image_.texels,
+                            .wrap_u = options_.tile == 0 ? shown.wrap_u : TextureWrap::repeat,
+                            .wrap_v = options_.tile == 0 ? shown.wrap_v : TextureWrap::repeat};
         listReadings();
         const std::vector<MapError> errors = aboutInput(BakeInput::low, [&] {
             return valueOrThrow(measureReadings(view, part.view(), models.high.view(), candidates_, options_.map));
@@ -106,9 +120,9 @@ class FileMeasuring {
             bake_.tangents.method = tried.method;
             const std::optional<LowModel> model = readLowAnew(low, bake_, tried.faces, known);
             if (!model) continue;
-            std::vector<Vec4> tangents = partOfMaterial(*model, options_.material).tangents;
+            std::vector<Vec4> tangents = shownPart(*model, options_).part.tangents;
             const auto is_known = [&](const TriedFrames& frames) { return frames.tangents == tangents; };
-            if (tangents == partOfMaterial(known, options_.material).tangents) continue;
+            if (tangents == shownPart(known, options_).part.tangents) continue;
             if (std::none_of(frames_.begin(), frames_.end(), is_known))
                 frames_.push_back({tried.name, std::move(tangents)});
         }

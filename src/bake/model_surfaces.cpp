@@ -10,6 +10,7 @@
 #include "asset/read/read_scene.h"
 #include "check/uv_reading.h"
 #include "core/unit.h"
+#include "maps/map_surfaces.h"
 
 namespace tspace {
 
@@ -163,11 +164,15 @@ LowModel lowModel(const DrawnScene& drawn, const DrawnScene* cage, const MeshNam
             ++without_uvs;
             continue;
         }
+        const TangentUse* const use = mapUse(primitive);
         const auto [image, is_new] = images.emplace(primitive.material_name, model.images.size());
-        if (is_new) model.images.push_back({.material = primitive.material_name});
+        if (is_new) {
+            model.images.push_back({.material = primitive.material_name,
+                                    .wrap_u = use != nullptr ? use->wrap_u : TextureWrap::repeat,
+                                    .wrap_v = use != nullptr ? use->wrap_v : TextureWrap::repeat});
+        }
         const std::uint32_t group = names != nullptr ? *names->find(primitive.mesh_name) : 0;
         LowPart& part = model.images[image->second].part;
-        const TangentUse* const use = mapUse(primitive);
         model.images[image->second].primitives.push_back(
             {.mesh = primitive.mesh,
              .primitive = primitive.primitive,
@@ -287,6 +292,22 @@ void LowPart::addTriangle(const LowPart& from, std::size_t triangle) {
     add(uvs, from.uvs);
     add(cage, from.cage);
     if (!from.groups.empty()) groups.push_back(from.groups[triangle]);
+}
+
+double BakeModels::reach(double asked) const {
+    if (asked != 0) return asked;
+    std::vector<Vec3> positions;
+    for (const LowModel::Image& image : low.images)
+        positions.insert(positions.end(), image.part.positions.begin(), image.part.positions.end());
+    return chosenReach({.positions = positions}, high.view());
+}
+
+std::uint32_t tileOf(const Vec2* uvs) {
+    const double u = (static_cast<double>(uvs[0].x) + uvs[1].x + uvs[2].x) / 3;
+    // Tiles go upwards, and v runs down.
+    const double v = 1 - (static_cast<double>(uvs[0].y) + uvs[1].y + uvs[2].y) / 3;
+    if (!(u >= 0 && u < 10 && v >= 0 && v < 899)) return 0;
+    return 1001 + static_cast<std::uint32_t>(u) + 10 * static_cast<std::uint32_t>(v);
 }
 
 std::size_t LowModel::triangleCount() const {

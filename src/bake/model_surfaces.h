@@ -50,6 +50,7 @@ struct LowModel {
         std::string material = {};
         LowPart part = {};
         std::vector<MappedPrimitive> primitives = {};
+        TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;  ///< of the first primitive's texture
     };
     std::vector<Image> images = {};
     std::vector<std::string> warnings = {};
@@ -75,7 +76,13 @@ struct BakeModels {
     HighModel high = {};
     Bytes low_glb = {};  ///< the low poly with its frames, where `out_mesh` asks for it
     bool matched_by_name = false;
+
+    /// How far rays go for all images alike: what was asked, or by the sizes of both models as a whole.
+    [[nodiscard]] double reach(double asked) const;
 };
+
+/// The UDIM tile that most of a triangle lies in; 0: none (not finite, or outside of tiles 1001 to 9999).
+std::uint32_t tileOf(const Vec2* uvs);
 
 /// How a primitive reads its normal map, or will: the normal map that its own material has, or the first thing that needs
 /// tangents, which they follow. Null: the first UVs, as they are.

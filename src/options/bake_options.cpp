@@ -124,6 +124,9 @@ OptionList mapErrorOptions(MapErrorFileOptions& options) {
                    "A picture of the error: from black over red to white, which is the 99th percentile."));
     add(list, kInputAndOutput,
         text("--material", "NAME", options.material, "Look only at triangles of this material. Default: at all."));
+    add(list, kInputAndOutput,
+        number("--tile", options.tile, 9999,
+               "Look only at triangles of this UDIM tile, whose file the map is: 1001 and on. 0: at all."));
     addAllowExternal(list, options.file);
     const char* group = "Map";
     add(list, group,

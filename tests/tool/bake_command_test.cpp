@@ -132,6 +132,39 @@ TEST_F(BakeCommand, WritesAFilePerTile) {
     EXPECT_EQ(json["files"].size(), 2U) << json;
     EXPECT_EQ(imageOf(folder, "n.1001.png").width, 16U);
     EXPECT_EQ(imageOf(folder, "n.1002.png").width, 16U);
+    // Rays go as far for each as for the model as a whole, and each map can be measured alone.
+    const auto whole =
+        nlohmann::json::parse(runTool(folder, "bake tiles.obj --high high.obj -o w.png --size 16 --json").out);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const std::string tile = std::to_string(1001 + i);
+        EXPECT_EQ(json["files"][i]["reach"], whole["files"][0]["reach"]);
+        const ToolRun run =
+            runTool(folder, "map-error n." + tile + ".png tiles.obj --high high.obj --json --tile " + tile);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_NEAR(nlohmann::json::parse(run.out)["angles"]["meanDeg"].get<double>(),
+                    json["files"][i]["error"]["meanDeg"].get<double>(), 1e-6);
+    }
+    EXPECT_EQ(runTool(folder, "map-error n.1001.png tiles.obj --high high.obj --tile 1003").exit_code, 3);
+}
+
+TEST_F(BakeCommand, AMapIsMeasuredAsItsTextureWraps) {
+    ASSERT_EQ(
+        runTool(folder, "bake low.obj --high high.obj -o n.png --size 32 --fit texel --out-mesh game.gltf").exit_code,
+        0);
+    const auto seamOf = [&](int wrap) {
+        auto model = nlohmann::json::parse(folder.read("game.gltf"));
+        model["samplers"] = {{{"wrapS", wrap}, {"wrapT", wrap}}};
+        model["textures"][0]["sampler"] = 0;
+        folder.write("wrapped.gltf", model.dump());
+        const ToolRun bake = runTool(folder, "bake wrapped.gltf --high high.obj -o again.png --size 32");
+        EXPECT_EQ(bake.out.find("does not repeat") != std::string::npos, wrap != 10497) << bake.out;
+        const ToolRun run = runTool(folder, "map-error n.png wrapped.gltf --high high.obj --json");
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        return nlohmann::json::parse(run.out)["angles"]["seamMeanDeg"].get<double>();
+    };
+    const double repeated = seamOf(10497), clamped = seamOf(33071), mirrored = seamOf(33648);
+    EXPECT_LT(clamped, 0.5 * repeated) << "a texture that repeats shows the other edge beside each";
+    EXPECT_EQ(clamped, mirrored) << "both show the edge's own texels there";
 }
 
 TEST_F(BakeCommand, WhatIsWrongIsOneLineAndNothingIsWritten) {
