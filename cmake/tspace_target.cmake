@@ -48,9 +48,10 @@ function(tspace_batch_folders target)
 endfunction()
 
 # The core promises the same bits everywhere: no relaxed arithmetic either. errno of sqrt is never read. Programs carry all of
-# it, so a release is -O2, but for loops over meshes that -O3 makes faster (tspace_optimise).
+# it, so a release is -O2, but for loops over meshes that -O3 makes faster (tspace_optimise), and linkers that are told to
+# (--gc-sections) leave out what a program never calls.
 function(tspace_configure_core target)
-    target_compile_options(${target} PRIVATE -fno-fast-math -fno-math-errno -fno-trapping-math
+    target_compile_options(${target} PRIVATE -fno-fast-math -fno-math-errno -fno-trapping-math -ffunction-sections
                                              $<$<CONFIG:Release>:-O2>)
     foreach(kind X86 ARM64)
         if(TSPACE_SIMD_${kind})

@@ -3,10 +3,10 @@
 // Based on: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
 #include <algorithm>
 
+#include "core/basis.h"
 #include "core/sum_ranges.h"
 #include "core/unit.h"
 #include "tangents/indexed_methods.h"
-#include "tspace/frame.h"
 
 namespace tspace {
 
@@ -15,9 +15,9 @@ namespace {
 CornerFrame basisFrame(const Vec3& normal, float sign_factor) {
     DVec3 n = toDouble(normal);
     const bool has_direction = normalize(n);
-    const Frame frame = basisFromNormal(has_direction ? toFloat(n) : Vec3{0, 0, 1});
-    const Vec3& t = frame.tangent;
-    return {{t.x, t.y, t.z, sign_factor}, sign_factor * frame.bitangent, 1, 1, !has_direction};
+    const PlaneAxes axes = planeAxes(toDouble(has_direction ? toFloat(n) : Vec3{0, 0, 1}));
+    const Vec3 t = toFloat(axes.x);
+    return {{t.x, t.y, t.z, sign_factor}, sign_factor * toFloat(axes.y), 1, 1, !has_direction};
 }
 
 /// 1 for each vertex that a used corner names.
