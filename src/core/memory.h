@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 #include <new>
 #include <type_traits>
 #include <utility>
@@ -55,8 +54,8 @@ inline void askForPages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 
 /// Never inlined, as releaseBytes: each use would take some hundred bytes of a program.
 [[gnu::noinline]] inline void* allocateArray(const Allocator* allocator, std::size_t count, std::size_t element_bytes) {
-    if (count > std::numeric_limits<std::size_t>::max() / element_bytes) throwOutOfMemory();
-    const std::size_t bytes = count * element_bytes;
+    std::size_t bytes;
+    if (__builtin_mul_overflow(count, element_bytes, &bytes)) throwOutOfMemory();
     if (bytes == 0) return nullptr;
     if (allocator != nullptr) {
         void* memory = allocator->allocate(allocator->user, bytes, kMemoryAlignment);
