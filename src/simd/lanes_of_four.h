@@ -8,6 +8,7 @@ inline Floats select(Mask m, Floats yes, Floats no) {
 inline Doubles select(DoubleMask m, Doubles yes, Doubles no) {
     return doublesOf((m.v & longsOf(yes)) | (~m.v & longsOf(no)));
 }
+/// Of numbers below 2^31.
 inline Bits smaller(Bits a, Bits b) {
     const Mask m{reinterpret_cast<WholeVector>(a.v) < reinterpret_cast<WholeVector>(b.v)};
     return asBits(select(m, asFloats(a), asFloats(b)));
@@ -51,6 +52,7 @@ inline void splitPairs(FloatVector ab, FloatVector cd, Floats& x, Floats& y) {
     y = {__builtin_shufflevector(ab, cd, 1, 3, 5, 7)};
 }
 
+/// Writes lane i's four values to row i of an array of rows of four doubles.
 inline void storeDoubleRows(double* rows, Doubles x, Doubles y, Doubles z, Doubles w) {
     storeDoubles(rows, {__builtin_shufflevector(x.v, y.v, 0, 2)});
     storeDoubles(rows + 2, {__builtin_shufflevector(z.v, w.v, 0, 2)});
@@ -58,6 +60,7 @@ inline void storeDoubleRows(double* rows, Doubles x, Doubles y, Doubles z, Doubl
     storeDoubles(rows + 6, {__builtin_shufflevector(z.v, w.v, 1, 3)});
 }
 inline DoubleVector loadTwoDoubles(const double* p) { return *reinterpret_cast<const DoublesInMemory*>(p); }
+/// The opposite of storeDoubleRows.
 inline void loadDoubleRows(const double* rows, Doubles& x, Doubles& y, Doubles& z, Doubles& w) {
     x = {__builtin_shufflevector(loadTwoDoubles(rows), loadTwoDoubles(rows + 4), 0, 2)};
     y = {__builtin_shufflevector(loadTwoDoubles(rows), loadTwoDoubles(rows + 4), 1, 3)};
@@ -65,10 +68,12 @@ inline void loadDoubleRows(const double* rows, Doubles& x, Doubles& y, Doubles& 
     w = {__builtin_shufflevector(loadTwoDoubles(rows + 2), loadTwoDoubles(rows + 6), 1, 3)};
 }
 
+/// Four doubles, whatever the number of lanes.
 struct DoubleRow {
     DoubleVector low, high;
 };
 inline DoubleRow loadDoubleRow(const double* p) { return {loadTwoDoubles(p), loadTwoDoubles(p + 2)}; }
+/// to[0 .. 4) += k * row
 inline void addDoubleRow(double* to, double k, DoubleRow row) {
     const DoubleVector low = k * row.low, high = k * row.high;
     storeDoubles(to, {loadTwoDoubles(to) + low});

@@ -14,10 +14,10 @@ namespace tspace {
 namespace {
 
 float kernelArcCosine(float c) {
-    const simd::scalar::Floats cosines[3] = {{c}, {c}, {c}};
+    const simd::scalar::Floats cosine = simd::scalar::broadcast(c), cosines[3] = {cosine, cosine, cosine};
     simd::scalar::Floats angles[3];
     simd::scalar::arcCosines(cosines, angles);
-    return angles[0].v;
+    return angles[0].v[0];
 }
 
 float arcCosine(float c) { return static_cast<float>(std::acos(static_cast<double>(c))); }
