@@ -25,7 +25,7 @@ constexpr std::size_t kCornersPerTask = 1 << 13;
 /// Fewer tasks are done sooner than threads are started.
 constexpr std::size_t kTasksForThreads = 16;
 /// Corners that are compared before those that differ are put behind each other.
-constexpr std::size_t kBlock = 64;
+constexpr std::size_t kCompared = 64;
 
 template <class Word>
 Word differingBits(const std::byte* a, const std::byte* b) {
@@ -47,7 +47,7 @@ bool sameBits(const std::byte* a, const std::byte* b) {
 using AttributeSpan = std::span<const CornerAttribute>;
 
 /// Corners one behind the other, and what is known of their vertices.
-struct Block {
+struct CornerBlock {
     std::uint32_t corner;  ///< the first one
     std::size_t count;
     const std::uint32_t* vertices;  ///< one per corner
@@ -55,12 +55,12 @@ struct Block {
 };
 
 /// Writes those corners that do not equal the first one of their vertex to `different`. Returns how many they are.
-using ListDifferent = std::size_t (*)(AttributeSpan attributes, const Block& block, std::uint32_t* different);
+using ListDifferent = std::size_t (*)(AttributeSpan attributes, const CornerBlock& block, std::uint32_t* different);
 
 /// Exact attributes with these numbers of components, in this order; any where there are none. Unless it is known, the
 /// first corner of a vertex is found on the way.
 template <bool kFirstsAreKnown, std::uint32_t... Counts>
-std::size_t listDifferent(AttributeSpan attributes, const Block& block, std::uint32_t* different) {
+std::size_t listDifferent(AttributeSpan attributes, const CornerBlock& block, std::uint32_t* different) {
     std::array<CornerAttribute, sizeof...(Counts)> exact;  // copies, which no store can change
     std::copy_n(attributes.begin(), exact.size(), exact.begin());
     const auto at = [&](std::size_t i, std::uint32_t corner) {
@@ -162,9 +162,9 @@ class Splitter {
         std::uint32_t* const indices = result_.indices.data();
         const std::size_t end = std::min((task + 1) * kCornersPerTask, result_.indices.size());
         std::uint32_t first = kNoCorner, last = kNoCorner;
-        for (std::size_t begin = task * kCornersPerTask; begin < end; begin += kBlock) {
-            const std::size_t count = std::min(kBlock, end - begin);
-            std::array<std::uint32_t, kBlock> different, buffer;
+        for (std::size_t begin = task * kCornersPerTask; begin < end; begin += kCompared) {
+            const std::size_t count = std::min(kCompared, end - begin);
+            std::array<std::uint32_t, kCompared> different, buffer;
             const std::uint32_t* const vertices = readIndices(view, begin, count, buffer.data());
             std::copy_n(vertices, count, indices + begin);
             const std::size_t different_count =
