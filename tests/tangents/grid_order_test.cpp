@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "tangents/mikktspace/words.h"
@@ -105,7 +106,7 @@ struct Found {
     std::vector<std::uint32_t> wanted, all, some;
 };
 
-/// By the replay, by findAll, and by find for the first `asked` nodes.
+/// By the replay, for all nodes, and for the first `asked` ones.
 Found representatives(const MeshView& mesh, std::size_t asked, unsigned threads) {
     Parallel parallel(Execution{.thread_count = threads});
     const TriangleList triangles = cutFaces(mesh, Ngons::skip, nullptr);
@@ -114,11 +115,11 @@ Found representatives(const MeshView& mesh, std::size_t asked, unsigned threads)
     for (auto* list : {&found.wanted, &found.all, &found.some}) list->assign(nodes.count, kNone);
     const std::vector<std::uint32_t> replayed = Replay(mesh).run();
     for (std::size_t i = replayed.size(); i-- > 0;) found.wanted[nodes.of(mesh, replayed[i])] = replayed[i];
-    const GridOrder order(mesh, triangles, nodes, nullptr, parallel);
-    order.findAll(found.all.data());
-    std::vector<std::uint32_t> vertices;
-    for (std::uint32_t v = 0; v < asked; ++v) vertices.push_back(v);
-    order.find(vertices, found.some.data());
+    std::vector<std::uint32_t> vertices(mesh.vertexCount());
+    std::iota(vertices.begin(), vertices.end(), 0u);
+    findRepresentatives(mesh, triangles, nodes, vertices, found.all.data(), nullptr, parallel);
+    vertices.resize(asked);
+    findRepresentatives(mesh, triangles, nodes, vertices, found.some.data(), nullptr, parallel);
     return found;
 }
 

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstring>
 #include <map>
+#include <numeric>
 #include <random>
 
 #include "tangents/golden_mesh.h"
@@ -56,7 +57,10 @@ class AllEdges {
     explicit AllEdges(Welded& welded) {
         const MeshView& mesh = welded.mesh;
         std::vector<std::uint32_t> representatives(welded.nodes.count, kNone);
-        GridOrder(mesh, welded.triangles, welded.nodes, nullptr, welded.parallel).findAll(representatives.data());
+        std::vector<std::uint32_t> vertices(mesh.vertexCount());
+        std::iota(vertices.begin(), vertices.end(), 0u);
+        findRepresentatives(mesh, welded.triangles, welded.nodes, vertices, representatives.data(), nullptr,
+                            welded.parallel);
         for (std::uint32_t t = 0; t < welded.triangles.count; ++t) {
             std::uint32_t r[3];
             Vec3 p[3];

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cstdint>
 #include <span>
@@ -51,22 +52,6 @@ inline Buffer<std::uint32_t> numbersBelow(std::size_t count, const Allocator* al
     return numbers;
 }
 
-/// Calls body(vertexOf), where vertexOf(i) is the vertex of entry i of the corner list (3 per triangle). The
-/// usual kinds of mesh get code of their own.
-template <class Body>
-auto withListedVertices(const MeshView& mesh, const TriangleList& triangles, const Body& body) {
-    if (mesh.indices.type == IndexType::u32 && triangles.corners.empty()) {
-        const auto* indices = static_cast<const std::uint32_t*>(mesh.indices.data);
-        return body([indices](std::size_t i) { return indices[i]; });
-    }
-    if (mesh.indices.type == IndexType::u32) {
-        const auto* indices = static_cast<const std::uint32_t*>(mesh.indices.data);
-        const std::uint32_t* corners = triangles.corners.data();
-        return body([indices, corners](std::size_t i) { return indices[corners[i]]; });
-    }
-    return body([&mesh, &triangles](std::size_t i) { return mesh.indices[triangles.corner(i)]; });
-}
-
 /// Marks of vertices or nodes, a byte each: looked up in the middle of lists, where taking a bit out of a
 /// word costs more than the memory does.
 using Marks = Buffer<std::uint8_t>;
@@ -75,17 +60,32 @@ inline Marks noMarks(const Allocator* allocator, std::size_t count) { return Mar
 /// Of each block of kBlockCorners corners of the mesh, 0 when none is at a marked vertex or node; empty: not known.
 using MarkedBlocks = std::span<const std::uint8_t>;
 
-/// The triangles with a corner at a marked vertex, ascending; with a corner at a marked node, where `node_of` is not
-/// null, which has the node of each vertex.
-Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles, const Marks& marks,
-                                       const std::uint32_t* node_of, MarkedBlocks blocks, const Allocator* allocator,
-                                       Parallel& parallel);
-
-/// By marked nodes.
-inline Buffer<std::uint32_t> collectAround(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                                           const Marks& marks, MarkedBlocks blocks, const Allocator* allocator,
-                                           Parallel& parallel) {
-    return collectTriangles(mesh, triangles, marks, nodes.of_vertex.data(), blocks, allocator, parallel);
+/// The triangles with a corner at whose vertex markOf(vertex) has a bit of `mask`, ascending. `any`: of all marks.
+template <class MarkOf>
+Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles, MarkedBlocks blocks,
+                                       const MarkOf& markOf, std::uint32_t mask, const Allocator* allocator,
+                                       Parallel& parallel, std::atomic<std::uint32_t>* any = nullptr) {
+    const bool has_polygons = !triangles.corners.empty();
+    const auto bitsOf = [&](std::size_t block) -> std::uint64_t {
+        if (!has_polygons && !blocks.empty() && blocks[block] == 0) return 0;
+        const std::size_t first = block * kCollectBlock, count = std::min(kCollectBlock, triangles.count - first);
+        unsigned looks = !has_polygons || blocks.empty() ? 1 : 0;
+        for (std::size_t i = 3 * first; looks == 0 && i < 3 * (first + count); ++i)
+            looks |= blocks[triangles.corners[i] / kBlockCorners];
+        if (looks == 0) return 0;
+        std::uint32_t buffer[kBlockCorners];
+        const std::uint32_t* const vertex = readTriangles(mesh, triangles, first, count, buffer);
+        std::uint32_t marked[kCollectBlock], some = 0;
+        for (std::size_t t = 0; t < count; ++t)
+            some |= marked[t] = markOf(vertex[3 * t]) | markOf(vertex[3 * t + 1]) | markOf(vertex[3 * t + 2]);
+        if (any != nullptr && (some & ~any->load(std::memory_order_relaxed)) != 0)
+            any->fetch_or(some, std::memory_order_relaxed);
+        std::uint64_t bits = 0;
+        for (std::size_t t = 0; (some & mask) != 0 && t < count; ++t)
+            bits |= std::uint64_t{(marked[t] & mask) != 0 ? 1u : 0u} << t;
+        return bits;
+    };
+    return collectBits((triangles.count + kCollectBlock - 1) / kCollectBlock, bitsOf, allocator, parallel);
 }
 
 }  // namespace tspace::mikk

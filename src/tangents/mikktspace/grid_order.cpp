@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <utility>
 
 #include "core/float4.h"
@@ -20,7 +21,18 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kVertexGrain = 16384;  // vertices
+constexpr int kCells = 2048;
+constexpr std::size_t kVertexGrain = 16384;  // a multiple of 4
+// The mark of a vertex: the number of its cell among those that are looked at, from 1; and whether it is at an end of
+// the grid.
+constexpr std::uint16_t kNumber = 0x0fff, kAtLow = 0x4000, kAtHigh = 0x8000;
+constexpr std::uint32_t kWanted = kNone - 1;  // as a representative: not known yet
+
+/// An entry of the corner list, in one cell of the reference's grid.
+struct alignas(16) CellElement {
+    Vec3 position;
+    std::uint32_t entry;  ///< kMark: its node's representative is wanted
+};
 
 float component(const Vec3& v, int axis) { return (&v.x)[axis]; }
 /// x, y, z and z again.
@@ -123,149 +135,146 @@ class Cell {
     const Found& found_;
 };
 
-/// What the reference computes: the box of the corner list but for its first entry, starting from corner 0 of
-/// the mesh.
-[[gnu::noinline]] Box listedBox(const MeshView& mesh, const TriangleList& triangles) {
-    Box box(loadVec3(mesh.positions[mesh.indices[0]]));
-    withListedVertices(mesh, triangles, [&](auto vertexOf) {
-        for (std::size_t i = 1; i < 3 * triangles.count; ++i) box.add(loadVec3(mesh.positions[vertexOf(i)]));
-    });
-    return box;
-}
+class GridOrder {
+  public:
+    GridOrder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+              std::span<const std::uint32_t> vertices, std::uint32_t* representatives, const Allocator* allocator,
+              Parallel& parallel)
+        : mesh_(mesh),
+          triangles_(triangles),
+          nodes_(nodes),
+          vertices_(vertices),
+          representatives_(representatives),
+          allocator_(allocator),
+          parallel_(parallel) {}
 
-/// Whether a vertex is in the corner list. Looks first where it is when vertices are numbered as triangles use them.
-[[gnu::noinline]] bool isListed(std::uint32_t vertex, const MeshView& mesh, const TriangleList& triangles) {
-    constexpr std::size_t kStep = 1024;  // entries between looks at what was found: a loop without branches
-    const std::size_t count = 3 * triangles.count, steps = count / kStep + 1;
-    const std::size_t guess = std::size_t{vertex} * steps / mesh.vertexCount();
-    return withListedVertices(mesh, triangles, [&](auto vertexOf) {
-        for (std::size_t n = 0; n < steps; ++n) {
-            const std::size_t begin = (guess + n) % steps * kStep, end = std::min(begin + kStep, count);
-            std::uint32_t found = 0;
-            for (std::size_t i = begin; i < end; ++i) found |= vertexOf(i) == vertex ? 1u : 0u;
-            if (found != 0) return true;
+    Buffer<std::uint32_t> find() {
+        Buffer<std::uint32_t> found;
+        if (triangles_.count == 0) return found;
+        for (const std::uint32_t v : vertices_) representatives_[nodes_.ofVertex(v)] = kWanted;
+        // The box of all vertices is made much faster than that of the list, and does for us when vertices on both ends
+        // of its longest axis are in the list: that of the list may be shorter on other axes only, and so has the same
+        // longest one.
+        if (triangles_.corner(0) != 0 || !findIn(boxOfVertices(), true, found)) findIn(boxOfList(), false, found);
+        for (const std::uint32_t v : vertices_) {
+            std::uint32_t& representative = representatives_[nodes_.ofVertex(v)];
+            if (representative == kWanted) representative = kNone;  // without corners
         }
-        return false;
-    });
-}
-
-/// A box with the same longest axis as listedBox, and the same ends on it. Reading vertices in order is much faster
-/// than reading those of the list; nearly always they make the same box. It does for us when vertices on both ends
-/// of its longest axis are in the list: the box of the list may be shorter on other axes only, and so has the
-/// same longest one. Not for a NaN in the list.
-Box boundingBox(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator, Parallel& parallel) {
-    constexpr std::size_t kBoxed = 512;  // vertices
-    constexpr std::size_t kBoxes = 64;   // for a task
-    if (triangles.corner(0) != 0) return listedBox(mesh, triangles);
-    const Box start(loadVec3(mesh.positions[mesh.indices[0]]));
-    const std::size_t count = mesh.vertexCount(), box_count = (count + kBoxed - 1) / kBoxed;
-    Buffer<Box> boxes(allocator, box_count, start);
-    parallel.forRanges(box_count, kBoxes, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t b = begin; b < end; ++b) {
-            for (std::size_t v = b * kBoxed; v < std::min((b + 1) * kBoxed, count); ++v)
-                boxes[b].add(loadVec3(mesh.positions[v]));
-        }
-    });
-    Box whole = start;
-    for (const Box& box : boxes) whole.add(box);
-    const int axis = whole.longestAxis();
-    for (const Float4 Box::*side : {&Box::low, &Box::high}) {
-        const float bound = (whole.*side)[axis];
-        if ((start.*side)[axis] == bound) continue;  // in the list for sure
-        std::size_t v = 0;
-        while ((boxes[v / kBoxed].*side)[axis] != bound) v += kBoxed;
-        while (component(mesh.positions[v], axis) != bound) ++v;
-        if (!isListed(static_cast<std::uint32_t>(v), mesh, triangles)) return listedBox(mesh, triangles);
+        return found;
     }
-    return whole;
-}
+
+  private:
+    /// What the reference computes: the box of the corner list but for its first entry, starting from corner 0 of the
+    /// mesh.
+    [[nodiscard]] Box boxOfList() const {
+        Box box(loadVec3(mesh_.positions[mesh_.indices[0]]));
+        for (std::size_t i = 1; i < 3 * triangles_.count; ++i)
+            box.add(loadVec3(mesh_.positions[mesh_.indices[triangles_.corner(i)]]));
+        return box;
+    }
+
+    [[nodiscard]] Box boxOfVertices() const {
+        const std::size_t count = mesh_.vertexCount(), parts = (count + kVertexGrain - 1) / kVertexGrain;
+        Box whole(loadVec3(mesh_.positions[mesh_.indices[0]]));
+        Buffer<Box> boxes(allocator_, parts, whole);
+        parallel_.forTasks(parts, [&](std::size_t part) {
+            Box box = whole;
+            const std::size_t end = std::min((part + 1) * kVertexGrain, count);
+            for (std::size_t v = part * kVertexGrain; v < end; ++v) box.add(loadVec3(mesh_.positions[v]));
+            boxes[part] = box;
+        });
+        for (const Box& box : boxes) whole.add(box);
+        return whole;
+    }
+
+    /// `if_listed`: only when vertices at both ends of the box are in the list; else returns false.
+    bool findIn(const Box& box, bool if_listed, Buffer<std::uint32_t>& found) {
+        const int axis = box.longestAxis();
+        const Float4 low = splat(box.low[axis]), high = splat(box.high[axis]);
+        // By the float-to-int conversion of x86: what does not fit becomes the smallest int, which lands in cell 0.
+        const auto cellsOf = [=](Float4 x) {
+            const Float4 q = splat(kCells) * ((x - low) / (high - low));
+            const Float4 fitting = select4(q < splat(2147483648.0f), max4(q, Float4{}), Float4{});
+            return __builtin_convertvector(min4(fitting, splat(kCells - 1)), Mask4);
+        };
+        std::array<std::uint16_t, kCells> numbers = {};
+        std::uint16_t cell_count = 0;
+        for (const std::uint32_t v : vertices_) {
+            const Mask4 cell = cellsOf(splat(component(mesh_.positions[v], axis)));
+            std::uint16_t& number = numbers[static_cast<std::size_t>(cell[0])];
+            if (number == 0) number = ++cell_count;
+        }
+        Buffer<std::uint16_t> marks(allocator_, mesh_.vertexCount());
+        parallel_.forRanges(marks.size(), kVertexGrain, [&](std::size_t begin, std::size_t end) {
+            const auto at = [=, positions = mesh_.positions](std::size_t v) {
+                return component(positions[std::min(v, end - 1)], axis);
+            };
+            for (std::size_t v = begin; v < end; v += 4) {
+                const Float4 x{at(v), at(v + 1), at(v + 2), at(v + 3)};
+                const Mask4 cells = cellsOf(x), ends = ((x == low) & kAtLow) | ((x == high) & kAtHigh);
+                for (std::size_t i = 0; i < std::min<std::size_t>(4, end - v); ++i)
+                    marks[v + i] = static_cast<std::uint16_t>(numbers[static_cast<std::size_t>(cells[i])] | ends[i]);
+            }
+        });
+        std::atomic<std::uint32_t> any{0};
+        found = collectTriangles(
+            mesh_, triangles_, {}, [mark = marks.data()](std::uint32_t vertex) { return mark[vertex]; }, kNumber,
+            allocator_, parallel_, &any);
+        if (if_listed && ((any & kAtLow) == 0 || (any & kAtHigh) == 0)) return false;
+        followCells(found, marks.data(), cell_count);
+        return true;
+    }
+
+    /// Cells share nothing: a node lies in one of them.
+    void followCells(const Buffer<std::uint32_t>& found, const std::uint16_t* marks, std::size_t cells) {
+        const auto forEachEntry = [&](const auto& body) {
+            for (const std::uint32_t t : found) {
+                std::uint32_t buffer[3];
+                const std::uint32_t* vertices = readTriangles(mesh_, triangles_, t, 1, buffer);
+                for (std::uint32_t k = 0; k < 3; ++k) {
+                    const std::size_t number = marks[vertices[k]] & kNumber;
+                    if (number != 0) body(vertices[k], 3 * t + k, number);
+                }
+            }
+        };
+        std::array<std::uint32_t, kCells + 2> begin;  // one up, first how many each has
+        std::fill_n(begin.data(), cells + 2, 0u);
+        forEachEntry([&](std::uint32_t, std::uint32_t, std::size_t number) { ++begin[number + 1]; });
+        for (std::size_t number = 1; number <= cells; ++number) begin[number + 1] += begin[number];
+        Buffer<CellElement> elements(allocator_, begin[cells + 1]);
+        forEachEntry([&](std::uint32_t vertex, std::uint32_t entry, std::size_t number) {
+            const bool is_wanted = representatives_[nodes_.ofVertex(vertex)] == kWanted;
+            elements[begin[number]++] = {mesh_.positions[vertex], is_wanted ? entry | kMark : entry};
+        });
+        const auto name = [&](std::uint32_t entry) {
+            const std::uint32_t corner = triangles_.corner(entry);
+            representatives_[nodes_.of(mesh_, corner)] = corner;
+        };
+        constexpr std::size_t kElements = 4096;  // for a thread: fewer are done sooner than one is started
+        const std::size_t grain = 1 + cells * kElements / (elements.size() + 1);
+        parallel_.forRanges(cells, grain, [&](std::size_t first, std::size_t last) {
+            for (std::size_t cell = first; cell < last; ++cell) {
+                const std::size_t size = begin[cell + 1] - begin[cell];
+                if (size != 0) Cell({elements.data() + begin[cell], size}, name).run();
+            }
+        });
+    }
+
+    const MeshView& mesh_;
+    const TriangleList& triangles_;
+    const Nodes& nodes_;
+    std::span<const std::uint32_t> vertices_;
+    std::uint32_t* representatives_;
+    const Allocator* allocator_;
+    Parallel& parallel_;
+};
 
 }  // namespace
 
-GridOrder::GridOrder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                     const Allocator* allocator, Parallel& parallel)
-    : mesh_(mesh), triangles_(triangles), nodes_(nodes), allocator_(allocator), parallel_(parallel) {
-    if (triangles.count == 0) return;
-    const Box box = boundingBox(mesh, triangles, allocator, parallel);
-    const int axis = box.longestAxis();
-    const float low = box.low[axis], extent = box.high[axis] - low;
-    // By the float-to-int conversion of x86: what does not fit becomes the smallest int, which lands in cell 0.
-    const auto cellOf = [=](float x) {
-        const float q = static_cast<float>(kCells) * ((x - low) / extent);
-        const float inside = q > 0.0f && q < 2147483648.0f ? q : 0.0f;
-        constexpr float kLast = static_cast<float>(kCells - 1);
-        return static_cast<std::uint16_t>(static_cast<std::int32_t>(inside < kLast ? inside : kLast));
-    };
-    cells_ = Buffer<std::uint16_t>(allocator, mesh.vertexCount());
-    parallel.forRanges(cells_.size(), kVertexGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v) cells_[v] = cellOf(component(mesh.positions[v], axis));
-    });
-}
-
-void GridOrder::follow(std::span<CellElement> elements, std::uint32_t* representatives) const {
-    const auto found = [&](std::uint32_t entry) {
-        const std::uint32_t corner = triangles_.corner(entry);
-        representatives[nodes_.of(mesh_, corner)] = corner;
-    };
-    Cell(elements, found).run();
-}
-
-/// entryAt(i) for i < count: all of the wanted cells, in the order of the corner list. Cells share nothing: a node lies
-/// in one of them.
-template <class EntryAt>
-void GridOrder::followCells(std::size_t count, const EntryAt& entryAt, std::uint32_t* representatives) const {
-    std::array<std::uint16_t, kCells> number_of = {};  // of cells that have entries, from 1
-    std::array<std::uint32_t, kCells + 2> begin;       // first, one up, how many each has
-    std::uint16_t cells = 0;
-    begin[0] = begin[1] = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        std::uint16_t& number = number_of[cells_[entryAt(i).vertex]];
-        if (number == 0) begin[(number = ++cells) + 1] = 0;
-        ++begin[number + 1];
-    }
-    for (std::size_t number = 1; number <= cells; ++number) begin[number + 1] += begin[number];
-    Buffer<CellElement> elements(allocator_, count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const Entry e = entryAt(i);
-        elements[begin[number_of[cells_[e.vertex]]]++] = {mesh_.positions[e.vertex], e.entry};
-    }
-    constexpr std::size_t kElements = 4096;  // for a thread: fewer are done sooner than one is started
-    const std::size_t grain = 1 + cells * kElements / (elements.size() + 1);
-    parallel_.forRanges(cells, grain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t cell = first; cell < last; ++cell)
-            follow({elements.data() + begin[cell], begin[cell + 1] - begin[cell]}, representatives);
-    });
-}
-
-void GridOrder::find(std::span<const std::uint32_t> vertices, std::uint32_t* representatives) const {
-    if (triangles_.count == 0) return;
-    Marks wanted = noMarks(allocator_, nodes_.count);
-    std::array<std::uint8_t, kCells> is_wanted = {};
-    for (const std::uint32_t vertex : vertices) {
-        wanted[nodes_.ofVertex(vertex)] = 1;
-        is_wanted[cells_[vertex]] = 1;
-    }
-    Marks marks(allocator_, mesh_.vertexCount());
-    parallel_.forRanges(marks.size(), kVertexGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v) marks[v] = is_wanted[cells_[v]];
-    });
-    Growing<Entry> entries(allocator_);
-    for (const std::uint32_t t : collectTriangles(mesh_, triangles_, marks, nullptr, {}, allocator_, parallel_)) {
-        for (std::uint32_t entry = 3 * t; entry < 3 * t + 3; ++entry) {
-            const std::uint32_t vertex = mesh_.indices[triangles_.corner(entry)];
-            if (marks[vertex] != 0)
-                entries.push({vertex, wanted[nodes_.ofVertex(vertex)] != 0 ? entry | kMark : entry});
-        }
-    }
-    followCells(
-        entries.size(), [&](std::size_t i) { return entries[i]; }, representatives);
-}
-
-void GridOrder::findAll(std::uint32_t* representatives) const {
-    const auto entryAt = [&](std::size_t i) {
-        return Entry{mesh_.indices[triangles_.corner(i)], static_cast<std::uint32_t>(i) | kMark};
-    };
-    followCells(3 * triangles_.count, entryAt, representatives);
+Buffer<std::uint32_t> findRepresentatives(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
+                                          std::span<const std::uint32_t> vertices, std::uint32_t* representatives,
+                                          const Allocator* allocator, Parallel& parallel) {
+    return GridOrder(mesh, triangles, nodes, vertices, representatives, allocator, parallel).find();
 }
 
 }  // namespace tspace::mikk

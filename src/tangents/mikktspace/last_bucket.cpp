@@ -2,12 +2,10 @@
 // The last bucket of the reference's edge list.
 //
 // An edge's key is the lower one of its two nodes' representatives (which are corners), and the last bucket
-// holds the edges with the largest key, V. Where are they? Let F be the first corner of some triangles at the
-// end of the list, so that corners from F on are in these triangles only. A node's representative lies between
-// its first corner and its last. So in each triangle the middle one of its nodes' first corners is not above the
-// key of some edge, and the largest of these, L, is not above V. If L >= F, both ends of the bucket's edges have a
-// corner from L on: they are nodes of the triangles at the end. Else the end of the list has to be taken longer;
-// with the whole list F is its first corner.
+// holds the edges with the largest key, V. Where are they? The largest key in a triangle is the middle one of its
+// representatives. Let F be the first corner of some triangles at the end of the list: a node of others only has a
+// representative below F. So when the representatives of their nodes show a key from F on, the largest one is V, and all
+// edges of the bucket have both ends there. Else the end of the list has to be taken longer.
 //
 // Few triangles are enough, nearly always: in a mesh in natural order most nodes of the last ones have no
 // other corners; in a mesh without order each edge of a late triangle has its key there once in 36 times.
@@ -18,8 +16,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <functional>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -38,10 +36,6 @@ constexpr std::uint32_t kSeed = 39871946;
 /// Elements that the replayed sort may look at, per element. A random order needs about 4 (only the last
 /// bucket's side is followed); only orders made against the fixed seed come near.
 constexpr std::uint64_t kStepsPerElement = 64;
-
-std::uint32_t middleOf(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    return std::max(std::min(a, b), std::min(std::max(a, b), c));
-}
 
 /// An element of the sort.
 struct Record {
@@ -139,15 +133,14 @@ class BucketFinder {
           allocator_(allocator),
           parallel_(parallel),
           representatives_(allocator, nodes.count),
-          around_(allocator),
-          edges_(allocator),
-          bucket_(allocator) {}
+          bucket_(allocator) {
+        std::memset(representatives_.data(), 0xff, nodes.count * sizeof(std::uint32_t));
+    }
 
     /// `kept`: for the result.
     LastBucket run(const Allocator* kept) {
         LastBucket result;
-        findEdges();
-        if (edges_.size() <= 2 || !mayMatter()) return result;
+        if (!hasNodeOfThree()) return result;
         findBucket();
         if (!orderMatters()) return result;
         pairUp(&BucketEdge::usual);
@@ -161,20 +154,27 @@ class BucketFinder {
     }
 
   private:
-    /// The first and the last corner of a node, between which its representative is.
-    struct CornerRange {
-        std::uint32_t first, last;
-    };
-    struct LateTriangle {
-        std::uint32_t number, nodes[3];
-    };
-    /// A half-edge of which both ends may have representatives from V on.
-    struct LateEdge {
-        std::uint32_t from, to, third;  // nodes of its triangle
-        std::uint32_t half_edge;
+    struct Triangle {
+        std::uint32_t nodes[3], corners[3];  // representatives one up, and 0 where they are not known
+        /// The largest key of its edges.
+        [[nodiscard]] std::uint32_t key() const {
+            const auto [a, b, c] = corners;
+            return std::max(std::min(a, b), std::min(std::max(a, b), c));
+        }
     };
 
     [[nodiscard]] std::uint32_t nodeAt(std::size_t entry) const { return nodes_.of(mesh_, triangles_.corner(entry)); }
+
+    [[nodiscard]] Triangle triangle(std::size_t t) const {
+        std::uint32_t buffer[3];
+        const std::uint32_t* vertices = readTriangles(mesh_, triangles_, t, 1, buffer);
+        Triangle triangle;
+        for (std::size_t k = 0; k < 3; ++k) {
+            triangle.nodes[k] = nodes_.ofVertex(vertices[k]);
+            triangle.corners[k] = representatives_[triangle.nodes[k]] + 1;
+        }
+        return triangle;
+    }
 
     [[nodiscard]] bool isGood(std::size_t triangle) const {
         const auto at = [&](std::size_t k) {
@@ -184,6 +184,16 @@ class BucketFinder {
         return !(a == b || b == c || c == a);
     }
 
+    /// Whether some node has three corners. All edges of the bucket meet at one node, and a triangle has at most one of
+    /// them: between the higher ends of two would be an edge with a larger key. Of two edges the order does not matter.
+    [[nodiscard]] bool hasNodeOfThree() const {
+        Marks counts = noMarks(allocator_, nodes_.count);
+        for (std::size_t i = 0; i < 3 * triangles_.count; ++i) {
+            if (++counts[nodeAt(i)] == 3) return true;
+        }
+        return false;
+    }
+
     /// Where the last `length` triangles begin, or a few more: a face is not cut in two.
     [[nodiscard]] std::size_t beginOfLast(std::size_t length) const {
         std::size_t begin = length < triangles_.count ? triangles_.count - length : 0;
@@ -191,159 +201,49 @@ class BucketFinder {
         return begin;
     }
 
-    /// All half-edges whose ends both have a corner from L on; among them are those of the last bucket.
-    void findEdges() {
-        constexpr std::size_t kTinyMesh = 64, kSmallMesh = 1024, kLastOfTiny = 2, kLastOfSmall = 8,
-                              kLast = 24;   // triangles
-        constexpr std::size_t kLonger = 4;  // times, when that was not enough
-        ranges_ = Buffer<CornerRange>(allocator_, nodes_.count);
-        const std::size_t count = triangles_.count;
-        const std::size_t first_length = count < kTinyMesh ? kLastOfTiny : count < kSmallMesh ? kLastOfSmall : kLast;
-        for (std::size_t length = first_length;; length *= kLonger) {
-            const std::size_t begin = beginOfLast(length);
-            const std::uint32_t first_corner = findRanges(begin);
-            least_ = leastKey();
-            if (begin == 0 || least_ >= first_corner) break;
-            if (length == kLastOfTiny) continue;
-            findExactly([](std::uint32_t) { return true; });
-            least_ = leastKey();
-            if (least_ >= first_corner) break;
-        }
-        const auto mayBe = [&](std::uint32_t node) { return is_late_[node] != 0 && ranges_[node].last >= least_; };
-        for (const LateTriangle& t : around_) {
-            const bool may_be[] = {mayBe(t.nodes[0]), mayBe(t.nodes[1]), mayBe(t.nodes[2])};
-            if (may_be[0] + may_be[1] + may_be[2] < 2 || !isGood(t.number)) continue;
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                const std::uint32_t next = (k + 1) % 3;
-                if (may_be[k] && may_be[next])
-                    edges_.push({t.nodes[k], t.nodes[next], t.nodes[3 - k - next], 3 * t.number + k});
-            }
-        }
-    }
-
-    /// L: a lower bound of V.
-    [[nodiscard]] std::uint32_t leastKey() const {
-        std::uint32_t least = 0;
-        const auto first = [&](std::uint32_t node) { return is_late_[node] != 0 ? ranges_[node].first : 0; };
-        for (const LateTriangle& t : around_) {
-            const std::uint32_t middle = middleOf(first(t.nodes[0]), first(t.nodes[1]), first(t.nodes[2]));
-            if (middle > least && isGood(t.number)) least = middle;
-        }
-        return least;
-    }
-
-    /// The ranges of the nodes that triangles from `begin` on have, and all triangles at these nodes. Returns F.
-    std::uint32_t findRanges(std::size_t begin) {
-        is_late_ = noMarks(allocator_, nodes_.count);
-        around_.drop(around_.size());
-        const auto add = [&](std::uint32_t t) {
-            const std::size_t entry = 3 * std::size_t{t};
-            around_.push({t, {nodeAt(entry), nodeAt(entry + 1), nodeAt(entry + 2)}});
-        };
-        std::uint32_t first_corner = kNone;
-        for (std::size_t t = begin; t < triangles_.count; ++t) {
-            add(static_cast<std::uint32_t>(t));
-            for (const std::size_t k : {0, 1, 2}) first_corner = std::min(first_corner, triangles_.corner(3 * t + k));
-        }
-        for (const LateTriangle& t : around_) {
-            for (const std::uint32_t node : t.nodes) {
-                is_late_[node] = 1;
-                ranges_[node] = {kNone, 0};
-            }
-        }
-        if (begin != 0) {
-            for (const std::uint32_t t :
-                 collectAround(mesh_, triangles_, nodes_, is_late_, {}, allocator_, parallel_)) {
-                if (t < begin) add(t);
-            }
-        }
-        for (const LateTriangle& t : around_) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (is_late_[t.nodes[k]] == 0) continue;
-                // Corners of a polygon's triangles need not ascend.
-                const std::uint32_t corner = triangles_.corner(3 * std::size_t{t.number} + k);
-                CornerRange& range = ranges_[t.nodes[k]];
-                range = {std::min(range.first, corner), std::max(range.last, corner)};
-            }
-        }
-        return first_corner;
-    }
-
-    /// Makes the ranges of late nodes for which isWanted(node) their representatives.
-    template <class IsWanted>
-    void findExactly(const IsWanted& isWanted) {
-        Growing<std::uint32_t> vertices(allocator_);
-        for (const LateTriangle& t : around_) {
-            for (const std::uint32_t node : t.nodes) {
-                CornerRange& range = ranges_[node];
-                if (is_late_[node] == 0 || range.first == range.last || !isWanted(node)) continue;
-                vertices.push(mesh_.indices[range.first]);
-                range.first = range.last;  // once
-            }
-        }
-        if (vertices.empty()) return;
-        if (!order_) order_.emplace(mesh_, triangles_, nodes_, allocator_, parallel_);
-        order_->find({vertices.begin(), vertices.size()}, representatives_.data());
-        for (const std::uint32_t vertex : vertices) {
-            const std::uint32_t node = nodes_.ofVertex(vertex);
-            ranges_[node] = {representatives_[node], representatives_[node]};
-        }
-    }
-
-    /// Whether the ranges leave it open that the order of the bucket matters. For that, if V is x's representative,
-    /// an edge to a higher node y must be there in both directions, and another one to y or some higher node w. But a
-    /// triangle at x with a higher node has a lower one as well: otherwise these two would have an edge with a larger
-    /// key.
-    [[nodiscard]] bool mayMatter() const {
-        constexpr std::size_t kMany = 64;
-        if (edges_.size() > kMany) return true;
-        for (const LateEdge& e : edges_) {
-            const auto isBack = [&](const LateEdge& b) { return b.from == e.to && b.to == e.from; };
-            const LateEdge* back = std::find_if(edges_.begin(), edges_.end(), isBack);
-            if (back == edges_.end()) continue;
-            for (const std::uint32_t x : {e.from, e.to}) {
-                const CornerRange here = keysOf(e, x), there = keysOf(*back, x);
-                for (const LateEdge& other : edges_) {
-                    if (&other == &e || &other == back || (other.from != x && other.to != x)) continue;
-                    const std::uint32_t w = other.from == x ? other.to : other.from;
-                    const CornerRange too = keysOf(other, x);
-                    if (e.third != w && back->third != w &&
-                        std::max({here.first, there.first, too.first}) <= std::min({here.last, there.last, too.last}))
-                        return true;
-                }
-            }
-        }
-        return false;
-    }
-
-    /// Which V leave it possible that the edge is in the bucket of its end x.
-    [[nodiscard]] CornerRange keysOf(const LateEdge& e, std::uint32_t x) const {
-        const CornerRange low = ranges_[x], high = ranges_[e.from == x ? e.to : e.from];
-        const std::uint32_t above_third = is_late_[e.third] != 0 ? ranges_[e.third].first + 1 : 0;
-        return {std::max({low.first, least_, above_third}), std::min(low.last, high.last - 1)};
+    Buffer<std::uint32_t> findRepresentatives(const Buffer<std::uint32_t>& vertices) {
+        return mikk::findRepresentatives(mesh_, triangles_, nodes_, {vertices.data(), vertices.size()},
+                                         representatives_.data(), allocator_, parallel_);
     }
 
     /// V, and its edges.
-    [[gnu::cold]] void findBucket() {
-        findExactly([&](std::uint32_t node) { return ranges_[node].last >= least_; });
-        for (const LateEdge& e : edges_) {
-            const std::uint32_t from = ranges_[e.from].first, to = ranges_[e.to].first, low = std::min(from, to);
-            if (low < key_) continue;
-            if (low > key_) bucket_.drop(bucket_.size());
-            key_ = low;
-            if (from < to) {
-                bucket_.push({.high = to, .high_node = e.to, .half_edge = e.half_edge, .ascending = true});
-                low_node_ = e.from;
-            } else {
-                bucket_.push({.high = from, .high_node = e.from, .half_edge = e.half_edge, .ascending = false});
-                low_node_ = e.to;
+    void findBucket() {
+        constexpr std::size_t kSmallMesh = 4096, kLastOfSmall = 8, kLast = 24;  // triangles
+        constexpr std::size_t kLonger = 4;                                      // times, when that was not enough
+        std::size_t length = triangles_.count < kSmallMesh ? kLastOfSmall : kLast;
+        std::uint32_t first_corner = kNone;
+        for (std::size_t begin = triangles_.count; begin != 0 && key_ <= first_corner; length *= kLonger) {
+            begin = beginOfLast(length);
+            Buffer<std::uint32_t> vertices(allocator_, 3 * (triangles_.count - begin));
+            for (std::size_t i = 0; i < vertices.size(); ++i) {
+                const std::uint32_t corner = triangles_.corner(3 * begin + i);
+                first_corner = std::min(first_corner, corner);
+                vertices[i] = mesh_.indices[corner];
             }
+            const Buffer<std::uint32_t> around = findRepresentatives(vertices);
+            key_ = 1;
+            // Backwards, as keys mostly ascend.
+            for (std::size_t i = around.size(); i-- > 0;) addEdges(around[i], triangle(around[i]));
+        }
+    }
+
+    void addEdges(std::uint32_t t, const Triangle& triangle) {
+        const std::uint32_t key = triangle.key();
+        if (key < key_ || !isGood(t)) return;
+        if (key > key_) bucket_.drop(bucket_.size());
+        key_ = key;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const std::uint32_t next = (k + 1) % 3, from = triangle.corners[k], to = triangle.corners[next];
+            if (std::min(from, to) != key) continue;
+            const std::uint32_t low = from < to ? k : next, high = k + next - low;
+            low_node_ = triangle.nodes[low];
+            bucket_.push({triangle.corners[high], triangle.nodes[high], 3 * t + k, kNone, kNone, from < to});
         }
     }
 
     /// Only where there are more than two half-edges, and an edge in both directions. Leaves the bucket sorted by
     /// higher ends, then half-edges.
-    [[gnu::cold]] bool orderMatters() {
+    [[nodiscard]] bool orderMatters() {
         if (bucket_.size() <= 2) return false;
         sortEdges(bucket_.begin(), bucket_.end(), true);
         for (std::size_t i = 1; i < bucket_.size(); ++i) {
@@ -354,15 +254,16 @@ class BucketFinder {
 
     /// Leaves the bucket in the order in which the reference meets its edges.
     [[gnu::cold]] bool sortAsReference() {
-        if (!order_) order_.emplace(mesh_, triangles_, nodes_, allocator_, parallel_);
-        order_->findAll(representatives_.data());
+        findRepresentatives(numbersBelow(mesh_.vertexCount(), allocator_));
         Growing<Record> records(allocator_);
         records.reserve(3 * triangles_.count);
         for (std::uint32_t t = 0; t < triangles_.count; ++t) {
             if (!isGood(t)) continue;
-            const std::uint32_t r[] = {representatives_[nodeAt(3 * t)], representatives_[nodeAt(3 * t + 1)],
-                                       representatives_[nodeAt(3 * t + 2)]};
-            for (std::uint32_t k = 0; k < 3; ++k) records.push({std::min(r[k], r[(k + 1) % 3]), 3 * t + k});
+            const auto [a, b, c] = triangle(t).corners;
+            Record* to = records.extend(3);
+            to[0] = {std::min(a, b), 3 * t};
+            to[1] = {std::min(b, c), 3 * t + 1};
+            to[2] = {std::min(c, a), 3 * t + 2};
         }
         if (!EdgeSort({records.begin(), records.size()}, key_).run()) return false;
         sortEdges(bucket_.begin(), bucket_.end(), false);
@@ -424,15 +325,9 @@ class BucketFinder {
     const Nodes& nodes_;
     const Allocator* allocator_;
     Parallel& parallel_;
-    Marks is_late_;                          // one per node
-    Buffer<CornerRange> ranges_;             // one per node; set for late ones
-    Buffer<std::uint32_t> representatives_;  // one per node; set where somebody asks
-    Growing<LateTriangle> around_;           // triangles at late nodes
-    std::optional<GridOrder> order_;
-    Growing<LateEdge> edges_;
-    std::uint32_t least_ = 0;     // L
-    std::uint32_t key_ = 0;       // V
-    std::uint32_t low_node_ = 0;  // whose representative it is
+    Buffer<std::uint32_t> representatives_;  // one per node; kNone where it is not known
+    std::uint32_t key_ = 0;                  // V, one up
+    std::uint32_t low_node_ = 0;             // whose representative it is
     Growing<BucketEdge> bucket_;
 };
 

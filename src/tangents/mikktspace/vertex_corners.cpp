@@ -49,7 +49,10 @@ class CornerReader {
             from_.sums->setNumber(from_.chosen[i], static_cast<std::uint32_t>(i));
         Marks at_nodes = noMarks(from_.allocator, from_.nodes.count);
         for (const std::uint32_t node : from_.chosen) at_nodes[node] = 1;
-        return collectAround(mesh_, triangles_, from_.nodes, at_nodes, from_.blocks, from_.allocator, from_.parallel);
+        const Nodes& nodes = from_.nodes;
+        return collectTriangles(
+            mesh_, triangles_, from_.blocks, [&](std::uint32_t v) { return at_nodes[nodes.ofVertex(v)]; }, 1,
+            from_.allocator, from_.parallel);
     }
 
     /// A node's row holds its number in `chosen` from here on; what it held before is no such number, or that of
