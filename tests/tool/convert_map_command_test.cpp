@@ -41,6 +41,19 @@ void writeSheet(const TempFolder& folder) {
     }
 }
 
+// Models of other formats are read here as everywhere.
+TEST(ConvertMapCommand, FindsTheImporter) {
+    const TempFolder folder;
+    writeSheet(folder);
+    folder.write("sheet.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                 "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    if (runTool(folder, "inspect sheet.ply").exit_code != 0) GTEST_SKIP() << "there is no tspace-import";
+    const ToolRun run = runTool(folder, "convert-map bump.png --mesh sheet.ply --to object -o object.png");
+    EXPECT_EQ(run.exit_code, 3);
+    EXPECT_EQ(run.err.find("tspace-import"), std::string::npos) << run.err;
+}
+
 TEST(ConvertMapCommand, ConvertsAndComesBack) {
     const TempFolder folder;
     writeSheet(folder);

@@ -48,7 +48,7 @@ Arguments parseArguments(int argc, char** argv) {
     AllArguments all;
     for (FileOptions* file : {&all.generate.options.file, &all.diff.request.options.file, &all.identify.options.file,
                               &all.inspect.file, &all.check.request.options.file, &all.render.options.file,
-                              &all.bake.options.file, &all.map_error.options.file}) {
+                              &all.convert_map.options.file, &all.bake.options.file, &all.map_error.options.file}) {
         file->importer = importerPath();
     }
     const ToolTable tool = toolTable(all);
