@@ -77,7 +77,9 @@ class RangeOfRound {
             vertices_of[place] = vertices_[i];
             float* const sums = all_sums + 4 * kRows * place;
             const float* const rows = rows_ + 4 * kRows * i;
+#pragma GCC unroll 7
             for (std::size_t r = 0; r < kSums; r += 4) addRow(sums + r, rows + r);
+#pragma GCC unroll 4
             for (std::size_t r = kSums; r < 4 * kRows; ++r) sums[r] = std::max(sums[r], rows[r]);
         }
     }
