@@ -28,10 +28,10 @@ struct DerivativeTerms {
     std::uint64_t mirrored = 0;                 ///< of the safe ones those with negative UV area
 };
 
-/// Where sums are: s.x s.y s.z t.x of each vertex, and t.y t.z.
+/// Where sums are.
 struct SumArrays {
-    float* heads = nullptr;
-    float* tails = nullptr;
+    float* heads = nullptr;  ///< s.x s.y s.z t.x of each vertex
+    float* tails = nullptr;  ///< t.y t.z
 };
 
 /// The functions for one CPU.

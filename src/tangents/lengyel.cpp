@@ -10,16 +10,180 @@
 #include "core/prefetch.h"
 #include "core/sum_ranges.h"
 #include "core/typed_indices.h"
+#include "core/uv_frame.h"
+#include "core/vertex_ranges.h"
 #include "tangents/derivative_terms.h"
-#include "tangents/face_sums.h"
 #include "tangents/indexed_methods.h"
 
 namespace tspace {
 
 namespace {
 
-struct VertexCounts {
-    std::uint64_t used = 0, defaults = 0;
+/// Of one range. Triangles are those whose first vertex is in it, by what is wrong with them.
+struct RangeCounts {
+    std::uint64_t degenerate = 0;          ///< two corners at one position
+    std::uint64_t degenerate_uv = 0;       ///< no UV area
+    std::uint64_t mirrored = 0;            ///< negative UV area
+    std::uint64_t used = 0, defaults = 0;  ///< vertices
+};
+
+/// The sums of all vertices, in single precision and in triangle order: six floats each, since reading and
+/// writing these is most of the work. Two arrays, since either may lie in memory that outputs come to later.
+struct VertexSums : derivatives::SumArrays {
+    [[nodiscard]] float* head(std::size_t vertex) const { return heads + 4 * vertex; }
+    [[nodiscard]] float* tail(std::size_t vertex) const { return tails + 2 * vertex; }
+    /// The sum of nothing. -0 + x is x, also when x is 0; and what is added to s.x is never -0.
+    void clear(VertexRange range) const {
+        fill(head(range.begin), head(range.end), -0.0f);
+        fill(tail(range.begin), tail(range.end), -0.0f);
+    }
+    [[nodiscard]] bool isTouched(std::size_t vertex) const {
+        return std::bit_cast<std::uint32_t>(*head(vertex)) != 0x80000000u;
+    }
+
+  private:
+    static void fill(float* begin, float* end, float value) {
+        constexpr std::ptrdiff_t kFloats = 16;  // a line
+        for (; end - begin >= kFloats; begin += kFloats) {
+            prefetchLines<true>(begin, kFloats * sizeof(float));
+            std::fill_n(begin, kFloats, value);
+        }
+        std::fill(begin, end, value);
+    }
+};
+
+/// The lowest `count` bits, of 1 to 64.
+std::uint64_t lowBits(std::size_t count) { return ~std::uint64_t{0} >> (64 - count); }
+
+/// Some triangles of one block: three vertices for each, of the mesh or in the buffer.
+struct TriangleBlock {
+    static constexpr std::size_t kMost = VertexRanges::kBlock;
+    static_assert(kMost == derivatives::kTermTriangles && kMost % derivatives::kTermGroup == 0);
+
+    const std::uint32_t* vertices = nullptr;
+    std::size_t count = 0;
+    std::uint32_t buffer[3 * kMost];
+    derivatives::DerivativeTerms terms;
+
+    /// Keeps those that have a vertex in the range.
+    void select(VertexRange range) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < 3 * count; i += 3) {
+            bool any = false;
+            for (std::size_t k = 0; k < 3; ++k) {
+                any |= range.has(vertices[i + k]);
+                buffer[3 * kept + k] = vertices[i + k];
+            }
+            kept += any ? 1 : 0;
+        }
+        vertices = buffer;
+        count = kept;
+    }
+};
+
+/// Adds triangles up, in ranges of vertices that may be summed at the same time: blocks in single precision, and in double
+/// precision those that rounding, overflow or degeneracy could spoil.
+class FaceSums {
+  public:
+    /// `visits`, one per vertex, counts the triangles that were added; it may be null. `wanted`: ranges.
+    FaceSums(const IndexedPlan& plan, StridedSpan<const Vec3> positions, const derivatives::DerivativeKernel& kernel,
+             VertexSums sums, float* visits, unsigned wanted, const Allocator* allocator, Parallel& parallel)
+        : plan_(plan),
+          positions_(positions),
+          kernel_(kernel),
+          sums_(sums),
+          visits_(visits),
+          ranges_(plan.triangle_vertices, plan.triangleCount(), plan.vertex_count) {
+        if (wanted > 1) static_cast<void>(ranges_.cut(wanted, allocator, parallel));  // vertices have been checked
+    }
+
+    [[nodiscard]] const VertexRanges& ranges() const { return ranges_; }
+
+    /// Writes the sums of one range.
+    [[nodiscard]] RangeCounts sum(unsigned index) const {
+        const VertexRange range = ranges_.range(index);
+        sums_.clear(range);
+        if (visits_ != nullptr) std::fill(visits_ + range.begin, visits_ + range.end, 0.0f);
+
+        const derivatives::TriangleSource source{
+            reinterpret_cast<const std::byte*>(positions_.data), reinterpret_cast<const std::byte*>(plan_.uvs.data),
+            positions_.stride_bytes, plan_.uvs.stride_bytes, static_cast<std::uint32_t>(positions_.count - 1)};
+        RangeCounts counts;
+        TriangleBlock block;
+        ranges_.forBlocks(index, [&](std::size_t b) {
+            const std::size_t first = b * TriangleBlock::kMost;
+            block.count = std::min(TriangleBlock::kMost, plan_.triangleCount() - first);
+            block.vertices = readIndices(plan_.triangle_vertices, 3 * first, 3 * block.count, block.buffer);
+            prefetchLines(block.vertices, 3 * TriangleBlock::kMost * sizeof(std::uint32_t));
+            const bool is_whole = ranges_.isWithinOne(b);
+            if (!is_whole) block.select(range);
+            block.vertices = fillGroup(block.vertices, block.count, derivatives::kTermGroup, block.buffer);
+            kernel_.compute(source, block.vertices, block.count, block.terms);
+            addBlock(block, range, is_whole, counts);
+        });
+        return counts;
+    }
+
+  private:
+    /// In the order of the triangles, which decides how sums are rounded.
+    void addBlock(const TriangleBlock& block, VertexRange range, bool is_whole, RangeCounts& counts) const {
+        const std::uint32_t* const v = block.vertices;
+        std::uint64_t unsafe = ~block.terms.safe & lowBits(block.count);
+        for (std::size_t begin = 0; begin < block.count;) {
+            const auto end = unsafe == 0 ? block.count : static_cast<std::size_t>(std::countr_zero(unsafe));
+            if (is_whole)
+                kernel_.add(block.terms, v, begin, end, sums_);
+            else
+                kernel_.add_some(block.terms, v, begin, end, sums_, range.begin, range.end);
+            if (end != block.count) addUnsafe(v + 3 * end, range, counts);
+            unsafe &= unsafe - 1;
+            begin = end + 1;
+        }
+        if (is_whole) {
+            counts.mirrored += static_cast<unsigned>(std::popcount(block.terms.mirrored));
+        } else {
+            for (std::size_t i = 0; i < block.count; ++i)
+                counts.mirrored += (block.terms.mirrored >> i & 1) != 0 && range.has(v[3 * i]) ? 1 : 0;
+        }
+        if (visits_ == nullptr) return;
+        for (std::size_t i = 0; i < 3 * block.count; ++i) {
+            if ((block.terms.safe >> (i / 3) & 1) != 0 && range.has(v[i])) visits_[v[i]] += 1;
+        }
+    }
+
+    /// In double. A triangle that has no derivatives adds nothing, but its vertices have been named.
+    void addUnsafe(const std::uint32_t* v, VertexRange range, RangeCounts& counts) const {
+        const Vec3 &p0 = positions_[v[0]], &p1 = positions_[v[1]], &p2 = positions_[v[2]];
+        const UvFrame frame = uvFrame(p0, p1, p2, plan_.uvs[v[0]], plan_.uvs[v[1]], plan_.uvs[v[2]]);
+        const bool has_area = hasUvArea(frame.determinant);
+        if (range.has(v[0])) {
+            counts.degenerate += p0 == p1 || p1 == p2 || p2 == p0 ? 1 : 0;
+            counts.degenerate_uv += has_area ? 0 : 1;
+            counts.mirrored += has_area && frame.determinant < 0 ? 1 : 0;
+        }
+        const double r = has_area ? 1 / frame.determinant : 0;
+        const Vec3 s = toFloat(r * frame.tangent), t = toFloat(r * frame.bitangent);
+        const bool adds = has_area && isFinite(s) && isFinite(t);
+        const float row[6] = {s.x + 0.0f, s.y, s.z, t.x, t.y, t.z};
+        for (unsigned k = 0; k < 3; ++k) {
+            if (!range.has(v[k])) continue;
+            float *const head = sums_.head(v[k]), *const tail = sums_.tail(v[k]);
+            if (!adds) {
+                *head += 0.0f;
+                continue;
+            }
+            for (unsigned i = 0; i < 4; ++i) head[i] += row[i];
+            for (unsigned i = 0; i < 2; ++i) tail[i] += row[4 + i];
+            if (visits_ != nullptr) visits_[v[k]] += 1;
+        }
+    }
+
+    const IndexedPlan& plan_;
+    StridedSpan<const Vec3> positions_;
+    derivatives::DerivativeKernel kernel_;
+    VertexSums sums_;
+    float* visits_;
+    VertexRanges ranges_;
 };
 
 /// Turns sums into frames, one entry per vertex. Tangents take the places of the heads of the sums; where
@@ -40,8 +204,7 @@ class VertexFrames {
         copies_tangents_ = !out.tangents.empty() && &out.tangents.data->x != sums.heads;
     }
 
-    VertexCounts write(VertexRange range) const {
-        VertexCounts counts;
+    void write(VertexRange range, RangeCounts& counts) const {
         std::uint32_t v = range.begin;
         const std::uint32_t in_place = has_extras_ ? 0 : inPlaceCount(range);
         for (const std::uint32_t end = v + in_place; v != end;) {
@@ -55,7 +218,6 @@ class VertexFrames {
             v += count;
         }
         if (copies_tangents_) copyTangents(range);
-        return counts;
     }
 
   private:
@@ -68,7 +230,7 @@ class VertexFrames {
         return count / derivatives::kTermGroup * derivatives::kTermGroup;
     }
 
-    void finishInPlace(std::uint32_t first, std::uint32_t count, VertexCounts& counts) const {
+    void finishInPlace(std::uint32_t first, std::uint32_t count, RangeCounts& counts) const {
         const auto* normals = reinterpret_cast<const std::byte*>(&normals_[first]);
         prefetchLines<true>(sums_.head(first), kMost * 4 * sizeof(float));
         prefetchLines(sums_.tail(first), kMost * 2 * sizeof(float));
@@ -83,7 +245,7 @@ class VertexFrames {
     }
 
     /// The same for any vertices and all outputs.
-    [[gnu::noinline]] void finishCopy(std::uint32_t first, std::uint32_t count, VertexCounts& counts) const {
+    [[gnu::noinline]] void finishCopy(std::uint32_t first, std::uint32_t count, RangeCounts& counts) const {
         float heads[4 * kMost] = {}, tails[2 * kMost] = {};
         Vec3 normals[kMost + 1] = {};
         std::copy_n(sums_.head(first), 4 * count, heads);
@@ -106,8 +268,8 @@ class VertexFrames {
         }
     }
 
-    /// Counts the vertex, too.
-    [[nodiscard]] CornerFrame frameInDouble(std::uint32_t v, VertexCounts& counts) const {
+    /// RangeCounts the vertex, too.
+    [[nodiscard]] CornerFrame frameInDouble(std::uint32_t v, RangeCounts& counts) const {
         if (!sums_.isTouched(v)) return {};
         ++counts.used;
         const float *head = sums_.head(v), *tail = sums_.tail(v);
@@ -232,25 +394,23 @@ void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOut
     VertexExtras extras(per_corner ? out : TangentOutput{}, plan.vertex_count, allocator);
     Buffer<std::uint8_t> is_default(allocator, per_corner ? plan.vertex_count : 0, 0);
 
-    FaceSums faces(plan, pose.positions, kernel, sums, visits.data());
-    if (parallel.width() > 1 && plan.triangleCount() >= Parallel::kGrain)
-        faces.cutIntoRanges(parallel.width(), allocator, parallel);
+    const unsigned wanted = plan.triangleCount() >= Parallel::kGrain ? parallel.width() : 1;
+    const FaceSums faces(plan, pose.positions, kernel, sums, visits.data(), wanted, allocator, parallel);
     const VertexFrames frames(kernel, sums, visits.data(), pose.normals, plan.sign_factor,
                               per_corner ? extras.output() : out, is_default.data());
     const unsigned range_count = faces.ranges().count();
-    std::array<TriangleCounts, VertexRanges::kMost> triangle_counts;
-    std::array<VertexCounts, VertexRanges::kMost> vertex_counts;
+    std::array<RangeCounts, VertexRanges::kMost> counts;
     parallel.forTasks(range_count, [&](std::size_t task) {
         const auto range = static_cast<unsigned>(task);
-        triangle_counts[task] = faces.sum(range);
-        vertex_counts[task] = frames.write(faces.ranges().range(range));
+        counts[task] = faces.sum(range);
+        frames.write(faces.ranges().range(range), counts[task]);
     });
     for (unsigned task = 0; task < range_count; ++task) {
-        report.degenerate_triangle_count += triangle_counts[task].degenerate;
-        report.degenerate_uv_count += triangle_counts[task].degenerate_uv;
-        report.mirrored_count += triangle_counts[task].mirrored;
-        report.group_count += vertex_counts[task].used;
-        report.default_corner_count += vertex_counts[task].defaults;
+        report.degenerate_triangle_count += counts[task].degenerate;
+        report.degenerate_uv_count += counts[task].degenerate_uv;
+        report.mirrored_count += counts[task].mirrored;
+        report.group_count += counts[task].used;
+        report.default_corner_count += counts[task].defaults;
     }
     if (!per_corner) return;
     if (report.default_corner_count == 0) is_default = {};
