@@ -82,10 +82,8 @@ class EstimateRound final : public SumRound {
         const GroupEstimates& to = *next;
         std::memcpy(to.tangents + group * to.tangent_stride, result, sizeof(float[3]));
         if (to.rest == nullptr) return;
-        const float rest[4] = {result[4], result[5], result[6], result[3] * setting_.length_factor};
-        const float length_t = result[7] * setting_.length_factor;
-        std::memcpy(to.rest + group * to.rest_stride, rest, sizeof rest);
-        std::memcpy(to.lengths_t + group * to.length_stride, &length_t, sizeof(float));
+        to.rest[group] = {{result[4], result[5], result[6], result[3] * setting_.length_factor},
+                          result[7] * setting_.length_factor};
     }
 
     const Setting& setting_;

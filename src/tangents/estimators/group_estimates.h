@@ -11,16 +11,19 @@
 
 namespace tspace::estimators {
 
-/// Where results of `count` groups go: for group g three floats at tangents + g * tangent_stride; with `rest` the bitangent and the
-/// length of dP/du at rest + g * rest_stride, and the length of dP/dv at lengths_t + g * length_stride. What no
-/// triangle gives is 0.
+/// What there is of a group, or of its sum, when more than tangents is asked for.
+struct GroupRest {
+    float t[4] = {0, 0, 0, 0};  ///< bitangent, |dP/du|
+    float length_t = 0;         ///< |dP/dv|
+    float weight = 0;           ///< of a sum
+};
+
+/// Where results of `count` groups go: for group g three floats at tangents + g * tangent_stride, and what else there is to
+/// rest[g]. What no triangle gives is 0.
 struct GroupEstimates {
     std::byte* tangents = nullptr;
     std::size_t tangent_stride = 0;
-    std::byte* rest = nullptr;  ///< may be null
-    std::size_t rest_stride = 0;
-    std::byte* lengths_t = nullptr;
-    std::size_t length_stride = 0;
+    GroupRest* rest = nullptr;  ///< may be null
     std::size_t count = 0;
 };
 

@@ -36,7 +36,7 @@ class GroupSummer {
           owns_all_(end_group - first_group == sums.groups.size()) {}
 
     void run() {
-        std::fill_n(sums_.groups.data() + first_group_, group_count_, GroupSum{});
+        std::fill_n(sums_.groups.data() + first_group_, group_count_, Vec3{});
         if (!sums_.rest.empty()) std::fill_n(sums_.rest.data() + first_group_, group_count_, GroupRest{});
         if (owns_all_) {
             for (std::size_t t = 0; t < plan_.triangle_count; t += kTermTriangles) {
@@ -70,17 +70,15 @@ class GroupSummer {
         terms_of_(source_, vertices, count, terms_);
         if (sums_.rest.empty()) {
             for (std::size_t i = 0; i < 3 * count; ++i) {
-                if (owns(groups[i])) addVector(sums_.groups[groups[i]].s, terms_.s[i]);
+                if (owns(groups[i])) addVector(&sums_.groups[groups[i]].x, terms_.s[i]);
             }
             return;
         }
         for (std::size_t i = 0; i < 3 * count; ++i) {
             if (!owns(groups[i])) continue;
-            addVector(sums_.groups[groups[i]].s, terms_.s[i]);
-            GroupRest& rest = sums_.rest[groups[i]];
-            addRow(rest.t, terms_.t[i]);
-            rest.length_t += terms_.lengths_t[i % 3][i / 3];
-            rest.weight += terms_.s[i][3];
+            addVector(&sums_.groups[groups[i]].x, terms_.s[i]);
+            addRest(sums_.rest[groups[i]], terms_, i / 3, i % 3);
+            sums_.rest[groups[i]].weight += terms_.s[i][3];
         }
     }
 
@@ -107,89 +105,6 @@ GroupSums sumGroups(const EvaluationPlan& plan, const CornerSource& source, Corn
         GroupSummer(plan, source, terms, sums, groups * task / tasks, groups * (task + 1) / tasks).run();
     });
     return sums;
-}
-
-// -- groups in which each member has a subset of its own (angular threshold) --
-
-/// One task's worth of groups.
-class SplitEvaluator {
-  public:
-    SplitEvaluator(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction kernel, const Sink& sink,
-                   TangentSum* terms, Tangents* results, Tangents* all_results)
-        : plan_(plan),
-          source_(source),
-          kernel_(kernel),
-          sink_(sink),
-          terms_(terms),
-          results_(results),
-          all_results_(all_results) {}
-
-    void run(const EvaluatedSplit& split) {
-        computeTerms(split);
-        const std::size_t words = (std::size_t{split.count} + 63) / 64;
-        for (std::uint32_t a = 0; a < split.count; ++a) {
-            const std::uint32_t leader = plan_.split_leaders[split.leaders + a];
-            if (leader == a) {
-                const std::uint64_t* row = plan_.split_rows.data() + split.rows + a * words;
-                TangentSum sums;
-                for (std::uint32_t b = 0; b < split.count; ++b) {
-                    if ((row[b / 64] >> (b % 64) & 1) != 0) sums.add(terms_[b]);
-                }
-                results_[a] = sums.mean(split.positive);
-            }
-            const std::uint32_t slot = plan_.slotOf(plan_.members[split.begin + a]);
-            if ((slot & kMark) != 0) {
-                all_results_[split.begin + a] = results_[leader];
-            } else {
-                sink_.write(slot, results_[leader]);
-            }
-        }
-    }
-
-  private:
-    void computeTerms(const EvaluatedSplit& split) {
-        for (std::uint32_t begin = 0; begin < split.count; begin += kTermTriangles) {
-            const std::uint32_t count = std::min<std::uint32_t>(kTermTriangles, split.count - begin);
-            for (std::uint32_t i = 0; i < count; ++i) {
-                const std::uint32_t first = plan_.members[split.begin + begin + i] / 3 * 3;
-                std::copy_n(plan_.vertices.data() + first, 3, vertices_ + 3 * i);
-            }
-            kernel_(source_, vertices_, count, block_);
-            for (std::uint32_t i = 0; i < count; ++i) {
-                const std::size_t k = plan_.members[split.begin + begin + i] % 3;
-                const float *s = block_.s[3 * i + k], *t = block_.t[3 * i + k];
-                terms_[begin + i] = {{s[0], s[1], s[2]}, {t[0], t[1], t[2]}, t[3], block_.lengths_t[k][i], s[3]};
-            }
-        }
-    }
-
-    const EvaluationPlan& plan_;
-    const CornerSource& source_;
-    CornerTermsFunction kernel_;
-    const Sink& sink_;
-    TangentSum* terms_;
-    Tangents* results_;
-    Tangents* all_results_;
-    std::uint32_t vertices_[kTermCorners] = {};
-    CornerTerms block_ = {};
-};
-
-/// Writes the results of all members but those whose corner has several. Those are returned, one per member, when the plan
-/// has conflicts. Quadratic in the size of a group, which is limited when plans are made.
-Buffer<Tangents> evaluateSplits(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction terms,
-                                const Sink& sink, const Allocator* allocator, Parallel& parallel) {
-    Buffer<Tangents> all(allocator, plan.conflicts.empty() ? 0 : plan.members.size());
-    const std::size_t count = plan.splits.size(), most = plan.largest_split;
-    if (count == 0) return all;
-    const std::size_t tasks = std::min<std::size_t>(count / 64 + 1, parallel.width() == 1 ? 1 : 4 * parallel.width());
-    Buffer<TangentSum> scratch(allocator, tasks * most);
-    Buffer<Tangents> results(allocator, tasks * most);
-    parallel.forTasks(tasks, [&](std::size_t task) {
-        SplitEvaluator evaluator(plan, source, terms, sink, scratch.data() + task * most, results.data() + task * most,
-                                 all.data());
-        for (std::size_t i = count * task / tasks; i < count * (task + 1) / tasks; ++i) evaluator.run(plan.splits[i]);
-    });
-    return all;
 }
 
 // -- a plan --
@@ -237,8 +152,8 @@ class Evaluation {
         finishGroups();
         writeCorners();
         if (unequal_ && plan_.has_repeats) mergeRepeats();
-        const Buffer<Tangents> members = evaluateSplits(plan_, source_, terms_, sink_, allocator_, parallel_);
-        mergeConflicts(members);
+        evaluateSplits();
+        mergeConflicts();
         for (const std::uint32_t corner : plan_.default_corners) sink_.write(corner, Tangents{});
         for (const std::uint32_t corner : plan_.skipped_corners) sink_.clear(corner);
         for (const Copy& copy : plan_.copies) sink_.copy(copy);
@@ -260,7 +175,6 @@ class Evaluation {
 
     /// Turns sums into results, in place.
     void finishGroups() {
-        std::atomic<bool> zero{false}, not_finite{false}, unequal{false};
         const bool replaces = !isMikktspace(plan_.method);
         if (replaces) replaced_ = Buffer<std::uint8_t>(allocator_, plan_.group_count, std::uint8_t{0});
         parallel_.forRanges(plan_.group_count, kGroupGrain, [&](std::size_t begin, std::size_t end) {
@@ -278,34 +192,27 @@ class Evaluation {
                 any_unequal |= !sameResult(r, r);
                 store(g, r);
             }
-            if (any_zero) zero.store(true, std::memory_order_relaxed);
-            if (!all_finite) not_finite.store(true, std::memory_order_relaxed);
-            if (any_unequal) unequal.store(true, std::memory_order_relaxed);
+            if (any_zero) zero_ = true;
+            if (!all_finite) finite_ = false;
+            if (any_unequal) unequal_ = true;
         });
-        zero_ = zero.load();
-        finite_ = !not_finite.load();
-        unequal_ = unequal.load();
     }
 
     [[nodiscard]] Tangents meanOf(std::size_t g) const {
         if (isEstimated(plan_.method)) return resultOf(g);
-        const float* s = sums_.groups[g].s;
-        const Vec3 sum{s[0], s[1], s[2]};
-        if (sums_.rest.empty()) return {.s = unit(sum)};
+        if (sums_.rest.empty()) return {.s = unit(sums_.groups[g])};
         const GroupRest& rest = sums_.rest[g];
-        return TangentSum{sum, {rest.t[0], rest.t[1], rest.t[2]}, rest.t[3], rest.length_t, rest.weight}.mean(false);
+        return TangentSum{sums_.groups[g], {rest.t[0], rest.t[1], rest.t[2]}, rest.t[3], rest.length_t, rest.weight}
+            .mean(false);
     }
 
     void store(std::size_t g, const Tangents& r) {
-        sums_.groups[g] = {{r.s.x, r.s.y, r.s.z}};
+        sums_.groups[g] = r.s;
         if (!sums_.rest.empty()) sums_.rest[g] = {{r.t.x, r.t.y, r.t.z, r.mag_s}, r.mag_t};
     }
 
     [[nodiscard]] Tangents resultOf(std::size_t g) const {
-        const float* s = sums_.groups[g].s;
-        Tangents r;
-        r.s = {s[0], s[1], s[2]};
-        r.positive = plan_.group_positive[g] != 0;
+        Tangents r{.s = sums_.groups[g], .positive = plan_.group_positive[g] != 0};
         if (!sums_.rest.empty()) {
             const GroupRest& rest = sums_.rest[g];
             r.t = {rest.t[0], rest.t[1], rest.t[2]};
@@ -323,8 +230,8 @@ class Evaluation {
                 const std::uint32_t g = plan_.groups[h] & kValue, c = plan_.slotOf(h);
                 if (g >= plan_.group_count || (c & kMark) != 0) continue;
                 if (tangents_only) {
-                    const float* s = sums_.groups[g].s;
-                    out_.tangents[c] = {s[0], s[1], s[2], signs[plan_.group_positive[g]]};
+                    const Vec3& s = sums_.groups[g];
+                    out_.tangents[c] = {s.x, s.y, s.z, signs[plan_.group_positive[g]]};
                 } else {
                     sink_.write(c, resultOf(g));
                 }
@@ -354,11 +261,75 @@ class Evaluation {
         }
     }
 
+    /// Room for one group in which each member has a subset of its own (angular threshold).
+    struct SplitRoom {
+        TangentSum* terms;
+        Tangents* results;
+        std::uint32_t vertices[kTermCorners] = {};
+        CornerTerms block = {};
+    };
+
+    /// Writes the results of all members but those whose corner has several, which are kept. Quadratic in the size of a
+    /// group, which is limited when plans are made.
+    void evaluateSplits() {
+        const std::size_t count = plan_.splits.size(), most = plan_.largest_split;
+        if (count == 0) return;
+        if (!plan_.conflicts.empty()) members_ = Buffer<Tangents>(allocator_, plan_.members.size());
+        const std::size_t tasks =
+            std::min<std::size_t>(count / 64 + 1, parallel_.width() == 1 ? 1 : 4 * parallel_.width());
+        Buffer<TangentSum> terms(allocator_, tasks * most);
+        Buffer<Tangents> results(allocator_, tasks * most);
+        parallel_.forTasks(tasks, [&](std::size_t task) {
+            SplitRoom room{terms.data() + task * most, results.data() + task * most};
+            for (std::size_t i = count * task / tasks; i < count * (task + 1) / tasks; ++i)
+                evaluateSplit(plan_.splits[i], room);
+        });
+    }
+
+    void evaluateSplit(const EvaluatedSplit& split, SplitRoom& room) {
+        computeTerms(split, room);
+        const std::size_t words = (std::size_t{split.count} + 63) / 64;
+        for (std::uint32_t a = 0; a < split.count; ++a) {
+            const std::uint32_t leader = plan_.split_leaders[split.leaders + a];
+            if (leader == a) {
+                const std::uint64_t* row = plan_.split_rows.data() + split.rows + a * words;
+                TangentSum sums;
+                for (std::uint32_t b = 0; b < split.count; ++b) {
+                    if ((row[b / 64] >> (b % 64) & 1) != 0) sums.add(room.terms[b]);
+                }
+                room.results[a] = sums.mean(split.positive);
+            }
+            const std::uint32_t slot = plan_.slotOf(plan_.members[split.begin + a]);
+            if ((slot & kMark) != 0) {
+                members_[split.begin + a] = room.results[leader];
+            } else {
+                sink_.write(slot, room.results[leader]);
+            }
+        }
+    }
+
+    void computeTerms(const EvaluatedSplit& split, SplitRoom& room) const {
+        for (std::uint32_t begin = 0; begin < split.count; begin += kTermTriangles) {
+            const std::uint32_t count = std::min<std::uint32_t>(kTermTriangles, split.count - begin);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const std::uint32_t first = plan_.members[split.begin + begin + i] / 3 * 3;
+                std::copy_n(plan_.vertices.data() + first, 3, room.vertices + 3 * i);
+            }
+            terms_(source_, room.vertices, count, room.block);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const std::size_t k = plan_.members[split.begin + begin + i] % 3;
+                const float *s = room.block.s[3 * i + k], *t = room.block.t[3 * i + k];
+                room.terms[begin + i] = {
+                    {s[0], s[1], s[2]}, {t[0], t[1], t[2]}, t[3], room.block.lengths_t[k][i], s[3]};
+            }
+        }
+    }
+
     /// Two results is what the reference knows (the corners at a quad's diagonal); further ones, which only
     /// n-gons have, are merged one by one.
-    void mergeConflicts(const Buffer<Tangents>& members) {
+    void mergeConflicts() {
         const auto result = [&](const Conflict& c) {
-            return (c.source & kMark) != 0 ? members[c.source & kValue] : resultOf(c.source);
+            return (c.source & kMark) != 0 ? members_[c.source & kValue] : resultOf(c.source);
         };
         for (std::size_t i = 0; i < plan_.conflicts.size();) {
             const std::uint32_t corner = plan_.conflicts[i].corner;
@@ -400,27 +371,22 @@ class Evaluation {
     const Allocator* allocator_;
     Parallel& parallel_;
     GroupSums sums_;
+    Buffer<Tangents> members_;       // results of groups that split, one per member, where there are conflicts
     Buffer<std::uint8_t> replaced_;  // one per group: 1 when its sum vanishes and it got a default
-    bool zero_ = false, finite_ = true, unequal_ = false;
+    std::atomic<bool> zero_{false}, finite_{true}, unequal_{false};
 };
 
 }  // namespace
 
 GroupSums roomForSums(const EvaluationPlan& plan, bool tangents_only, const Allocator* allocator) {
     GroupSums sums;
-    sums.groups = Buffer<GroupSum>(allocator, plan.group_count);
+    sums.groups = Buffer<Vec3>(allocator, plan.group_count);
     if (!tangents_only) sums.rest = Buffer<GroupRest>(allocator, plan.group_count);
     return sums;
 }
 
 estimators::GroupEstimates estimatesIn(GroupSums& sums) {
-    return {reinterpret_cast<std::byte*>(sums.groups.data()),
-            sizeof(GroupSum),
-            reinterpret_cast<std::byte*>(sums.rest.data()),
-            sizeof(GroupRest),
-            sums.rest.empty() ? nullptr : reinterpret_cast<std::byte*>(&sums.rest[0].length_t),
-            sizeof(GroupRest),
-            sums.groups.size()};
+    return {reinterpret_cast<std::byte*>(sums.groups.data()), sizeof(Vec3), sums.rest.data(), sums.groups.size()};
 }
 
 TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,

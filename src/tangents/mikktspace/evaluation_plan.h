@@ -71,7 +71,7 @@ struct EvaluationPlan {
 EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Parallel& parallel);
 
 /// Evaluates one pose into checked outputs and completes the plan's report. `uvs`: one per vertex. Scratch memory: 12
-/// bytes per group when only tangents are asked for, else 44. `estimates`: null, or what estimators have given for the
+/// bytes per group when only tangents are asked for, else 36. `estimates`: null, or what estimators have given for the
 /// groups, in the room for it (results.h). Throws OutOfMemory.
 TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,
                              const TangentOutput& out, const Execution& execution, Parallel& parallel,

@@ -91,10 +91,7 @@ class Summer {
         node_count_ = static_cast<std::uint32_t>(end_node - first_node);
         std::fill_n(sums_.nodes.data() + first_node_, node_count_, NodeSum{});
         std::fill_n(sums_.marks.data() + first_node_, node_count_, std::uint16_t{kAllMarks});
-        if (!sums_.rest.empty()) {
-            std::fill_n(sums_.rest.data() + first_node_, node_count_, NodeRest{});
-            std::fill_n(sums_.lengths_t.data() + first_node_, node_count_, 0.0f);
-        }
+        if (!sums_.rest.empty()) std::fill_n(sums_.rest.data() + first_node_, node_count_, GroupRest{});
         for (std::uint32_t place = 0; open_ != nullptr && place < node_count_; ++place) open_[place].clear();
         next_ = 0;
         if (sweep_.lists != nullptr) entries_ = sweep_.lists->entries(range);
@@ -276,8 +273,7 @@ class Summer {
             to.marks[node] = static_cast<std::uint16_t>(to.marks[node] & terms_.marks[k][t]);
         }
         if constexpr (kSums == Sums::all) {
-            addRow(sums_.rest[node].t, terms_.t[row]);
-            sums_.lengths_t[node] += terms_.lengths_t[k][t];
+            addRest(sums_.rest[node], terms_, t, k);
         }
     }
 
@@ -422,10 +418,7 @@ void sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& 
               NodeSums& sums, const FinishNodes& finish, unsigned range_shift) {
     sums.nodes = Buffer<NodeSum>(allocator, nodes.count);
     sums.marks = Buffer<std::uint16_t>(allocator, nodes.count);
-    if (!source.tangents_only) {
-        sums.rest = Buffer<NodeRest>(allocator, nodes.count);
-        sums.lengths_t = Buffer<float>(allocator, nodes.count);
-    }
+    if (!source.tangents_only) sums.rest = Buffer<GroupRest>(allocator, nodes.count);
     sums.kinds = Buffer<std::uint8_t>(transient.allocator(), triangles.count, std::uint8_t{0});
     if (nodes.count == 0) return;
     Sweep sweep{mesh, triangles, nodes, source, terms, sums};

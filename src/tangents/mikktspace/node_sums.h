@@ -9,9 +9,9 @@
 #include "core/parallel.h"
 #include "core/range_lists.h"
 #include "core/scratch_block.h"
-#include "tangents/mikktspace/corner_terms.h"
 #include "tangents/mikktspace/faces.h"
 #include "tangents/mikktspace/fan.h"
+#include "tangents/mikktspace/results.h"
 #include "tangents/mikktspace/weld.h"
 #include "tangents/mikktspace/words.h"
 
@@ -21,11 +21,6 @@ namespace tspace::mikk {
 struct alignas(32) NodeSum {
     float s[4] = {0, 0, 0, 0};  ///< sum of weighted tangents, and of weights
     Fan fan;
-};
-
-/// The rest, when more than tangents is asked for.
-struct alignas(16) NodeRest {
-    float t[4] = {0, 0, 0, 0};  ///< sum of weighted bitangents, and of weighted |dP/du|
 };
 
 /// Of a triangle, in NodeSums::kinds.
@@ -40,8 +35,7 @@ struct NodeSums {
     Buffer<NodeSum> nodes;
     Buffer<std::uint16_t> marks;  ///< one per node: those that all its corners have (corner_terms.h); 0: left
                                   ///< aside, as all nodes of degenerate triangles are
-    Buffer<NodeRest> rest;        ///< empty when tangents_only
-    Buffer<float> lengths_t;      ///< sums of weighted |dP/dv|; empty when tangents_only
+    Buffer<GroupRest> rest;       ///< of its sum but for the weight, which is in `nodes`; empty when tangents_only
     Buffer<std::uint8_t> kinds;   ///< one per triangle, transient; kDegenerateUv only, but for polygons' triangles
     bool scattered = false;       ///< consecutive triangles lie far apart in memory
     std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;

@@ -125,7 +125,6 @@ class OnePass {
         // Only the nodes' own places are read from here on.
         sums_.marks = {};
         sums_.rest = {};
-        sums_.lengths_t = {};
         if (complex_count_ == 0) return {};
         const Buffer<std::uint32_t> chosen = complexNodes();
         return writeNodes({setting_,
@@ -156,18 +155,13 @@ class OnePass {
 
     /// Results of all nodes take the place of their sums; those of the plan's groups are returned.
     GroupSums estimateGroupsWith(const EvaluationPlan& plan) {
-        if (!wantsTangentsOnly(out_)) {
-            sums_.rest = Buffer<NodeRest>(allocator_, nodes_.count);
-            sums_.lengths_t = Buffer<float>(allocator_, nodes_.count);
-        }
+        if (!wantsTangentsOnly(out_)) sums_.rest = Buffer<GroupRest>(allocator_, nodes_.count);
         GroupSums planned = roomForSums(plan, wantsOnlyTangents(plan, out_), allocator_);
         const bool has_degenerate_uvs = sums_.no_uv_area_count != 0;
         const MeshTriangles by_node(mesh_, triangles_, nodes_, has_degenerate_uvs ? sums_.kinds.data() : nullptr);
         const JoinedTriangles joined(by_node, nodes_.count, plan, {complex_.data(), complex_.size()});
         const estimators::GroupEstimates to[2] = {
-            {reinterpret_cast<std::byte*>(sums_.nodes.data()), sizeof(NodeSum),
-             reinterpret_cast<std::byte*>(sums_.rest.data()), sizeof(NodeRest),
-             reinterpret_cast<std::byte*>(sums_.lengths_t.data()), sizeof(float), nodes_.count},
+            {reinterpret_cast<std::byte*>(sums_.nodes.data()), sizeof(NodeSum), sums_.rest.data(), nodes_.count},
             estimatesIn(planned)};
         Execution execution = options_.execution;
         execution.allocator = transient_.allocator();
@@ -379,8 +373,7 @@ class OnePass {
     }
 
     void finishRest(std::size_t node, bool is_default, float weight) {
-        NodeRest& rest = sums_.rest[node];
-        float& length_t = sums_.lengths_t[node];
+        GroupRest& rest = sums_.rest[node];
         const Vec3 sum_t{rest.t[0], rest.t[1], rest.t[2]};
         const Vec3 t = signFactor(options_.convention) * (is_default   ? Vec3{0, 1, 0}
                                                           : estimates_ ? sum_t
@@ -389,10 +382,10 @@ class OnePass {
         rest.t[1] = t.y;
         rest.t[2] = t.z;
         if (is_default) {
-            rest.t[3] = length_t = 1;
+            rest.t[3] = rest.length_t = 1;
         } else if (weight > 0 && !estimates_) {
             rest.t[3] /= weight;
-            length_t /= weight;
+            rest.length_t /= weight;
         }
     }
 
@@ -403,7 +396,7 @@ class OnePass {
                             [&](std::size_t begin, std::size_t end) { writeBlocks(begin, end); });
         for (const std::uint32_t c : triangles_.skipped_corners) {
             out_.tangents[c] = {};
-            if (!sums_.rest.empty()) writeRest(c, NodeRest{}, 0);
+            if (!sums_.rest.empty()) writeRest(c, GroupRest{});
         }
     }
 
@@ -429,8 +422,7 @@ class OnePass {
             const std::uint32_t* following = first + kPart < end ? lookUp(first + kPart, rooms[other]) : nullptr;
             const std::size_t count = std::min(kPart, end - first);
             if (writeTangents(first, nodes, count, streamed)) has_complex_[first / kBlockCorners] = 1;
-            for (std::size_t i = 0; !sums_.rest.empty() && i < count; ++i)
-                writeRest(first + i, sums_.rest[nodes[i]], sums_.lengths_t[nodes[i]]);
+            for (std::size_t i = 0; !sums_.rest.empty() && i < count; ++i) writeRest(first + i, sums_.rest[nodes[i]]);
             nodes = following;
         }
         if (streamed) endOfRows();
@@ -456,10 +448,10 @@ class OnePass {
         return (std::bit_cast<std::uint32_t>(any[3]) & std::bit_cast<std::uint32_t>(kComplexSign)) != 0;
     }
 
-    void writeRest(std::size_t c, const NodeRest& rest, float length_t) const {
+    void writeRest(std::size_t c, const GroupRest& rest) const {
         if (!out_.bitangents.empty()) out_.bitangents[c] = {rest.t[0], rest.t[1], rest.t[2]};
         if (!out_.magnitudes_s.empty()) out_.magnitudes_s[c] = rest.t[3];
-        if (!out_.magnitudes_t.empty()) out_.magnitudes_t[c] = length_t;
+        if (!out_.magnitudes_t.empty()) out_.magnitudes_t[c] = rest.length_t;
     }
 
     const NodeSetting& setting_;

@@ -3,6 +3,7 @@
 // merged, and where they go.
 #pragma once
 
+#include "core/float4.h"
 #include "tangents/estimators/group_estimates.h"
 #include "tangents/mikktspace/corner_terms.h"
 #include "tangents/mikktspace/evaluation_plan.h"
@@ -118,20 +119,16 @@ class Sink {
     float sign_factor_, bitangent_factor_;
 };
 
-/// Three floats and no more: these are most of what evaluating holds.
-struct GroupSum {
-    float s[3] = {0, 0, 0};  ///< of weighted tangents
-};
+using estimators::GroupRest;
 
-/// The rest, when more than tangents is asked for.
-struct alignas(32) GroupRest {
-    float t[4] = {0, 0, 0, 0};  ///< of weighted bitangents, and of weighted |dP/du|
-    float length_t = 0;         ///< of weighted |dP/dv|
-    float weight = 0;
-};
+/// Adds corner k of triangle t.
+inline void addRest(GroupRest& sum, const CornerTerms& terms, std::size_t t, std::size_t k) {
+    storeFloat4(sum.t, loadFloat4(sum.t) + loadFloat4(terms.t[3 * t + k]));
+    sum.length_t += terms.lengths_t[k][t];
+}
 
 struct GroupSums {
-    Buffer<GroupSum> groups;
+    Buffer<Vec3> groups;     ///< weighted tangents: most of what evaluating holds
     Buffer<GroupRest> rest;  ///< empty when tangents_only
 };
 
