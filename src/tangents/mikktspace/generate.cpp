@@ -21,7 +21,8 @@ namespace {
 /// For meshes of fewer corners the many small allocations would take a fifth of the time. A corner mostly needs so many
 /// bytes, of which no more than a fixed number are asked for: the system takes pages of large blocks back each time. The
 /// vertex path may ask for more.
-constexpr std::size_t kSmallMesh = 4096, kBytesPerCorner = 32, kLeastBlock = 4096, kLargestBlock = 98304;
+constexpr std::size_t kSmallMesh = 4096, kBytesPerCorner = 32, kLeastBlock = 4096, kLargestBlock = 98304,
+                      kStackRoom = 8192;
 
 /// Tangents are written last, so until then their memory can serve.
 std::span<std::byte> unwritten(const TangentOutput& out) {
@@ -57,7 +58,11 @@ TangentReport generateGrouped(const MeshView& mesh, const TangentOptions& option
     }
     const std::size_t corners = mesh.cornerCount();
     if (corners > kSmallMesh) return generateWith(mesh, options, out, parallel);
-    ScratchBlock scratch(options.execution.allocator, std::min(kLeastBlock + corners * kBytesPerCorner, kLargestBlock));
+    const std::size_t bytes = std::min(kLeastBlock + corners * kBytesPerCorner, kLargestBlock);
+    const Allocator* allocator = options.execution.allocator;
+    alignas(kMemoryAlignment) std::byte room[kStackRoom];
+    ScratchBlock scratch =
+        bytes <= kStackRoom ? ScratchBlock(allocator, std::span(room)) : ScratchBlock(allocator, bytes);
     TangentOptions small = options;
     small.execution.allocator = scratch.allocator();
     return generateWith(mesh, small, out, parallel);

@@ -155,7 +155,8 @@ class BucketFinder {
 
   private:
     struct Triangle {
-        std::uint32_t nodes[3], corners[3];  // representatives one up, and 0 where they are not known
+        std::uint32_t vertices[3], nodes[3];
+        std::uint32_t corners[3];  // representatives one up, and 0 where they are not known
         /// The largest key of its edges.
         [[nodiscard]] std::uint32_t key() const {
             const auto [a, b, c] = corners;
@@ -163,35 +164,35 @@ class BucketFinder {
         }
     };
 
-    [[nodiscard]] std::uint32_t nodeAt(std::size_t entry) const { return nodes_.of(mesh_, triangles_.corner(entry)); }
-
     [[nodiscard]] Triangle triangle(std::size_t t) const {
         std::uint32_t buffer[3];
         const std::uint32_t* vertices = readTriangles(mesh_, triangles_, t, 1, buffer);
         Triangle triangle;
         for (std::size_t k = 0; k < 3; ++k) {
+            triangle.vertices[k] = vertices[k];
             triangle.nodes[k] = nodes_.ofVertex(vertices[k]);
             triangle.corners[k] = representatives_[triangle.nodes[k]] + 1;
         }
         return triangle;
     }
 
-    [[nodiscard]] bool isGood(std::size_t triangle) const {
-        const auto at = [&](std::size_t k) {
-            return mesh_.positions[mesh_.indices[triangles_.corner(3 * triangle + k)]];
-        };
-        const Vec3 a = at(0), b = at(1), c = at(2);
-        return !(a == b || b == c || c == a);
+    [[nodiscard]] bool isGood(const Triangle& triangle) const {
+        const auto at = [&](std::size_t k) -> const Vec3& { return mesh_.positions[triangle.vertices[k]]; };
+        return !(at(0) == at(1) || at(1) == at(2) || at(2) == at(0));
     }
 
     /// Whether some node has three corners. All edges of the bucket meet at one node, and a triangle has at most one of
     /// them: between the higher ends of two would be an edge with a larger key. Of two edges the order does not matter.
     [[nodiscard]] bool hasNodeOfThree() const {
         Marks counts = noMarks(allocator_, nodes_.count);
-        for (std::size_t i = 0; i < 3 * triangles_.count; ++i) {
-            if (++counts[nodeAt(i)] == 3) return true;
+        std::uint32_t buffer[kBlockCorners], most = 0;
+        for (std::size_t first = 0; most < 3 && first < triangles_.count; first += kCollectBlock) {
+            const std::size_t count = std::min(kCollectBlock, triangles_.count - first);
+            const std::uint32_t* vertices = readTriangles(mesh_, triangles_, first, count, buffer);
+            for (std::size_t i = 0; most < 3 && i < 3 * count; ++i)
+                most = std::max<std::uint32_t>(most, ++counts[nodes_.ofVertex(vertices[i])]);
         }
-        return false;
+        return most == 3;
     }
 
     /// Where the last `length` triangles begin, or a few more: a face is not cut in two.
@@ -229,7 +230,7 @@ class BucketFinder {
 
     void addEdges(std::uint32_t t, const Triangle& triangle) {
         const std::uint32_t key = triangle.key();
-        if (key < key_ || !isGood(t)) return;
+        if (key < key_ || !isGood(triangle)) return;
         if (key > key_) bucket_.drop(bucket_.size());
         key_ = key;
         for (std::uint32_t k = 0; k < 3; ++k) {
@@ -258,8 +259,9 @@ class BucketFinder {
         Growing<Record> records(allocator_);
         records.reserve(3 * triangles_.count);
         for (std::uint32_t t = 0; t < triangles_.count; ++t) {
-            if (!isGood(t)) continue;
-            const auto [a, b, c] = triangle(t).corners;
+            const Triangle here = triangle(t);
+            if (!isGood(here)) continue;
+            const auto [a, b, c] = here.corners;
             Record* to = records.extend(3);
             to[0] = {std::min(a, b), 3 * t};
             to[1] = {std::min(b, c), 3 * t + 1};
