@@ -29,8 +29,15 @@ const notHere = new Set([
   "maps/exr.cpp", "maps/float_image.cpp", "maps/jpeg.cpp", "maps/png.cpp", "maps/png_pixels.cpp", "maps/rays.cpp",
   "maps/webp.cpp", "report/diff_text.cpp",
 ]);
+/// Functions that are called once stay functions: inlined, they make large ones with hundreds of locals, which take more
+/// bytes and compress worse. What is smaller than its call is inlined. Loops are compiled without that limit, and the hottest
+/// ones for speed: the linker inlines next to nothing, so that theirs are inlined before.
+const inlined = (threshold) => ["-mllvm", `-inline-threshold=${threshold}`];
+const copiesLess = ["-mllvm", "-enable-pre=false", "-mllvm", "-jump-threading-threshold=0"];
+const smallFlags = ["-fno-slp-vectorize", ...copiesLess, ...inlined(-15)];
+const fastFlags = ["-O2", "-DTSPACE_FAST_KERNELS", ...inlined(600)];
+const loops = /mikktspace\/weld\.cpp|core\/(sum_rounds|weld|range_lists)\.cpp|frames\/(split|sanitize)\.cpp|tangents\/face_sums\.cpp/;
 const hot = /mikktspace\/(corner_terms_kernel|one_pass\.cpp|node_sums\.cpp)|^pack\/\w+_kernel/;
-const fastFlags = ["-O2", "-DTSPACE_FAST_KERNELS"];
 
 const modules = {
   core: { sources: ["memory.cpp", "common.cpp", "core.cpp"], isFast: true, defines: [], rooms, kernels: ["normals", "tangents"] },
@@ -76,7 +83,7 @@ function kernelSources(room, isFast) {
   const source = (name, list) =>
     write(join(out, `${name}.cpp`), head + list.map((kernel) => `#include "${kernel}"\n`).join(""));
   const [fast, small] = [kernels.filter((k) => hot.test(k)), kernels.filter((k) => !hot.test(k))];
-  const sources = [{ path: source(`kernels_${room}`, small) }];
+  const sources = [{ path: source(`kernels_${room}`, small), flags: [] }];
   if (fast.length !== 0) sources.push({ path: source(`kernels_${room}_hot`, fast), flags: isFast ? fastFlags : [] });
   return sources;
 }
@@ -86,9 +93,9 @@ function kernelSources(room, isFast) {
 function inBatches(name, rooms, isFast, more = []) {
   const all = rooms.flatMap((room) => readdirSync(join(root, "src", room)).sort().map((file) => `${room}/${file}`))
     .filter((file) => file.endsWith(".cpp") && !notHere.has(file)).concat(more);
-  const isAlone = (file) => isFast && hot.test(file);
+  const isAlone = (file) => hot.test(file) || loops.test(file);
   const files = all.filter((file) => !isAlone(file));
-  const batches = all.filter(isAlone).map((file) => ({ path: join(root, "src", file), flags: fastFlags }));
+  const batches = all.filter(isAlone).map((file) => ({ path: join(root, "src", file), flags: isFast && hot.test(file) ? fastFlags : [] }));
   for (let i = 0; i < files.length; i += 12)
     batches.push({ path: write(join(out, `${name}_${i / 12}.cpp`), files.slice(i, i + 12).map((file) => `#include "${file}"\n`).join("")) });
   return batches;
@@ -106,7 +113,7 @@ function sourcesOf(name, module) {
   for (const room of module.kernels) sources.push(...kernelSources(room, module.isFast));
   // The parser of OBJ lets exponents of numbers overflow.
   for (const file of ["new.cpp", "state.cpp", ...module.sources])
-    sources.push({ path: join(here, file), flags: file === "obj_parser.cpp" ? ["-fwrapv"] : [] });
+    sources.push({ path: join(here, file), flags: file === "obj_parser.cpp" ? ["-fwrapv", ...smallFlags] : undefined });
   return sources;
 }
 
@@ -124,7 +131,7 @@ async function compile(source, folder, module) {
   // Without -fexceptions, emscripten lets code throw, but nothing catches. What was thrown is asked for its type.
   const asksForTypes = source.path.endsWith("throw.cpp");
   const throwing = [...(module.throws ? [] : ["-fno-exceptions"]), ...(asksForTypes ? [] : ["-fno-rtti"])];
-  await run("em++", [...flags, ...throwing, ...module.defines.map((d) => `-D${d}`), ...(source.flags ?? []), "-MMD", "-MF", `${object}.d`,
+  await run("em++", [...flags, ...throwing, ...module.defines.map((d) => `-D${d}`), ...(source.flags ?? smallFlags), "-MMD", "-MF", `${object}.d`,
     "-c", source.path, "-o", object]).catch((error) => {
     console.error(error.stderr);
     process.exit(1);
@@ -148,12 +155,13 @@ async function link(name, module, objects) {
   const folder = join(libraries, "sysroot/lib/wasm32-emscripten");
   const raw = join(out, `${name}_raw.wasm`);
   await run("wasm-ld-14", ["--no-entry", "--gc-sections", "--strip-all", "--stack-first", "-z", `stack-size=${module.throws ? 1048576 : 262144}`,
-    `--initial-memory=${module.throws ? 2097152 : 1048576}`, "--max-memory=4294967296", "--lto-O2", "-mllvm", "-disable-lsr", ...objects,
+    `--initial-memory=${module.throws ? 2097152 : 1048576}`, "--max-memory=4294967296", "--lto-O2", "-mllvm", "-disable-lsr", ...copiesLess, ...inlined(-14000), ...objects,
     `-L${folder}/lto`, `-L${folder}`, ...(module.throws ? ["-ldlmalloc", "--export=stackSave", "--export=stackRestore", "--export-table"] : []),
     "-lc-optz", "-lc++-noexcept", "-lc++abi-noexcept", "-lcompiler_rt", "--export=__wasm_call_ctors", "--allow-undefined", "-o", raw]);
   const wasm = join(out, `${name}.wasm`);
+  // Low memory: the first KB is the end of the stack, where no offset below 1024 can lead by going round 2^32.
   await run("wasm-opt", ["--enable-simd", "--enable-bulk-memory", "--enable-sign-ext", "--enable-mutable-globals",
-    "--enable-nontrapping-float-to-int", "-Oz", "--converge", raw, "-o", wasm]);
+    "--enable-nontrapping-float-to-int", "-Oz", "--converge", "--low-memory-unused", "-ocimfs=30", raw, "-o", wasm]);
   const imports = WebAssembly.Module.imports(new WebAssembly.Module(readFileSync(wasm))).map((i) => i.name);
   const unknown = imports.filter((i) => !(module.imports ?? ["endCall"]).includes(i));
   if (unknown.length !== 0) throw new Error(`${name}.wasm imports ${unknown.join(", ")}`);
