@@ -76,6 +76,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     options.space = (flags & 2) != 0 ? MapSpace::object : MapSpace::tangent;
     options.fit = (flags & 4) != 0 ? MapFit::texel : MapFit::solve;
     options.reading.two_channels = (flags & 8) != 0;
+    const unsigned wraps = in.byte();
+    options.wrap_u = static_cast<TextureWrap>(wraps % 3);
+    options.wrap_v = static_cast<TextureWrap>(wraps / 3 % 3);
     options.reading.green = (flags & 16) != 0 ? Green::down : Green::up;
     options.reading.bitangent = (flags & 32) != 0 ? BitangentPlace::perVertex : BitangentPlace::perPixel;
     options.reading.unit_vectors = (flags & 64) != 0;

@@ -18,7 +18,7 @@ namespace tspace {
 enum class BakeInput : std::uint32_t { low = 0, high = 1, cage = 2, map = 3 };
 
 struct BakeFileOptions {
-    /// Its progress and stop serve the whole call. Its limit on memory is that of `file`, or 16 GB, where it is 0.
+    /// Its wrap modes are those of the low poly's textures. Its progress and stop serve the whole call. Its limit on memory is that of `file`, or 16 GB, where it is 0.
     BakeOptions map = {};
     /// Frames that the low poly lacks: as GenerateOptions has them.
     TangentOptions tangents{.convention = conventions::gltf};
@@ -34,7 +34,7 @@ struct BakeFileOptions {
     /// Texels of length 1, for formats of two channels, from whose x and y readers make z (BC5, DXT5nm): what
     /// `map.reading.two_channels` says, whatever the reading.
     bool unit = false;
-    bool udim = false;  ///< a file per tile of UVs: NAME.1001.png. Without it UVs outside of 0 to 1 wrap
+    bool udim = false;  ///< a file per tile of UVs: NAME.1001.png. Without it textures go on outside of 0 to 1
 };
 
 /// One image.

@@ -71,12 +71,11 @@ class FileBaking {
         options_.map.reach = models_.reach(options_.map.reach);
         for (const LowModel::Image& image : models_.low.images) {
             const std::string word = models_.low.images.size() > 1 ? freshWord(fileWord(image.material)) : "";
-            if (showsEdges(image))
-                report_.warnings.push_back(
-                    "the texture of " +
-                    (image.material.empty() ? "the low poly" : "the material " + inQuotes(image.material)) +
-                    " does not repeat, and UVs reach its edges: the map is for one that does (--out-mesh writes it "
-                    "so)");
+            if (const std::size_t count = beyondEdges(image))
+                report_.warnings.push_back(std::to_string(count) +
+                                           " triangles reach beyond the edge of the texture of " +
+                                           (image.material.empty() ? "the low poly" : inQuotes(image.material)) +
+                                           ", which is clamped: there they show the texels of its edge");
             bakeTiles(image, word);
         }
         if (!options_.out_mesh.empty())
@@ -108,15 +107,21 @@ class FileBaking {
         return fresh;
     }
 
-    /// Whether a texture that repeats, as the map is baked for, differs from the one that the model has.
-    [[nodiscard]] bool showsEdges(const LowModel::Image& image) const {
-        if (options_.udim || !options_.out_mesh.empty()) return false;
-        const auto beyond = [](TextureWrap wrap, float at, std::uint32_t size) {
-            return wrap != TextureWrap::repeat && std::fabs(at - 0.5F) > 0.5F - 0.5F / static_cast<float>(size);
+    /// How many triangles lie more than half a texel outside of a clamped image.
+    [[nodiscard]] std::size_t beyondEdges(const LowModel::Image& image) const {
+        if (options_.udim) return 0;
+        const auto isBeyond = [](TextureWrap wrap, float at, std::uint32_t size) {
+            return wrap == TextureWrap::clamp && std::fabs(at - 0.5F) > 0.5F + 0.5F / static_cast<float>(size);
         };
-        return std::any_of(image.part.uvs.begin(), image.part.uvs.end(), [&](const Vec2& uv) {
-            return beyond(image.wrap_u, uv.x, options_.map.width) || beyond(image.wrap_v, uv.y, options_.map.height);
-        });
+        std::size_t count = 0;
+        const std::vector<Vec2>& uvs = image.part.uvs;
+        for (auto corner = uvs.begin(); corner != uvs.end(); corner += 3) {
+            count += std::any_of(corner, corner + 3, [&](const Vec2& uv) {
+                return isBeyond(image.wrap_u, uv.x, options_.map.width) ||
+                       isBeyond(image.wrap_v, uv.y, options_.map.height);
+            });
+        }
+        return count;
     }
 
     void bakeTiles(const LowModel::Image& image, const std::string& word) {
@@ -151,6 +156,10 @@ class FileBaking {
     void bakeImage(const LowModel::Image& image, const std::string& word, std::uint32_t tile, const LowPart& part) {
         BakeOptions options = options_.map;
         options.heat = options.heat || !options_.heat.empty();
+        if (!options_.udim) {
+            options.wrap_u = image.wrap_u;
+            options.wrap_v = image.wrap_v;
+        }
         BakedFile file{.path = withWord(output_, word),
                        .material = image.material,
                        .tile = tile,
@@ -163,7 +172,7 @@ class FileBaking {
         if (options_.out_mesh.empty()) {
             files_.add(file.path, png);
         } else {
-            maps_.push_back({file.path, Bytes(png.begin(), png.end()), image.primitives});
+            maps_.push_back({file.path, Bytes(png.begin(), png.end()), image.primitives, image.wrap_u, image.wrap_v});
         }
         if (!options_.misses.empty())
             files_.add(withWord(options_.misses, word), pngOf(map.width, map.height, pictureOfOrigins(map), 8));

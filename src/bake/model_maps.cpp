@@ -59,8 +59,8 @@ class MapPlacing {
         const std::optional<std::string> name = nameBeside(map.path);
         const std::size_t image = placeImage(map, name, old);
         const std::size_t texture = old ? *old : append("textures", Json{{"source", image}});
-        // Outside of 0 to 1 maps wrap.
-        document_.json["textures"][texture].erase("sampler");
+        // The sampler of an old one is the one that was baked for.
+        if (!old) setWrap(document_.json["textures"][texture], map);
         for (std::size_t i = 0; i < materials.size(); ++i) showMap(materials[i], map.primitives[i], texture);
         editor_.touch();
         if (name) document_.new_files[*name] = map.png;
@@ -76,6 +76,17 @@ class MapPlacing {
         Json& entries = document_.json[list];
         entries.push_back(std::move(entry));
         return entries.size() - 1;
+    }
+
+    void setWrap(Json& texture, const ModelMap& map) {
+        if (map.wrap_u == TextureWrap::repeat && map.wrap_v == TextureWrap::repeat) return;
+        Json& samplers = document_.json["samplers"];
+        if (!samplers.is_array()) samplers = Json::array();
+        const auto number = [](TextureWrap wrap) {
+            return wrap == TextureWrap::repeat ? 10497 : wrap == TextureWrap::clamp ? 33071 : 33648;
+        };
+        samplers.push_back(Json{{"wrapS", number(map.wrap_u)}, {"wrapT", number(map.wrap_v)}});
+        texture["sampler"] = samplers.size() - 1;
     }
 
     /// A material for each primitive of the map. Where others have it too, which the map is not for, that is a copy.

@@ -26,6 +26,7 @@ struct ModelMap {
     std::string path = {};  ///< the file that holds it
     Bytes png = {};
     std::vector<MappedPrimitive> primitives = {};
+    TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
 };
 
 struct ModelWithMaps {

@@ -39,7 +39,8 @@ class Baking {
         const LowUvs uvs(low_, allocator_);
         const std::uint32_t padding = std::max(options_.padding, kFilterTexels);
         const std::optional<TexelTriangles> triangles =
-            findTexelTriangles(uvs.triangles(), options_.width, options_.height, padding, parallel_, allocator_);
+            findTexelTriangles(uvs.triangles(options_.wrap_u, options_.wrap_v), options_.width, options_.height,
+                               padding, parallel_, allocator_);
         if (!triangles)
             return makeError(ErrorCode::tooLarge, kNoElement,
                              "the triangles of the low poly cover the image too often");
@@ -47,7 +48,7 @@ class Baking {
             return makeError(ErrorCode::missingAttribute, kNoElement, "the UVs of the low poly cover no texel");
         if (!traceTexels(*surfaces, *triangles, options_, parallel_, traced_)) return stoppedError();
         if (Error error = countOrigins(*triangles); error.code != ErrorCode::ok) return error;
-        fillFromNeighbours(traced_, options_.width, options_.height);
+        fillFromNeighbours(traced_, triangles->shape);
         if (solves() ? !solve(*surfaces, *triangles) : !isGoingOn()) return stoppedError();
         if (!solves() && options_.bits == 8) takeNearest();
         writeTexels();
@@ -148,7 +149,7 @@ class Baking {
         const std::optional<MeasurePoints> points =
             MeasurePoints::spread(surfaces, options.point_count, parallel_, options);
         if (!points) return stoppedError();
-        const MapImage image{map_.width, map_.height, map_.texels};
+        const MapImage image{map_.width, map_.height, map_.texels, options_.wrap_u, options_.wrap_v};
         const MapCandidate candidate{options_.space, options_.reading, {}};
         map_.error = points->measure(image, surfaces, candidate, parallel_);
         if (options_.heat) {

@@ -181,16 +181,14 @@ std::vector<float> heatOf(const MapImage& map, const MapSurfaces& surfaces, cons
     constexpr std::uint32_t kSide = 2;  // points of a texel in a row
     const Allocator* const allocator = options.execution.allocator;
     const LowUvs uvs(surfaces.low(), allocator);
-    const SampleBands bands(uvs.triangles(), map.width, map.height, kSide, 0, allocator);
+    const SampleBands bands(uvs.triangles(map.wrap_u, map.wrap_v), map.width, map.height, kSide, 0, allocator);
     const StridedSpan<const Vec4>& tangents = candidate.tangents.empty() ? surfaces.low().tangents : candidate.tangents;
     std::vector<float> heat(std::size_t{map.width} * map.height, 0);
     std::vector<std::uint16_t> counts(heat.size(), 0);
     const auto fillBand = [&](std::size_t band) {
         double guess = 0;
-        const std::size_t first_row = band * SampleBands::kBandTexels;
         bands.forSamples(band, [&](const BandSample& sample) {
-            const std::size_t texel =
-                (first_row + static_cast<std::size_t>(sample.row) / kSide) * map.width + sample.column / kSide;
+            const std::size_t texel = std::size_t{sample.row / kSide} * map.width + sample.column / kSide;
             DVec3 truth;
             const std::array<double, 3> weights = sample.weights();
             if (counts[texel] == 0xffff || !surfaces.truthAt(sample.triangle, weights, guess, truth)) return;

@@ -57,9 +57,11 @@ class Planning {
     }
 
   private:
-    /// Texels around one, from one to the left and above to two to the right and below. The image repeats.
+    /// Texels around one, from one to the left and above to two to the right and below, as the image goes on.
     struct Around {
         std::array<std::size_t, 4> columns = {}, rows = {};
+        /// Beside the edge of an image that does not repeat, half of a texel shows nothing else.
+        bool is_at_edge = false;
 
         [[nodiscard]] std::size_t at(std::size_t x, std::size_t y) const { return rows[y] + columns[x]; }
         [[nodiscard]] std::size_t own() const { return at(1, 1); }
@@ -69,15 +71,24 @@ class Planning {
         [[nodiscard]] std::array<std::size_t, 4> cells() const { return {at(0, 0), at(1, 0), at(0, 1), at(1, 1)}; }
     };
 
+    static bool isEdge(std::size_t at, std::uint32_t size, TextureWrap wrap) {
+        return wrap != TextureWrap::repeat && (at == 0 || at + 1 == size);
+    }
+    static std::size_t next(std::size_t at, std::size_t i, std::uint32_t size, TextureWrap wrap) {
+        return wrappedTexel(static_cast<std::int64_t>(at + i) - 1, size, wrap);
+    }
+
     template <class Body>
     void forTexels(const Body& body) {
+        const TextureShape& shape = triangles_.shape;
         parallel_.forRanges(height_, kRowsOfPlan, [&](std::size_t begin, std::size_t end) {
             for (std::size_t y = begin; y < end; ++y) {
                 Around around;
-                for (std::size_t i = 0; i < 4; ++i) around.rows[i] = (y + height_ + i - 1) % height_ * width_;
+                for (std::size_t i = 0; i < 4; ++i) around.rows[i] = width_ * next(y, i, height_, shape.wrap_v);
+                const bool is_edge_row = isEdge(y, height_, shape.wrap_v);
                 for (std::size_t x = 0; x < width_; ++x) {
-                    for (std::size_t i = 0; i < 4; ++i)
-                        around.columns[i] = x > 0 && x + 2 < width_ ? x + i - 1 : (x + width_ + i - 1) % width_;
+                    for (std::size_t i = 0; i < 4; ++i) around.columns[i] = next(x, i, width_, shape.wrap_u);
+                    around.is_at_edge = is_edge_row || isEdge(x, width_, shape.wrap_u);
                     body(around);
                 }
             }
@@ -106,7 +117,8 @@ class Planning {
     [[nodiscard]] TexelCell cellAt(const Around& around, const Buffer<std::uint8_t>& straight) const {
         const auto [own, right, below, other] = around.corners();
         if (!isRead(own) || !isRead(right) || !isRead(below) || !isRead(other)) return TexelCell::outside;
-        const bool smooth = straight[own] == 3 && (straight[below] & 1) != 0 && (straight[right] & 2) != 0;
+        const bool smooth =
+            !around.is_at_edge && straight[own] == 3 && (straight[below] & 1) != 0 && (straight[right] & 2) != 0;
         return smooth ? TexelCell::smooth : TexelCell::rough;
     }
 

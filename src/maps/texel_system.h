@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The texels of a map as unknowns, and what samples ask of them under the bilinear filter: least squares, one symmetric 3 x 3
-// block for each pair of texels that a sample mixes. The image repeats. Only texels that samples mix take memory.
+// block for each pair of texels that a sample mixes. The image repeats: samples of others mix no texels over its edge. Only texels that samples mix take memory.
 #pragma once
 
 #include <array>

@@ -125,7 +125,8 @@ class TriangleSearch {
         std::int64_t tile = is_clamped ? 0 : floorDiv(rows.first, height);
         const std::int64_t last_tile = is_clamped ? 0 : std::min(floorDiv(rows.last, height), tile + 2);
         for (; tile <= last_tile; ++tile) {
-            const TexelRange inside = rowsOfTile(rows, tile, 0, height - 1);
+            const TexelRange inside =
+                rowsOfTile({rows.first, rows.last}, tile, shape_.height, shape_.wrap_v, 0, height - 1);
             if (inside.isEmpty()) continue;
             for (std::int64_t band = inside.first / kBandRows; band <= inside.last / kBandRows; ++band) {
                 std::uint64_t& mark = marks_[static_cast<std::size_t>(band)];
@@ -133,24 +134,6 @@ class TriangleSearch {
                 mark = mark_;
             }
         }
-    }
-
-    [[nodiscard]] bool isFlipped(std::int64_t tile, TextureWrap wrap) const {
-        return wrap == TextureWrap::mirror && tile % 2 != 0;
-    }
-
-    /// Which of the image rows `first` to `last` a range of rows shows in a tile.
-    [[nodiscard]] TexelRange rowsOfTile(RowRange rows, std::int64_t tile, std::int64_t first, std::int64_t last) const {
-        if (shape_.wrap_v == TextureWrap::clamp && tile != 0) return {};
-        const std::int64_t height = shape_.height;
-        std::int64_t from = std::max<std::int64_t>(rows.first - tile * height, 0);
-        std::int64_t to = std::min<std::int64_t>(rows.last - tile * height, height - 1);
-        if (isFlipped(tile, shape_.wrap_v)) {
-            from = height - 1 - from;
-            to = height - 1 - to;
-            std::swap(from, to);
-        }
-        return {std::max(from, first), std::min(to, last)};
     }
 
     [[nodiscard]] std::span<const std::uint32_t> entries(std::size_t band) const {
@@ -165,7 +148,8 @@ class TriangleSearch {
         const std::int64_t height = shape_.height, first = static_cast<std::int64_t>(band) * kBandRows;
         const std::int64_t last = std::min(first + kBandRows, height) - 1;
         for (std::int64_t tile = floorDiv(rows.first, height); tile <= floorDiv(rows.last, height); ++tile) {
-            const TexelRange inside = rowsOfTile(rows, tile, first, last);
+            const TexelRange inside =
+                rowsOfTile({rows.first, rows.last}, tile, shape_.height, shape_.wrap_v, first, last);
             for (std::int64_t at = inside.first; at <= inside.last; ++at) {
                 visit(tile * height + (isFlipped(tile, shape_.wrap_v) ? height - 1 - at : at),
                       static_cast<std::size_t>(at));
@@ -173,24 +157,9 @@ class TriangleSearch {
         }
     }
 
-    /// visit(column, column in the image).
     template <class Visit>
     void forColumns(TexelRange columns, const Visit& visit) const {
-        if (columns.isEmpty()) return;
-        const std::int64_t width = shape_.width;
-        if (shape_.wrap_u == TextureWrap::clamp) {
-            columns = {std::max<std::int64_t>(columns.first, 0), std::min(columns.last, width - 1)};
-        }
-        while (!columns.isEmpty()) {
-            const std::int64_t tile = floorDiv(columns.first, width);
-            const std::int64_t last = std::min(columns.last, (tile + 1) * width - 1);
-            const bool flipped = isFlipped(tile, shape_.wrap_u);
-            for (std::int64_t column = columns.first; column <= last; ++column) {
-                const std::int64_t at = column - tile * width;
-                visit(column, static_cast<std::size_t>(flipped ? width - 1 - at : at));
-            }
-            columns.first = last + 1;
-        }
+        forColumnsInImage(columns, shape_.width, shape_.wrap_u, visit);
     }
 
     void addInside(std::uint32_t triangle, std::size_t band) {

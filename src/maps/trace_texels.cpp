@@ -46,6 +46,23 @@ FitSample sampleOf(const BakeOptions& options, const Vec3& wanted) {
     return acrossSample(wanted, options.bits == 8 ? 0.0F : kAlong, kWantedLength);
 }
 
+/// A column or row of a grid of n points a texel, as a part of the way from the centre of a texel to the next.
+struct BetweenTexels {
+    std::uint32_t texel = 0;
+    float part = 0;
+};
+
+BetweenTexels betweenTexels(std::uint32_t at, std::uint32_t n, std::uint32_t size, TextureWrap wrap) {
+    const std::uint32_t shift = n / 2;
+    const bool repeats = wrap == TextureWrap::repeat;
+    // Points before the first centre belong to the last texel of an image that repeats; others show the first alone there.
+    if (at < shift && !repeats) return {};
+    const std::uint32_t from_centre = at < shift ? at + size * n - shift : at - shift, texel = from_centre / n;
+    if (texel + 1 == size && !repeats) return {texel, 0};
+    const float first = n % 2 == 0 ? 0.5F / static_cast<float>(n) : 0.0F;
+    return {texel, first + static_cast<float>(from_centre % n) / static_cast<float>(n)};
+}
+
 class Tracing {
   public:
     Tracing(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
@@ -68,14 +85,14 @@ class Tracing {
 
   private:
     bool traceInside() {
-        const SampleBands bands(uvs_.triangles(), options_.width, options_.height, 1, 0, options_.execution.allocator);
+        const SampleBands bands(uvs_.triangles(options_.wrap_u, options_.wrap_v), options_.width, options_.height, 1, 0,
+                                options_.execution.allocator);
         const auto traceBand = [&](std::size_t band) {
             WantedVectors vectors(surfaces_, options_);
             bands.forSamples(band, [&](const BandSample& sample) {
-                const std::size_t row = band * SampleBands::kBandTexels + static_cast<std::size_t>(sample.row);
                 Vec3 wanted;
                 const bool is_hit = vectors.at(sample.triangle, sample.weights(), wanted);
-                vote(row * options_.width + sample.column, is_hit, wanted);
+                vote(std::size_t{sample.row} * options_.width + sample.column, is_hit, wanted);
             });
         };
         if (!forTasksTold(parallel_, bands.bandCount(), "tracing", options_.progress, options_.stop, traceBand))
@@ -114,7 +131,8 @@ class Tracing {
                 const TexelPlace& place = triangles_.places[texel];
                 traced_.origins[texel] = TexelOrigin::padding;
                 Vec3 wanted;
-                if (vectors.at(place.triangle, weightsAt(uvs_.triangles(), shape, place), wanted))
+                const UvTriangles triangles = uvs_.triangles(options_.wrap_u, options_.wrap_v);
+                if (vectors.at(place.triangle, weightsAt(triangles, shape, place), wanted))
                     traced_.wanted[texel] = wanted;
             }
         };
@@ -140,27 +158,19 @@ bool traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, c
 
 bool traceBetween(const MapSurfaces& surfaces, const TexelPlan& plan, std::uint32_t n, const BakeOptions& options,
                   Parallel& parallel, TexelSystem& system) {
-    const std::uint32_t shift = n / 2;
-    const float first = n % 2 == 0 ? 0.5F / static_cast<float>(n) : 0.0F;
     const LowUvs uvs(surfaces.low(), options.execution.allocator);
-    const SampleBands bands(uvs.triangles(), options.width, options.height, n, shift, options.execution.allocator);
+    const SampleBands bands(uvs.triangles(options.wrap_u, options.wrap_v), options.width, options.height, n, n / 2,
+                            options.execution.allocator);
     const auto traceBand = [&](std::size_t band) {
         WantedVectors vectors(surfaces, options);
         bands.forSamples(band, [&](const BandSample& sample) {
-            // Columns before the first centre belong to the last texel.
-            const std::uint32_t column =
-                sample.column >= shift ? sample.column - shift : sample.column + options.width * n - shift;
-            const auto row = static_cast<std::uint32_t>(sample.row);
-            const std::uint32_t x = column / n,
-                                y = static_cast<std::uint32_t>(band) * SampleBands::kBandTexels + row / n;
-            const TexelCell cell = plan.cells[std::size_t{y} * options.width + x];
+            const BetweenTexels x = betweenTexels(sample.column, n, options.width, options.wrap_u),
+                                y = betweenTexels(sample.row, n, options.height, options.wrap_v);
+            const TexelCell cell = plan.cells[std::size_t{y.texel} * options.width + x.texel];
             Vec3 wanted;
             if (cell == TexelCell::outside || cell == TexelCell::smooth) return;
             if (!vectors.at(sample.triangle, sample.weights(), wanted)) return;
-            const auto place = [&](std::uint32_t part) {
-                return first + static_cast<float>(part) / static_cast<float>(n);
-            };
-            system.add(x, y, place(column % n), place(row % n), sampleOf(options, wanted));
+            system.add(x.texel, y.texel, x.part, y.part, sampleOf(options, wanted));
         });
     };
     // Bands beside each other share a row of texels.
@@ -195,7 +205,7 @@ void addSmoothCells(const TexelPlan& plan, std::span<const Vec3> texels, const B
     });
 }
 
-void fillFromNeighbours(TracedTexels& traced, std::uint32_t width, std::uint32_t height) {
+void fillFromNeighbours(TracedTexels& traced, const TextureShape& shape) {
     Buffer<Vec3>& wanted = traced.wanted;
     std::vector<std::size_t> empty, next;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -205,15 +215,16 @@ void fillFromNeighbours(TracedTexels& traced, std::uint32_t width, std::uint32_t
     // around, which cannot grow.
     bool is_first_ring = true;
     const auto meanAround = [&](std::size_t texel) {
-        const std::size_t x = texel % width, y = texel / width;
-        const auto at = [&](std::size_t dx, std::size_t dy) {
-            return toDouble(wanted[(y + height + dy) % height * width + (x + width + dx) % width]);
+        const auto x = static_cast<std::int64_t>(texel % shape.width),
+                   y = static_cast<std::int64_t>(texel / shape.width);
+        const auto at = [&](int dx, int dy) {
+            return toDouble(wanted[std::size_t{wrappedTexel(y + dy, shape.height, shape.wrap_v)} * shape.width +
+                                   wrappedTexel(x + dx, shape.width, shape.wrap_u)]);
         };
         DVec3 sum{}, ahead{};
         for (const int dy : {-1, 0, 1}) {
             for (const int dx : {-1, 0, 1}) {
-                const DVec3 near = at(static_cast<std::size_t>(dx), static_cast<std::size_t>(dy));
-                const DVec3 far = at(static_cast<std::size_t>(2 * dx), static_cast<std::size_t>(2 * dy));
+                const DVec3 near = at(dx, dy), far = at(2 * dx, 2 * dy);
                 sum = sum + near;
                 // A jump is no slope.
                 if (dot(near, far) > 0.9) ahead = ahead + (2.0 * near - far);

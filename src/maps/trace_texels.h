@@ -33,6 +33,6 @@ void addSmoothCells(const TexelPlan& plan, std::span<const Vec3> texels, const B
 
 /// Gives texels that have an origin but no vector one, ring by ring: the first ring what the slope before it leads to, the
 /// others the mean of their neighbours; flat ones where there is none.
-void fillFromNeighbours(TracedTexels& traced, std::uint32_t width, std::uint32_t height);
+void fillFromNeighbours(TracedTexels& traced, const TextureShape& shape);
 
 }  // namespace tspace

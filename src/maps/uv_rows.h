@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "core/hash.h"
 #include "maps/texture_sample.h"
@@ -59,6 +60,42 @@ struct TexelRange {
 
     [[nodiscard]] bool isEmpty() const { return last < first; }
 };
+
+/// Whether a tile of the endless plane shows the image from its end on.
+inline bool isFlipped(std::int64_t tile, TextureWrap wrap) { return wrap == TextureWrap::mirror && tile % 2 != 0; }
+
+/// Which of the rows `first` to `last` of an image a range of rows of the endless plane shows in a tile.
+inline TexelRange rowsOfTile(TexelRange rows, std::int64_t tile, std::uint32_t size, TextureWrap wrap,
+                             std::int64_t first, std::int64_t last) {
+    if (wrap == TextureWrap::clamp && tile != 0) return {};
+    const std::int64_t height = size;
+    std::int64_t from = std::max<std::int64_t>(rows.first - tile * height, 0);
+    std::int64_t to = std::min<std::int64_t>(rows.last - tile * height, height - 1);
+    if (isFlipped(tile, wrap)) {
+        from = height - 1 - from;
+        to = height - 1 - to;
+        std::swap(from, to);
+    }
+    return {std::max(from, first), std::min(to, last)};
+}
+
+/// visit(column, column in the image) for a range of columns. A clamped image ends at its edge.
+template <class Visit>
+void forColumnsInImage(TexelRange columns, std::uint32_t size, TextureWrap wrap, const Visit& visit) {
+    const std::int64_t width = size;
+    if (wrap == TextureWrap::clamp)
+        columns = {std::max<std::int64_t>(columns.first, 0), std::min(columns.last, width - 1)};
+    while (!columns.isEmpty()) {
+        const std::int64_t tile = floorDiv(columns.first, width);
+        const std::int64_t last = std::min(columns.last, (tile + 1) * width - 1);
+        const bool flipped = isFlipped(tile, wrap);
+        for (std::int64_t column = columns.first; column <= last; ++column) {
+            const std::int64_t at = column - tile * width;
+            visit(column, static_cast<std::size_t>(flipped ? width - 1 - at : at));
+        }
+        columns.first = last + 1;
+    }
+}
 
 /// Texels and their numbers are those of the endless plane: texelInImage says where they are in the image.
 struct PlacedTriangle {

@@ -274,15 +274,94 @@ TEST_F(MapBake, BrokenTrianglesLeaveNoNan) {
     }
 }
 
+/// A low poly whose UVs reach all edges of the image.
+LowMesh stretchedLow(const char* surface) {
+    LowMesh low = bench::makeLow(surfaceNamed(surface), Charts::one);
+    Vec2 least = low.uvs.front(), most = least;
+    for (const Vec2& uv : low.uvs) {
+        least = {std::min(least.x, uv.x), std::min(least.y, uv.y)};
+        most = {std::max(most.x, uv.x), std::max(most.y, uv.y)};
+    }
+    for (Vec2& uv : low.uvs) uv = {(uv.x - least.x) / (most.x - least.x), (uv.y - least.y) / (most.y - least.y)};
+    return low;
+}
+
+TEST_F(MapBake, AnImageThatDoesNotRepeatIsAsNearAtItsEdges) {
+    const LowMesh low = stretchedLow("saddle");
+    const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 256, true);
+    for (const unsigned bits : {8U, 16U}) {
+        BakeOptions options = sized(192, bits);
+        const MapError repeated = baked(low.view(), high.view(), options).error;
+        options.wrap_u = options.wrap_v = TextureWrap::clamp;
+        const BakedMap clamped = baked(low.view(), high.view(), options);
+        EXPECT_LT(clamped.error.seam_mean_deg, 0.5 * repeated.seam_mean_deg) << "the other edge shows beside each";
+        // Half of a texel at the edge shows nothing but that texel.
+        options.fit = MapFit::texel;
+        const MapError exact = baked(low.view(), high.view(), options).error;
+        EXPECT_LT(clamped.error.seam_mean_deg, 0.9 * exact.seam_mean_deg);
+        EXPECT_LT(clamped.error.mean_deg, 0.85 * exact.mean_deg);
+        options.fit = MapFit::solve;
+        options.wrap_u = options.wrap_v = TextureWrap::mirror;
+        EXPECT_TRUE(baked(low.view(), high.view(), options).texels == clamped.texels) << "both show the edge itself";
+    }
+}
+
+TEST_F(MapBake, TilesOfAMirroredImageShowItFromItsEnd) {
+    LowMesh low = stretchedLow("saddle");
+    const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 64, true);
+    for (const unsigned bits : {8U, 16U}) {
+        BakeOptions options = sized(64, bits);
+        options.heat = true;
+        options.wrap_u = options.wrap_v = TextureWrap::mirror;
+        const LowMesh start = low;
+        const BakedMap first = baked(low.view(), high.view(), options);
+        for (Vec2& uv : low.uvs) uv = {2 - uv.x, uv.y - 4};
+        const BakedMap second = baked(low.view(), high.view(), options);
+        for (Vec2& uv : low.uvs) uv = {uv.x, -uv.y - 4};
+        const BakedMap third = baked(low.view(), high.view(), options);
+        low = start;
+        for (const BakedMap& other : {second, third}) {
+            // UVs far from 0 are rounded.
+            EXPECT_NEAR(other.error.mean_deg, first.error.mean_deg, 0.01 * first.error.mean_deg);
+            EXPECT_EQ(other.origins, first.origins);
+            double off = 0;
+            for (std::size_t i = 0; i < first.texels.size(); ++i)
+                off += static_cast<double>(length(first.texels[i] - other.texels[i]));
+            EXPECT_LT(off / static_cast<double>(first.texels.size()), bits == 8 ? 2e-3 : 1e-5);
+            for (std::size_t i = 0; i < first.error.heat.size(); ++i)
+                EXPECT_EQ(first.error.heat[i] < 0, other.error.heat[i] < 0);
+        }
+    }
+}
+
+TEST_F(MapBake, BeyondTheEdgeOfAClampedImageNothingIsAsked) {
+    LowMesh low = stretchedLow("saddle");
+    const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 64, true);
+    BakeOptions options = sized(64);
+    options.wrap_u = options.wrap_v = TextureWrap::clamp;
+    // Half of the surface lies outside.
+    for (Vec2& uv : low.uvs) uv = {2 * uv.x, uv.y};
+    const BakedMap map = baked(low.view(), high.view(), options);
+    EXPECT_EQ(map.overlap_count, 0U);
+    EXPECT_EQ(map.conflict_count, 0U);
+    EXPECT_EQ(map.hit_count, 64U * 64U);
+    for (Vec2& uv : low.uvs) uv.x += 3;
+    EXPECT_EQ(bakeMap(low.view(), high.view(), options).error().code, ErrorCode::missingAttribute);
+}
+
 TEST_F(MapBake, SmallImagesWork) {
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 16, false);
     for (const std::uint32_t width : {1U, 2U, 3U, 4U, 5U, 17U}) {
         for (const std::uint32_t height : {1U, 4U, 33U}) {
             for (const unsigned bits : {8U, 16U}) {
-                const BakedMap map = baked(low.view(), high.view(), {.width = width, .height = height, .bits = bits});
-                EXPECT_EQ(map.texels.size(), std::size_t{width} * height);
-                EXPECT_LT(map.error.mean_deg, 60);
+                for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::clamp, TextureWrap::mirror}) {
+                    const BakedMap map =
+                        baked(low.view(), high.view(),
+                              {.width = width, .height = height, .bits = bits, .wrap_u = wrap, .wrap_v = wrap});
+                    EXPECT_EQ(map.texels.size(), std::size_t{width} * height);
+                    EXPECT_LT(map.error.mean_deg, 60);
+                }
             }
         }
     }
