@@ -23,6 +23,7 @@ struct ConvertMapFileOptions {
     /// Takes the primitives of the material with this name. Empty: those whose material names an image of the map's name,
     /// else all that have UVs.
     std::string material = {};
+    std::uint32_t tile = 0;  ///< takes the triangles of this UDIM tile, whose file the map is: 1001 and on; 0: all
     MapFileSpace from = MapFileSpace::tangent, to = MapFileSpace::tangent;
     MapReading from_reading = {}, to_reading = {};
     /// Of a channel: 8 or 16 in a PNG; 16 (half) or 32 (float) in an EXR. 0: the most that the format has.

@@ -302,14 +302,6 @@ double BakeModels::reach(double asked) const {
     return chosenReach({.positions = positions}, high.view());
 }
 
-std::uint32_t tileOf(const Vec2* uvs) {
-    const double u = (static_cast<double>(uvs[0].x) + uvs[1].x + uvs[2].x) / 3;
-    // Tiles go upwards, and v runs down.
-    const double v = 1 - (static_cast<double>(uvs[0].y) + uvs[1].y + uvs[2].y) / 3;
-    if (!(u >= 0 && u < 10 && v >= 0 && v < 899)) return 0;
-    return 1001 + static_cast<std::uint32_t>(u) + 10 * static_cast<std::uint32_t>(v);
-}
-
 std::size_t LowModel::triangleCount() const {
     std::size_t count = 0;
     for (const Image& image : images) count += image.part.triangleCount();

@@ -9,6 +9,7 @@
 #include "asset/file_error.h"
 #include "asset/scene.h"
 #include "bake/model_maps.h"
+#include "maps/udim_tile.h"
 #include "tspace/bake_file.h"
 
 namespace tspace {
@@ -80,9 +81,6 @@ struct BakeModels {
     /// How far rays go for all images alike: what was asked, or by the sizes of both models as a whole.
     [[nodiscard]] double reach(double asked) const;
 };
-
-/// The UDIM tile that most of a triangle lies in; 0: none (not finite, or outside of tiles 1001 to 9999).
-std::uint32_t tileOf(const Vec2* uvs);
 
 /// How a primitive reads its normal map, or will: the normal map that its own material has, or the first thing that needs
 /// tangents, which they follow. Null: the first UVs, as they are.

@@ -54,7 +54,7 @@ struct Meshes {
 
 Meshes readMeshes(const std::string& input, const ConvertMapFileOptions& options) {
     const bool in_world = options.from == MapFileSpace::world || options.to == MapFileSpace::world;
-    const MapMeshChoice choice{options.material, fileNameOf(input), in_world};
+    const MapMeshChoice choice{options.material, fileNameOf(input), in_world, options.tile};
     const auto read = [&](const std::string& model) {
         try {
             return readMapMesh(model, choice, options.tangents, options.file);

@@ -9,6 +9,7 @@
 #include "asset/file_error.h"
 #include "asset/read/read_scene.h"
 #include "check/uv_reading.h"
+#include "maps/udim_tile.h"
 #include "tspace/indexed_frames.h"
 
 namespace tspace {
@@ -144,6 +145,25 @@ void placeCorners(const Affine& place, std::size_t first, MapMesh& mesh) {
     mesh.axes.resize(mesh.normals.size() / 3, {toFloat(axes[0]), toFloat(axes[1]), toFloat(axes[2])});
 }
 
+/// Of the triangles from corner `first` on, leaves those of the tile.
+void keepTile(std::uint32_t tile, std::size_t first, MapMesh& mesh) {
+    std::size_t kept = first;
+    for (std::size_t i = first; i < mesh.uvs.size(); i += 3) {
+        if (tileOf(&mesh.uvs[i]) != tile) continue;
+        for (std::size_t k = 0; k < 3; ++k, ++kept) {
+            mesh.uvs[kept] = mesh.uvs[i + k];
+            mesh.positions[kept] = mesh.positions[i + k];
+            mesh.normals[kept] = mesh.normals[i + k];
+            mesh.tangents[kept] = mesh.tangents[i + k];
+        }
+    }
+    mesh.uvs.resize(kept);
+    mesh.positions.resize(kept);
+    mesh.normals.resize(kept);
+    mesh.tangents.resize(kept);
+    mesh.report.triangle_count = kept / 3;
+}
+
 }  // namespace
 
 bool showsNormals(const TangentUse& use) { return use.needed_by != "anisotropy"; }
@@ -181,7 +201,8 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
     }
     MapMesh mesh;
     mesh.report.scale = scaleOf(chosen);
-    if (chosen.front().use != nullptr) {
+    // Tiles lie beside each other, whatever a texture does at its edges.
+    if (chosen.front().use != nullptr && choice.tile == 0) {
         mesh.wrap_u = chosen.front().use->wrap_u;
         mesh.wrap_v = chosen.front().use->wrap_v;
     }
@@ -194,9 +215,14 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
         }
         const std::size_t first = mesh.normals.size();
         scene.memory->take(4 * kCornerBytes * one.primitive->corners.size(), one.primitive->place);
+        const MapMeshReport before = mesh.report;
         addMapCorners(*one.primitive, one.use, tangents, mesh);
+        if (choice.tile != 0) keepTile(choice.tile, first, mesh);
+        if (mesh.uvs.size() == first) mesh.report = before;
         if (place) placeCorners(*place, first, mesh);
     }
+    if (mesh.uvs.empty() && choice.tile != 0)
+        failFile(ErrorCode::invalidFile, "no triangles lie in the tile " + std::to_string(choice.tile));
     if (mesh.uvs.empty())
         failFile(ErrorCode::invalidFile, "no node of the scene shows the mesh, so it has no world space");
     return mesh;

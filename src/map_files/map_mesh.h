@@ -33,6 +33,7 @@ struct MapMeshChoice {
     std::string material = {};    ///< ConvertMapFileOptions::material
     std::string image_name = {};  ///< the file name of the map, without folder
     bool in_world = false;        ///< normals and tangents as the nodes of the scene turn them
+    std::uint32_t tile = 0;       ///< ConvertMapFileOptions::tile
 };
 
 /// Reads a model and takes the triangles that show the map. Throws FileError: invalidFile where there are none, where their

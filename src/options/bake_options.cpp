@@ -83,8 +83,9 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
                "Texels around the triangles that continue them, so that filters and smaller mip levels meet no "
                "background."));
     add(list, group,
-        flag("--udim", options.udim,
-             "A file per tile of the UV map, NAME.1001.png and on. Without this, UVs outside of 0 to 1 wrap."));
+        flag(
+            "--udim", options.udim,
+            "A file per tile of the UV map, NAME.1001.png and on. Without this, the image goes on outside of 0 to 1."));
 }
 
 }  // namespace

@@ -34,6 +34,9 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
         text("--material", "NAME", options.material,
              "Takes the primitives with the material of this name. Default: those whose material names an image of "
              "the map's name; where there are none, all that have UVs."));
+    add(list, kInputAndOutput,
+        number("--tile", options.tile, 9999,
+               "Takes the triangles of this UDIM tile, whose file the map is: 1001 and on. 0: all."));
     add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything but write."));
     addAllowExternal(list, options.file);
     const char* group = "Map";

@@ -139,6 +139,35 @@ TEST(ConvertMapCommand, ChoosesTheTrianglesOfAMaterial) {
     EXPECT_EQ(json("bump.png --mesh a.obj")["from"]["tangentsMade"], true);
 }
 
+TEST(ConvertMapCommand, TakesTheTrianglesOfATile) {
+    const TempFolder folder;
+    writeSheet(folder);
+    // The right half again, alone and in the tile above the next.
+    const std::string points =
+        "v 1 0 0\nv 2 0 -1\nv 1 1 0\nv 2 1 -1\nvn 0.3 0 0.95\nvn 0.7 0 0.7\nvn 0.4 0.1 0.9\nvn 0.7 0.2 0.7\n";
+    const std::string uvs = "vt 0.4 0\nvt 1 0\nvt 0.6 1\nvt 1 1\n", moved = "vt 1.4 1\nvt 2 1\nvt 1.6 2\nvt 2 2\n";
+    const std::string faces = "f 1/1/1 2/2/2 4/4/4\nf 1/1/1 4/4/4 3/3/3\n";
+    folder.write("half.obj", points + uvs + faces);
+    folder.write("moved.obj", points + moved + faces);
+    folder.write("tiles.obj", points + uvs + faces + points + moved + "f 5/5/5 6/6/6 8/8/8\nf 5/5/5 8/8/8 7/7/7\n");
+    for (const std::string space : {"object", "world"}) {
+        const std::string to = "convert-map -q bump.png --to " + space;
+        ASSERT_EQ(runTool(folder, to + " --mesh half.obj -o 1.png").exit_code, 0);
+        ASSERT_EQ(runTool(folder, to + " --mesh tiles.obj --tile 1001 -o 2.png").exit_code, 0);
+        EXPECT_TRUE(imageIn(folder, "1.png").texels == imageIn(folder, "2.png").texels);
+        ASSERT_EQ(runTool(folder, to + " --mesh moved.obj -o 3.png").exit_code, 0);
+        const ToolRun run =
+            runTool(folder, "convert-map bump.png --to " + space + " --json --mesh tiles.obj --tile 1012 -o 4.png");
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(Json::parse(run.out)["from"]["triangles"], 2);
+        EXPECT_TRUE(imageIn(folder, "3.png").texels == imageIn(folder, "4.png").texels);
+    }
+    const ToolRun none = runTool(folder, "convert-map bump.png --to object --mesh tiles.obj --tile 1002 -o 5.png");
+    EXPECT_EQ(none.exit_code, 3);
+    EXPECT_NE(none.err.find("tile 1002"), std::string::npos) << none.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "5.png"));
+}
+
 /// The model as glTF, its nodes and material as `edit` leaves them.
 template <class Edit>
 void writeEdited(const TempFolder& folder, const std::string& model, const std::string& name, const Edit& edit) {
