@@ -295,11 +295,18 @@ void LowPart::addTriangle(const LowPart& from, std::size_t triangle) {
 }
 
 double BakeModels::reach(double asked) const {
-    if (asked != 0) return asked;
-    std::vector<Vec3> positions;
-    for (const LowModel::Image& image : low.images)
-        positions.insert(positions.end(), image.part.positions.begin(), image.part.positions.end());
-    return chosenReach({.positions = positions}, high.view());
+    return asked != 0 ? asked : reachBetween(lowBox(), PositionBox(high.view().positions));
+}
+
+PositionBox BakeModels::lowBox() const {
+    PositionBox box;
+    for (const LowModel::Image& image : low.images) {
+        const PositionBox part(image.part.view().positions);
+        if (part.isEmpty()) continue;
+        box.add(part.least);
+        box.add(part.most);
+    }
+    return box;
 }
 
 std::size_t LowModel::triangleCount() const {
@@ -339,6 +346,8 @@ BakeModels readBakeModels(const std::string& low, const std::string& high, const
                             [&] { return lowModel(low_scene, options.cage.empty() ? nullptr : &cage_scene, used); });
     models.low.frames_made = frames_made;
     models.high = aboutInput(BakeInput::high, [&] { return highModel(high_scene, used, high, options); });
+    const std::string why = misplacement(models.lowBox(), PositionBox(models.high.view().positions));
+    if (!why.empty()) models.high.warnings.push_back(why);
     return models;
 }
 

@@ -9,6 +9,7 @@
 #include "asset/file_error.h"
 #include "asset/scene.h"
 #include "bake/model_maps.h"
+#include "maps/position_box.h"
 #include "maps/udim_tile.h"
 #include "tspace/bake_file.h"
 
@@ -80,6 +81,7 @@ struct BakeModels {
 
     /// How far rays go for all images alike: what was asked, or by the sizes of both models as a whole.
     [[nodiscard]] double reach(double asked) const;
+    [[nodiscard]] PositionBox lowBox() const;
 };
 
 /// How a primitive reads its normal map, or will: the normal map that its own material has, or the first thing that needs

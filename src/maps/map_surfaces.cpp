@@ -5,36 +5,11 @@
 #include <thread>
 
 #include "core/border.h"
+#include "maps/position_box.h"
 
 namespace tspace {
 
 namespace {
-
-struct Box {
-    DVec3 least{INFINITY, INFINITY, INFINITY}, most{-INFINITY, -INFINITY, -INFINITY};
-
-    explicit Box(const StridedSpan<const Vec3>& points) {
-        for (std::size_t i = 0; i < points.count; ++i) {
-            const Vec3& at = points[i];
-            if (!isFinite(at)) continue;
-            least = {std::fmin(least.x, at.x), std::fmin(least.y, at.y), std::fmin(least.z, at.z)};
-            most = {std::fmax(most.x, at.x), std::fmax(most.y, at.y), std::fmax(most.z, at.z)};
-        }
-    }
-    [[nodiscard]] bool isEmpty() const { return !(least.x <= most.x); }
-    [[nodiscard]] double diagonal() const { return isEmpty() ? 0 : length(most - least); }
-    /// How far a side of one lies from that of the other, at most.
-    [[nodiscard]] double difference(const Box& other) const {
-        const DVec3 a = least - other.least, b = most - other.most;
-        return std::max(
-            {std::fabs(a.x), std::fabs(a.y), std::fabs(a.z), std::fabs(b.x), std::fabs(b.y), std::fabs(b.z)});
-    }
-    [[nodiscard]] bool meets(const Box& other, double margin) const {
-        return least.x - margin <= other.most.x && other.least.x - margin <= most.x &&
-               least.y - margin <= other.most.y && other.least.y - margin <= most.y &&
-               least.z - margin <= other.most.z && other.least.z - margin <= most.z;
-    }
-};
 
 template <class T>
 DVec3 mixedAt(const StridedSpan<const T>& values, std::size_t triangle, const std::array<double, 3>& weights) {
@@ -47,6 +22,13 @@ unsigned threadsOf(const Execution& execution) {
     if (execution.executor != nullptr) return std::max(1U, execution.executor->concurrency);
     if (execution.thread_count == kAllThreads) return std::max(1U, std::thread::hardware_concurrency());
     return std::max(1U, execution.thread_count);
+}
+
+Error apartError(const PositionBox& low, const PositionBox& high) {
+    const std::string why = misplacement(low, high);
+    return makeError(ErrorCode::missingAttribute, kNoElement,
+                     "the low poly and the high poly are nowhere near each other%s%s", why.empty() ? "" : "; ",
+                     why.c_str());
 }
 
 }  // namespace
@@ -81,11 +63,7 @@ Error checkSurfaces(const LowPoly& low, const HighPoly& high, bool needs_tangent
 }
 
 double chosenReach(const LowPoly& low, const HighPoly& high) {
-    const Box low_box(low.positions), high_box(high.positions);
-    if (low_box.isEmpty() || high_box.isEmpty()) return 0;
-    const double size = std::max(low_box.diagonal(), high_box.diagonal());
-    const double most = size / 4, reach = std::max(size / 20, 1.5 * low_box.difference(high_box));
-    return low_box.meets(high_box, size / 20) ? std::min(most, reach) : 0;
+    return reachBetween(PositionBox(low.positions), PositionBox(high.positions));
 }
 
 Result<MapSurfaces> MapSurfaces::make(const LowPoly& low, const HighPoly& high, double reach,
@@ -96,9 +74,7 @@ Result<MapSurfaces> MapSurfaces::make(const LowPoly& low, const HighPoly& high, 
     surfaces.low_ = low;
     surfaces.high_ = high;
     surfaces.reach_ = reach > 0 ? reach : chosenReach(low, high);
-    if (!(surfaces.reach_ > 0))
-        return makeError(ErrorCode::missingAttribute, kNoElement,
-                         "the low poly and the high poly are nowhere near each other");
+    if (!(surfaces.reach_ > 0)) return apartError(PositionBox(low.positions), PositionBox(high.positions));
     Result<std::unique_ptr<const RaySurface>> rays =
         RaySurface::make(high.positions, high.corners, high.groups, threadsOf(execution));
     if (!rays) return std::move(rays).error();

@@ -15,9 +15,6 @@ namespace tspace {
 /// What the calls of map_error.h and map_bake.h ask of meshes. An Error with code ok when all is well.
 Error checkSurfaces(const LowPoly& low, const HighPoly& high, bool needs_tangents);
 
-/// How far rays go unless somebody says; 0: the meshes are nowhere near each other.
-double chosenReach(const LowPoly& low, const HighPoly& high);
-
 class MapSurfaces {
   public:
     /// Checked meshes, which must stay. `reach`: 0 chooses. Errors: unsupportedFile, outOfMemory, invalidOption (a reach

@@ -103,6 +103,24 @@ TEST(Import, VerticesAreJoinedOnlyWhereAllBitsAgree) {
     EXPECT_EQ(sceneOf(path).primitives[0].positions.size(), 36U) << "Assimp itself gives every corner its vertex";
 }
 
+TEST(Import, UnitsOfFbxBecomeMetres) {
+    const TempFolder folder;
+    exported(folder, writeModel(folder, "sheet.glb", {bentSheet(2)}), "fbxa", "fbx");
+    const std::string text = folder.read("model.fbx");
+    const std::string key = "\"UnitScaleFactor\", \"double\", \"Number\", \"\",";
+    ASSERT_NE(text.find(key), std::string::npos) << text.substr(0, 3000);
+    const std::size_t begin = text.find(key) + key.size();
+    const std::size_t size = text.find('\n', begin) - begin;
+    // Centimetres in a unit. A unit below 0 is none.
+    for (const auto& [unit, scale] : {std::pair("1", 0.01F), {"2.54", 0.0254F}, {"100", 1.0F}, {"-1", 1.0F}}) {
+        folder.write("units.fbx", std::string{text}.replace(begin, size, unit));
+        const std::string path = folder.path("units.fbx").string();
+        const DrawnScene drawn = readable([&] { return readDrawnScene(path, kWithImporter, false); });
+        ASSERT_EQ(drawn.placements.size(), 1U);
+        EXPECT_NEAR(length(drawn.placements[0].to_world.x), static_cast<double>(scale), 1e-7) << unit;
+    }
+}
+
 TEST(Import, PolygonsAreCutByTheRuleOfTspace) {
     const TempFolder folder;
     // The diagonal 0-2 is the shorter one.

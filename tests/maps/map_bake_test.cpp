@@ -10,6 +10,7 @@
 
 #include "bake_cases.h"
 #include "core/vec_math.h"
+#include "maps/position_box.h"
 #include "support/thread_team.h"
 
 namespace tspace::test {
@@ -393,6 +394,32 @@ TEST_F(MapBake, SaysWhatIsWrongWithOptionsAndMeshes) {
     LowMesh one_point = low;
     for (Vec2& uv : one_point.uvs) uv = {0.5F, 0.5F};
     EXPECT_EQ(bakeMap(one_point.view(), high.view(), sized(8)).error().code, ErrorCode::missingAttribute);
+}
+
+TEST_F(MapBake, SaysWhatKeepsMeshesApart) {
+    const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
+    const PositionBox box(low.view().positions);
+    const auto said = [&](const auto& change) {
+        LowMesh other = low;
+        for (Vec3& at : other.positions) at = change(at);
+        return misplacement(box, PositionBox(other.view().positions));
+    };
+    EXPECT_EQ(said([](const Vec3& at) { return at; }), "");
+    EXPECT_EQ(said([](const Vec3& at) { return 3.0F * at; }), "") << "a part may be baked from a whole";
+    EXPECT_EQ(said([](const Vec3& at) { return Vec3{at.x + 9, at.y, at.z}; }), "");
+    EXPECT_EQ(said([](const Vec3& at) { return 100.0F * at; }),
+              "the high poly is 100 times as large as the low poly: scale the high poly by 0.01, and it lies on it");
+    EXPECT_EQ(said([](const Vec3& at) { return (1 / 39.37F) * at; }),
+              "the low poly is 39.4 times as large as the high poly: scale the high poly by 39.4, and it lies on it");
+    EXPECT_EQ(said([](const Vec3& at) {
+                  return Vec3{100 * at.x + 90, 100 * at.y, 100 * at.z};
+              }),
+              "the high poly is 100 times as large as the low poly: are both in the same unit?");
+    EXPECT_EQ(said([](const Vec3& at) {
+                  return Vec3{at.x, -at.z, at.y};
+              }),
+              "another axis points up in the high poly: turn it by -90 degrees about x, and it lies on the low poly");
+    EXPECT_EQ(said([](const Vec3& at) { return Vec3{std::nanf(""), at.y, at.z}; }), "");
 }
 
 TEST_F(MapBake, HeatIsTheErrorOfEachTexel) {

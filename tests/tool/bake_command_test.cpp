@@ -200,6 +200,23 @@ TEST_F(BakeCommand, WhatReachesBeyondAClampedImageIsCounted) {
     EXPECT_NE(run.out.find("16 triangles reach beyond the edge"), std::string::npos) << run.out;
 }
 
+TEST_F(BakeCommand, ModelsInDifferentUnitsAreNamed) {
+    std::istringstream lines(sheet(40, 0.02, false));
+    std::string scaled;
+    for (std::string line; std::getline(lines, line); scaled += line + "\n") {
+        if (line.rfind("v ", 0) != 0) continue;
+        std::istringstream in(line.substr(2));
+        line = "v";
+        for (double value = 0; in >> value;) line += " " + std::to_string(100 * value);
+    }
+    folder.write("cm.obj", scaled);
+    const std::string says = "the high poly is 100 times as large as the low poly";
+    const ToolRun run = runTool(folder, "bake low.obj --high cm.obj -o cm.png --size 32");
+    EXPECT_NE((run.out + run.err).find(says), std::string::npos) << run.out << run.err;
+    const ToolRun measured = runTool(folder, "map-error first.png low.obj --high cm.obj");
+    EXPECT_NE((measured.out + measured.err).find(says), std::string::npos) << measured.out << measured.err;
+}
+
 TEST_F(BakeCommand, WhatIsWrongIsOneLineAndNothingIsWritten) {
     folder.write("bare.obj", sheet(4, 0, false));
     folder.write("far.obj", sheet(4, 0, false, "far", 50));

@@ -62,12 +62,14 @@ class SceneWriter {
         if (node.mNumChildren > 0) {
             for (unsigned k = 0; k < node.mNumChildren; ++k) json["children"].push_back(first_child_[i] + k);
         }
-        const std::vector<float> matrix = columnsOf(node.mTransformation, builder_.mended());
-        if (isAnimated(node) && isFinite(node.mTransformation[0], 16)) {
+        aiMatrix4x4 place = node.mTransformation;
+        if (i == 0) place = inMetres() * place;
+        const std::vector<float> matrix = columnsOf(place, builder_.mended());
+        if (isAnimated(node) && isFinite(place[0], 16)) {
             // A matrix cannot be animated.
             aiVector3D scale, translation;
             aiQuaternion rotation;
-            node.mTransformation.Decompose(scale, rotation, translation);
+            place.Decompose(scale, rotation, translation);
             json["translation"] = {translation.x, translation.y, translation.z};
             rotation = unitRotation(rotation);
             json["rotation"] = {rotation.x, rotation.y, rotation.z, rotation.w};
@@ -76,6 +78,15 @@ class SceneWriter {
             json["matrix"] = matrix;
         }
         return json;
+    }
+
+    /// FBX says how many centimetres its unit has; of other formats Assimp has put it into the root, or they do not say.
+    [[nodiscard]] aiMatrix4x4 inMetres() const {
+        float centimetres = 100;
+        if (scene_.mMetaData != nullptr) scene_.mMetaData->Get("UnitScaleFactor", centimetres);
+        aiMatrix4x4 matrix;
+        if (!std::isfinite(centimetres) || !(centimetres > 0)) return matrix;
+        return aiMatrix4x4::Scaling(aiVector3D(centimetres / 100), matrix);
     }
 
     bool isAnimated(const aiNode& node) const {
