@@ -50,8 +50,7 @@ inline constexpr std::uint32_t kTurnsRight = 0x08;
 inline constexpr std::uint32_t kNotLight = 0x10;   ///< its weight is above kLightWeight
 inline constexpr std::uint32_t kNotMiddle = 0x20;  ///< above kMiddleWeight
 inline constexpr std::uint32_t kHeavy = 0x40;      ///< above kHeavyWeight
-inline constexpr std::uint32_t kFanKnown = 0x80;   ///< always set here; taken away where fan.h loses track
-inline constexpr std::uint32_t kAllMarks = 0xff;
+inline constexpr std::uint32_t kAllMarks = 0x7f;
 inline constexpr std::uint32_t kNoUvArea = 0x100;        ///< the triangle has no usable UV area
 inline constexpr std::uint32_t kDegenerateMark = 0x200;  ///< two corners at one position: nothing else means anything
 inline constexpr float kLightWeight = 1.0f / 128, kMiddleWeight = 1.0f / 16, kHeavyWeight = 1.0f / 4;

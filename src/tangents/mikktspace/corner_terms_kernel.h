@@ -127,8 +127,7 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
     Bits facing = orWhere(broadcastBits(0), shape.positive, kFacesUp);
     facing = orWhere(facing, !shape.positive, kFacesDown);
     const Mask usable = shape.finite & !shape.no_area;
-    const Bits flags =
-        orWhere(orWhere(broadcastBits(kFanKnown), shape.no_area, kNoUvArea), degenerate, kDegenerateMark);
+    const Bits flags = orWhere(orWhere(broadcastBits(0), shape.no_area, kNoUvArea), degenerate, kDegenerateMark);
     if (source.weighting == Weighting::none) {
         const Bits all_marks = (facing & orWhere(broadcastBits(0), usable, kAllMarks)) | flags;
         for (std::size_t k = 0; k < 3; ++k) store(terms.marks[k] + first, all_marks);

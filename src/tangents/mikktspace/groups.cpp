@@ -2,8 +2,9 @@
 #include "tangents/mikktspace/groups.h"
 
 #include <algorithm>
-#include <bit>
+#include <functional>
 
+#include "core/sort.h"
 #include "tangents/mikktspace/fan.h"
 
 namespace tspace::mikk {
@@ -12,19 +13,11 @@ namespace {
 
 /// Whether the links between them make one path or ring, without a choice.
 bool areOneFan(std::span<const NodeCorner> around) {
-    if (around.size() == 1) return true;
-    if (around.size() == 2) return around[0].next == around[1].previous || around[1].next == around[0].previous;
-    if (around.size() > FanList::kMost) return false;
-    FanList list;
-    list.clear();
-    constexpr std::uint32_t kFar = 1u << 14;  // half of what a list holds: then one bit tells of all that are farther
-    std::uint32_t any = 0;
-    for (std::uint32_t i = 0; i < around.size(); ++i) {
-        const std::uint32_t next = around[i].next - around[0].next, previous = around[i].previous - around[0].next;
-        list.set(i, next, previous);
-        any |= (next + kFar) | (previous + kFar);
-    }
-    return any < 2 * kFar && isOneFan(list, static_cast<std::uint32_t>(around.size()));
+    ManyPaths place;
+    FanRoom room(&place, 1);
+    Fan fan;
+    for (const NodeCorner& corner : around) fan.add(corner.next, corner.previous, room);
+    return fan.isOne();
 }
 
 /// Spreads a group from its first corner to both sides. joins(i): whether it may take corner i.
@@ -35,9 +28,6 @@ void spread(std::uint32_t seed, const CornerLinks& links, std::uint32_t* group, 
             group[m] = group[seed];
     }
 }
-
-/// A member has two neighbours, so there are at most 2 * count keys, and for a proper fan count + 1.
-std::size_t tableSize(std::uint32_t count) { return std::bit_ceil(2 * std::size_t{count} + count / 2 + 2); }
 
 }  // namespace
 
@@ -63,55 +53,33 @@ void linkSmall(std::span<const NodeCorner> around, const CornerLinks& links) {
     }
 }
 
-LinkTable::LinkTable(const Allocator* allocator, std::uint32_t most)
-    : queues_(allocator, tableSize(most)), behind_(allocator, 2 * std::size_t{most}) {}
-
-LinkTable::Queue& LinkTable::find(std::uint32_t neighbour) {
-    // Nodes with neighbouring numbers, which a fan's rim has, lie side by side in runs of 16.
-    const std::uint64_t run = (neighbour / 16) * std::uint64_t{0x9e3779b97f4a7c15u} >> 32;
-    std::size_t i = (16 * run + neighbour % 16) & mask_;
-    while (queues_[i].neighbour != kNone && queues_[i].neighbour != neighbour) i = (i + 1) & mask_;
-    queues_[i].neighbour = neighbour;
-    return queues_[i];
-}
-
-/// Links a half-edge with the oldest waiting opposite one, or lets it wait. `outgoing` tells which of the
-/// member's two half-edges it is; waiters are stored as 2 * member + outgoing.
-void LinkTable::meet(std::uint32_t member, std::uint32_t neighbour, std::uint32_t* mine, std::uint32_t* theirs,
-                     std::uint32_t outgoing) {
-    Queue& queue = find(neighbour);
-    const std::uint32_t waiter = 2 * member + outgoing;
-    if (queue.first != kNone && (queue.first & 1) != outgoing) {
-        const std::uint32_t other = queue.first / 2;
-        mine[member] = other;
-        theirs[other] = member;
-        queue.first = behind_[queue.first];
-        return;
-    }
-    behind_[waiter] = kNone;
-    if (queue.first == kNone) {
-        queue.first = waiter;
-    } else {
-        behind_[queue.last] = waiter;
-    }
-    queue.last = waiter;
-}
-
-void LinkTable::link(std::span<const NodeCorner> around, const CornerLinks& links) {
-    const std::size_t size = tableSize(static_cast<std::uint32_t>(around.size()));
-    mask_ = size - 1;
-    std::fill_n(queues_.data(), size, Queue{});
-    for (std::uint32_t i = 0; i < around.size(); ++i) {
+/// A number is 2 * corner, one more for the edge that leaves, behind the neighbour. Of the half-edges of one neighbour, the
+/// unlinked ones all run in one direction.
+void linkLarge(std::span<const NodeCorner> around, const CornerLinks& links, std::uint64_t* half_edges) {
+    const std::size_t count = 2 * around.size();
+    for (std::size_t i = 0; i < around.size(); ++i) {
         links.left[i] = links.right[i] = kNone;
-        meet(i, around[i].next, links.left, links.right, 1);
-        meet(i, around[i].previous, links.right, links.left, 0);
+        half_edges[2 * i] = std::uint64_t{around[i].previous} << 32 | 2 * i;
+        half_edges[2 * i + 1] = std::uint64_t{around[i].next} << 32 | (2 * i + 1);
+    }
+    sortList(half_edges, half_edges + count, std::less<>());
+    const auto linkOf = [&](std::size_t i) -> std::uint32_t& {
+        const auto half_edge = static_cast<std::uint32_t>(half_edges[i]);
+        return ((half_edge & 1) != 0 ? links.left : links.right)[half_edge / 2];
+    };
+    const auto cornerOf = [&](std::size_t i) { return static_cast<std::uint32_t>(half_edges[i]) / 2; };
+    for (std::size_t i = 0, oldest = 0; i < count; ++i) {
+        while (oldest < i && (half_edges[oldest] >> 32 != half_edges[i] >> 32 || linkOf(oldest) != kNone)) ++oldest;
+        if (((half_edges[oldest] ^ half_edges[i]) & 1) == 0) continue;
+        linkOf(oldest) = cornerOf(i);
+        linkOf(i) = cornerOf(oldest);
     }
 }
 
 GroupRoom::GroupRoom(const Allocator* allocator, std::uint32_t most) {
     if (most <= kSmallNode) return;
     large_ = Buffer<std::uint32_t>(allocator, 3 * std::size_t{most});
-    table_ = LinkTable(allocator, most);
+    half_edges_ = Buffer<std::uint64_t>(allocator, 2 * std::size_t{most});
 }
 
 Grouping::Grouping(VertexCorners& corners, std::span<const std::uint32_t> chosen, const LastBucket& bucket,
@@ -139,7 +107,7 @@ NodeGroups Grouping::groupsOf(std::size_t place, GroupRoom& room) const {
     const auto count = static_cast<std::uint32_t>(around.size());
     std::uint32_t* const group = count <= kSmallNode ? room.small_ : room.large_.data();
     const CornerLinks links{group + count, group + 2 * std::size_t{count}};
-    link(place, links, room.table_);
+    link(place, links, room.half_edges_.data());
     std::fill_n(group, count, kNone);
     std::uint32_t groups = 0;
     for (std::uint32_t seed = 0; seed < count; ++seed) {
@@ -151,9 +119,9 @@ NodeGroups Grouping::groupsOf(std::size_t place, GroupRoom& room) const {
     return {around, group, groups};
 }
 
-void Grouping::link(std::size_t place, const CornerLinks& links, LinkTable& table) const {
+void Grouping::link(std::size_t place, const CornerLinks& links, std::uint64_t* half_edges) const {
     const std::span<const NodeCorner> around = corners_.around(place);
-    around.size() <= kSmallNode ? linkSmall(around, links) : table.link(around, links);
+    around.size() <= kSmallNode ? linkSmall(around, links) : linkLarge(around, links, half_edges);
     if (bucket_.concerns(chosen_[place])) applyBucket(around, links);
 }
 
@@ -211,9 +179,9 @@ void Grouping::spreadContested(const Allocator* allocator) {
     }
     contested_groups_ = Buffer<std::uint32_t>(allocator, size, kNone);
     Buffer<std::uint32_t> left(allocator, size), right(allocator, size);
-    LinkTable table(allocator, largest_);
+    Buffer<std::uint64_t> half_edges(allocator, 2 * std::size_t{largest_});
     for (const Contested& node : contested_) {
-        link(node.place, {left.data() + node.begin, right.data() + node.begin}, table);
+        link(node.place, {left.data() + node.begin, right.data() + node.begin}, half_edges.data());
         for (const NodeCorner& corner : corners_.around(node.place))
             corners_.flags[corners_.numberOf(corner)] |= kNearContested;
     }

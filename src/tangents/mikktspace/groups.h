@@ -8,7 +8,7 @@
 // have been linked. Say the first half-edge is linked to j by the reference: all between run its own way, so
 // it is still the oldest waiter when j comes, and j takes it. Take the pair out and repeat. An edge's
 // half-edges are seen completely from either of its ends, in the same (ascending) order, so each node can
-// work alone and both ends come to the same links. No edge table and no sort is needed.
+// work alone and both ends come to the same links. No edge table is needed.
 //
 // Groups: the corners of a node that share tangents. The links around a node form paths and rings. Going through a
 // node's corners in ascending order, each that has no group and a usable UV area opens one, which spreads along the links
@@ -40,27 +40,8 @@ struct CornerLinks {
 /// For small nodes.
 void linkSmall(std::span<const NodeCorner> around, const CornerLinks& links);
 
-/// A hash table of queues, for larger ones.
-class LinkTable {
-  public:
-    LinkTable() = default;
-    /// Room for nodes of up to `most` corners.
-    LinkTable(const Allocator* allocator, std::uint32_t most);
-    void link(std::span<const NodeCorner> around, const CornerLinks& links);
-
-  private:
-    /// Half-edges to or from one neighbour that wait for a partner. All run in one direction.
-    struct Queue {
-        std::uint32_t neighbour = kNone, first = kNone, last = kNone;
-    };
-    Queue& find(std::uint32_t neighbour);
-    void meet(std::uint32_t member, std::uint32_t neighbour, std::uint32_t* mine, std::uint32_t* theirs,
-              std::uint32_t outgoing);
-
-    Buffer<Queue> queues_;
-    Buffer<std::uint32_t> behind_;  // 2 per member: who waits behind its arriving and its leaving half-edge
-    std::size_t mask_ = 0;
-};
+/// For any: by sorting `half_edges`, which has room for two numbers per corner.
+void linkLarge(std::span<const NodeCorner> around, const CornerLinks& links, std::uint64_t* half_edges);
 
 /// The corners of one node and their groups, which are numbered in the order in which the reference opens them.
 struct NodeGroups {
@@ -82,7 +63,7 @@ class GroupRoom {
     friend class Grouping;
     std::uint32_t small_[3 * kSmallNode];
     Buffer<std::uint32_t> large_;
-    LinkTable table_;
+    Buffer<std::uint64_t> half_edges_;
 };
 
 class Grouping {
@@ -105,7 +86,7 @@ class Grouping {
     void findContested(const Allocator* allocator);
     void spreadContested(const Allocator* allocator);
     bool joinsContested(std::uint32_t triangle, std::uint32_t orientation);
-    void link(std::size_t place, const CornerLinks& links, LinkTable& table) const;
+    void link(std::size_t place, const CornerLinks& links, std::uint64_t* half_edges) const;
     void applyBucket(std::span<const NodeCorner> around, const CornerLinks& links) const;
 
     VertexCorners& corners_;

@@ -2,9 +2,7 @@
 // The sums of all nodes. A task owns a range of nodes: it goes through the triangles that have a node there, in order, and
 // adds to these nodes only. So each sum is made by one task, in the reference's order, and no task waits for another.
 // Triangles at the border of two ranges are computed twice. Triangles that lie close together need few ranges, one for
-// each task; for others ranges are so small that all data of their nodes stay in the second cache. And while fans are
-// followed triangle by triangle where those lie close together, in other orders a processor cannot foresee what each
-// does: there the triangles of a node are listed, up to so many, and looked at together.
+// each task; for others ranges are so small that all data of their nodes stay in the second cache.
 #include "tangents/mikktspace/node_sums.h"
 
 #include <algorithm>
@@ -60,39 +58,18 @@ struct Block {
     std::uint32_t triangles[kTermTriangles];  // their numbers
 };
 
-/// A node while its range is worked on and triangles are listed: a cache line.
-struct alignas(64) OpenNode {
-    float s[4];
-    FanList list;
-    std::uint32_t marks;
-    std::uint32_t count;  // of listed triangles
-
-    void clear() {
-        *this = {{0, 0, 0, 0}, {}, kAllMarks, 0};
-        list.clear();
-    }
-};
-
-/// What a task needs for one range.
-struct RangeWork {
-    FanRoom fan_room;
-    OpenNode* open;  // one per node; null: fans are followed at once
-};
-
 /// One task's worth of ranges.
 class Summer {
   public:
     explicit Summer(const Sweep& sweep) : sweep_(sweep), sums_(sweep.sums) {}
 
-    void run(std::size_t range, std::size_t first_node, std::size_t end_node, const RangeWork& work) {
-        fan_room_ = work.fan_room;
-        open_ = work.open;
+    void run(std::size_t range, std::size_t first_node, std::size_t end_node, const FanRoom& room) {
+        fan_room_ = room;
         first_node_ = static_cast<std::uint32_t>(first_node);
         node_count_ = static_cast<std::uint32_t>(end_node - first_node);
         std::fill_n(sums_.nodes.data() + first_node_, node_count_, NodeSum{});
         std::fill_n(sums_.marks.data() + first_node_, node_count_, std::uint16_t{kAllMarks});
         if (!sums_.rest.empty()) std::fill_n(sums_.rest.data() + first_node_, node_count_, GroupRest{});
-        for (std::uint32_t place = 0; open_ != nullptr && place < node_count_; ++place) open_[place].clear();
         next_ = 0;
         if (sweep_.lists != nullptr) entries_ = sweep_.lists->entries(range);
         // One block is read, and memory asked for what it needs, before the one before it is computed.
@@ -102,7 +79,6 @@ class Summer {
             fill(blocks[current ^ 1]);
             compute(blocks[current]);
         }
-        for (std::uint32_t place = 0; open_ != nullptr && place < node_count_; ++place) close(place);
     }
 
     std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;
@@ -182,11 +158,11 @@ class Summer {
         }
         if (!sweep_.triangles.faces.empty()) keepKinds(block);
         if (sweep_.source.weighting == Weighting::none) {
-            open_ != nullptr ? add<Sums::none, true>(block) : add<Sums::none, false>(block);
+            add<Sums::none>(block);
         } else if (sums_.rest.empty()) {
-            open_ != nullptr ? add<Sums::tangents, true>(block) : add<Sums::tangents, false>(block);
+            add<Sums::tangents>(block);
         } else {
-            open_ != nullptr ? add<Sums::all, true>(block) : add<Sums::all, false>(block);
+            add<Sums::all>(block);
         }
     }
 
@@ -221,28 +197,28 @@ class Summer {
     struct Target {
         NodeSum* nodes;
         std::uint16_t* marks;
-        OpenNode* open;
-        std::uint32_t first_node;
     };
 
-    template <Sums kSums, bool kLists>
+    template <Sums kSums>
     void add(const Block& block) {
-        const Target to{sums_.nodes.data(), sums_.marks.data(), open_, first_node_};
+        const Target to{sums_.nodes.data(), sums_.marks.data()};
+        const bool is_whole = block.is_whole;
         for (std::size_t t = 0; t < block.count; ++t) {
             const std::uint32_t* n = block.nodes + 3 * t;
             if ((terms_.marks[0][t] & (kDegenerateMark | kNoUvArea)) != 0) [[unlikely]] {
                 addUnusual(block, t);
-            } else if (block.is_whole || (owns(n[0]) && owns(n[1]) && owns(n[2]))) [[likely]] {
-                addCorner<kSums, kLists>(to, t, 0, n[0], n[1], n[2]);
-                addCorner<kSums, kLists>(to, t, 1, n[1], n[2], n[0]);
-                addCorner<kSums, kLists>(to, t, 2, n[2], n[0], n[1]);
-            } else {
-                for (std::size_t k = 0; k < 3; ++k) {
-                    if (!owns(n[k])) continue;
-                    addTerms<kSums, kLists>(to, t, k, n[k]);
-                    link(n[k], n[(k + 1) % 3], n[(k + 2) % 3]);
-                }
+                continue;
             }
+            const std::uint32_t a = n[0], b = n[1], c = n[2];
+            const auto addCorner = [&](std::size_t k, std::uint32_t node, std::uint32_t next, std::uint32_t previous) {
+                if constexpr (kSums != Sums::none) addRow(to.nodes[node].s, terms_.s[3 * t + k]);  // and the weight
+                if constexpr (kSums == Sums::all) addRest(sums_.rest[node], terms_, t, k);
+                to.marks[node] = static_cast<std::uint16_t>(to.marks[node] & terms_.marks[k][t]);
+                to.nodes[node].fan.add(next, previous, fan_room_);
+            };
+            if (is_whole || owns(a)) addCorner(0, a, b, c);
+            if (is_whole || owns(b)) addCorner(1, b, c, a);
+            if (is_whole || owns(c)) addCorner(2, c, a, b);
         }
     }
 
@@ -253,94 +229,16 @@ class Summer {
         for (std::size_t k = 0; k < 3; ++k) {
             if (!owns(n[k])) continue;
             if (degenerate) {
-                unmark(n[k], 0);
+                sums_.marks[n[k]] = 0;
             } else {
-                link(n[k], n[(k + 1) % 3], n[(k + 2) % 3]);
+                sums_.nodes[n[k]].fan.add(n[(k + 1) % 3], n[(k + 2) % 3], fan_room_);
             }
         }
         if (!degenerate && owns(n[0])) sums_.kinds[block.triangles[t]] = kDegenerateUv;
     }
 
-    template <Sums kSums, bool kLists>
-    void addTerms(const Target& to, std::size_t t, std::size_t k, std::uint32_t node) {
-        const std::size_t row = 3 * t + k;
-        if constexpr (kLists) {
-            OpenNode& open = to.open[node - to.first_node];
-            if constexpr (kSums != Sums::none) addRow(open.s, terms_.s[row]);  // and the weight
-            open.marks &= terms_.marks[k][t];
-        } else {
-            if constexpr (kSums != Sums::none) addRow(to.nodes[node].s, terms_.s[row]);
-            to.marks[node] = static_cast<std::uint16_t>(to.marks[node] & terms_.marks[k][t]);
-        }
-        if constexpr (kSums == Sums::all) {
-            addRest(sums_.rest[node], terms_, t, k);
-        }
-    }
-
-    /// With neighbours in the range.
-    template <Sums kSums, bool kLists>
-    void addCorner(const Target& to, std::size_t t, std::size_t k, std::uint32_t node, std::uint32_t next,
-                   std::uint32_t previous) {
-        addTerms<kSums, kLists>(to, t, k, node);
-        if constexpr (kLists) {
-            const std::uint32_t place = node - to.first_node;
-            if (to.open[place].count == FanList::kMost) [[unlikely]]
-                followListed(place);
-            to.open[place].list.set(to.open[place].count++, next - to.first_node, previous - to.first_node);
-        } else if (!to.nodes[node].fan.add(next, previous, fan_room_)) [[unlikely]] {
-            unmark(node, ~kFanKnown);
-        }
-    }
-
-    /// Adds a corner to the node's fan.
-    [[gnu::noinline]] void link(std::uint32_t node, std::uint32_t next, std::uint32_t previous) {
-        if (open_ == nullptr) return follow(node, next, previous);
-        const std::uint32_t place = node - first_node_, to_next = next - first_node_,
-                            to_previous = previous - first_node_;
-        const bool fits = FanList::holds(to_next) && FanList::holds(to_previous);
-        OpenNode& open = open_[place];
-        if (!fits || open.count == FanList::kMost) followListed(place);
-        if (!fits) return follow(node, next, previous);
-        open.list.set(open.count++, to_next, to_previous);
-    }
-
-    void follow(std::uint32_t node, std::uint32_t next, std::uint32_t previous) {
-        if (!sums_.nodes[node].fan.add(next, previous, fan_room_)) [[unlikely]]
-            unmark(node, ~kFanKnown);
-    }
-
-    [[gnu::noinline]] void unmark(std::uint32_t node, std::uint32_t kept) {
-        sums_.marks[node] &= static_cast<std::uint16_t>(kept);
-        if (open_ != nullptr) open_[node - first_node_].marks &= kept;
-    }
-
-    /// Nodes of many corners, or with distant neighbours.
-    [[gnu::noinline]] void followListed(std::uint32_t place) {
-        OpenNode& open = open_[place];
-        for (std::uint32_t i = 0; i < open.count; ++i) {
-            follow(first_node_ + place, first_node_ + static_cast<std::uint32_t>(std::int32_t{open.list.next[i]}),
-                   first_node_ + static_cast<std::uint32_t>(std::int32_t{open.list.previous[i]}));
-        }
-        open.count = 0;
-        open.list.clear();
-    }
-
-    void close(std::uint32_t place) {
-        OpenNode& open = open_[place];
-        NodeSum& sum = sums_.nodes[first_node_ + place];
-        if (!sum.fan.isEmpty()) {
-            followListed(place);
-        } else if (open.count != 0) {
-            sum.fan.leaves[0] = Fan::kClosed;
-            if (!isOneFan(open.list, open.count)) open.marks &= ~kFanKnown;
-        }
-        std::copy_n(open.s, 4, sum.s);
-        sums_.marks[first_node_ + place] = static_cast<std::uint16_t>(open.marks);
-    }
-
     const Sweep& sweep_;
     NodeSums& sums_;
-    OpenNode* open_ = nullptr;
     FanRoom fan_room_{nullptr, 0};
     std::uint32_t first_node_ = 0, node_count_ = 0;
     std::span<const std::uint32_t> entries_;
@@ -425,8 +323,7 @@ void sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& 
     sums.scattered = isScattered(sweep);
     const unsigned shift = range_shift != 0 ? range_shift : rangeShift(sweep, parallel.width());
     const std::size_t ranges = ((nodes.count - 1) >> shift) + 1;
-    const bool lists_fans = sums.scattered && shift <= kScatteredShift;
-    sweep.asks = sums.scattered && !lists_fans;
+    sweep.asks = sums.scattered && shift > kScatteredShift;
     std::optional<RangeLists> range_lists;
     if (ranges > 1) {
         range_lists.emplace(MeshTriangles(mesh, triangles, nodes, nullptr), kTermTriangles, nodes.count,
@@ -440,16 +337,12 @@ void sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& 
     Buffer<Counts> counts(allocator, tasks);
     const std::size_t fans_each = std::min(nodes.count, std::size_t{1} << shift) / kManyShare + 64;
     Buffer<ManyPaths> many_paths(transient.allocator(), tasks * fans_each);
-    const std::size_t open_each = lists_fans ? std::min(nodes.count, std::size_t{1} << shift) : 0;
-    Buffer<OpenNode> open(allocator, tasks * open_each);
     std::atomic<std::size_t> next{0};
     parallel.forTasks(tasks, [&](std::size_t task) {
         Summer summer(sweep);
         for (std::size_t range = next++; range < ranges; range = next++) {
             const std::size_t end = std::min((range + 1) << shift, nodes.count);
-            summer.run(range, range << shift, end,
-                       {{many_paths.data() + task * fans_each, fans_each},
-                        open_each == 0 ? nullptr : open.data() + task * open_each});
+            summer.run(range, range << shift, end, {many_paths.data() + task * fans_each, fans_each});
             if (ranges > 1) finish(range << shift, end);
         }
         counts[task] = {summer.degenerate_count, summer.no_uv_area_count, summer.mirrored_count};

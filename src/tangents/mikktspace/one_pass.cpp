@@ -321,11 +321,11 @@ class OnePass {
         NodeSum* const nodes = sums_.nodes.data();
         const Mask4 marks = {all_marks[at[0]], all_marks[at[1]], all_marks[at[2]], all_marks[at[3]]};
         const auto has = [&](std::uint32_t mark) { return (marks & static_cast<std::int32_t>(mark)) != 0; };
-        const auto pathOf = [&](std::size_t i) { return static_cast<std::int32_t>(nodes[at[i]].fan.leaves[1]); };
+        const auto pathOf = [&](std::size_t i) { return static_cast<std::int32_t>(nodes[at[i]].fan.secondPath()); };
         const Mask4 second_path = {pathOf(0), pathOf(1), pathOf(2), pathOf(3)};
         const Mask4 up = has(kFacesUp), down = has(kFacesDown), empty = up & down;
         // With one orientation it has triangles, which make at least one path.
-        Mask4 simple = (up ^ down) & has(kFanKnown) & (second_path == static_cast<std::int32_t>(Fan::kFree));
+        Mask4 simple = (up ^ down) & (second_path == 0);
         const unsigned missing = 15u & ~0u << std::min<std::size_t>(left, 4);
         if (estimates_) return {laneBits(~(simple | empty)) & ~missing, laneBits(empty) & ~missing};
         Float4 x = loadFloat4(nodes[at[0]].s), y = loadFloat4(nodes[at[1]].s), z = loadFloat4(nodes[at[2]].s),
