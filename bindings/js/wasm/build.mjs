@@ -158,15 +158,28 @@ async function link(name, module, objects) {
     `--initial-memory=${module.throws ? 2097152 : 1048576}`, "--max-memory=4294967296", "--lto-O2", "-mllvm", "-disable-lsr", ...copiesLess, ...inlined(-14000), ...objects,
     `-L${folder}/lto`, `-L${folder}`, ...(module.throws ? ["-ldlmalloc", "--export=stackSave", "--export=stackRestore", "--export-table"] : []),
     "-lc-optz", "-lc++-noexcept", "-lc++abi-noexcept", "-lcompiler_rt", "--export=__wasm_call_ctors", "--allow-undefined", "-o", raw]);
-  const wasm = join(out, `${name}.wasm`);
+  const wasm = join(out, `${name}_plain.wasm`);
   // Low memory: the first KB is the end of the stack, where no offset below 1024 can lead by going round 2^32.
   await run("wasm-opt", ["--enable-simd", "--enable-bulk-memory", "--enable-sign-ext", "--enable-mutable-globals",
     "--enable-nontrapping-float-to-int", "-Oz", "--converge", "--low-memory-unused", "-ocimfs=30", raw, "-o", wasm]);
   const imports = WebAssembly.Module.imports(new WebAssembly.Module(readFileSync(wasm))).map((i) => i.name);
   const unknown = imports.filter((i) => !(module.imports ?? ["endCall"]).includes(i));
   if (unknown.length !== 0) throw new Error(`${name}.wasm imports ${unknown.join(", ")}`);
-  const bytes = readFileSync(wasm);
-  console.log(`${name}.wasm: ${bytes.length} bytes, ${gzipSync(bytes, { level: 9 }).length} gzipped`);
+  const bytes = readFileSync(wasm), squeezed = await squeeze(name, wasm);
+  console.log(`${name}.wasm: ${bytes.length} bytes, ${gzipSync(bytes, { level: 9 }).length} gzipped, ${squeezed} squeezed`);
+}
+
+/// The module that is loaded: it has the other one in it, squeezed (squeezed.cpp), and opens it. Its bytes.
+async function squeeze(name, wasm) {
+  const { stdout: lzma } = await run("xz", ["--format=raw", "--lzma1=preset=9e,lc=3,lp=0,pb=0", "--stdout", wasm], { encoding: "buffer", maxBuffer: 1 << 30 });
+  const [object, raw, result] = ["_squeezed.o", "_squeezed_raw.wasm", ".wasm"].map((end) => join(out, name + end));
+  const data = write(join(out, `${name}_squeezed.h`),
+    `constexpr unsigned kBytes = ${statSync(wasm).size};\nconstexpr unsigned char kSqueezed[] = {${[...lzma]}};\n`);
+  await run("em++", ["-std=c++20", "-Oz", "-finline-functions", "-mbulk-memory", "-fno-exceptions", "-fno-rtti", "-Wall", "-Wextra", "-Werror",
+    "-include", data, "-c", join(here, "squeezed.cpp"), "-o", object]);
+  await run("wasm-ld-14", ["--no-entry", "--gc-sections", "--strip-all", "--stack-first", "-z", "stack-size=1024", object, "-o", raw]);
+  await run("wasm-opt", ["--enable-bulk-memory", "--enable-mutable-globals", "-Oz", "--converge", raw, "-o", result]);
+  return statSync(result).size;
 }
 
 const version = readFileSync(join(root, "CMakeLists.txt"), "utf8").match(/project\(tspace VERSION (\d+)\.(\d+)\.(\d+)/);
