@@ -14,25 +14,26 @@ constexpr std::uint32_t kNoRange = 0xffffffffu, kSeveral = 0xfffffffeu;
 
 class Walk {
   public:
-    Walk(const TriangleGroups& triangles, std::size_t block_size, std::size_t range_count, int shift)
+    Walk(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count, std::size_t range_size)
         : triangles_(triangles),
           block_size_(block_size),
-          range_count_(static_cast<std::uint32_t>(range_count)),
-          shift_(shift) {}
+          shift_(std::countr_zero(range_size)),
+          range_count_(static_cast<std::uint32_t>((group_count + range_size - 1) >> shift_)) {}
 
     /// The range of a block, or kNoRange, or kSeveral.
     std::uint32_t rangeOfBlock(std::size_t block) {
         const std::size_t size = 3 * read(block);
+        const std::uint32_t* const groups = groups_;
         std::uint32_t any = 0, all = ~std::uint32_t{0};
         for (std::size_t i = 0; i < size; ++i) {
-            any |= groups_[i];
-            all &= groups_[i];
+            any |= groups[i];
+            all &= groups[i];
         }
-        if ((any ^ all) >> shift_ == 0) return rangeOf(groups_[0]);
+        if ((any ^ all) >> shift_ == 0) return rangeOf(groups[0]);
         if (rangeOf(any) != kNoRange) return kSeveral;
         std::uint32_t only = kNoRange;
         for (std::size_t i = 0; i < size; ++i) {
-            const std::uint32_t range = rangeOf(groups_[i]);
+            const std::uint32_t range = rangeOf(groups[i]);
             if (range == kNoRange) continue;
             if (only != kNoRange && range != only) return kSeveral;
             only = range;
@@ -58,7 +59,11 @@ class Walk {
     std::size_t read(std::size_t block) {
         const std::size_t first = block * block_size_;
         const std::size_t size = std::min(block_size_, triangles_.count - first);
-        if (block != std::exchange(held_, block)) triangles_.read(first, size, nullptr, groups_);
+        if (block == std::exchange(held_, block)) return size;
+        groups_ = triangles_.inPlace(first, size);
+        if (groups_ != nullptr) return size;
+        triangles_.read(first, size, nullptr, own_groups_);
+        groups_ = own_groups_;
         return size;
     }
 
@@ -78,56 +83,117 @@ class Walk {
 
     const TriangleGroups& triangles_;
     std::size_t block_size_;
-    std::uint32_t range_count_;
     int shift_;
+    std::uint32_t range_count_;
     std::size_t held_ = ~std::size_t{0};
-    std::uint32_t groups_[3 * RangeLists::kMostInBlock] = {};
+    const std::uint32_t* groups_ = nullptr;
+    std::uint32_t own_groups_[3 * TriangleBatch::kMost] = {};
 };
 
 }  // namespace
 
 RangeLists::RangeLists(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count,
-                       std::size_t range_size, const Allocator* allocator, Parallel& parallel) {
-    const int shift = std::countr_zero(range_size);
-    const std::size_t ranges = (group_count + range_size - 1) >> shift;
-    const std::size_t blocks = (triangles.count + block_size - 1) / block_size;
+                       std::size_t range_size, const Allocator* allocator, Parallel& parallel)
+    : RangeLists(block_size, group_count, range_size) {
+    if (count_ <= 1) return;
+    const std::size_t blocks = blockCount(triangles.count);
     const std::size_t tasks = std::clamp<std::size_t>(blocks / kBlocksPerTask, 1, parallel.width());
     // First how many entries each task has for each range, then where they go: task after task within a
     // range.
-    Buffer<std::size_t> places(allocator, tasks * ranges, std::size_t{0});
+    Buffer<std::size_t> places(allocator, tasks * count_, std::size_t{0});
     Buffer<std::uint32_t> range_of(allocator, blocks);
     const auto forBlocks = [&](std::size_t task, const auto& body) {
-        for (std::size_t b = blocks * task / tasks; b < blocks * (task + 1) / tasks; ++b) body(b);
+        Walk walk(triangles, block_size, group_count, range_size);
+        for (std::size_t b = blocks * task / tasks; b < blocks * (task + 1) / tasks; ++b)
+            body(walk, b, places.data() + task * count_);
     };
     parallel.forTasks(tasks, [&](std::size_t task) {
-        Walk walk(triangles, block_size, ranges, shift);
-        std::size_t* const mine = places.data() + task * ranges;
-        forBlocks(task, [&](std::size_t block) {
+        forBlocks(task, [&](Walk& walk, std::size_t block, std::size_t* mine) {
             range_of[block] = walk.rangeOfBlock(block);
             walk.enterBlock(block, range_of[block], [mine](std::uint32_t range, std::uint32_t) { ++mine[range]; });
         });
     });
-    begin_ = Buffer<std::size_t>(allocator, ranges + 1);
+    begin_ = Buffer<std::size_t>(allocator, count_ + 1);
     std::size_t total = 0;
-    for (std::size_t range = 0; range < ranges; ++range) {
+    for (std::size_t range = 0; range < count_; ++range) {
         begin_[range] = total;
-        for (std::size_t task = 0; task < tasks; ++task) {
-            std::size_t& place = places[task * ranges + range];
-            const std::size_t size = place;
-            place = total;
-            total += size;
-        }
+        for (std::size_t task = 0; task < tasks; ++task) total += std::exchange(places[task * count_ + range], total);
     }
-    begin_[ranges] = total;
+    begin_[count_] = total;
     entries_ = Buffer<std::uint32_t>(allocator, total);
     parallel.forTasks(tasks, [&](std::size_t task) {
-        Walk walk(triangles, block_size, ranges, shift);
-        std::size_t* const mine = places.data() + task * ranges;
-        forBlocks(task, [&](std::size_t block) {
+        forBlocks(task, [&](Walk& walk, std::size_t block, std::size_t* mine) {
             walk.enterBlock(block, range_of[block],
                             [&](std::uint32_t range, std::uint32_t entry) { entries_[mine[range]++] = entry; });
         });
     });
+}
+
+bool RangeLists::areCompact(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count,
+                            std::size_t range_size) {
+    constexpr std::size_t kSamples = 64;
+    const std::size_t blocks = (triangles.count + block_size - 1) / block_size, samples = std::min(blocks, kSamples);
+    Walk walk(triangles, block_size, group_count, range_size);
+    std::size_t several = 0;
+    for (std::size_t i = 0; i < samples; ++i)
+        several += walk.rangeOfBlock((2 * i + 1) * blocks / (2 * samples)) == kSeveral ? 1 : 0;
+    return 2 * several <= samples;
+}
+
+std::size_t RangeLists::mostTriangles(std::size_t all) const {
+    if (begin_.empty()) return all;
+    std::size_t most = 0;
+    for (std::size_t range = 0; range < count_; ++range) {
+        std::size_t here = 0;
+        for (const std::uint32_t entry : entries(range)) here += (entry & kBlock) != 0 ? block_size_ : 1;
+        most = std::max(most, here);
+    }
+    return most;
+}
+
+RangeLists::Batches::Batches(const TriangleGroups& triangles, const RangeLists& lists, std::size_t range)
+    : Batches(triangles, lists.block_size_, 0, lists.blockCount(triangles.count)) {
+    are_whole_ = !lists.begin_.empty() || lists.count_ == 1;
+    if (lists.begin_.empty()) return;
+    entries_ = lists.entries_.data();
+    next_ = lists.begin_[range];
+    end_ = lists.begin_[range + 1];
+}
+
+bool RangeLists::Batches::next(TriangleBatch& batch, bool wants_vertices) {
+    batch.count = 0;
+    batch.is_block = batch.is_whole = false;
+    batch.vertices = batch.own_vertices;
+    batch.groups = batch.own_groups;
+    const auto add = [&](std::size_t first, std::size_t size) {
+        batch.numbers[batch.count] = static_cast<std::uint32_t>(first);
+        triangles_.read(first, size, wants_vertices ? batch.own_vertices + 3 * batch.count : nullptr,
+                        batch.own_groups + 3 * batch.count);
+        batch.count += size;
+    };
+    for (; next_ != end_ && batch.count < block_size_; ++next_) {
+        const std::size_t entry = entries_ != nullptr ? entries_[next_] : kBlock | next_;
+        if ((entry & kBlock) == 0) {
+            add(entry, 1);
+            continue;
+        }
+        if (batch.count != 0) break;
+        const std::size_t first = (entry & ~std::size_t{kBlock}) * block_size_;
+        const std::size_t size = std::min(block_size_, triangles_.count - first);
+        const std::uint32_t* const in_place = size == block_size_ ? triangles_.inPlace(first, size) : nullptr;
+        if (in_place == nullptr) {
+            add(first, size);
+        } else {
+            batch.numbers[0] = static_cast<std::uint32_t>(first);
+            batch.vertices = batch.groups = in_place;
+            batch.count = size;
+        }
+        batch.is_block = true;
+        batch.is_whole = are_whole_;
+        ++next_;
+        break;
+    }
+    return batch.count != 0;
 }
 
 }  // namespace tspace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 
 #include "core/add_row.h"
 
@@ -18,63 +19,51 @@ std::size_t wholeLanes(std::size_t groups) {
     return (groups + SumRound::kGroups - 1) / SumRound::kGroups * SumRound::kGroups;
 }
 
-/// One range of groups in one round: zero the sums, add the triangles that are listed, finish.
+/// The ranges of one task, in one round: zero the sums, add the triangles, finish.
 class RangeOfRound {
   public:
-    RangeOfRound(const TriangleGroups& triangles, std::size_t corner_step, const SumRound& round, float* sums,
-                 std::uint32_t* vertices)
-        : triangles_(triangles), corner_step_(corner_step), round_(round), sums_(sums), vertices_of_(vertices) {}
+    RangeOfRound(std::size_t corner_step, const SumRound& round, float* sums, std::uint32_t* vertices)
+        : corner_step_(corner_step), round_(round), sums_(sums), vertices_of_(vertices) {
+        std::fill(std::begin(batch_.own_vertices), std::end(batch_.own_vertices), 0u);
+        std::fill(std::begin(batch_.own_groups), std::end(batch_.own_groups), 0u);
+    }
 
-    void start(std::size_t first_group, std::size_t group_count) {
-        first_group_ = static_cast<std::uint32_t>(first_group);
-        group_count_ = static_cast<std::uint32_t>(group_count);
-        std::fill_n(sums_, 4 * round_.row_count * wholeLanes(group_count), 0.0f);
-        std::fill_n(vertices_of_, wholeLanes(group_count), SumRound::kNoVertex);
-    }
-    void add(std::size_t first, std::size_t count) {
-        if (pending_ + count > SumRound::kTriangles) flush();
-        triangles_.read(first, count, vertices_ + 3 * pending_, groups_ + 3 * pending_);
-        pending_ += count;
-    }
-    void finish() {
-        flush();
-        for (std::size_t i = 0; i < group_count_; i += SumRound::kGroups)
-            round_.finish(sums_ + 4 * round_.row_count * i, vertices_of_ + i, first_group_ + i,
-                          std::min<std::size_t>(SumRound::kGroups, group_count_ - i));
+    void run(GroupRange range, RangeLists::Batches triangles) {
+        range_ = range;
+        std::fill_n(sums_, 4 * round_.row_count * wholeLanes(range.size()), 0.0f);
+        std::fill_n(vertices_of_, wholeLanes(range.size()), SumRound::kNoVertex);
+        while (triangles.next(batch_)) addBatch();
+        for (std::size_t i = 0; i < range.size(); i += SumRound::kGroups)
+            round_.finish(sums_ + 4 * round_.row_count * i, vertices_of_ + i, range.begin + i,
+                          std::min<std::size_t>(SumRound::kGroups, range.size() - i));
     }
 
   private:
-    void flush() {
-        if (pending_ == 0) return;
-        round_.add(vertices_, groups_, pending_, rows_);
+    void addBatch() {
+        round_.add(batch_.vertices, batch_.groups, batch_.count, rows_);
         switch (round_.row_count) {
             case 1:
-                addRows<1>();
-                break;
+                return addRows<1>();
             case 2:
-                addRows<2>();
-                break;
+                return addRows<2>();
             case 4:
-                addRows<4>();
-                break;
+                return addRows<4>();
             default:
-                round_.ends_in_maxima ? addRows<kMostRows, true>() : addRows<kMostRows>();
-                break;
+                return round_.ends_in_maxima ? addRows<kMostRows, true>() : addRows<kMostRows>();
         }
-        pending_ = 0;
     }
 
     template <std::size_t kRows, bool kMaxima = false>
     void addRows() {
         constexpr std::size_t kSums = 4 * (kMaxima ? kRows - 1 : kRows);
         // In variables of their own, which no store can change.
-        const std::uint32_t first_group = first_group_, group_count = group_count_;
+        const GroupRange range = range_;
         std::uint32_t* const vertices_of = vertices_of_;
         float* const all_sums = sums_;
-        for (std::size_t i = 0, end = 3 * pending_, step = corner_step_; i < end; i += step) {
-            const std::uint32_t place = groups_[i] - first_group;
-            if (place >= group_count) continue;
-            vertices_of[place] = vertices_[i];
+        for (std::size_t i = 0, end = 3 * batch_.count, step = corner_step_; i < end; i += step) {
+            if (!range.has(batch_.groups[i])) continue;
+            const std::uint32_t place = batch_.groups[i] - range.begin;
+            vertices_of[place] = batch_.vertices[i];
             float* const sums = all_sums + 4 * kRows * place;
             const float* const rows = rows_ + 4 * kRows * i;
 #pragma GCC unroll 7
@@ -84,14 +73,12 @@ class RangeOfRound {
         }
     }
 
-    const TriangleGroups& triangles_;
     std::size_t corner_step_;
     const SumRound& round_;
     float* sums_;
     std::uint32_t* vertices_of_;
-    std::uint32_t first_group_ = 0, group_count_ = 0;
-    std::size_t pending_ = 0;  // triangles in the block
-    std::uint32_t vertices_[3 * SumRound::kTriangles] = {}, groups_[3 * SumRound::kTriangles] = {};
+    GroupRange range_;
+    TriangleBatch batch_;
     alignas(64) float rows_[3 * SumRound::kTriangles * 4 * kMostRows];
 };
 
@@ -101,39 +88,21 @@ SumRounds::SumRounds(const TriangleGroups& triangles, std::size_t adding_corners
                      std::size_t most_rows, const Allocator* allocator, Parallel& parallel)
     : triangles_(triangles),
       corner_step_(adding_corners == 1 ? 3 : 1),
-      group_count_(group_count),
-      range_size_(std::bit_floor(kRangeBytes / (most_rows * sizeof(float[4])))),
-      range_count_((group_count + range_size_ - 1) / range_size_),
-      tasks_(parallel.width() == 1 ? 1 : std::min(range_count_, kTasksPerThread * parallel.width())),
+      lists_(triangles, SumRound::kTriangles, group_count, std::bit_floor(kRangeBytes / (most_rows * sizeof(float[4]))),
+             allocator, parallel),
+      tasks_(parallel.width() == 1 ? 1 : std::min(lists_.count(), kTasksPerThread * parallel.width())),
       parallel_(parallel) {
-    const std::size_t room = std::min(range_size_, wholeLanes(group_count));
+    const std::size_t room = wholeLanes(lists_.range(0).size());
     sums_ = Buffer<float>(allocator, tasks_ * room * 4 * most_rows);
     vertices_ = Buffer<std::uint32_t>(allocator, tasks_ * room);
-    if (range_count_ > 1)
-        lists_.emplace(triangles, SumRound::kTriangles, group_count, range_size_, allocator, parallel);
 }
 
 void SumRounds::run(const SumRound& round) {
     parallel_.forTasks(tasks_, [&](std::size_t task) {
-        RangeOfRound work(triangles_, corner_step_, round, sums_.data() + sums_.size() / tasks_ * task,
+        RangeOfRound work(corner_step_, round, sums_.data() + sums_.size() / tasks_ * task,
                           vertices_.data() + vertices_.size() / tasks_ * task);
-        for (std::size_t r = range_count_ * task / tasks_; r < range_count_ * (task + 1) / tasks_; ++r) {
-            work.start(r * range_size_, std::min(range_size_, group_count_ - r * range_size_));
-            const auto addBlock = [&](std::size_t first) {
-                work.add(first, std::min(SumRound::kTriangles, triangles_.count - first));
-            };
-            if (!lists_) {
-                for (std::size_t t = 0; t < triangles_.count; t += SumRound::kTriangles) addBlock(t);
-            } else {
-                for (const std::uint32_t entry : lists_->entries(r)) {
-                    if ((entry & RangeLists::kBlock) != 0)
-                        addBlock((entry & ~RangeLists::kBlock) * SumRound::kTriangles);
-                    else
-                        work.add(entry, 1);
-                }
-            }
-            work.finish();
-        }
+        for (std::size_t r = lists_.count() * task / tasks_; r < lists_.count() * (task + 1) / tasks_; ++r)
+            work.run(lists_.range(r), {triangles_, lists_, r});
     });
 }
 

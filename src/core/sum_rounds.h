@@ -4,8 +4,6 @@
 // triangles: the same bits for any number of ranges and threads.
 #pragma once
 
-#include <optional>
-
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "core/range_lists.h"
@@ -42,7 +40,7 @@ class SumRound {
 class SumRounds {
   public:
     /// `most_rows`: of any round. `adding_corners`: 3, or 1 where only the first corner of each triangle adds something.
-    /// Takes up to 1 MB per task, and range_lists.h where there is more than one range. Throws OutOfMemory.
+    /// Takes up to 1 MB per task and range_lists.h. Throws OutOfMemory.
     SumRounds(const TriangleGroups& triangles, std::size_t adding_corners, std::size_t group_count,
               std::size_t most_rows, const Allocator* allocator, Parallel& parallel);
 
@@ -50,11 +48,12 @@ class SumRounds {
 
   private:
     const TriangleGroups& triangles_;
-    std::size_t corner_step_, group_count_, range_size_, range_count_, tasks_;
+    std::size_t corner_step_;
+    RangeLists lists_;
+    std::size_t tasks_;
     Parallel& parallel_;
-    Buffer<float> sums_;               ///< of one range for each task
-    Buffer<std::uint32_t> vertices_;   ///< of each group there
-    std::optional<RangeLists> lists_;  ///< none: there is one range
+    Buffer<float> sums_;              ///< of one range for each task
+    Buffer<std::uint32_t> vertices_;  ///< of each group there
 };
 
 }  // namespace tspace

@@ -28,13 +28,37 @@ Faces::Faces(const MeshView& mesh, const Allocator* allocator) {
     first_corners_[mesh.faceCount()] = static_cast<std::uint32_t>(mesh.cornerCount());
 }
 
+PointItems::PointItems(const MeshView& mesh, const Faces& faces, const Buffer<std::uint32_t>& points)
+    : TriangleGroups(areTriangles(mesh) ? mesh.faceCount() : mesh.cornerCount()),
+      mesh_(mesh),
+      faces_(faces),
+      points_(points),
+      in_place_(areTriangles(mesh) && mesh.indices.type == IndexType::u32
+                    ? static_cast<const std::uint32_t*>(mesh.indices.data)
+                    : nullptr),
+      is_own_mesh_(points.empty()) {}
+
+void PointItems::findOwn(const Allocator* allocator, Parallel& parallel) {
+    if (in_place_ == nullptr || is_own_mesh_) return;
+    const std::uint32_t* const points = points_.data();
+    constexpr std::size_t kBlock = TriangleBatch::kMost, kGrain = Parallel::kGrain / kBlock;
+    are_own_ = Buffer<std::uint8_t>(allocator, (count + kBlock - 1) / kBlock);
+    parallel.forRanges(are_own_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t block = begin; block < end; ++block) {
+            const std::uint32_t* v = in_place_ + 3 * kBlock * block;
+            const std::uint32_t* const past = v + 3 * std::min(kBlock, count - kBlock * block);
+            while (v != past && points[v[0]] == v[0] && points[v[1]] == v[1] && points[v[2]] == v[2]) v += 3;
+            are_own_[block] = v == past ? 1 : 0;
+        }
+    });
+}
+
 void PointItems::read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* points) const {
     if (areTriangles(mesh_)) {
-        const std::uint32_t* const v = readIndices(mesh_.indices, 3 * first, 3 * size, points);
-        if (vertices != nullptr) std::copy_n(v, 3 * size, vertices);
-        if (v != points) std::copy_n(v, 3 * size, points);
-        const std::uint32_t* const of_vertex = points_.data();
-        for (std::size_t i = 0; of_vertex != nullptr && i < 3 * size; ++i) points[i] = of_vertex[points[i]];
+        const std::uint32_t* const v =
+            readIndices(mesh_.indices, 3 * first, 3 * size, vertices != nullptr ? vertices : points);
+        if (vertices != nullptr && v != vertices) std::copy_n(v, 3 * size, vertices);
+        for (std::size_t i = 0; i < 3 * size; ++i) points[i] = is_own_mesh_ ? v[i] : points_[v[i]];
         return;
     }
     for (std::size_t i = 0; i < size; ++i) {

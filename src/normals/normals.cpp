@@ -30,18 +30,14 @@ Error checkOptions(const MeshView& mesh, const NormalOptions& options, const Str
 
 Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& posed, const NormalOptions& options,
                                       StridedSpan<Vec3> out) {
-    const bool is_short = canSmoothTriangles(mesh, options);
-    if (Error e = checkAllButIndices(mesh); e.code != ErrorCode::ok) return e;
-    if (Error e = checkSpan(posed.positions, mesh.vertexCount(), "positions"); e.code != ErrorCode::ok) return e;
-    if (Error e = checkOptions(mesh, options, out); e.code != ErrorCode::ok) return e;
-    if (!is_short) {
-        if (Error e = checkIndices(mesh.indices, mesh.vertexCount()); e.code != ErrorCode::ok) return e;
-    }
     // Cones and patches of faces are looked for at each point.
     constexpr std::uint64_t kSlow = 4;
     const bool is_slow = options.weighting == NormalWeighting::best || options.crease_angle_deg < 180;
     Parallel parallel(options.execution, (is_slow ? kSlow : 1) * mesh.cornerCount());
-    if (is_short) return smoothTriangles(mesh, posed.positions, options, out, parallel);
+    if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
+    if (Error e = checkSpan(posed.positions, mesh.vertexCount(), "positions"); e.code != ErrorCode::ok) return e;
+    if (Error e = checkOptions(mesh, options, out); e.code != ErrorCode::ok) return e;
+    if (canSmoothTriangles(mesh, options)) return smoothTriangles(mesh, posed.positions, options, out, parallel);
     return smoothFaces(mesh, posed, options, out, parallel);
 }
 

@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "core/angle.h"
-#include "core/vertex_ranges.h"
+#include "core/range_lists.h"
 #include "core/weld.h"
 #include "normals/best_rounds.h"
 #include "normals/face_terms.h"
@@ -170,23 +170,14 @@ class RangeWork {
   public:
     RangeWork(const Setting& setting, const Room& room) : setting_(setting), room_(room) {}
 
-    /// Reads what lies at the points from `first` on; returns how many faces are degenerate, each counted once.
-    std::uint64_t read(std::span<const std::uint32_t> entries, std::size_t first, std::size_t point_count) {
-        first_ = static_cast<std::uint32_t>(first);
-        count_ = static_cast<std::uint32_t>(point_count);
-        size_ = pending_ = 0;
+    /// Reads what lies at the points of a range; returns how many faces are degenerate, each counted once.
+    std::uint64_t read(GroupRange range, RangeLists::Batches items) {
+        first_ = range.begin;
+        count_ = static_cast<std::uint32_t>(range.size());
+        size_ = 0;
         degenerate_ = 0;
         std::fill_n(room_.begins, count_ + 3, 0u);
-        for (const std::uint32_t entry : entries) {
-            const bool is_block = (entry & RangeLists::kBlock) != 0;
-            const std::size_t item = is_block ? (entry & ~RangeLists::kBlock) * kTermTriangles : entry;
-            const std::size_t size = is_block ? std::min(kTermTriangles, setting_.items.count - item) : 1;
-            if (pending_ + size > kTermTriangles) flush();
-            setting_.items.read(item, size, vertices_ + 3 * pending_, points_ + 3 * pending_);
-            for (std::size_t i = 0; i < size; ++i) numbers_[pending_ + i] = static_cast<std::uint32_t>(item + i);
-            pending_ += size;
-        }
-        flush();
+        while (items.next(batch_, setting_.are_triangles)) setting_.are_triangles ? addTriangles() : addCorners();
         sortByPoint();
         return degenerate_;
     }
@@ -214,41 +205,33 @@ class RangeWork {
     /// The place of a point in `begins`; those of other ranges share one.
     [[nodiscard]] std::uint32_t placeOf(std::uint32_t point) const { return std::min(point - first_, count_); }
     /// `begins` counts two places up: after the sums and the filling it holds the begins.
-    void count(std::uint32_t point) { ++room_.begins[placeOf(point) + 2]; }
+    void countAt(std::uint32_t point) { ++room_.begins[placeOf(point) + 2]; }
     void enter(std::uint32_t point, std::uint32_t entry) { room_.entries[room_.begins[placeOf(point) + 1]++] = entry; }
 
-    void flush() {
-        if (setting_.are_triangles)
-            addTriangles();
-        else
-            addCorners();
-        pending_ = 0;
-    }
-
     void addTriangles() {
-        if (pending_ == 0) return;
-        const std::uint32_t* const v = fillGroup(vertices_, pending_, smooth::kTermGroup, vertices_);
+        const std::size_t count = batch_.count;
+        const std::uint32_t* const v = fillGroup(batch_.vertices, count, smooth::kTermGroup, batch_.own_vertices);
         if (room_.deciding != room_.rows) {
-            setting_.kernel.compute(sourceOf(setting_.mesh.positions, false, false), v, pending_, terms_);
-            std::memcpy(room_.deciding + size_, terms_.normal, pending_ * sizeof(FaceRow));
+            setting_.kernel.compute(sourceOf(setting_.mesh.positions, false, false), v, count, terms_);
+            std::memcpy(room_.deciding + size_, terms_.normal, count * sizeof(FaceRow));
         }
         const std::size_t degenerate = setting_.kernel.compute(
-            sourceOf(setting_.posed.positions, setting_.by_angle, setting_.by_area), v, pending_, terms_);
-        std::memcpy(room_.rows + size_, terms_.normal, pending_ * sizeof(FaceRow));
-        for (std::size_t t = 0; t < pending_; ++t) {
-            const std::uint32_t* const p = points_ + 3 * t;
+            sourceOf(setting_.posed.positions, setting_.by_angle, setting_.by_area), v, count, terms_);
+        std::memcpy(room_.rows + size_, terms_.normal, count * sizeof(FaceRow));
+        for (std::size_t t = 0; t < count; ++t) {
+            const std::uint32_t* const p = batch_.groups + 3 * t;
             room_.triangles[size_ + t] = {{p[0], p[1], p[2], p[0], p[1]},
-                                          3 * numbers_[t],
+                                          3 * batch_.number(t),
                                           {terms_.angle[0][t], terms_.angle[1][t], terms_.angle[2][t]}};
-            for (std::size_t k = 0; k < 3; ++k) count(p[k]);
+            for (std::size_t k = 0; k < 3; ++k) countAt(p[k]);
         }
         if (degenerate != 0 || setting_.weighting == NormalWeighting::max || room_.deciding != room_.rows) mend();
-        size_ += pending_;
+        size_ += static_cast<std::uint32_t>(count);
     }
 
     /// What the kernel does not know.
     void mend() {
-        for (std::size_t t = size_; t < size_ + pending_; ++t) {
+        for (std::size_t t = size_; t < size_ + batch_.count; ++t) {
             LocalTriangle& triangle = room_.triangles[t];
             const FaceRow& row = room_.rows[t];
             if (row.isDegenerate() && placeOf(triangle.points[0]) < count_) ++degenerate_;
@@ -273,8 +256,9 @@ class RangeWork {
 
     /// Of other faces the items are corners.
     void addCorners() {
-        for (std::size_t i = 0; i < pending_; ++i) {
-            const std::uint32_t corner = numbers_[i], point = points_[3 * i], face = setting_.faces.of(corner);
+        for (std::size_t i = 0; i < batch_.count; ++i) {
+            const std::uint32_t corner = batch_.number(i), point = batch_.groups[3 * i],
+                                face = setting_.faces.of(corner);
             if (placeOf(point) == count_) continue;
             const std::uint32_t next = setting_.items.pointOf(setting_.faces.next(corner));
             const std::uint32_t previous = setting_.items.pointOf(setting_.faces.previous(corner));
@@ -284,7 +268,7 @@ class RangeWork {
             room_.triangles[size_++] = {{point, next, previous, kNoPoint, kNoPoint},
                                         corner,
                                         {setting_.weightOf(setting_.weighting, point, corner, row), 0, 0}};
-            count(point);
+            countAt(point);
         }
     }
 
@@ -380,20 +364,18 @@ class RangeWork {
     std::uint32_t last_face_ = 0;
     std::uint64_t degenerate_ = 0;
     std::uint32_t others_point_ = kNoPoint;
-    Vec3 of_others_;           ///< the mean of all corners at that point
-    std::size_t pending_ = 0;  ///< items that wait for the kernel
-    std::uint32_t vertices_[3 * kTermTriangles], points_[3 * kTermTriangles], numbers_[kTermTriangles];
+    Vec3 of_others_;  ///< the mean of all corners at that point
+    TriangleBatch batch_;
     FaceTerms terms_;
 };
 
 /// The room of each task.
 class Rooms {
   public:
-    Rooms(const Setting& setting, const RangeLists& lists, std::size_t range_points, std::size_t tasks,
-          const Allocator* allocator)
-        : items_(mostItems(lists)),
+    Rooms(const Setting& setting, const RangeLists& lists, std::size_t tasks, const Allocator* allocator)
+        : items_(lists.mostTriangles(setting.items.count)),
           corners_(setting.are_triangles ? 3 * items_ : items_),
-          numbers_each_(2 * corners_ + range_points + 3),
+          numbers_each_(2 * corners_ + lists.range(0).size() + 3),
           rows_(allocator, tasks * items_),
           deciding_(allocator, setting.hasPose() ? tasks * items_ : 0),
           triangles_(allocator, tasks * items_),
@@ -413,17 +395,6 @@ class Rooms {
     }
 
   private:
-    static std::size_t mostItems(const RangeLists& lists) {
-        std::size_t most = 0;
-        for (std::size_t range = 0; range < lists.count(); ++range) {
-            std::size_t here = 0;
-            for (const std::uint32_t entry : lists.entries(range))
-                here += (entry & RangeLists::kBlock) != 0 ? kTermTriangles : 1;
-            most = std::max(most, here);
-        }
-        return most;
-    }
-
     std::size_t items_, corners_, numbers_each_;
     Buffer<FaceRow> rows_, deciding_;
     Buffer<LocalTriangle> triangles_;
@@ -488,7 +459,7 @@ NormalReport smoothFaces(const MeshView& mesh, const MeshView& posed, const Norm
         std::clamp(std::bit_floor(point_count / (kRanges * most_tasks)), kLeastRange, kMostRange);
     const RangeLists lists(setting.items, kTermTriangles, point_count, range_points, allocator, parallel);
     const std::size_t tasks = std::min(lists.count(), most_tasks);
-    Rooms rooms(setting, lists, range_points, tasks, allocator);
+    Rooms rooms(setting, lists, tasks, allocator);
     Buffer<Vec3> sharp;
     Buffer<std::uint32_t> components;
     if (setting.is_best) {
@@ -502,8 +473,7 @@ NormalReport smoothFaces(const MeshView& mesh, const MeshView& posed, const Norm
     parallel.forTasks(tasks, [&](std::size_t task) {
         RangeWork work(setting, rooms.of(task));
         for (std::size_t r = lists.count() * task / tasks; r < lists.count() * (task + 1) / tasks; ++r) {
-            const std::size_t first = r * range_points;
-            degenerate += work.read(lists.entries(r), first, std::min(range_points, point_count - first));
+            degenerate += work.read(lists.range(r), {setting.items, lists, r});
             substitutes += work.average();
         }
     });

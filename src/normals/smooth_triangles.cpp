@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Sums of weighted face normals per point, in blocks of triangles whose arithmetic is SIMD. No list of the
-// corners around a point is needed: where its mean vanishes, a corner's substitute depends on its own face. Where
-// blocks of triangles lie close together, ranges of points are summed, finished and written one after the other. Based
-// on: Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998.
+// corners around a point is needed: where its mean vanishes, a corner's substitute depends on its own face. Ranges of
+// points are summed, finished and written one after the other, and fit into a cache where triangles lie close together.
+// Based on: Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998.
 #include "normals/smooth_triangles.h"
 
 #include <algorithm>
@@ -13,11 +13,10 @@
 #include <cstring>
 
 #include "core/angle.h"
-#include "core/border.h"
 #include "core/float4.h"
+#include "core/range_lists.h"
 #include "core/typed_indices.h"
 #include "core/vec_math.h"
-#include "core/vertex_ranges.h"
 #include "core/weld.h"
 #include "normals/best_rounds.h"
 #include "normals/face_terms.h"
@@ -27,29 +26,18 @@ namespace tspace {
 
 namespace {
 
-using smooth::FaceTerms, smooth::FaceSource, smooth::kTermGroup, smooth::kDoubtful, smooth::kVanished;
+using smooth::FaceTerms, smooth::FaceSource, smooth::kTermGroup, smooth::kTermTriangles, smooth::kDoubtful,
+    smooth::kVanished;
 
-constexpr std::size_t kBlock = VertexRanges::kBlock;
-static_assert(kBlock == smooth::kTermTriangles && kBlock % kTermGroup == 0);
-constexpr std::size_t kNearPoints = 16384;   ///< and up to twice as many: their sums fit into a second cache
+static_assert(kTermTriangles == TriangleBatch::kMost && kTermTriangles % kTermGroup == 0);
+constexpr std::size_t kNearPoints = 16384;   ///< their sums fit into a second cache
 constexpr std::size_t kRangesPerThread = 4;  ///< at least
 
 /// The weighted sum of the unit normals at a point. Later its place holds four floats: the normal, and a mark
 /// whose sign is set when there is none.
 struct PointSum {
-    double x, y, z, weights;
+    double x, y, z, weights;  ///< of a sum that is taken again: minus the weights
 
-    /// Writes the unit mean, or the mark when the mean is not above `least`; returns which.
-    bool finish(double least) {
-        const double length = std::sqrt(x * x + y * y + z * z);
-        if (length > least * weights) [[likely]] {
-            const Vec3 unit = toFloat((1.0 / length) * DVec3{x, y, z});
-            storeFloat4(floats(), Float4{unit.x, unit.y, unit.z, 0.0f});
-            return true;
-        }
-        storeFloat4(floats(), Float4{0.0f, 0.0f, 0.0f, -0.0f});
-        return false;
-    }
     // For the functions of float4.h.
     [[nodiscard]] float* floats() { return reinterpret_cast<float*>(this); }
     [[nodiscard]] const float* floats() const { return reinterpret_cast<const float*>(this); }
@@ -57,26 +45,26 @@ struct PointSum {
     /// Has the mark although something was added.
     [[nodiscard]] bool isDoubtful() const { return isMarked(loadFloat4(floats())) && weights > 0; }
     static bool isMarked(Float4 normal) { return (laneBits(std::bit_cast<Mask4>(normal)) & 8) != 0; }
+
+    void takeAgain() { *this = {0, 0, 0, -0.0}; }
+    [[nodiscard]] bool isTakenAgain() const { return std::signbit(weights); }
+    void add(double weight, const DVec3& term) { *this = {x + term.x, y + term.y, z + term.z, weights - weight}; }
+    /// Writes the unit mean, or the mark.
+    void finish() {
+        const double length = std::sqrt(x * x + y * y + z * z);
+        const bool has_mean = length > kVanished * -weights;
+        const Vec3 unit = has_mean ? toFloat((1.0 / length) * DVec3{x, y, z}) : Vec3{};
+        weights = -weights;
+        storeFloat4(floats(), Float4{unit.x, unit.y, unit.z, has_mean ? 0.0f : -0.0f});
+    }
 };
 
 /// The places of a range of points.
 struct RangeSums {
-    PointSum* rows;  ///< of the points from range.begin on
-    VertexRange range;
-    std::uint64_t* doubtful;  ///< room for a bit per point
+    GroupRange range;
+    PointSum* rows;  ///< of the points from range.begin on, and up to the end of a group
 
-    [[nodiscard]] bool has(std::uint32_t point) const { return range.has(point); }
     [[nodiscard]] PointSum& at(std::uint32_t point) const { return rows[point - range.begin]; }
-    [[nodiscard]] std::size_t size() const { return range.end - range.begin; }
-};
-
-constexpr std::size_t wordsFor(std::size_t bits) { return (bits + 63) / 64; }
-
-/// A block of triangles: their vertices and points where these are not read from the mesh, and what they add.
-struct Block {
-    std::uint32_t vertices[3 * kBlock];
-    std::uint32_t points[3 * kBlock];
-    FaceTerms terms;
 };
 
 class TriangleSmoother {
@@ -97,166 +85,119 @@ class TriangleSmoother {
           out_(out),
           allocator_(options.execution.allocator),
           parallel_(parallel),
-          triangle_count_(mesh.faceCount()),
+          faces_(mesh, allocator_),
           points_(options.weld_positions ? weldPositions(mesh, allocator_, parallel_) : Buffer<std::uint32_t>()),
-          ranges_(mesh.indices, triangle_count_, mesh.vertexCount(), points_.data()) {}
+          triangles_(mesh, faces_, points_),
+          lists_(makeLists()) {}
 
-    Result<NormalReport> run() {
-        const bool threads = parallel_.width() > 1 && triangle_count_ >= Parallel::kGrain;
-        const std::size_t near = std::max(mesh_.vertexCount() / kNearPoints,
-                                          threads ? kRangesPerThread * parallel_.width() : std::size_t{1});
-        const bool is_near = !is_best_ && near > 1 && ranges_.wouldBeCompact(near);
-        if (is_near || threads) {
-            if (!ranges_.cut(is_near ? near : parallel_.width(), allocator_, parallel_)) return indexError();
-        } else if (Error e = indexError(); e.code != ErrorCode::ok) {
-            return e;
-        }
-        return sumAndWrite(is_near);
-    }
-
-  private:
-    [[nodiscard]] Error indexError() const { return checkIndices(mesh_.indices, mesh_.vertexCount()); }
-
-    /// `is_near`: each range is written when it is summed, with memory for the sums of one per task, which stays in the
-    /// cache. Otherwise all corners are written behind all sums.
-    NormalReport sumAndWrite(bool is_near) {
-        const std::size_t ranges = ranges_.count(), size = ranges_.range(0).end;
+    /// Each range is written when it is summed, with memory for the sums of one per task, which stays in the cache. But
+    /// where nothing is near, and for `best`, which goes over all sums in between, vertices get the sums of their points, so
+    /// that no corner has to look its point up, and all are written at last.
+    NormalReport run() {
+        const bool is_near = is_near_ && !is_best_;
+        const std::size_t ranges = lists_.count(), size = lists_.range(0).size() + kTermGroup;
         const std::size_t tasks = parallel_.width() == 1 ? 1 : std::min(ranges, kRangesPerThread * parallel_.width());
-        sums_ = Buffer<PointSum>(allocator_, is_near ? tasks * size : mesh_.vertexCount());
-        Buffer<std::uint64_t> doubtful(allocator_, tasks * wordsFor(size));
+        sums_ = Buffer<PointSum>(allocator_, is_near ? tasks * size : mesh_.vertexCount() + kTermGroup);
         std::atomic<std::uint64_t> degenerate{0}, substitutes{0};
         parallel_.forTasks(tasks, [&](std::size_t task) {
             for (std::size_t r = ranges * task / tasks; r < ranges * (task + 1) / tasks; ++r) {
-                const auto index = static_cast<unsigned>(r);
-                const VertexRange range = ranges_.range(index);
-                const RangeSums place{sums_.data() + (is_near ? task * size : range.begin), range,
-                                      doubtful.data() + task * wordsFor(size)};
-                degenerate += sum(index, place);
-                if (is_near) substitutes += writeRange(index, place);
+                const GroupRange range = lists_.range(r);
+                const RangeSums place{range, sums_.data() + (is_near ? task * size : range.begin)};
+                degenerate += sum(r, place);
+                if (is_near) substitutes += write({triangles_, lists_, r}, place);
             }
         });
-        if (is_best_) {
-            const Faces faces(mesh_, allocator_);
-            smooth::refineTriangles(PointItems(mesh_, faces, points_), mesh_.vertexCount(), positions_, options_,
-                                    sums_.data()->floats(), parallel_);
-        }
+        if (is_best_)
+            smooth::refineTriangles(triangles_, mesh_.vertexCount(), positions_, options_, sums_.data()->floats(),
+                                    parallel_);
         if (!is_near) {
-            copyToRepeated();
-            parallel_.forRanges(triangle_count_, Parallel::kGrain,
-                                [&](std::size_t begin, std::size_t end) { substitutes += writeCorners(begin, end); });
+            copyToVertices();
+            const RangeSums all{{0, static_cast<std::uint32_t>(mesh_.vertexCount())}, sums_.data()};
+            parallel_.forRanges(lists_.blockCount(triangles_.count), Parallel::kGrain / kTermTriangles,
+                                [&](std::size_t begin, std::size_t end) {
+                                    substitutes += write({triangles_, kTermTriangles, begin, end}, all);
+                                });
         }
-        return {triangle_count_, degenerate, substitutes};
+        return {triangles_.count, degenerate, substitutes};
     }
 
-    /// The points of the corners of `count` triangles: `vertices` itself or `buffer`, which may be the same.
-    const std::uint32_t* pointsOf(const std::uint32_t* vertices, std::size_t count, std::uint32_t* buffer) const {
-        for (std::size_t i = 0; i < 3 * count; ++i) buffer[i] = points_[vertices[i]];
-        return buffer;
+  private:
+    /// Ranges are near where blocks of triangles lie close together. Otherwise they would only be read more often: there is
+    /// one for each thread.
+    [[nodiscard]] RangeLists makeLists() {
+        const std::size_t points = mesh_.vertexCount();
+        const std::size_t width = triangles_.count < Parallel::kGrain ? 1 : parallel_.width();
+        const std::size_t shared = std::max(std::bit_floor(points / (kRangesPerThread * width)), kTermGroup);
+        const std::size_t near = width == 1 ? kNearPoints : std::min(kNearPoints, shared);
+        is_near_ = near < points && RangeLists::areCompact(triangles_, kTermTriangles, points, near);
+        if (!is_near_) return {kTermTriangles, points, std::bit_ceil((points + width - 1) / width)};
+        triangles_.findOwn(allocator_, parallel_);
+        return {triangles_, kTermTriangles, points, near, allocator_, parallel_};
     }
-    const std::uint32_t* blockPoints(std::size_t block, const std::uint32_t* vertices, std::size_t count,
-                                     std::uint32_t* buffer) const {
-        return ranges_.hasRepeated(block) ? pointsOf(vertices, count, buffer) : vertices;
+
+    void copyToVertices() {
+        for (std::size_t v = 0; v < points_.size(); ++v) {
+            if (points_[v] != v) sums_[v] = sums_[points_[v]];
+        }
+        triangles_.forgetPoints();
     }
-    [[nodiscard]] std::size_t blockSize(std::size_t block) const {
-        return std::min(kBlock, triangle_count_ - block * kBlock);
+
+    [[nodiscard]] FaceSource faceSource(bool by_angle, bool by_area) const {
+        return {reinterpret_cast<const std::byte*>(positions_.data),
+                positions_.stride_bytes,
+                static_cast<std::uint32_t>(positions_.count - 1),
+                factor_,
+                by_angle,
+                by_area};
     }
 
     /// Makes the unit normals of a range; returns the degenerate triangles whose first point is in it.
-    std::uint64_t sum(unsigned index, const RangeSums& place) const {
-        std::memset(place.rows, 0, place.size() * sizeof(PointSum));
+    std::uint64_t sum(std::size_t index, const RangeSums& place) const {
+        const GroupRange range = place.range;
+        const std::size_t size = (range.size() + kTermGroup - 1) / kTermGroup * kTermGroup;
+        std::memset(place.rows, 0, size * sizeof(PointSum));
         double* const sums = &place.rows->x;
         const FaceSource source = faceSource(by_angle_, by_area_);
-        Block block;
+        TriangleBatch batch;
+        FaceTerms terms;
         std::uint64_t degenerate = 0;
-        ranges_.forBlocks(index, [&](std::size_t b) {
-            std::size_t count = blockSize(b);
-            const std::uint32_t* v = readIndices(mesh_.indices, 3 * b * kBlock, 3 * count, block.vertices);
-            const std::uint32_t* points = blockPoints(b, v, count, block.points);
-            if (ranges_.isWithinOne(b)) {
-                degenerate +=
-                    kernel_.compute(source, fillGroup(v, count, kTermGroup, block.vertices), count, block.terms);
-                kernel_.add(block.terms, points, count, sums, place.range.begin);
-            } else {
-                count = select(v, points, count, place, block);
-                const std::uint32_t* const vertices = fillGroup(block.vertices, count, kTermGroup, block.vertices);
-                if (kernel_.compute(source, vertices, count, block.terms) != 0)
-                    degenerate += degenerateIn(block, count, place);
-                kernel_.add_some(block.terms, block.points, count, sums, place.range.begin, place.range.end);
+        for (RangeLists::Batches batches(triangles_, lists_, index); batches.next(batch);) {
+            const std::uint32_t* const v = fillGroup(batch.vertices, batch.count, kTermGroup, batch.own_vertices);
+            const std::size_t without_area = kernel_.compute(source, v, batch.count, terms);
+            if (batch.is_whole) {
+                degenerate += without_area;
+                kernel_.add(terms, batch.groups, batch.count, sums, range.begin);
+                continue;
             }
-        });
-        if (finish(place) != 0) [[unlikely]]
+            for (std::size_t t = 0; without_area != 0 && t < batch.count; ++t)
+                degenerate += terms.normal[t][3] == 0.0 && range.has(batch.groups[3 * t]) ? 1 : 0;
+            kernel_.add_some(terms, batch.groups, batch.count, sums, range.begin, range.end);
+        }
+        // Sums of products of floats neither overflow nor vanish when squared.
+        if (kernel_.finish(sums, size, kDoubtful) != 0) [[unlikely]]
             sumDoubtful(index, place);
         return degenerate;
     }
 
-    [[nodiscard]] FaceSource faceSource(bool by_angle, bool by_area) const {
-        FaceSource source;
-        source.positions = reinterpret_cast<const std::byte*>(positions_.data);
-        source.stride = positions_.stride_bytes;
-        source.last_vertex = static_cast<std::uint32_t>(positions_.count - 1);
-        source.factor = factor_;
-        source.by_angle = by_angle;
-        source.by_area = by_area;
-        return source;
-    }
-
-    /// Takes the triangles that have a point in the range, and returns how many.
-    static std::size_t select(const std::uint32_t* v, const std::uint32_t* points, std::size_t count,
-                              const RangeSums& place, Block& block) {
-        std::size_t taken = 0;
-        for (std::size_t i = 0; i < 3 * count; i += 3) {
-            bool any = false;
-            for (std::size_t k = 0; k < 3; ++k) {
-                any |= place.has(points[i + k]);
-                block.vertices[3 * taken + k] = v[i + k];
-                block.points[3 * taken + k] = points[i + k];
-            }
-            taken += any ? 1 : 0;
-        }
-        return taken;
-    }
-
-    /// How many of a block's triangles are degenerate and have their first point in the range.
-    static std::uint64_t degenerateIn(const Block& block, std::size_t count, const RangeSums& place) {
-        std::uint64_t degenerate = 0;
-        for (std::size_t t = 0; t < count; ++t)
-            degenerate += block.terms.normal[t][3] == 0.0 && place.has(block.points[3 * t]) ? 1 : 0;
-        return degenerate;
-    }
-
-    /// Turns sums into unit normals and returns how many are doubtful. Sums of products of floats neither
-    /// overflow nor vanish when squared.
-    [[nodiscard]] std::uint64_t finish(const RangeSums& place) const {
-        const std::size_t whole_groups = place.size() / kTermGroup * kTermGroup;
-        std::uint64_t doubtful = kernel_.finish(&place.rows->x, whole_groups, kDoubtful);
-        for (std::size_t i = whole_groups; i < place.size(); ++i)
-            doubtful += place.rows[i].finish(kDoubtful) || !place.rows[i].isDoubtful() ? 0 : 1;
-        return doubtful;
-    }
-
     /// Takes the sums again that are marked, with angles in double.
-    void sumDoubtful(unsigned index, const RangeSums& place) const {
-        std::fill_n(place.doubtful, wordsFor(place.size()), std::uint64_t{0});
-        for (std::size_t i = 0; i < place.size(); ++i) {
-            if (!place.rows[i].isDoubtful()) continue;
-            place.doubtful[i / 64] |= std::uint64_t{1} << i % 64;
-            place.rows[i] = {};
+    void sumDoubtful(std::size_t index, const RangeSums& place) const {
+        PointSum* const end = place.rows + place.range.size();
+        for (PointSum* row = place.rows; row != end; ++row) {
+            if (row->isDoubtful()) row->takeAgain();
         }
-        ranges_.forBlocks(index, [&](std::size_t b) {
-            for (std::size_t t = b * kBlock; t < b * kBlock + blockSize(b); ++t) addExactly(t, place);
-        });
-        for (std::size_t i = 0; i < place.size(); ++i) {
-            if ((place.doubtful[i / 64] >> i % 64 & 1) != 0) place.rows[i].finish(kVanished);
+        TriangleBatch batch;
+        for (RangeLists::Batches batches(triangles_, lists_, index); batches.next(batch);) {
+            for (std::size_t t = 0; t < batch.count; ++t)
+                addExactly(batch.vertices + 3 * t, batch.groups + 3 * t, place);
+        }
+        for (PointSum* row = place.rows; row != end; ++row) {
+            if (row->isTakenAgain()) row->finish();
         }
     }
 
-    void addExactly(std::size_t triangle, const RangeSums& place) const {
-        std::uint32_t buffer[3], point_buffer[3];
-        const std::uint32_t* const v = readIndices(mesh_.indices, 3 * triangle, 3, buffer);
-        const std::uint32_t* const points = blockPoints(triangle / kBlock, v, 1, point_buffer);
+    void addExactly(const std::uint32_t* v, const std::uint32_t* points, const RangeSums& place) const {
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t i = points[k] - place.range.begin;
-            if (!place.has(points[k]) || (place.doubtful[i / 64] >> i % 64 & 1) == 0) continue;
+            if (!place.range.has(points[k]) || !place.at(points[k]).isTakenAgain()) continue;
             const DVec3 here = toDouble(positions_[v[k]]);
             const DVec3 e1 = toDouble(positions_[v[(k + 1) % 3]]) - here;
             const DVec3 e2 = toDouble(positions_[v[(k + 2) % 3]]) - here;
@@ -264,79 +205,32 @@ class TriangleSmoother {
             const double size = length(turn);
             if (!(size > 0) || !std::isfinite(size)) return;
             const double weight = (by_angle_ ? polarAngle(dot(e1, e2), size) : 1) * (by_area_ ? size : 1);
-            PointSum& sum = place.rows[i];
-            const DVec3 term = (weight * factor_ / size) * turn;
-            sum = {sum.x + term.x, sum.y + term.y, sum.z + term.z, sum.weights + weight};
+            place.at(points[k]).add(weight, (weight * factor_ / size) * turn);
         }
     }
 
-    /// Writes the corners at the points of a range; returns how many got a substitute.
-    std::uint64_t writeRange(unsigned index, const RangeSums& place) const {
+    /// Writes the corners of triangles at the points of a range; returns how many got a substitute.
+    std::uint64_t write(RangeLists::Batches batches, const RangeSums& place) const {
         std::uint64_t substitutes = 0;
-        std::uint32_t buffer[3 * kBlock], point_buffer[3 * kBlock];
-        ranges_.forBlocks(index, [&](std::size_t b) {
-            const std::size_t count = blockSize(b);
-            const std::uint32_t* v = readIndices(mesh_.indices, 3 * b * kBlock, 3 * count, buffer);
-            const std::uint32_t* points = blockPoints(b, v, count, point_buffer);
-            substitutes += ranges_.isWithinOne(b) ? writeBlock(b * kBlock, points, count, place)
-                                                  : writeSome(b * kBlock, points, count, place);
-        });
-        return substitutes;
-    }
-
-    /// Of a block at the border of ranges: only the corners at the points of one.
-    std::uint64_t writeSome(std::size_t first, const std::uint32_t* points, std::size_t count,
-                            const RangeSums& place) const {
-        std::uint64_t substitutes = 0;
-        for (std::size_t i = 0; i < 3 * count; ++i) {
-            if (!place.has(points[i])) continue;
-            const Float4 normal = loadFloat4(place.at(points[i]).floats());
-            storeVec3(out_[3 * first + i], normal);
-            if (PointSum::isMarked(normal)) [[unlikely]] {
-                out_[3 * first + i] = ownNormal(first + i / 3);
-                ++substitutes;
-            }
+        TriangleBatch batch;
+        while (batches.next(batch, false)) {
+            const Float4 marks = batch.is_whole ? writeBlock(batch, place) : writeSome(batch, place);
+            if (PointSum::isMarked(marks)) [[unlikely]]
+                substitutes += writeSubstitutes(batch, place);
         }
         return substitutes;
     }
 
-    /// Where few vertices share a point with another one, these get its normal: then each corner's is at its vertex.
-    void copyToRepeated() {
-        parallel_.forRanges(points_.size(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t v = begin; v < end; ++v) {
-                if (points_[v] != v) sums_[v] = sums_[points_[v]];
-            }
-        });
-    }
-
-    /// Returns how many corners of a range of triangles got a substitute.
-    std::uint64_t writeCorners(std::size_t begin, std::size_t end) {
-        std::uint64_t substitutes = 0;
-        std::uint32_t buffer[3 * kBlock];
-        const RangeSums all{sums_.data(), {0, static_cast<std::uint32_t>(sums_.size())}, nullptr};
-        for (std::size_t first = begin; first < end; first += kBlock) {
-            const std::size_t count = std::min(kBlock, end - first);
-            substitutes += writeBlock(first, readIndices(mesh_.indices, 3 * first, 3 * count, buffer), count, all);
-        }
-        return substitutes;
-    }
-
-    /// Returns how many corners got a substitute.
-    std::uint64_t writeBlock(std::size_t first, const std::uint32_t* points, std::size_t count,
-                             const RangeSums& place) const {
-        auto* const to = reinterpret_cast<std::byte*>(&out_[3 * first]);
-        const Float4 marks = out_.stride_bytes == sizeof(Vec3)
-                                 ? writeNormals(points, 3 * count, to, sizeof(Vec3), place)
-                                 : writeNormals(points, 3 * count, to, out_.stride_bytes, place);
-        return PointSum::isMarked(marks) ? writeSubstitutes(first, points, count, place) : 0;
-    }
-
-    /// Returns a mark if any of the normals has one.
-    [[gnu::always_inline]] static Float4 writeNormals(const std::uint32_t* points, std::size_t count, std::byte* to,
-                                                      std::size_t stride, const RangeSums& place) {
+    /// Returns a mark if any of the normals has one, as writeSome.
+    Float4 writeBlock(const TriangleBatch& batch, const RangeSums& place) const {
+        auto* to = reinterpret_cast<std::byte*>(&out_[std::size_t{3} * batch.numbers[0]]);
+        // In variables of their own, which no store can change.
+        const RangeSums sums = place;
+        const std::uint32_t* const points = batch.groups;
         const auto normalAt = [&](std::size_t i) __attribute__((always_inline)) {
-            return loadFloat4(place.at(points[i]).floats());
+            return loadFloat4(sums.at(points[i]).floats());
         };
+        const std::size_t count = 3 * batch.count, stride = out_.stride_bytes;
         Float4 marks = splat(0.0f);
         std::size_t i = 0;
         if (stride == sizeof(Vec3)) {
@@ -359,25 +253,37 @@ class TriangleSmoother {
         return marks;
     }
 
-    [[gnu::noinline]] std::uint64_t writeSubstitutes(std::size_t first, const std::uint32_t* points, std::size_t count,
-                                                     const RangeSums& place) const {
+    /// At the border of ranges: only the corners at the points of one.
+    Float4 writeSome(const TriangleBatch& batch, const RangeSums& place) const {
+        Float4 marks = splat(0.0f);
+        for (std::size_t i = 0; i < 3 * batch.count; ++i) {
+            if (!place.range.has(batch.groups[i])) continue;
+            const Float4 normal = loadFloat4(place.at(batch.groups[i]).floats());
+            marks = or4(marks, normal);
+            storeVec3(out_[std::size_t{3} * batch.number(i / 3) + i % 3], normal);
+        }
+        return marks;
+    }
+
+    [[gnu::noinline]] std::uint64_t writeSubstitutes(const TriangleBatch& batch, const RangeSums& place) const {
         std::uint64_t substitutes = 0;
-        for (std::size_t i = 0; i < 3 * count; ++i) {
-            if (!PointSum::isMarked(loadFloat4(place.at(points[i]).floats()))) continue;
-            out_[3 * first + i] = ownNormal(first + i / 3);
+        for (std::size_t i = 0; i < 3 * batch.count; ++i) {
+            const std::uint32_t point = batch.groups[i];
+            if (!place.range.has(point) || !PointSum::isMarked(loadFloat4(place.at(point).floats()))) continue;
+            out_[std::size_t{3} * batch.number(i / 3) + i % 3] = ownNormal(batch.number(i / 3));
             ++substitutes;
         }
         return substitutes;
     }
 
     /// What stands for a mean that vanished.
-    [[nodiscard, gnu::noinline]] Vec3 ownNormal(std::size_t triangle) const {
-        Block block;
-        const std::uint32_t* v = readIndices(mesh_.indices, 3 * triangle, 3, block.vertices);
-        kernel_.compute(faceSource(false, false), fillGroup(v, 1, kTermGroup, block.vertices), 1, block.terms);
-        const double(&normal)[4] = block.terms.normal[0];
-        if (normal[3] == 0.0) return {0, 0, 1};
-        return toFloat({normal[0], normal[1], normal[2]});
+    [[nodiscard]] Vec3 ownNormal(std::size_t triangle) const {
+        std::uint32_t vertices[3 * kTermGroup];
+        FaceTerms terms;
+        const std::uint32_t* const v = readIndices(mesh_.indices, 3 * triangle, 3, vertices);
+        kernel_.compute(faceSource(false, false), fillGroup(v, 1, kTermGroup, vertices), 1, terms);
+        const double(&normal)[4] = terms.normal[0];
+        return normal[3] == 0.0 ? Vec3{0, 0, 1} : toFloat({normal[0], normal[1], normal[2]});
     }
 
     const MeshView& mesh_;
@@ -390,10 +296,12 @@ class TriangleSmoother {
     StridedSpan<Vec3> out_;
     const Allocator* allocator_;
     Parallel& parallel_;
-    std::size_t triangle_count_;
+    Faces faces_;
     Buffer<std::uint32_t> points_;  ///< the point of each vertex; empty when each is its own
-    VertexRanges ranges_;
-    Buffer<PointSum> sums_;  ///< of all points, or of one range for each task
+    PointItems triangles_;
+    bool is_near_ = false;
+    RangeLists lists_;
+    Buffer<PointSum> sums_;  ///< of one range for each task; for `best` of all points
 };
 
 }  // namespace
@@ -404,8 +312,8 @@ bool canSmoothTriangles(const MeshView& mesh, const NormalOptions& options) {
            options.weighting != NormalWeighting::flat && options.weighting != NormalWeighting::max;
 }
 
-Result<NormalReport> smoothTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positions,
-                                     const NormalOptions& options, StridedSpan<Vec3> out, Parallel& parallel) {
+NormalReport smoothTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positions,
+                             const NormalOptions& options, StridedSpan<Vec3> out, Parallel& parallel) {
     return TriangleSmoother(mesh, positions, options, out, parallel).run();
 }
 

@@ -8,10 +8,10 @@
 
 #include "core/float4.h"
 #include "core/prefetch.h"
+#include "core/range_lists.h"
 #include "core/sum_ranges.h"
 #include "core/typed_indices.h"
 #include "core/uv_frame.h"
-#include "core/vertex_ranges.h"
 #include "tangents/derivative_terms.h"
 #include "tangents/indexed_methods.h"
 
@@ -33,7 +33,7 @@ struct VertexSums : derivatives::SumArrays {
     [[nodiscard]] float* head(std::size_t vertex) const { return heads + 4 * vertex; }
     [[nodiscard]] float* tail(std::size_t vertex) const { return tails + 2 * vertex; }
     /// The sum of nothing. -0 + x is x, also when x is 0; and what is added to s.x is never -0.
-    void clear(VertexRange range) const {
+    void clear(GroupRange range) const {
         fill(head(range.begin), head(range.end), -0.0f);
         fill(tail(range.begin), tail(range.end), -0.0f);
     }
@@ -55,37 +55,32 @@ struct VertexSums : derivatives::SumArrays {
 /// The lowest `count` bits, of 1 to 64.
 std::uint64_t lowBits(std::size_t count) { return ~std::uint64_t{0} >> (64 - count); }
 
-/// Some triangles of one block: three vertices for each, of the mesh or in the buffer.
-struct TriangleBlock {
-    static constexpr std::size_t kMost = VertexRanges::kBlock;
-    static_assert(kMost == derivatives::kTermTriangles && kMost % derivatives::kTermGroup == 0);
+static_assert(TriangleBatch::kMost == derivatives::kTermTriangles);
+static_assert(TriangleBatch::kMost % derivatives::kTermGroup == 0);
 
-    const std::uint32_t* vertices = nullptr;
-    std::size_t count = 0;
-    std::uint32_t buffer[3 * kMost];
-    derivatives::DerivativeTerms terms;
+/// Their vertices, as groups.
+class IndexedTriangles final : public TriangleGroups {
+  public:
+    explicit IndexedTriangles(const IndexView& vertices) : TriangleGroups(vertices.count / 3), vertices_(vertices) {}
 
-    /// Keeps those that have a vertex in the range.
-    void select(VertexRange range) {
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < 3 * count; i += 3) {
-            bool any = false;
-            for (std::size_t k = 0; k < 3; ++k) {
-                any |= range.has(vertices[i + k]);
-                buffer[3 * kept + k] = vertices[i + k];
-            }
-            kept += any ? 1 : 0;
-        }
-        vertices = buffer;
-        count = kept;
+    void read(std::size_t first, std::size_t size, std::uint32_t*, std::uint32_t* groups) const override {
+        const std::uint32_t* const v = readIndices(vertices_, 3 * first, 3 * size, groups);
+        if (v != groups) std::copy_n(v, 3 * size, groups);
     }
+    [[nodiscard]] const std::uint32_t* inPlace(std::size_t first, std::size_t) const override {
+        return vertices_.type == IndexType::u32 ? static_cast<const std::uint32_t*>(vertices_.data) + 3 * first
+                                                : nullptr;
+    }
+
+  private:
+    const IndexView& vertices_;
 };
 
 /// Adds triangles up, in ranges of vertices that may be summed at the same time: blocks in single precision, and in double
 /// precision those that rounding, overflow or degeneracy could spoil.
 class FaceSums {
   public:
-    /// `visits`, one per vertex, counts the triangles that were added; it may be null. `wanted`: ranges.
+    /// `visits`, one per vertex, counts the triangles that were added; it may be null. `wanted`: ranges at most.
     FaceSums(const IndexedPlan& plan, StridedSpan<const Vec3> positions, const derivatives::DerivativeKernel& kernel,
              VertexSums sums, float* visits, unsigned wanted, const Allocator* allocator, Parallel& parallel)
         : plan_(plan),
@@ -93,15 +88,14 @@ class FaceSums {
           kernel_(kernel),
           sums_(sums),
           visits_(visits),
-          ranges_(plan.triangle_vertices, plan.triangleCount(), plan.vertex_count) {
-        if (wanted > 1) static_cast<void>(ranges_.cut(wanted, allocator, parallel));  // vertices have been checked
-    }
+          triangles_(plan.triangle_vertices),
+          ranges_(makeRanges(std::bit_ceil((plan.vertex_count + wanted - 1) / wanted), allocator, parallel)) {}
 
-    [[nodiscard]] const VertexRanges& ranges() const { return ranges_; }
+    [[nodiscard]] const RangeLists& ranges() const { return ranges_; }
 
     /// Writes the sums of one range.
-    [[nodiscard]] RangeCounts sum(unsigned index) const {
-        const VertexRange range = ranges_.range(index);
+    [[nodiscard]] RangeCounts sum(std::size_t index) const {
+        const GroupRange range = ranges_.range(index);
         sums_.clear(range);
         if (visits_ != nullptr) std::fill(visits_ + range.begin, visits_ + range.end, 0.0f);
 
@@ -109,50 +103,54 @@ class FaceSums {
             reinterpret_cast<const std::byte*>(positions_.data), reinterpret_cast<const std::byte*>(plan_.uvs.data),
             positions_.stride_bytes, plan_.uvs.stride_bytes, static_cast<std::uint32_t>(positions_.count - 1)};
         RangeCounts counts;
-        TriangleBlock block;
-        ranges_.forBlocks(index, [&](std::size_t b) {
-            const std::size_t first = b * TriangleBlock::kMost;
-            block.count = std::min(TriangleBlock::kMost, plan_.triangleCount() - first);
-            block.vertices = readIndices(plan_.triangle_vertices, 3 * first, 3 * block.count, block.buffer);
-            prefetchLines(block.vertices, 3 * TriangleBlock::kMost * sizeof(std::uint32_t));
-            const bool is_whole = ranges_.isWithinOne(b);
-            if (!is_whole) block.select(range);
-            block.vertices = fillGroup(block.vertices, block.count, derivatives::kTermGroup, block.buffer);
-            kernel_.compute(source, block.vertices, block.count, block.terms);
-            addBlock(block, range, is_whole, counts);
-        });
+        TriangleBatch batch;
+        derivatives::DerivativeTerms terms;
+        for (RangeLists::Batches batches(triangles_, ranges_, index); batches.next(batch, false);) {
+            prefetchLines(batch.groups, 3 * TriangleBatch::kMost * sizeof *batch.groups);
+            kernel_.compute(source, fillGroup(batch.groups, batch.count, derivatives::kTermGroup, batch.own_groups),
+                            batch.count, terms);
+            addBatch(batch, terms, range, counts);
+        }
         return counts;
     }
 
   private:
+    [[nodiscard]] RangeLists makeRanges(std::size_t size, const Allocator* allocator, Parallel& parallel) const {
+        constexpr std::size_t kBlock = TriangleBatch::kMost;
+        if (!RangeLists::areCompact(triangles_, kBlock, plan_.vertex_count, size))
+            return {kBlock, plan_.vertex_count, size};
+        return {triangles_, kBlock, plan_.vertex_count, size, allocator, parallel};
+    }
+
     /// In the order of the triangles, which decides how sums are rounded.
-    void addBlock(const TriangleBlock& block, VertexRange range, bool is_whole, RangeCounts& counts) const {
-        const std::uint32_t* const v = block.vertices;
-        std::uint64_t unsafe = ~block.terms.safe & lowBits(block.count);
-        for (std::size_t begin = 0; begin < block.count;) {
-            const auto end = unsafe == 0 ? block.count : static_cast<std::size_t>(std::countr_zero(unsafe));
-            if (is_whole)
-                kernel_.add(block.terms, v, begin, end, sums_);
+    void addBatch(const TriangleBatch& batch, const derivatives::DerivativeTerms& terms, GroupRange range,
+                  RangeCounts& counts) const {
+        const std::uint32_t* const v = batch.groups;
+        std::uint64_t unsafe = ~terms.safe & lowBits(batch.count);
+        for (std::size_t begin = 0; begin < batch.count;) {
+            const auto end = unsafe == 0 ? batch.count : static_cast<std::size_t>(std::countr_zero(unsafe));
+            if (batch.is_whole)
+                kernel_.add(terms, v, begin, end, sums_);
             else
-                kernel_.add_some(block.terms, v, begin, end, sums_, range.begin, range.end);
-            if (end != block.count) addUnsafe(v + 3 * end, range, counts);
+                kernel_.add_some(terms, v, begin, end, sums_, range.begin, range.end);
+            if (end != batch.count) addUnsafe(v + 3 * end, range, counts);
             unsafe &= unsafe - 1;
             begin = end + 1;
         }
-        if (is_whole) {
-            counts.mirrored += static_cast<unsigned>(std::popcount(block.terms.mirrored));
+        if (batch.is_whole) {
+            counts.mirrored += static_cast<unsigned>(std::popcount(terms.mirrored));
         } else {
-            for (std::size_t i = 0; i < block.count; ++i)
-                counts.mirrored += (block.terms.mirrored >> i & 1) != 0 && range.has(v[3 * i]) ? 1 : 0;
+            for (std::size_t i = 0; i < batch.count; ++i)
+                counts.mirrored += (terms.mirrored >> i & 1) != 0 && range.has(v[3 * i]) ? 1 : 0;
         }
         if (visits_ == nullptr) return;
-        for (std::size_t i = 0; i < 3 * block.count; ++i) {
-            if ((block.terms.safe >> (i / 3) & 1) != 0 && range.has(v[i])) visits_[v[i]] += 1;
+        for (std::size_t i = 0; i < 3 * batch.count; ++i) {
+            if ((terms.safe >> (i / 3) & 1) != 0 && range.has(v[i])) visits_[v[i]] += 1;
         }
     }
 
     /// In double. A triangle that has no derivatives adds nothing, but its vertices have been named.
-    void addUnsafe(const std::uint32_t* v, VertexRange range, RangeCounts& counts) const {
+    void addUnsafe(const std::uint32_t* v, GroupRange range, RangeCounts& counts) const {
         const Vec3 &p0 = positions_[v[0]], &p1 = positions_[v[1]], &p2 = positions_[v[2]];
         const UvFrame frame = uvFrame(p0, p1, p2, plan_.uvs[v[0]], plan_.uvs[v[1]], plan_.uvs[v[2]]);
         const bool has_area = hasUvArea(frame.determinant);
@@ -183,7 +181,8 @@ class FaceSums {
     derivatives::DerivativeKernel kernel_;
     VertexSums sums_;
     float* visits_;
-    VertexRanges ranges_;
+    IndexedTriangles triangles_;
+    RangeLists ranges_;
 };
 
 /// Turns sums into frames, one entry per vertex. Tangents take the places of the heads of the sums; where
@@ -204,7 +203,7 @@ class VertexFrames {
         copies_tangents_ = !out.tangents.empty() && &out.tangents.data->x != sums.heads;
     }
 
-    void write(VertexRange range, RangeCounts& counts) const {
+    void write(GroupRange range, RangeCounts& counts) const {
         std::uint32_t v = range.begin;
         const std::uint32_t in_place = has_extras_ ? 0 : inPlaceCount(range);
         for (const std::uint32_t end = v + in_place; v != end;) {
@@ -224,7 +223,7 @@ class VertexFrames {
     static constexpr std::uint32_t kMost = 64;  ///< vertices at a time
 
     /// Whole groups, without the last vertex of all: the kernel would read past its normal.
-    [[nodiscard]] std::uint32_t inPlaceCount(VertexRange range) const {
+    [[nodiscard]] std::uint32_t inPlaceCount(GroupRange range) const {
         const auto most = std::min<std::size_t>(range.end, normals_.count - 1);
         const auto count = static_cast<std::uint32_t>(most - std::min<std::size_t>(most, range.begin));
         return count / derivatives::kTermGroup * derivatives::kTermGroup;
@@ -290,7 +289,7 @@ class VertexFrames {
         storeFloat4(sums_.head(v), Float4{t.x, t.y, t.z, t.w});
     }
 
-    void copyTangents(VertexRange range) const {
+    void copyTangents(GroupRange range) const {
         for (std::uint32_t v = range.begin; v != range.end; ++v)
             storeFloat4(&out_.tangents[v].x, loadFloat4(sums_.head(v)));
     }
@@ -394,23 +393,22 @@ void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOut
     VertexExtras extras(per_corner ? out : TangentOutput{}, plan.vertex_count, allocator);
     Buffer<std::uint8_t> is_default(allocator, per_corner ? plan.vertex_count : 0, 0);
 
-    const unsigned wanted = plan.triangleCount() >= Parallel::kGrain ? parallel.width() : 1;
+    constexpr unsigned kMostRanges = 64;
+    const unsigned wanted = plan.triangleCount() >= Parallel::kGrain ? std::min(parallel.width(), kMostRanges) : 1;
     const FaceSums faces(plan, pose.positions, kernel, sums, visits.data(), wanted, allocator, parallel);
     const VertexFrames frames(kernel, sums, visits.data(), pose.normals, plan.sign_factor,
                               per_corner ? extras.output() : out, is_default.data());
-    const unsigned range_count = faces.ranges().count();
-    std::array<RangeCounts, VertexRanges::kMost> counts;
-    parallel.forTasks(range_count, [&](std::size_t task) {
-        const auto range = static_cast<unsigned>(task);
-        counts[task] = faces.sum(range);
-        frames.write(faces.ranges().range(range), counts[task]);
+    std::array<RangeCounts, kMostRanges> counts;  // zeros where there are fewer
+    parallel.forTasks(faces.ranges().count(), [&](std::size_t range) {
+        counts[range] = faces.sum(range);
+        frames.write(faces.ranges().range(range), counts[range]);
     });
-    for (unsigned task = 0; task < range_count; ++task) {
-        report.degenerate_triangle_count += counts[task].degenerate;
-        report.degenerate_uv_count += counts[task].degenerate_uv;
-        report.mirrored_count += counts[task].mirrored;
-        report.group_count += counts[task].used;
-        report.default_corner_count += counts[task].defaults;
+    for (const RangeCounts& of_range : counts) {
+        report.degenerate_triangle_count += of_range.degenerate;
+        report.degenerate_uv_count += of_range.degenerate_uv;
+        report.mirrored_count += of_range.mirrored;
+        report.group_count += of_range.used;
+        report.default_corner_count += of_range.defaults;
     }
     if (!per_corner) return;
     if (report.default_corner_count == 0) is_default = {};

@@ -14,7 +14,6 @@
 #include "core/add_row.h"
 #include "core/range_lists.h"
 #include "core/typed_indices.h"
-#include "core/vertex_ranges.h"
 
 namespace tspace::mikk {
 
