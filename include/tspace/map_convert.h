@@ -68,8 +68,8 @@ struct ConvertMapReport {
 /// Converts `map` from one side to the other into `out` (width * height; may be where map.texels is).
 ///
 /// - Texels keep their lengths, but for those that would not fit, and with 8 bits.
-/// - With 16 bits between tangent and object space, a channel goes to one of the integers around what was computed, such that
-///   neighbours make good under the filter what is rounded off. Otherwise it goes to the nearest.
+/// - With 16 bits between tangent and object space, lengths change by up to half a hundredth such that vectors point better, and
+///   neighbours make good under the filter what is rounded off. Otherwise a channel goes to the nearest integer.
 /// - Sides that read a texel alike leave it as it is, bit for bit; where only green differs it becomes 1 - G exactly.
 /// - Without a mesh on both sides, readings alone are converted, of all texels; they may differ in green, scale and channels.
 /// - With a mesh on one side, the other side is in object space, or has the same frames.

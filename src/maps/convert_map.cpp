@@ -166,7 +166,8 @@ class Conversion {
     /// many texels changed.
     std::uint64_t roundTogether() {
         const std::span<Vec3> vectors(vectors_.data(), vectors_.size());
-        roundTexels(vectors, map_.width, {.keeps = {keeps_.data(), keeps_.size()}}, parallel_,
+        roundTexels(vectors, map_.width,
+                    {.keeps_lengths = to_.reading.two_channels, .keeps = {keeps_.data(), keeps_.size()}}, parallel_,
                     options_.execution.allocator);
         std::uint64_t changed = 0;
         for (std::size_t i = 0; i < vectors.size(); ++i) {

@@ -100,7 +100,7 @@ class Baking {
             for (Vec3& texel : texels) texel = kWantedLength * texel;
         }
         solveTexels(system, texels, parallel_, allocator_);
-        roundTexels(texels, options_.width, {}, parallel_, allocator_);
+        roundTexels(texels, options_.width, {.keeps_lengths = options_.reading.two_channels}, parallel_, allocator_);
         if (options_.reading.two_channels) settleThirds(texels);
         return true;
     }

@@ -313,12 +313,75 @@ void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std:
     for (unsigned round = 0; round < rounds; ++round) forRowsApart(parallel, height, chooseRow);
 }
 
+namespace {
+
+/// Roundings of one texel. Vectors are in steps from the middle of what integers stand for: whole numbers and a half, where their
+/// number is even.
+class StepRounding {
+  public:
+    explicit StepRounding(const TexelRounding& rounding)
+        : middle_(static_cast<float>(rounding.most) / 2), last_(static_cast<float>(rounding.most)) {}
+
+    [[nodiscard]] float middle() const { return middle_; }
+
+    [[nodiscard]] Vec3 nearest(const Vec3& v) const { return {nearest(v.x), nearest(v.y), nearest(v.z)}; }
+
+    /// Of vectors beside `wanted` that are a little longer or shorter, the one that is least off across it.
+    [[nodiscard]] Vec3 nearestAcross(const Vec3& wanted) const {
+        std::array<float, 3> v{wanted.x, wanted.y, wanted.z};
+        std::size_t main = 0;
+        for (std::size_t i = 1; i < 3; ++i) {
+            if (std::fabs(v[i]) > std::fabs(v[main])) main = i;
+        }
+        const std::size_t second = (main + 1) % 3, third = (main + 2) % 3;
+        const float sign = v[main] < 0 ? -1.0F : 1.0F, size = sign * v[main];
+        const float slope_b = v[second] / size, slope_c = v[third] / size;
+        // The flatter, the more a vector must grow before another number of the others fits it better.
+        const float steepest = std::max(std::fabs(slope_b), std::fabs(slope_c));
+        const float stride =
+            steepest * kMostStride > kMove ? std::floor(std::max(1.0F, kMove / steepest)) : kMostStride;
+        const float first = std::min(nearest(size) - stride * (kLengths / 2), middle_ - stride * (kLengths - 1));
+        // Of a vector that is short beside a step nothing is across.
+        if (!(first > stride * kLengths)) return nearest(wanted);
+        const float shorter = 1 / (1 + slope_b * slope_b + slope_c * slope_c);
+        std::array<float, kLengths> b, c, off;
+        for (std::size_t i = 0; i < off.size(); ++i) {
+            const float length = first + stride * static_cast<float>(i), real_b = slope_b * length,
+                        real_c = slope_c * length;
+            b[i] = nearest(real_b);
+            c[i] = nearest(real_c);
+            const float db = b[i] - real_b, dc = c[i] - real_c, along = db * slope_b + dc * slope_c;
+            off[i] = db * db + dc * dc - along * along * shorter;
+        }
+        const auto best = static_cast<std::size_t>(std::min_element(off.begin(), off.end()) - off.begin());
+        v[main] = sign * (first + stride * static_cast<float>(best));
+        v[second] = b[best];
+        v[third] = c[best];
+        return {v[0], v[1], v[2]};
+    }
+
+  private:
+    /// So many lengths are looked at, as far apart as move one of the other numbers by so much of a step, but no further than that
+    /// many steps.
+    static constexpr int kLengths = 8;
+    static constexpr float kMove = 0.4F, kMostStride = 40;
+
+    [[nodiscard]] float nearest(float value) const {
+        const float at = std::max(0.0F, std::min(value + middle_ + 0.5F, last_));
+        return static_cast<float>(static_cast<int>(at)) - middle_;
+    }
+
+    float middle_, last_;
+};
+
+}  // namespace
+
 void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRounding& rounding, Parallel& parallel,
                  const Allocator* allocator) {
     const auto height = static_cast<std::uint32_t>(texels.size() / width);
-    const auto last = static_cast<float>(rounding.most);
-    const float scale = last / 2;
-    // What is wrong so far, in steps; each texel's own number is settled with those around as they are.
+    const StepRounding steps(rounding);
+    // What is wrong so far, in steps; each texel's own numbers are settled with those around as they are. What is off along a
+    // vector turns nothing, and does not count.
     Buffer<Vec3> off(allocator, texels.size(), Vec3{});
     const auto roundRow = [&](std::uint32_t y) {
         const std::size_t here = std::size_t{y} * width, above = std::size_t{y > 0 ? y - 1 : height - 1} * width,
@@ -329,19 +392,25 @@ void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRoundin
             const Vec3 sides = (off[here + left] + off[here + right]) + (off[above + x] + off[below + x]);
             const Vec3 corners = (off[above + left] + off[above + right]) + (off[below + left] + off[below + right]);
             // The integral of two filters: 4/9 at the texel itself, 1/9 at its sides, 1/36 at its corners.
-            const Vec3 wanted = 0.25F * sides + 0.0625F * corners;
-            const auto rounded = [&](float value, float others) {
-                const float steps = (value + 1) * scale;
-                return std::clamp(std::floor(steps - others + 0.5F), 0.0F, last) - steps;
-            };
-            const Vec3& texel = texels[here + x];
-            off[here + x] = {rounded(texel.x, wanted.x), rounded(texel.y, wanted.y), rounded(texel.z, wanted.z)};
+            const Vec3 others = 0.25F * sides + 0.0625F * corners;
+            // Without what an earlier round rounded off.
+            const Vec3 wanted = steps.middle() * texels[here + x] - off[here + x];
+            Vec3& error = off[here + x];
+            Vec3 chosen;
+            if (rounding.keeps_lengths) {
+                chosen = steps.nearest(wanted - others);
+                error = chosen - wanted;
+            } else {
+                chosen = steps.nearestAcross(wanted - others);
+                error = chosen - wanted;
+                const float squared = dot(wanted, wanted);
+                if (squared > 0) error = error - (dot(error, wanted) / squared) * wanted;
+            }
+            texels[here + x] = (1 / steps.middle()) * chosen;
         }
     };
-    for (unsigned round = 0; round < rounding.rounds; ++round) forRowsApart(parallel, height, roundRow);
-    parallel.forRanges(texels.size(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) texels[i] = texels[i] + (1 / scale) * off[i];
-    });
+    // With free lengths the second round gains next to nothing.
+    for (int round = 0; round < (rounding.keeps_lengths ? 2 : 1); ++round) forRowsApart(parallel, height, roundRow);
 }
 
 }  // namespace tspace

@@ -48,13 +48,14 @@ void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std:
                     Parallel& parallel, const Allocator* allocator);
 
 struct TexelRounding {
-    unsigned most = 65535, rounds = 2;
+    unsigned most = 65535;
+    bool keeps_lengths = false;  ///< else vectors may become longer or shorter by half a hundredth, and point better
     std::span<const bool> keeps = {};  ///< which texels stay; empty: none
 };
 
 /// Makes of each component of `texels` a number that an integer from 0 to `most` stands for, such that those around make good
-/// under the filter what is rounded off: as chooseIntegers, where integers are so many that all count the same. `rounds` times
-/// over the image, which repeats. The same bits for any number of threads.
+/// under the filter what is rounded off: as chooseIntegers, where integers are so many that all count the same. The image
+/// repeats. The same bits for any number of threads.
 void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRounding& rounding, Parallel& parallel,
                  const Allocator* allocator);
 

@@ -118,25 +118,35 @@ TEST(TexelPlan, SharpenedTexelsHalveTheErrorOfTheFilter) {
 
 TEST(SolveTexels, RoundedTexelsCancelEachOthersErrors) {
     const Field field([](double x, double y) { return waveAt(x / 20, y / 20); });
-    std::vector<Vec3> wanted(field.traced.wanted.begin(), field.traced.wanted.end()), plain = wanted, together = wanted;
+    std::vector<Vec3> wanted(field.traced.wanted.begin(), field.traced.wanted.end()), plain = wanted, together = wanted,
+                                                                                      of_any_length = wanted;
     const auto round = [](float value) { return std::floor((value + 1) * 2000 + 0.5F) / 2000 - 1; };
     for (Vec3& texel : plain) texel = {round(texel.x), round(texel.y), round(texel.z)};
     Parallel parallel({.thread_count = 1});
-    roundTexels(together, kFieldSide, {.most = 4000}, parallel, nullptr);
-    double plain_sum = 0, together_sum = 0;
+    roundTexels(together, kFieldSide, {.most = 4000, .keeps_lengths = true}, parallel, nullptr);
+    roundTexels(of_any_length, kFieldSide, {.most = 4000}, parallel, nullptr);
+    double plain_sum = 0, together_sum = 0, any_length_sum = 0;
     // What the filter shows between four texels.
     for (std::size_t i = 0; i + kFieldSide + 1 < wanted.size(); ++i) {
         const auto mixed = [&](const std::vector<Vec3>& texels) {
             return 0.25F * ((texels[i] + texels[i + 1]) + (texels[i + kFieldSide] + texels[i + kFieldSide + 1]));
         };
-        plain_sum += static_cast<double>(length(mixed(plain) - mixed(wanted)));
-        together_sum += static_cast<double>(length(mixed(together) - mixed(wanted)));
+        const auto across = [&](const std::vector<Vec3>& texels) {
+            const Vec3 shown = mixed(texels);
+            return static_cast<double>(length(cross(shown, mixed(wanted))) / length(shown));
+        };
+        plain_sum += across(plain);
+        together_sum += across(together);
+        any_length_sum += across(of_any_length);
     }
     EXPECT_LT(together_sum, 0.75 * plain_sum);
-    for (const Vec3& texel : together) {
-        for (const float value : {texel.x, texel.y, texel.z})
-            EXPECT_NEAR((value + 1) * 2000, std::round((value + 1) * 2000), 1e-2F);
-        EXPECT_LE(texel.z, 1.0001F);
+    EXPECT_LT(any_length_sum, 0.5 * together_sum);
+    for (const auto* texels : {&together, &of_any_length}) {
+        for (const Vec3& texel : *texels) {
+            for (const float value : {texel.x, texel.y, texel.z})
+                EXPECT_NEAR((value + 1) * 2000, std::round((value + 1) * 2000), 1e-2F);
+            EXPECT_LE(texel.z, 1.0001F);
+        }
     }
 }
 
