@@ -114,12 +114,13 @@ Found representatives(const MeshView& mesh, std::size_t asked, unsigned threads)
     Found found;
     for (auto* list : {&found.wanted, &found.all, &found.some}) list->assign(nodes.count, kNone);
     const std::vector<std::uint32_t> replayed = Replay(mesh).run();
-    for (std::size_t i = replayed.size(); i-- > 0;) found.wanted[nodes.of(mesh, replayed[i])] = replayed[i];
+    for (std::size_t i = replayed.size(); i-- > 0;)
+        found.wanted[nodes.ofVertex(mesh.indices[replayed[i]])] = replayed[i];
     std::vector<std::uint32_t> vertices(mesh.vertexCount());
     std::iota(vertices.begin(), vertices.end(), 0u);
-    findRepresentatives(mesh, triangles, nodes, vertices, found.all.data(), nullptr, parallel);
+    findRepresentatives({mesh, triangles, nodes}, vertices, found.all.data(), nullptr, parallel);
     vertices.resize(asked);
-    findRepresentatives(mesh, triangles, nodes, vertices, found.some.data(), nullptr, parallel);
+    findRepresentatives({mesh, triangles, nodes}, vertices, found.some.data(), nullptr, parallel);
     return found;
 }
 

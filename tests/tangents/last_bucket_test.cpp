@@ -35,7 +35,7 @@ struct Welded {
           nodes(weld(mesh, triangles, nullptr, parallel)) {}
 
     Links changes() {
-        const LastBucket bucket = findLastBucket(mesh, triangles, nodes, nullptr, nullptr, parallel);
+        const LastBucket bucket = findLastBucket({mesh, triangles, nodes}, nullptr, nullptr, parallel);
         EXPECT_FALSE(bucket.abandoned);
         Links links;
         for (std::size_t i = 0; i < bucket.half_edges.size(); ++i) {
@@ -43,7 +43,7 @@ struct Welded {
             EXPECT_TRUE(i == 0 || bucket.half_edges[i - 1] < bucket.half_edges[i]);
             const std::uint32_t first = bucket.half_edges[i] / 3 * 3;
             for (const std::uint32_t end : {bucket.half_edges[i], first + (bucket.half_edges[i] + 1 - first) % 3}) {
-                const std::uint32_t node = nodes.of(mesh, triangles.corner(end));
+                const std::uint32_t node = nodes.ofVertex(mesh.indices[triangles.corner(end)]);
                 EXPECT_TRUE(std::binary_search(bucket.nodes.begin(), bucket.nodes.end(), node));
             }
         }
@@ -59,14 +59,14 @@ class AllEdges {
         std::vector<std::uint32_t> representatives(welded.nodes.count, kNone);
         std::vector<std::uint32_t> vertices(mesh.vertexCount());
         std::iota(vertices.begin(), vertices.end(), 0u);
-        findRepresentatives(mesh, welded.triangles, welded.nodes, vertices, representatives.data(), nullptr,
+        findRepresentatives({mesh, welded.triangles, welded.nodes}, vertices, representatives.data(), nullptr,
                             welded.parallel);
         for (std::uint32_t t = 0; t < welded.triangles.count; ++t) {
             std::uint32_t r[3];
             Vec3 p[3];
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const std::uint32_t corner = welded.triangles.corner(3 * t + k);
-                r[k] = representatives[welded.nodes.of(mesh, corner)];
+                r[k] = representatives[welded.nodes.ofVertex(mesh.indices[corner])];
                 p[k] = mesh.positions[mesh.indices[corner]];
             }
             if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) continue;

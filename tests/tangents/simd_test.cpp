@@ -227,7 +227,7 @@ Outputs look(const Shape& shape, const TangentOptions& options, mikk::FirstLook 
     TangentOutput to = outputs.view();
     if (tangents_only) to = {.tangents = to.tangents};
     ScratchBlock transient(nullptr, std::as_writable_bytes(std::span(to.tangents.data, to.tangents.count)));
-    outputs.report = mikk::evaluateInOnePass({mesh, options, triangles, nodes, to}, {}, transient, parallel,
+    outputs.report = mikk::evaluateInOnePass({{mesh, triangles, nodes}, options, {}, to}, transient, parallel,
                                              {first_look, range_shift});
     return outputs;
 }

@@ -57,22 +57,13 @@ inline Buffer<std::uint32_t> numbersBelow(std::size_t count, const Allocator* al
 using Marks = Buffer<std::uint8_t>;
 inline Marks noMarks(const Allocator* allocator, std::size_t count) { return Marks(allocator, count, std::uint8_t{0}); }
 
-/// Of each block of kBlockCorners corners of the mesh, 0 when none is at a marked vertex or node; empty: not known.
-using MarkedBlocks = std::span<const std::uint8_t>;
-
 /// The triangles with a corner at whose vertex markOf(vertex) has a bit of `mask`, ascending. `any`: of all marks.
 template <class MarkOf>
-Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles, MarkedBlocks blocks,
-                                       const MarkOf& markOf, std::uint32_t mask, const Allocator* allocator,
-                                       Parallel& parallel, std::atomic<std::uint32_t>* any = nullptr) {
-    const bool has_polygons = !triangles.corners.empty();
+Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles, const MarkOf& markOf,
+                                       std::uint32_t mask, const Allocator* allocator, Parallel& parallel,
+                                       std::atomic<std::uint32_t>* any = nullptr) {
     const auto bitsOf = [&](std::size_t block) -> std::uint64_t {
-        if (!has_polygons && !blocks.empty() && blocks[block] == 0) return 0;
         const std::size_t first = block * kCollectBlock, count = std::min(kCollectBlock, triangles.count - first);
-        unsigned looks = !has_polygons || blocks.empty() ? 1 : 0;
-        for (std::size_t i = 3 * first; looks == 0 && i < 3 * (first + count); ++i)
-            looks |= blocks[triangles.corners[i] / kBlockCorners];
-        if (looks == 0) return 0;
         std::uint32_t buffer[kBlockCorners];
         const std::uint32_t* const vertex = readTriangles(mesh, triangles, first, count, buffer);
         std::uint32_t marked[kCollectBlock], some = 0;

@@ -53,6 +53,7 @@ inline constexpr std::uint32_t kHeavy = 0x40;      ///< above kHeavyWeight
 inline constexpr std::uint32_t kAllMarks = 0x7f;
 inline constexpr std::uint32_t kNoUvArea = 0x100;        ///< the triangle has no usable UV area
 inline constexpr std::uint32_t kDegenerateMark = 0x200;  ///< two corners at one position: nothing else means anything
+inline constexpr std::uint32_t kMirroredMark = 0x400;    ///< no positive UV area
 inline constexpr float kLightWeight = 1.0f / 128, kMiddleWeight = 1.0f / 16, kHeavyWeight = 1.0f / 4;
 inline constexpr float kSmallestSquare = 0.04f, kTurnMargin = 0.15f;
 
@@ -62,7 +63,6 @@ struct CornerTerms {
     alignas(64) float t[kTermCorners][4];            ///< weight * projected bitangent, weight * |dP/du|
     alignas(64) float lengths_t[3][kTermTriangles];  ///< weight * |dP/dv| of corner k of triangle t
     alignas(64) std::uint32_t marks[3][kTermTriangles];
-    std::uint32_t degenerate_count, no_uv_area_count, mirrored_count;
 };
 
 /// `vertices`: three per triangle; whole groups of 16 triangles are read, so the rest of the last one must

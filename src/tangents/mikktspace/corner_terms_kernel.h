@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The kernel behind corner_terms.h. Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its
 // namespace. Each lane is one triangle and does what the reference does with it, operation by operation; zero and
-// unit are those of vector_rules.h.
+// unit are those of results.h.
 #pragma once
 
 #include "simd/arc_cosine_kernel.h"
@@ -22,7 +22,7 @@ inline Vectors select(Mask m, Vectors yes, Vectors no) {
     return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
 }
 
-/// unit() of vector_rules.h, of a vector whose square is known. A squared length above zero shows that some
+/// unit() of results.h, of a vector whose square is known. A squared length above zero shows that some
 /// component is above the smallest normal number (others have a square of zero), so the rule for small
 /// vectors is needed only where it is zero or NaN.
 inline Vectors unitByRules(Vectors v, Floats square) {
@@ -84,13 +84,6 @@ struct Shape {
     }
 };
 
-/// How many of kWidth bits are set. (The builtin is a call where the target is plain x86-64.)
-inline unsigned countBits(unsigned bits) {
-    if constexpr (kWidth > 4) return static_cast<unsigned>(__builtin_popcount(bits));
-    constexpr std::uint64_t kCounts = 0x4332322132212110u;
-    return static_cast<unsigned>(kCounts >> 4 * bits) & 7;
-}
-
 /// Marks of a corner about the way from its tangent to its bitangent (corner_terms.h).
 inline Bits markTurn(Bits marks, Vectors normal, Vectors s, Floats projected_square, Vectors t) {
     const Floats along = absolute(dot(t, s)) + broadcast(kTurnMargin), across = dot(t, cross(normal, s));
@@ -120,20 +113,17 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
     group.load(source, vertices, exact);
     const Mask degenerate = group.isDegenerate();
     const Shape shape(group);
-    const unsigned bad = bitsOf(degenerate), degenerate_uv = bitsOf(shape.no_area) & ~bad & valid;
-    terms.degenerate_count += countBits(bad & valid);
-    terms.no_uv_area_count += countBits(degenerate_uv);
-    terms.mirrored_count += countBits(~(bitsOf(shape.positive) | bad | degenerate_uv) & valid);
     Bits facing = orWhere(broadcastBits(0), shape.positive, kFacesUp);
     facing = orWhere(facing, !shape.positive, kFacesDown);
     const Mask usable = shape.finite & !shape.no_area;
-    const Bits flags = orWhere(orWhere(broadcastBits(0), shape.no_area, kNoUvArea), degenerate, kDegenerateMark);
+    Bits flags = orWhere(orWhere(broadcastBits(0), shape.no_area, kNoUvArea), degenerate, kDegenerateMark);
+    flags = orWhere(flags, !shape.positive, kMirroredMark);
     if (source.weighting == Weighting::none) {
         const Bits all_marks = (facing & orWhere(broadcastBits(0), usable, kAllMarks)) | flags;
         for (std::size_t k = 0; k < 3; ++k) store(terms.marks[k] + first, all_marks);
         return;
     }
-    if (source.adding_only && ((bad | degenerate_uv) & valid) == valid) [[unlikely]] {
+    if (source.adding_only && (~bitsOf(shape.no_area | degenerate) & valid) == 0) [[unlikely]] {
         for (std::size_t k = 0; k < 3; ++k) store(terms.marks[k] + first, flags);
         return;
     }
@@ -174,7 +164,6 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
 }  // namespace
 
 void cornerTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t count, CornerTerms& terms) {
-    terms.degenerate_count = terms.no_uv_area_count = terms.mirrored_count = 0;
     for (std::size_t t = 0; t < count; t += kWidth) {
         const std::size_t left = count - t;
         const unsigned valid = left >= kWidth ? (1u << kWidth) - 1 : (1u << left) - 1;

@@ -190,7 +190,8 @@ class Evaluation {
                 }
                 all_finite &= isFinite(r.s);
                 any_unequal |= !sameResult(r, r);
-                store(g, r);
+                sums_.groups[g] = r.s;
+                if (!sums_.rest.empty()) sums_.rest[g] = restOf(r);
             }
             if (any_zero) zero_ = true;
             if (!all_finite) finite_ = false;
@@ -201,21 +202,14 @@ class Evaluation {
     [[nodiscard]] Tangents meanOf(std::size_t g) const {
         if (isEstimated(plan_.method)) return resultOf(g);
         if (sums_.rest.empty()) return {.s = unit(sums_.groups[g])};
-        const GroupRest& rest = sums_.rest[g];
-        return TangentSum{sums_.groups[g], {rest.t[0], rest.t[1], rest.t[2]}, rest.t[3], rest.length_t, rest.weight}
-            .mean(false);
-    }
-
-    void store(std::size_t g, const Tangents& r) {
-        sums_.groups[g] = r.s;
-        if (!sums_.rest.empty()) sums_.rest[g] = {{r.t.x, r.t.y, r.t.z, r.mag_s}, r.mag_t};
+        return sumOf(sums_.groups[g], sums_.rest[g], sums_.rest[g].weight).mean(false);
     }
 
     [[nodiscard]] Tangents resultOf(std::size_t g) const {
         Tangents r{.s = sums_.groups[g], .positive = plan_.group_positive[g] != 0};
         if (!sums_.rest.empty()) {
             const GroupRest& rest = sums_.rest[g];
-            r.t = {rest.t[0], rest.t[1], rest.t[2]};
+            r.t = vectorOf(rest.t);
             r.mag_s = rest.t[3];
             r.mag_t = rest.length_t;
         }

@@ -31,10 +31,10 @@ std::span<std::byte> unwritten(const TangentOutput& out) {
 }
 
 /// Where it is asked for. What is not finite has no order there.
-LastBucket lastBucketOf(const MeshView& mesh, const TangentOptions& options, const TriangleList& triangles,
-                        const Nodes& nodes, const Allocator* transient, Parallel& parallel) {
-    if (!isMikktspace(options.method) || options.pairing != Pairing::reference || !nodes.all_finite) return {};
-    return findLastBucket(mesh, triangles, nodes, transient, options.execution.allocator, parallel);
+LastBucket lastBucketOf(const WeldedMesh& welded, const TangentOptions& options, const Allocator* transient,
+                        Parallel& parallel) {
+    if (!isMikktspace(options.method) || options.pairing != Pairing::reference || !welded.nodes.all_finite) return {};
+    return findLastBucket(welded, transient, options.execution.allocator, parallel);
 }
 
 TangentReport generateWith(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
@@ -43,9 +43,9 @@ TangentReport generateWith(const MeshView& mesh, const TangentOptions& options, 
     const TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
     ScratchBlock transient(allocator, unwritten(out));
     Nodes nodes = weld(mesh, triangles, allocator, parallel, transient.allocator());
-    const LastBucket bucket = lastBucketOf(mesh, options, triangles, nodes, transient.allocator(), parallel);
+    const LastBucket bucket = lastBucketOf({mesh, triangles, nodes}, options, transient.allocator(), parallel);
     listVertices(nodes, allocator);
-    return evaluateInOnePass({mesh, options, triangles, nodes, out}, bucket, transient, parallel);
+    return evaluateInOnePass({{mesh, triangles, nodes}, options, bucket, out}, transient, parallel);
 }
 
 }  // namespace
@@ -72,11 +72,11 @@ EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, 
     const Allocator* allocator = options.execution.allocator;
     TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
     Nodes nodes = weld(mesh, triangles, allocator, parallel);
-    const LastBucket bucket = lastBucketOf(mesh, options, triangles, nodes, allocator, parallel);
+    const LastBucket bucket = lastBucketOf({mesh, triangles, nodes}, options, allocator, parallel);
     listVertices(nodes, allocator);
     const Buffer<std::uint32_t> all = numbersBelow(nodes.count, allocator);
-    const NodeSetting setting{mesh, options, triangles, nodes, {}};
-    EvaluationPlan plan = planChosen({setting, bucket, {all.data(), all.size()}, nullptr, {}, parallel}, PlanUse::kept);
+    const NodeSetting setting{{mesh, triangles, nodes}, options, bucket, {}};
+    EvaluationPlan plan = planChosen({setting, {all.data(), all.size()}, nullptr, parallel}, PlanUse::kept);
     plan.skipped_corners = std::move(triangles.skipped_corners);
     plan.report.triangle_count = triangles.count;
     plan.report.skipped_face_count = triangles.skipped_face_count;

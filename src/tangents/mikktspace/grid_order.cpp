@@ -137,12 +137,9 @@ class Cell {
 
 class GridOrder {
   public:
-    GridOrder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-              std::span<const std::uint32_t> vertices, std::uint32_t* representatives, const Allocator* allocator,
-              Parallel& parallel)
-        : mesh_(mesh),
-          triangles_(triangles),
-          nodes_(nodes),
+    GridOrder(const WeldedMesh& welded, std::span<const std::uint32_t> vertices, std::uint32_t* representatives,
+              const Allocator* allocator, Parallel& parallel)
+        : in_(welded),
           vertices_(vertices),
           representatives_(representatives),
           allocator_(allocator),
@@ -150,14 +147,14 @@ class GridOrder {
 
     Buffer<std::uint32_t> find() {
         Buffer<std::uint32_t> found;
-        if (triangles_.count == 0) return found;
-        for (const std::uint32_t v : vertices_) representatives_[nodes_.ofVertex(v)] = kWanted;
+        if (in_.triangles.count == 0) return found;
+        for (const std::uint32_t v : vertices_) representatives_[in_.nodes.ofVertex(v)] = kWanted;
         // The box of all vertices is made much faster than that of the list, and does for us when vertices on both ends
         // of its longest axis are in the list: that of the list may be shorter on other axes only, and so has the same
         // longest one.
-        if (triangles_.corner(0) != 0 || !findIn(boxOfVertices(), true, found)) findIn(boxOfList(), false, found);
+        if (in_.triangles.corner(0) != 0 || !findIn(boxOfVertices(), true, found)) findIn(boxOfList(), false, found);
         for (const std::uint32_t v : vertices_) {
-            std::uint32_t& representative = representatives_[nodes_.ofVertex(v)];
+            std::uint32_t& representative = representatives_[in_.nodes.ofVertex(v)];
             if (representative == kWanted) representative = kNone;  // without corners
         }
         return found;
@@ -167,20 +164,20 @@ class GridOrder {
     /// What the reference computes: the box of the corner list but for its first entry, starting from corner 0 of the
     /// mesh.
     [[nodiscard]] Box boxOfList() const {
-        Box box(loadVec3(mesh_.positions[mesh_.indices[0]]));
-        for (std::size_t i = 1; i < 3 * triangles_.count; ++i)
-            box.add(loadVec3(mesh_.positions[mesh_.indices[triangles_.corner(i)]]));
+        Box box(loadVec3(in_.mesh.positions[in_.mesh.indices[0]]));
+        for (std::size_t i = 1; i < 3 * in_.triangles.count; ++i)
+            box.add(loadVec3(in_.mesh.positions[in_.vertexAt(i)]));
         return box;
     }
 
     [[nodiscard]] Box boxOfVertices() const {
-        const std::size_t count = mesh_.vertexCount(), parts = (count + kVertexGrain - 1) / kVertexGrain;
-        Box whole(loadVec3(mesh_.positions[mesh_.indices[0]]));
+        const std::size_t count = in_.mesh.vertexCount(), parts = (count + kVertexGrain - 1) / kVertexGrain;
+        Box whole(loadVec3(in_.mesh.positions[in_.mesh.indices[0]]));
         Buffer<Box> boxes(allocator_, parts, whole);
         parallel_.forTasks(parts, [&](std::size_t part) {
             Box box = whole;
             const std::size_t end = std::min((part + 1) * kVertexGrain, count);
-            for (std::size_t v = part * kVertexGrain; v < end; ++v) box.add(loadVec3(mesh_.positions[v]));
+            for (std::size_t v = part * kVertexGrain; v < end; ++v) box.add(loadVec3(in_.mesh.positions[v]));
             boxes[part] = box;
         });
         for (const Box& box : boxes) whole.add(box);
@@ -200,13 +197,13 @@ class GridOrder {
         std::array<std::uint16_t, kCells> numbers = {};
         std::uint16_t cell_count = 0;
         for (const std::uint32_t v : vertices_) {
-            const Mask4 cell = cellsOf(splat(component(mesh_.positions[v], axis)));
+            const Mask4 cell = cellsOf(splat(component(in_.mesh.positions[v], axis)));
             std::uint16_t& number = numbers[static_cast<std::size_t>(cell[0])];
             if (number == 0) number = ++cell_count;
         }
-        Buffer<std::uint16_t> marks(allocator_, mesh_.vertexCount());
+        Buffer<std::uint16_t> marks(allocator_, in_.mesh.vertexCount());
         parallel_.forRanges(marks.size(), kVertexGrain, [&](std::size_t begin, std::size_t end) {
-            const auto at = [=, positions = mesh_.positions](std::size_t v) {
+            const auto at = [=, positions = in_.mesh.positions](std::size_t v) {
                 return component(positions[std::min(v, end - 1)], axis);
             };
             for (std::size_t v = begin; v < end; v += 4) {
@@ -218,7 +215,7 @@ class GridOrder {
         });
         std::atomic<std::uint32_t> any{0};
         found = collectTriangles(
-            mesh_, triangles_, {}, [mark = marks.data()](std::uint32_t vertex) { return mark[vertex]; }, kNumber,
+            in_.mesh, in_.triangles, [mark = marks.data()](std::uint32_t vertex) { return mark[vertex]; }, kNumber,
             allocator_, parallel_, &any);
         if (if_listed && ((any & kAtLow) == 0 || (any & kAtHigh) == 0)) return false;
         followCells(found, marks.data(), cell_count);
@@ -230,7 +227,7 @@ class GridOrder {
         const auto forEachEntry = [&](const auto& body) {
             for (const std::uint32_t t : found) {
                 std::uint32_t buffer[3];
-                const std::uint32_t* vertices = readTriangles(mesh_, triangles_, t, 1, buffer);
+                const std::uint32_t* vertices = readTriangles(in_.mesh, in_.triangles, t, 1, buffer);
                 for (std::uint32_t k = 0; k < 3; ++k) {
                     const std::size_t number = marks[vertices[k]] & kNumber;
                     if (number != 0) body(vertices[k], 3 * t + k, number);
@@ -243,12 +240,11 @@ class GridOrder {
         for (std::size_t number = 1; number <= cells; ++number) begin[number + 1] += begin[number];
         Buffer<CellElement> elements(allocator_, begin[cells + 1]);
         forEachEntry([&](std::uint32_t vertex, std::uint32_t entry, std::size_t number) {
-            const bool is_wanted = representatives_[nodes_.ofVertex(vertex)] == kWanted;
-            elements[begin[number]++] = {mesh_.positions[vertex], is_wanted ? entry | kMark : entry};
+            const bool is_wanted = representatives_[in_.nodes.ofVertex(vertex)] == kWanted;
+            elements[begin[number]++] = {in_.mesh.positions[vertex], is_wanted ? entry | kMark : entry};
         });
         const auto name = [&](std::uint32_t entry) {
-            const std::uint32_t corner = triangles_.corner(entry);
-            representatives_[nodes_.of(mesh_, corner)] = corner;
+            representatives_[in_.nodeAt(entry)] = in_.triangles.corner(entry);
         };
         constexpr std::size_t kElements = 4096;  // for a thread: fewer are done sooner than one is started
         const std::size_t grain = 1 + cells * kElements / (elements.size() + 1);
@@ -260,9 +256,7 @@ class GridOrder {
         });
     }
 
-    const MeshView& mesh_;
-    const TriangleList& triangles_;
-    const Nodes& nodes_;
+    const WeldedMesh& in_;
     std::span<const std::uint32_t> vertices_;
     std::uint32_t* representatives_;
     const Allocator* allocator_;
@@ -271,10 +265,10 @@ class GridOrder {
 
 }  // namespace
 
-Buffer<std::uint32_t> findRepresentatives(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                                          std::span<const std::uint32_t> vertices, std::uint32_t* representatives,
-                                          const Allocator* allocator, Parallel& parallel) {
-    return GridOrder(mesh, triangles, nodes, vertices, representatives, allocator, parallel).find();
+Buffer<std::uint32_t> findRepresentatives(const WeldedMesh& welded, std::span<const std::uint32_t> vertices,
+                                          std::uint32_t* representatives, const Allocator* allocator,
+                                          Parallel& parallel) {
+    return GridOrder(welded, vertices, representatives, allocator, parallel).find();
 }
 
 }  // namespace tspace::mikk

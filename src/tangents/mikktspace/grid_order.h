@@ -9,7 +9,6 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "tangents/mikktspace/faces.h"
 #include "tangents/mikktspace/weld.h"
 
 namespace tspace::mikk {
@@ -18,8 +17,8 @@ namespace tspace::mikk {
 /// no corners. Others in the same cells (of 2048) may be set too, and then are right. Returns the triangles that have a
 /// corner in these cells, ascending: those at the nodes are among them. Nodes must be all finite. Linear in the vertices
 /// and indices, and in the corners of these cells times the halvings of a float interval.
-Buffer<std::uint32_t> findRepresentatives(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                                          std::span<const std::uint32_t> vertices, std::uint32_t* representatives,
-                                          const Allocator* allocator, Parallel& parallel);
+Buffer<std::uint32_t> findRepresentatives(const WeldedMesh& welded, std::span<const std::uint32_t> vertices,
+                                          std::uint32_t* representatives, const Allocator* allocator,
+                                          Parallel& parallel);
 
 }  // namespace tspace::mikk

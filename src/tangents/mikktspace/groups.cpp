@@ -82,10 +82,13 @@ GroupRoom::GroupRoom(const Allocator* allocator, std::uint32_t most) {
     half_edges_ = Buffer<std::uint64_t>(allocator, 2 * std::size_t{most});
 }
 
-Grouping::Grouping(VertexCorners& corners, std::span<const std::uint32_t> chosen, const LastBucket& bucket,
-                   const Allocator* allocator)
-    : corners_(corners), chosen_(chosen), bucket_(bucket), contested_(allocator) {
-    for (std::size_t place = 0; place < chosen.size(); ++place)
+Grouping::Grouping(const VertexPath& path, VertexCorners& corners)
+    : chosen_(path.chosen),
+      bucket_(path.setting.bucket),
+      corners_(corners),
+      contested_(path.setting.options.execution.allocator) {
+    const Allocator* allocator = path.setting.options.execution.allocator;
+    for (std::size_t place = 0; place < chosen_.size(); ++place)
         largest_ = std::max(largest_, static_cast<std::uint32_t>(corners.around(place).size()));
     if (corners.no_uv_area_count == 0) return;
     findContested(allocator);

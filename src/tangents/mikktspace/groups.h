@@ -23,7 +23,7 @@
 #include <span>
 
 #include "tangents/mikktspace/last_bucket.h"
-#include "tangents/mikktspace/vertex_corners.h"
+#include "tangents/mikktspace/vertex_path.h"
 
 namespace tspace::mikk {
 
@@ -69,8 +69,7 @@ class GroupRoom {
 class Grouping {
   public:
     /// Settles the contested triangles' orientation, in corners.flags. All must outlive this object.
-    Grouping(VertexCorners& corners, std::span<const std::uint32_t> chosen, const LastBucket& bucket,
-             const Allocator* allocator);
+    Grouping(const VertexPath& path, VertexCorners& corners);
 
     /// `room` must be large enough, and holds the result.
     NodeGroups groupsOf(std::size_t place, GroupRoom& room) const;
@@ -89,9 +88,9 @@ class Grouping {
     void link(std::size_t place, const CornerLinks& links, std::uint64_t* half_edges) const;
     void applyBucket(std::span<const NodeCorner> around, const CornerLinks& links) const;
 
-    VertexCorners& corners_;
     std::span<const std::uint32_t> chosen_;
     const LastBucket& bucket_;
+    VertexCorners& corners_;
     std::uint32_t largest_ = kSmallNode;
     Buffer<std::uint32_t> contested_of_;  // one per chosen node, and one more: its number in contested_, or kNone;
                                           // empty when there are none

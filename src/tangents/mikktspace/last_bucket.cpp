@@ -48,47 +48,33 @@ class EdgeSort {
   public:
     EdgeSort(std::span<Record> records, std::uint32_t largest) : records_(records), largest_(largest) {}
 
-    [[gnu::cold]] bool run() {
+    [[gnu::cold]] bool run(const Allocator* allocator) {
         struct Range {
             std::int64_t begin, last;
             std::uint32_t seed;
         };
-        Range waiting[64];  // the larger side waits, so each is at most half of the one before
-        std::size_t depth = 0;
+        Growing<Range> waiting(allocator);
+        waiting.push({0, static_cast<std::int64_t>(records_.size()) - 1, kSeed});
         std::uint64_t steps = kStepsPerElement * records_.size() + 1024;
-        Range range{0, static_cast<std::int64_t>(records_.size()) - 1, kSeed};
-        while (true) {
-            const auto size = static_cast<std::uint64_t>(range.last - range.begin + 1);
-            Range sides[2];
-            int count = 0;
-            if (range.last > range.begin) {
-                if (size > steps) return false;
-                steps -= size;
-                if (size == 2) {
-                    if (key(range.begin) > key(range.last)) std::swap(record(range.begin), record(range.last));
-                } else {
-                    const std::uint32_t seed =
-                        range.seed + std::rotl(range.seed, static_cast<int>(range.seed & 31)) + 3;
-                    std::int64_t i = range.begin, j = range.last;
-                    const std::uint32_t pivot = key(range.begin + static_cast<std::int64_t>(seed % size));
-                    partition(i, j, pivot);
-                    if (pivot == largest_ && range.begin < j) sides[count++] = {range.begin, j, seed};
-                    if (i < range.last) sides[count++] = {i, range.last, seed};
-                }
+        while (!waiting.empty()) {
+            const auto [begin, last, old_seed] = waiting[waiting.size() - 1];
+            waiting.drop(1);
+            if (last <= begin) continue;
+            const auto size = static_cast<std::uint64_t>(last - begin + 1);
+            if (size > steps) return false;
+            steps -= size;
+            if (size == 2) {
+                if (key(begin) > key(last)) std::swap(record(begin), record(last));
+                continue;
             }
-            if (count == 0) {
-                if (depth == 0) return true;
-                range = waiting[--depth];
-            } else {
-                if (count == 2) {
-                    const bool first_is_larger = sides[0].last - sides[0].begin > sides[1].last - sides[1].begin;
-                    waiting[depth++] = sides[first_is_larger ? 0 : 1];
-                    range = sides[first_is_larger ? 1 : 0];
-                } else {
-                    range = sides[0];
-                }
-            }
+            const std::uint32_t seed = old_seed + std::rotl(old_seed, static_cast<int>(old_seed & 31)) + 3;
+            std::int64_t i = begin, j = last;
+            const std::uint32_t pivot = key(begin + static_cast<std::int64_t>(seed % size));
+            partition(i, j, pivot);
+            if (pivot == largest_) waiting.push({begin, j, seed});
+            waiting.push({i, last, seed});
         }
+        return true;
     }
 
   private:
@@ -125,16 +111,13 @@ struct BucketEdge {
 
 class BucketFinder {
   public:
-    BucketFinder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const Allocator* allocator,
-                 Parallel& parallel)
-        : mesh_(mesh),
-          triangles_(triangles),
-          nodes_(nodes),
+    BucketFinder(const WeldedMesh& welded, const Allocator* allocator, Parallel& parallel)
+        : in_(welded),
           allocator_(allocator),
           parallel_(parallel),
-          representatives_(allocator, nodes.count),
+          representatives_(allocator, welded.nodes.count),
           bucket_(allocator) {
-        std::memset(representatives_.data(), 0xff, nodes.count * sizeof(std::uint32_t));
+        std::memset(representatives_.data(), 0xff, welded.nodes.count * sizeof(std::uint32_t));
     }
 
     /// `kept`: for the result.
@@ -166,60 +149,60 @@ class BucketFinder {
 
     [[nodiscard]] Triangle triangle(std::size_t t) const {
         std::uint32_t buffer[3];
-        const std::uint32_t* vertices = readTriangles(mesh_, triangles_, t, 1, buffer);
+        const std::uint32_t* vertices = readTriangles(in_.mesh, in_.triangles, t, 1, buffer);
         Triangle triangle;
         for (std::size_t k = 0; k < 3; ++k) {
             triangle.vertices[k] = vertices[k];
-            triangle.nodes[k] = nodes_.ofVertex(vertices[k]);
+            triangle.nodes[k] = in_.nodes.ofVertex(vertices[k]);
             triangle.corners[k] = representatives_[triangle.nodes[k]] + 1;
         }
         return triangle;
     }
 
     [[nodiscard]] bool isGood(const Triangle& triangle) const {
-        const auto at = [&](std::size_t k) -> const Vec3& { return mesh_.positions[triangle.vertices[k]]; };
+        const auto at = [&](std::size_t k) -> const Vec3& { return in_.mesh.positions[triangle.vertices[k]]; };
         return !(at(0) == at(1) || at(1) == at(2) || at(2) == at(0));
     }
 
     /// Whether some node has three corners. All edges of the bucket meet at one node, and a triangle has at most one of
     /// them: between the higher ends of two would be an edge with a larger key. Of two edges the order does not matter.
     [[nodiscard]] bool hasNodeOfThree() const {
-        Marks counts = noMarks(allocator_, nodes_.count);
+        Marks counts = noMarks(allocator_, in_.nodes.count);
         std::uint32_t buffer[kBlockCorners], most = 0;
-        for (std::size_t first = 0; most < 3 && first < triangles_.count; first += kCollectBlock) {
-            const std::size_t count = std::min(kCollectBlock, triangles_.count - first);
-            const std::uint32_t* vertices = readTriangles(mesh_, triangles_, first, count, buffer);
+        for (std::size_t first = 0; most < 3 && first < in_.triangles.count; first += kCollectBlock) {
+            const std::size_t count = std::min(kCollectBlock, in_.triangles.count - first);
+            const std::uint32_t* vertices = readTriangles(in_.mesh, in_.triangles, first, count, buffer);
             for (std::size_t i = 0; most < 3 && i < 3 * count; ++i)
-                most = std::max<std::uint32_t>(most, ++counts[nodes_.ofVertex(vertices[i])]);
+                most = std::max<std::uint32_t>(most, ++counts[in_.nodes.ofVertex(vertices[i])]);
         }
         return most == 3;
     }
 
     /// Where the last `length` triangles begin, or a few more: a face is not cut in two.
     [[nodiscard]] std::size_t beginOfLast(std::size_t length) const {
-        std::size_t begin = length < triangles_.count ? triangles_.count - length : 0;
-        while (begin > 0 && triangles_.face(begin) == triangles_.face(begin - 1)) --begin;
+        std::size_t begin = length < in_.triangles.count ? in_.triangles.count - length : 0;
+        while (begin > 0 && in_.triangles.face(begin) == in_.triangles.face(begin - 1)) --begin;
         return begin;
     }
 
     Buffer<std::uint32_t> findRepresentatives(const Buffer<std::uint32_t>& vertices) {
-        return mikk::findRepresentatives(mesh_, triangles_, nodes_, {vertices.data(), vertices.size()},
-                                         representatives_.data(), allocator_, parallel_);
+        return mikk::findRepresentatives(in_, {vertices.data(), vertices.size()}, representatives_.data(), allocator_,
+                                         parallel_);
     }
 
     /// V, and its edges.
     void findBucket() {
         constexpr std::size_t kSmallMesh = 4096, kLastOfSmall = 8, kLast = 24;  // triangles
         constexpr std::size_t kLonger = 4;                                      // times, when that was not enough
-        std::size_t length = triangles_.count < kSmallMesh ? kLastOfSmall : kLast;
+        std::size_t length = in_.triangles.count < kSmallMesh ? kLastOfSmall : kLast;
         std::uint32_t first_corner = kNone;
-        for (std::size_t begin = triangles_.count; begin != 0 && key_ <= first_corner; length *= kLonger) {
+        for (std::size_t begin = in_.triangles.count; begin != 0 && key_ <= first_corner; length *= kLonger) {
             begin = beginOfLast(length);
-            Buffer<std::uint32_t> vertices(allocator_, 3 * (triangles_.count - begin));
+            Buffer<std::uint32_t> vertices(allocator_, 3 * (in_.triangles.count - begin));
             for (std::size_t i = 0; i < vertices.size(); ++i) {
-                const std::uint32_t corner = triangles_.corner(3 * begin + i);
+                const std::uint32_t corner = in_.triangles.corner(3 * begin + i);
                 first_corner = std::min(first_corner, corner);
-                vertices[i] = mesh_.indices[corner];
+                vertices[i] = in_.mesh.indices[corner];
             }
             const Buffer<std::uint32_t> around = findRepresentatives(vertices);
             key_ = 1;
@@ -255,10 +238,10 @@ class BucketFinder {
 
     /// Leaves the bucket in the order in which the reference meets its edges.
     [[gnu::cold]] bool sortAsReference() {
-        findRepresentatives(numbersBelow(mesh_.vertexCount(), allocator_));
+        findRepresentatives(numbersBelow(in_.mesh.vertexCount(), allocator_));
         Growing<Record> records(allocator_);
-        records.reserve(3 * triangles_.count);
-        for (std::uint32_t t = 0; t < triangles_.count; ++t) {
+        records.reserve(3 * in_.triangles.count);
+        for (std::uint32_t t = 0; t < in_.triangles.count; ++t) {
             const Triangle here = triangle(t);
             if (!isGood(here)) continue;
             const auto [a, b, c] = here.corners;
@@ -267,7 +250,7 @@ class BucketFinder {
             to[1] = {std::min(b, c), 3 * t + 1};
             to[2] = {std::min(c, a), 3 * t + 2};
         }
-        if (!EdgeSort({records.begin(), records.size()}, key_).run()) return false;
+        if (!EdgeSort({records.begin(), records.size()}, key_).run(allocator_)) return false;
         sortEdges(bucket_.begin(), bucket_.end(), false);
         Growing<BucketEdge> ordered(allocator_);
         for (std::size_t i = records.size() - bucket_.size(); i < records.size(); ++i) {
@@ -322,9 +305,7 @@ class BucketFinder {
         result.nodes = nodes.exact();
     }
 
-    const MeshView& mesh_;
-    const TriangleList& triangles_;
-    const Nodes& nodes_;
+    const WeldedMesh& in_;
     const Allocator* allocator_;
     Parallel& parallel_;
     Buffer<std::uint32_t> representatives_;  // one per node; kNone where it is not known
@@ -335,10 +316,10 @@ class BucketFinder {
 
 }  // namespace
 
-LastBucket findLastBucket(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                          const Allocator* transient, const Allocator* allocator, Parallel& parallel) {
-    if (triangles.count == 0) return {};
-    return BucketFinder(mesh, triangles, nodes, transient, parallel).run(allocator);
+LastBucket findLastBucket(const WeldedMesh& welded, const Allocator* transient, const Allocator* allocator,
+                          Parallel& parallel) {
+    if (welded.triangles.count == 0) return {};
+    return BucketFinder(welded, transient, parallel).run(allocator);
 }
 
 }  // namespace tspace::mikk

@@ -9,7 +9,6 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "tangents/mikktspace/faces.h"
 #include "tangents/mikktspace/weld.h"
 
 namespace tspace::mikk {
@@ -35,7 +34,7 @@ struct LastBucket {
 /// Nodes must be all finite. Takes about two bytes per vertex, five per node, and what the corners of a few cells of the
 /// reference's grid need; mostly reads all vertices and indices once. Where the order of the bucket matters, up to 60
 /// bytes per triangle. `transient`: for all but the result.
-LastBucket findLastBucket(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                          const Allocator* transient, const Allocator* allocator, Parallel& parallel);
+LastBucket findLastBucket(const WeldedMesh& welded, const Allocator* transient, const Allocator* allocator,
+                          Parallel& parallel);
 
 }  // namespace tspace::mikk

@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::uint32_t kFewGroups = 8;
 
-Vec3 vectorOf(Float4 row) { return {row[0], row[1], row[2]}; }
-
 /// Corners of a polygon's triangles that are one corner of the mesh lie side by side, unless the polygon has two corners
 /// at this node. Returns whether they do, and are in one group.
 bool repeatsAgree(const NodeGroups& groups) {
@@ -24,22 +22,20 @@ bool repeatsAgree(const NodeGroups& groups) {
 
 }  // namespace
 
-NodeResults::NodeResults(const NodeSetting& setting, std::span<const std::uint32_t> chosen,
-                         const VertexCorners& corners, float threshold_cosine, Marks& defaults)
-    : setting_(setting),
-      chosen_(chosen),
-      sink_(setting.out, setting.options.convention),
+NodeResults::NodeResults(const VertexPath& path, const VertexCorners& corners, float threshold_cosine, Marks& defaults)
+    : path_(path),
+      sink_(path.setting.out, path.setting.options.convention),
       corners_(corners),
       threshold_cosine_(threshold_cosine),
       defaults_(defaults),
-      may_split_(setting.maySplit()),
-      has_polygons_(setting.hasPolygons()),
-      tangents_only_(wantsTangentsOnly(setting.out)),
+      may_split_(path.setting.maySplit()),
+      has_polygons_(path.setting.hasPolygons()),
+      tangents_only_(wantsTangentsOnly(path.setting.out)),
       has_t_(has_polygons_ || !tangents_only_ || may_split_) {}
 
 inline void NodeResults::writeCorner(std::uint32_t slot, const Tangents& result) const {
     if (tangents_only_) {
-        setting_.out.tangents[slot] = {result.s.x, result.s.y, result.s.z, sink_.sign(result.positive)};
+        path_.setting.out.tangents[slot] = {result.s.x, result.s.y, result.s.z, sink_.sign(result.positive)};
     } else {
         sink_.write(slot, result);
     }
@@ -111,7 +107,8 @@ bool NodeResults::maySplit(std::size_t place, const NodeGroups& groups, std::uin
     if (sum.adding > 4 && threshold_cosine_ == -1.0f) {
         float s[4];
         storeFloat4(s, sum.s);
-        if (sumCannotSplit(s, sum.common, setting_.mesh.normals[setting_.nodes.vertex(chosen_[place])])) return false;
+        if (sumCannotSplit(s, sum.common, path_.setting.mesh.normals[path_.setting.nodes.vertex(path_.chosen[place])]))
+            return false;
     }
     const NodeCorner* members[kSmallNode];
     std::size_t count = 0;

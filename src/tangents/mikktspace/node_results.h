@@ -6,7 +6,6 @@
 #include <span>
 
 #include "core/float4.h"
-#include "tangents/method_kind.h"
 #include "tangents/mikktspace/groups.h"
 #include "tangents/mikktspace/results.h"
 
@@ -16,24 +15,10 @@ struct NodeCounts {
     std::uint64_t groups = 0, default_corners = 0;
 };
 
-/// What to compute of the nodes of a mesh.
-struct NodeSetting {
-    const MeshView& mesh;
-    const TangentOptions& options;
-    const TriangleList& triangles;
-    const Nodes& nodes;  ///< nodes.vertex() must be valid
-    TangentOutput out;
-
-    [[nodiscard]] bool hasPolygons() const { return !triangles.faces.empty(); }
-    [[nodiscard]] bool maySplit() const { return isMikktspace(options.method); }
-};
-
 class NodeResults {
   public:
-    /// `chosen`: the nodes that the corners are read of. `defaults`: empty, or one per corner of the mesh, set to 1 where
-    /// the default is written.
-    NodeResults(const NodeSetting& setting, std::span<const std::uint32_t> chosen, const VertexCorners& corners,
-                float threshold_cosine, Marks& defaults);
+    /// `defaults`: empty, or one per corner of the mesh, set to 1 where the default is written.
+    NodeResults(const VertexPath& path, const VertexCorners& corners, float threshold_cosine, Marks& defaults);
 
     /// Writes the corners of a node. Returns false where something rare happens: many groups, groups that may split,
     /// results that are not finite or vanish, several results for one corner of the mesh. Then what is written means
@@ -57,8 +42,7 @@ class NodeResults {
     [[nodiscard]] bool resultOf(const Sum& sum, Tangents& result) const;
     void writeCorner(std::uint32_t slot, const Tangents& result) const;
 
-    const NodeSetting& setting_;
-    std::span<const std::uint32_t> chosen_;
+    const VertexPath& path_;
     Sink sink_;
     const VertexCorners& corners_;
     float threshold_cosine_;
@@ -71,8 +55,7 @@ class NodeResults {
 
 /// What a plan is made from.
 struct PlanSource {
-    const NodeSetting& setting;
-    std::span<const std::uint32_t> chosen;  ///< the nodes that the corners are read of
+    const VertexPath& path;
     const VertexCorners& corners;
     const Grouping& grouping;
     std::span<const std::uint8_t> planned;  ///< one per chosen node: 1 where it is planned; empty: all are

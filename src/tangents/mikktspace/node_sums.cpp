@@ -30,20 +30,12 @@ constexpr std::size_t kTermGroup = 16;  // triangles that kernels read at once a
 constexpr int kSecondCache = 2;
 
 /// What to sum.
-struct Sweep {
-    const MeshView& mesh;
-    const TriangleList& triangles;
-    const Nodes& nodes;
+struct Sweep : WeldedMesh {
     const CornerSource& source;
     CornerTermsFunction terms;
     NodeSums& sums;
     const RangeLists* lists = nullptr;  // of the ranges; null: there is one
     bool asks = false;                  // for memory that is in no near cache
-
-    [[nodiscard]] std::uint32_t vertexAt(std::size_t half_edge) const {
-        return mesh.indices[triangles.corner(half_edge)];
-    }
-    [[nodiscard]] std::uint32_t nodeAt(std::size_t half_edge) const { return nodes.ofVertex(vertexAt(half_edge)); }
 };
 
 /// Triangles to compute. The numbers are the caller's own where they can be taken as they are.
@@ -54,7 +46,7 @@ struct Block {
     bool is_whole = false;  // consecutive, and all their nodes are in the range
     std::uint32_t own_vertices[kTermCorners];
     std::uint32_t own_nodes[kTermCorners];
-    std::uint32_t triangles[kTermTriangles];  // their numbers
+    std::uint32_t triangles[kTermTriangles];  // their numbers; of a whole block the first one
 };
 
 /// One task's worth of ranges.
@@ -79,8 +71,6 @@ class Summer {
             compute(blocks[current]);
         }
     }
-
-    std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;
 
   private:
     [[nodiscard]] bool owns(std::uint32_t node) const { return node - first_node_ < node_count_; }
@@ -116,7 +106,7 @@ class Summer {
         if (first >= sweep_.triangles.count) return;
         block.count = std::min(kTermTriangles, sweep_.triangles.count - first);
         block.is_whole = true;
-        for (std::size_t t = 0; t < kTermTriangles; ++t) block.triangles[t] = static_cast<std::uint32_t>(first + t);
+        block.triangles[0] = static_cast<std::uint32_t>(first);
         block.vertices = readTriangles(sweep_.mesh, sweep_.triangles, first, block.count, block.own_vertices);
         finish(block);
     }
@@ -148,14 +138,13 @@ class Summer {
 
     void compute(const Block& block) {
         sweep_.terms(sweep_.source, block.vertices, block.count, terms_);
-        if (block.is_whole) {
-            degenerate_count += terms_.degenerate_count;
-            no_uv_area_count += terms_.no_uv_area_count;
-            mirrored_count += terms_.mirrored_count;
-        } else {
-            countOwn(block);
+        const auto kindOf = [&](std::size_t t) { return static_cast<TriangleKind>(terms_.marks[0][t] >> 8); };
+        TriangleKind* const kinds = sums_.kinds.data();
+        const std::size_t first = block.triangles[0], whole_count = block.is_whole ? block.count : 0;
+        for (std::size_t t = 0; t < whole_count; ++t) kinds[first + t] = kindOf(t);
+        for (std::size_t t = 0; !block.is_whole && t < block.count; ++t) {
+            if (owns(block.nodes[3 * t])) kinds[block.triangles[t]] = kindOf(t);
         }
-        if (!sweep_.triangles.faces.empty()) keepKinds(block);
         if (sweep_.source.weighting == Weighting::none) {
             add<Sums::none>(block);
         } else if (sums_.rest.empty()) {
@@ -166,31 +155,6 @@ class Summer {
     }
 
     enum class Sums { none, tangents, all };
-
-    [[nodiscard]] std::uint8_t kindOf(std::size_t t) const {
-        static_assert(kFacesUp == kUvFacesUp && kFacesDown == kUvFacesDown);
-        const std::uint32_t m = terms_.marks[0][t];
-        if ((m & kDegenerateMark) != 0) return kDegenerateTriangle;
-        return static_cast<std::uint8_t>((m & kNoUvArea) != 0 ? std::uint32_t{kDegenerateUv}
-                                                              : m & (kFacesUp | kFacesDown));
-    }
-
-    /// Each triangle is counted by the task that owns its first node.
-    void countOwn(const Block& block) {
-        for (std::size_t t = 0; t < block.count; ++t) {
-            if (!owns(block.nodes[3 * t])) continue;
-            const std::uint8_t kind = kindOf(t);
-            degenerate_count += kind == kDegenerateTriangle ? 1 : 0;
-            no_uv_area_count += kind == kDegenerateUv ? 1 : 0;
-            mirrored_count += kind == kUvFacesDown ? 1 : 0;
-        }
-    }
-
-    void keepKinds(const Block& block) {
-        for (std::size_t t = 0; t < block.count; ++t) {
-            if (owns(block.nodes[3 * t])) sums_.kinds[block.triangles[t]] = kindOf(t);
-        }
-    }
 
     /// Where sums are made: a copy, so that pointers stay in registers.
     struct Target {
@@ -205,7 +169,7 @@ class Summer {
         for (std::size_t t = 0; t < block.count; ++t) {
             const std::uint32_t* n = block.nodes + 3 * t;
             if ((terms_.marks[0][t] & (kDegenerateMark | kNoUvArea)) != 0) [[unlikely]] {
-                addUnusual(block, t);
+                addUnusual(n, (terms_.marks[0][t] & kDegenerateMark) != 0);
                 continue;
             }
             const std::uint32_t a = n[0], b = n[1], c = n[2];
@@ -222,9 +186,7 @@ class Summer {
     }
 
     /// Triangles that add nothing to the sums. Nodes of degenerate ones are left to the vertex path.
-    void addUnusual(const Block& block, std::size_t t) {
-        const std::uint32_t* n = block.nodes + 3 * t;
-        const bool degenerate = (terms_.marks[0][t] & kDegenerateMark) != 0;
+    void addUnusual(const std::uint32_t* n, bool degenerate) {
         for (std::size_t k = 0; k < 3; ++k) {
             if (!owns(n[k])) continue;
             if (degenerate) {
@@ -233,7 +195,6 @@ class Summer {
                 sums_.nodes[n[k]].fan.add(n[(k + 1) % 3], n[(k + 2) % 3], fan_room_);
             }
         }
-        if (!degenerate && owns(n[0])) sums_.kinds[block.triangles[t]] = kDegenerateUv;
     }
 
     const Sweep& sweep_;
@@ -283,12 +244,12 @@ unsigned rangeShift(const Sweep& sweep, unsigned width) {
 }  // namespace
 
 void MeshTriangles::read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const {
-    const std::uint32_t* const found = readTriangles(mesh_, triangles_, first, size, groups);
+    const std::uint32_t* const found = readTriangles(in_.mesh, in_.triangles, first, size, groups);
     if (vertices != nullptr) std::copy_n(found, 3 * size, vertices);
-    const std::uint32_t* const nodes = nodes_.ofVertices(found, 3 * size, groups);
+    const std::uint32_t* const nodes = in_.nodes.ofVertices(found, 3 * size, groups);
     if (nodes != groups) std::copy_n(nodes, 3 * size, groups);
-    if (vertices != nullptr && nodes_.mixed) {
-        for (std::size_t i = 0; i < 3 * size; ++i) vertices[i] = nodes_.vertex(groups[i]);
+    if (vertices != nullptr && in_.nodes.mixed) {
+        for (std::size_t i = 0; i < 3 * size; ++i) vertices[i] = in_.nodes.vertex(groups[i]);
     }
     for (std::size_t t = 0; kinds_ != nullptr && t < size; ++t) {
         if ((kinds_[first + t] & kDegenerateUv) != 0) std::fill_n(groups + 3 * t, 3, kNone);
@@ -310,48 +271,48 @@ void finishInRanges(std::size_t count, const FinishNodes& finish, Parallel& para
     });
 }
 
-void sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const CornerSource& source,
-              CornerTermsFunction terms, ScratchBlock& transient, const Allocator* allocator, Parallel& parallel,
-              NodeSums& sums, const FinishNodes& finish, unsigned range_shift) {
-    sums.nodes = Buffer<NodeSum>(allocator, nodes.count);
-    sums.marks = Buffer<std::uint16_t>(allocator, nodes.count);
-    if (!source.tangents_only) sums.rest = Buffer<GroupRest>(allocator, nodes.count);
-    sums.kinds = Buffer<std::uint8_t>(transient.allocator(), triangles.count, std::uint8_t{0});
-    if (nodes.count == 0) return;
-    Sweep sweep{mesh, triangles, nodes, source, terms, sums};
+void sumNodes(const WeldedMesh& welded, const CornerSource& source, CornerTermsFunction terms, ScratchBlock& transient,
+              const Allocator* allocator, Parallel& parallel, NodeSums& sums, const FinishNodes& finish,
+              unsigned range_shift) {
+    const std::size_t node_count = welded.nodes.count;
+    sums.nodes = Buffer<NodeSum>(allocator, node_count);
+    sums.marks = Buffer<std::uint16_t>(allocator, node_count);
+    if (!source.tangents_only) sums.rest = Buffer<GroupRest>(allocator, node_count);
+    sums.kinds = Buffer<TriangleKind>(transient.allocator(), welded.triangles.count);
+    if (node_count == 0) return;
+    Sweep sweep{welded, source, terms, sums};
     sums.scattered = isScattered(sweep);
     const unsigned shift = range_shift != 0 ? range_shift : rangeShift(sweep, parallel.width());
-    const std::size_t ranges = ((nodes.count - 1) >> shift) + 1;
+    const std::size_t ranges = ((node_count - 1) >> shift) + 1;
     sweep.asks = sums.scattered && shift > kScatteredShift;
     std::optional<RangeLists> range_lists;
     if (ranges > 1) {
-        range_lists.emplace(MeshTriangles(mesh, triangles, nodes, nullptr), kTermTriangles, nodes.count,
-                            std::size_t{1} << shift, transient.allocator(), parallel);
+        range_lists.emplace(MeshTriangles(welded, nullptr), kTermTriangles, node_count, std::size_t{1} << shift,
+                            transient.allocator(), parallel);
         sweep.lists = &*range_lists;
     }
-    struct Counts {
-        std::uint64_t degenerate, no_uv_area, mirrored;
-    };
     const std::size_t tasks = std::min<std::size_t>(ranges, parallel.width());
-    Buffer<Counts> counts(allocator, tasks);
-    const std::size_t fans_each = std::min(nodes.count, std::size_t{1} << shift) / kManyShare + 64;
+    const std::size_t fans_each = std::min(node_count, std::size_t{1} << shift) / kManyShare + 64;
     Buffer<ManyPaths> many_paths(transient.allocator(), tasks * fans_each);
     std::atomic<std::size_t> next{0};
     parallel.forTasks(tasks, [&](std::size_t task) {
         Summer summer(sweep);
         for (std::size_t range = next++; range < ranges; range = next++) {
-            const std::size_t end = std::min((range + 1) << shift, nodes.count);
+            const std::size_t end = std::min((range + 1) << shift, node_count);
             summer.run(range, range << shift, end, {many_paths.data() + task * fans_each, fans_each});
             if (ranges > 1) finish(range << shift, end);
         }
-        counts[task] = {summer.degenerate_count, summer.no_uv_area_count, summer.mirrored_count};
     });
-    for (const Counts& c : counts) {
-        sums.degenerate_count += c.degenerate;
-        sums.no_uv_area_count += c.no_uv_area;
-        sums.mirrored_count += c.mirrored;
+    std::uint32_t degenerate = 0, no_uv_area = 0, mirrored = 0;
+    for (const TriangleKind kind : sums.kinds) {
+        degenerate += (kind & kDegenerateTriangle) != 0 ? 1 : 0;
+        no_uv_area += (kind & (kDegenerateTriangle | kDegenerateUv)) == kDegenerateUv ? 1 : 0;
+        mirrored += kind == kMirrored ? 1 : 0;
     }
-    if (ranges == 1) finishInRanges(nodes.count, finish, parallel);
+    sums.degenerate_count = degenerate;
+    sums.no_uv_area_count = no_uv_area;
+    sums.mirrored_count = mirrored;
+    if (ranges == 1) finishInRanges(node_count, finish, parallel);
 }
 
 }  // namespace tspace::mikk

@@ -9,7 +9,6 @@
 #include "core/parallel.h"
 #include "core/range_lists.h"
 #include "core/scratch_block.h"
-#include "tangents/mikktspace/faces.h"
 #include "tangents/mikktspace/fan.h"
 #include "tangents/mikktspace/results.h"
 #include "tangents/mikktspace/weld.h"
@@ -23,12 +22,11 @@ struct alignas(32) NodeSum {
     Fan fan;
 };
 
-/// Of a triangle, in NodeSums::kinds.
+/// Of a triangle, in NodeSums::kinds: marks of corner_terms.h.
 enum TriangleKind : std::uint8_t {
-    kUvFacesUp = 1,
-    kUvFacesDown = 2,
-    kDegenerateUv = 4,  ///< no usable UV area: it adds nothing, and marks nothing, but links what lies on both sides
-    kDegenerateTriangle = 8,  ///< degenerate
+    kDegenerateUv = kNoUvArea >> 8,  ///< it adds nothing, and marks nothing, but links what lies on both sides
+    kDegenerateTriangle = kDegenerateMark >> 8,
+    kMirrored = kMirroredMark >> 8,
 };
 
 struct NodeSums {
@@ -36,7 +34,7 @@ struct NodeSums {
     Buffer<std::uint16_t> marks;  ///< one per node: those that all its corners have (corner_terms.h); 0: left
                                   ///< aside, as all nodes of degenerate triangles are
     Buffer<GroupRest> rest;       ///< of its sum but for the weight, which is in `nodes`; empty when tangents_only
-    Buffer<std::uint8_t> kinds;   ///< one per triangle, transient; kDegenerateUv only, but for polygons' triangles
+    Buffer<TriangleKind> kinds;   ///< one per triangle, transient
     bool scattered = false;       ///< consecutive triangles lie far apart in memory
     std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;
 
@@ -78,15 +76,13 @@ inline Mask4 cannotSplit(Float4 square, Float4 weight, Mask4 marks, const Vec3x4
 /// triangles without UV area add nothing.
 class MeshTriangles final : public TriangleGroups {
   public:
-    MeshTriangles(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const std::uint8_t* kinds)
-        : TriangleGroups(triangles.count), mesh_(mesh), triangles_(triangles), nodes_(nodes), kinds_(kinds) {}
+    MeshTriangles(const WeldedMesh& welded, const TriangleKind* kinds)
+        : TriangleGroups(welded.triangles.count), in_(welded), kinds_(kinds) {}
     void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const override;
 
   private:
-    const MeshView& mesh_;
-    const TriangleList& triangles_;
-    const Nodes& nodes_;
-    const std::uint8_t* kinds_;
+    const WeldedMesh& in_;
+    const TriangleKind* kinds_;
 };
 
 /// finish(first, end): the sums of these nodes are complete. `first` is a multiple of 64. Called by all threads.
@@ -97,8 +93,8 @@ void finishInRanges(std::size_t count, const FinishNodes& finish, Parallel& para
 
 /// Fills `sums`, and finishes all nodes, range by range. nodes.vertex() must be valid. `transient`: for what is not needed
 /// any more when tangents are written. `range_shift`: log2 of the nodes of a range; 0: what suits the mesh.
-void sumNodes(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const CornerSource& source,
-              CornerTermsFunction terms, ScratchBlock& transient, const Allocator* allocator, Parallel& parallel,
-              NodeSums& sums, const FinishNodes& finish, unsigned range_shift = 0);
+void sumNodes(const WeldedMesh& welded, const CornerSource& source, CornerTermsFunction terms, ScratchBlock& transient,
+              const Allocator* allocator, Parallel& parallel, NodeSums& sums, const FinishNodes& finish,
+              unsigned range_shift = 0);
 
 }  // namespace tspace::mikk

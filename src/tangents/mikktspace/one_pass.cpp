@@ -17,8 +17,6 @@
 #include "tangents/mikktspace/node_sums.h"
 #include "tangents/mikktspace/results.h"
 #include "tangents/mikktspace/splits.h"
-#include "tangents/mikktspace/vector_rules.h"
-#include "tangents/mikktspace/vertex_path.h"
 
 namespace tspace::mikk {
 
@@ -26,8 +24,6 @@ namespace {
 
 constexpr std::size_t kCornerGrain = 16384;
 constexpr std::uint32_t kBothFacings = kFacesUp | kFacesDown;
-/// In the place of the sign, with a bit that no sign has.
-constexpr float kComplexSign = 2.0f;
 constexpr std::uint16_t kReplaced = 0x8000;  ///< in NodeSums::marks: the node has a default in place of an estimate
 
 /// For one estimate of all groups of a mesh: triangles in which each node is a group; the groups of planned nodes follow behind all nodes.
@@ -64,51 +60,44 @@ class JoinedTriangles final : public TriangleGroups {
 
 class OnePass {
   public:
-    OnePass(const NodeSetting& setting, const LastBucket& bucket, ScratchBlock& transient, Parallel& parallel,
-            const PassOptions& pass)
-        : setting_(setting),
-          mesh_(setting.mesh),
-          options_(setting.options),
-          triangles_(setting.triangles),
-          nodes_(setting.nodes),
-          bucket_(bucket),
+    OnePass(const NodeSetting& setting, ScratchBlock& transient, Parallel& parallel, const PassOptions& pass)
+        : in_(setting),
           pass_(pass),
-          out_(setting.out),
           transient_(transient),
           parallel_(parallel),
-          allocator_(options_.execution.allocator),
-          estimates_(isEstimated(options_.method)),
-          sign_factor_(signFactor(options_.convention) * normalFactor(options_.convention)) {}
+          allocator_(setting.options.execution.allocator),
+          estimates_(isEstimated(setting.options.method)),
+          sink_(setting.out, setting.options.convention) {}
 
     TangentReport run() {
-        const bool has_threshold = setting_.maySplit() && thresholdCosine(options_.angular_threshold_deg) != -1.0f;
+        const bool has_threshold = in_.maySplit() && thresholdCosine(in_.options.angular_threshold_deg) != -1.0f;
         const bool walks = has_threshold || pass_.first_look == FirstLook::eachNode;
         TangentReport report = walks && !estimates_ ? writeAll() : passOverTriangles();
-        report.triangle_count = triangles_.count;
-        report.skipped_face_count = triangles_.skipped_face_count;
-        report.reference_order_abandoned |= bucket_.abandoned;
+        report.triangle_count = in_.triangles.count;
+        report.skipped_face_count = in_.triangles.skipped_face_count;
+        report.reference_order_abandoned |= in_.bucket.abandoned;
         return report;
     }
 
   private:
     /// By the vertex path alone.
     TangentReport writeAll() {
-        for (const std::uint32_t c : triangles_.skipped_corners) Sink(out_, options_.convention).clear(c);
-        const Buffer<std::uint32_t> all = numbersBelow(nodes_.count, allocator_);
-        return writeNodes({setting_, bucket_, {all.data(), all.size()}, nullptr, {}, parallel_});
+        for (const std::uint32_t c : in_.triangles.skipped_corners) sink_.clear(c);
+        const Buffer<std::uint32_t> all = numbersBelow(in_.nodes.count, allocator_);
+        return writeNodes({in_, {all.data(), all.size()}, nullptr, parallel_});
     }
 
     TangentReport passOverTriangles() {
-        CornerSource source = cornerSource({mesh_.positions, mesh_.normals}, mesh_.uvs, options_.method,
-                                           estimates_ || wantsTangentsOnly(out_));
+        CornerSource source = cornerSource({in_.mesh.positions, in_.mesh.normals}, in_.mesh.uvs, in_.options.method,
+                                           estimates_ || wantsTangentsOnly(in_.out));
         source.adding_only = true;
-        complex_ = Buffer<std::uint64_t>(allocator_, nodes_.count / 64 + 1, std::uint64_t{0});
+        complex_ = Buffer<std::uint64_t>(allocator_, in_.nodes.count / 64 + 1, std::uint64_t{0});
         sumNodes(
-            mesh_, triangles_, nodes_, source, cornerTermsFor(options_.execution.simd), transient_, allocator_,
-            parallel_, sums_, [&](std::size_t first, std::size_t end) { finishNodes(first, end); }, pass_.range_shift);
+            in_, source, cornerTermsFor(in_.options.execution.simd), transient_, allocator_, parallel_, sums_,
+            [&](std::size_t first, std::size_t end) { finishNodes(first, end); }, pass_.range_shift);
         checkFaces();
         checkDegenerateUvs();
-        for (const std::uint32_t node : bucket_.nodes) {
+        for (const std::uint32_t node : in_.bucket.nodes) {
             if (!sums_.isEmpty(node)) leaveNode(node);
         }
         TangentReport report = estimates_ ? writeEstimates() : writeSums();
@@ -127,12 +116,7 @@ class OnePass {
         sums_.rest = {};
         if (complex_count_ == 0) return {};
         const Buffer<std::uint32_t> chosen = complexNodes();
-        return writeNodes({setting_,
-                           bucket_,
-                           {chosen.data(), chosen.size()},
-                           &sums_,
-                           {has_complex_.data(), has_complex_.size()},
-                           parallel_});
+        return writeNodes({in_, {chosen.data(), chosen.size()}, &sums_, parallel_});
     }
 
     /// Complex nodes are planned first, since a step reads the results of all groups around.
@@ -140,34 +124,33 @@ class OnePass {
         EvaluationPlan plan;
         if (complex_count_ != 0) {
             const Buffer<std::uint32_t> chosen = complexNodes();
-            plan =
-                planChosen({setting_, bucket_, {chosen.data(), chosen.size()}, &sums_, {}, parallel_}, PlanUse::once);
+            plan = planChosen({in_, {chosen.data(), chosen.size()}, &sums_, parallel_}, PlanUse::once);
         }
         GroupSums estimates = estimateGroupsWith(plan);
         finishInRanges(
-            nodes_.count, [&](std::size_t first, std::size_t end) { finishEstimates(first, end); }, parallel_);
+            in_.nodes.count, [&](std::size_t first, std::size_t end) { finishEstimates(first, end); }, parallel_);
         if (any_replaced_) countReplaced();
         writeCorners();
         if (complex_count_ == 0) return {};
-        return evaluateGroups(plan, {mesh_.positions, mesh_.normals}, mesh_.uvs, out_, options_.execution, parallel_,
-                              &estimates);
+        return evaluateGroups(plan, {in_.mesh.positions, in_.mesh.normals}, in_.mesh.uvs, in_.out,
+                              in_.options.execution, parallel_, &estimates);
     }
 
     /// Results of all nodes take the place of their sums; those of the plan's groups are returned.
     GroupSums estimateGroupsWith(const EvaluationPlan& plan) {
-        if (!wantsTangentsOnly(out_)) sums_.rest = Buffer<GroupRest>(allocator_, nodes_.count);
-        GroupSums planned = roomForSums(plan, wantsOnlyTangents(plan, out_), allocator_);
+        if (!wantsTangentsOnly(in_.out)) sums_.rest = Buffer<GroupRest>(allocator_, in_.nodes.count);
+        GroupSums planned = roomForSums(plan, wantsOnlyTangents(plan, in_.out), allocator_);
         const bool has_degenerate_uvs = sums_.no_uv_area_count != 0;
-        const MeshTriangles by_node(mesh_, triangles_, nodes_, has_degenerate_uvs ? sums_.kinds.data() : nullptr);
-        const JoinedTriangles joined(by_node, nodes_.count, plan, {complex_.data(), complex_.size()});
+        const MeshTriangles by_node(in_, has_degenerate_uvs ? sums_.kinds.data() : nullptr);
+        const JoinedTriangles joined(by_node, in_.nodes.count, plan, {complex_.data(), complex_.size()});
         const estimators::GroupEstimates to[2] = {
-            {reinterpret_cast<std::byte*>(sums_.nodes.data()), sizeof(NodeSum), sums_.rest.data(), nodes_.count},
+            {reinterpret_cast<std::byte*>(sums_.nodes.data()), sizeof(NodeSum), sums_.rest.data(), in_.nodes.count},
             estimatesIn(planned)};
-        Execution execution = options_.execution;
+        Execution execution = in_.options.execution;
         execution.allocator = transient_.allocator();
-        estimators::estimateGroups(options_.method, options_.refine, joined, {mesh_.positions, mesh_.normals},
-                                   mesh_.uvs, inputScale(by_node, mesh_.positions, mesh_.uvs), to, execution,
-                                   parallel_);
+        estimators::estimateGroups(in_.options.method, in_.options.refine, joined,
+                                   {in_.mesh.positions, in_.mesh.normals}, in_.mesh.uvs,
+                                   inputScale(by_node, in_.mesh.positions, in_.mesh.uvs), to, execution, parallel_);
         return planned;
     }
 
@@ -178,19 +161,19 @@ class OnePass {
     void checkDegenerateUvs() {
         if (sums_.no_uv_area_count == 0) return;
         Marks counted;  // several triangles of a polygon may have one corner of the mesh
-        if (!triangles_.faces.empty()) counted = noMarks(allocator_, mesh_.cornerCount());
+        if (!in_.triangles.faces.empty()) counted = noMarks(allocator_, in_.mesh.cornerCount());
         forEachDegenerateUv([&](std::size_t triangle) {
             std::uint32_t facing = 0;
             for (std::size_t i = 3 * triangle; i < 3 * triangle + 3; ++i) {
-                const std::uint32_t here = sums_.marks[nodeAt(i)] & kBothFacings;
+                const std::uint32_t here = sums_.marks[in_.nodeAt(i)] & kBothFacings;
                 // A node that is left aside may have any.
                 facing |= here == 0 ? kBothFacings : here == kBothFacings ? 0 : here;
-                const bool counts = here == kBothFacings && (counted.empty() || counted[triangles_.corner(i)] == 0);
+                const bool counts = here == kBothFacings && (counted.empty() || counted[in_.triangles.corner(i)] == 0);
                 default_corner_count_ += counts ? 1 : 0;
-                if (!counted.empty()) counted[triangles_.corner(i)] |= counts ? 1 : 0;
+                if (!counted.empty()) counted[in_.triangles.corner(i)] |= counts ? 1 : 0;
             }
             for (std::size_t k = 0; facing == kBothFacings && k < 3; ++k) {
-                const std::uint32_t node = nodeAt(3 * triangle + k);
+                const std::uint32_t node = in_.nodeAt(3 * triangle + k);
                 if (!sums_.isEmpty(node)) leaveNode(node);
             }
         });
@@ -202,26 +185,21 @@ class OnePass {
         const std::uint64_t bit = std::uint64_t{1} << (node % 64);
         if ((word & bit) != 0) return;
         word |= bit;
-        sums_.row(node)[3] = kComplexSign;
         ++complex_count_;
         if (!sums_.isEmpty(node)) --group_count_;
-    }
-
-    [[nodiscard]] std::uint32_t nodeAt(std::size_t i) const {
-        return nodes_.ofVertex(mesh_.indices[triangles_.corner(i)]);
     }
 
     /// body(triangle) for those without UV area, which are few in most meshes.
     template <class Body>
     void forEachDegenerateUv(const Body& body) const {
         constexpr std::uint64_t kDegenerateUvs = 0x0101010101010101u * kDegenerateUv;
-        const Buffer<std::uint8_t>& kinds = sums_.kinds;
+        const Buffer<TriangleKind>& kinds = sums_.kinds;
         for (std::size_t begin = 0; begin < kinds.size(); begin += sizeof(std::uint64_t)) {
             const std::size_t count = std::min(sizeof(std::uint64_t), kinds.size() - begin);
             std::uint64_t any = 0;
             std::memcpy(&any, kinds.data() + begin, count);
             for (std::size_t t = begin; (any & kDegenerateUvs) != 0 && t < begin + count; ++t) {
-                if ((kinds[t] & kDegenerateUv) != 0) body(t);
+                if ((kinds[t] & (kDegenerateUv | kDegenerateTriangle)) == kDegenerateUv) body(t);
             }
         }
     }
@@ -229,22 +207,16 @@ class OnePass {
     /// The vertex path gives all triangles of a face one orientation and treats degenerate ones in a way of its own.
     /// Nodes of faces whose triangles do not simply agree are left to it.
     void checkFaces() {
-        const Buffer<std::uint32_t>& faces = triangles_.faces;
+        const Buffer<std::uint32_t>& faces = in_.triangles.faces;
         for (std::size_t first = 0, end = 0; first < faces.size(); first = end) {
-            std::uint32_t kinds = 0;
+            const TriangleKind kind = sums_.kinds[first];
+            bool agree = (kind & kDegenerateTriangle) == 0;
             for (end = first; end < faces.size() && faces[end] == faces[first]; ++end)
-                kinds |= sums_.kinds[end] == 0 ? kUvFacesUp | kUvFacesDown : sums_.kinds[end];
-            if (end - first == 1) continue;
-            const std::uint32_t facing = kinds & (kUvFacesUp | kUvFacesDown);
-            // One without UV area takes the orientation of others, and gives its own only as the first one of a quad.
-            const bool degenerate_uv_may_choose =
-                end - first == 2 && (sums_.kinds[first] & kDegenerateUv) != 0 && facing != 0;
-            if (facing != (kUvFacesUp | kUvFacesDown) && (kinds & kDegenerateTriangle) == 0 &&
-                !degenerate_uv_may_choose)
-                continue;
+                agree &= sums_.kinds[end] == kind;
+            if (agree || end - first == 1) continue;
             for (std::size_t i = 3 * first; i < 3 * end; ++i) {
-                leaveNode(nodeAt(i));
-                sums_.marks[nodeAt(i)] = 0;
+                leaveNode(in_.nodeAt(i));
+                sums_.marks[in_.nodeAt(i)] = 0;
             }
         }
     }
@@ -295,8 +267,8 @@ class OnePass {
 
     /// Corners of groups whose estimate vanishes.
     void countReplaced() {
-        for (std::size_t i = 0; i < 3 * triangles_.count; ++i) {
-            const std::uint32_t node = nodeAt(i);
+        for (std::size_t i = 0; i < 3 * in_.triangles.count; ++i) {
+            const std::uint32_t node = in_.nodeAt(i);
             default_corner_count_ += (sums_.marks[node] & kReplaced) != 0 ? 1 : 0;
         }
     }
@@ -332,8 +304,8 @@ class OnePass {
                w = loadFloat4(nodes[at[3]].s);
         transpose4(x, y, z, w);
         const Float4 square = dot(Vec3x4{x, y, z}, Vec3x4{x, y, z});
-        if (isMikktspace(options_.method)) {
-            const auto normal = [&](std::size_t i) -> const Vec3& { return mesh_.normals[nodes_.vertex(at[i])]; };
+        if (isMikktspace(in_.options.method)) {
+            const auto normal = [&](std::size_t i) -> const Vec3& { return in_.mesh.normals[in_.nodes.vertex(at[i])]; };
             simple &= has(kTurnsLeft | kTurnsRight) & has(kNotLight) &
                       cannotSplit(square, w, marks, gatherVec3(normal(0), normal(1), normal(2), normal(3)));
         } else {
@@ -344,8 +316,8 @@ class OnePass {
             finishRest(at[i], empty[i] != 0, nodes[at[i]].s[3]);
         const Float4 inverse = splat(1) / sqrt4(square);
         const Mask4 negative = ~(marks & ~empty) << 31;  // the bit of kFacesUp becomes that of the sign
-        const Float4 sign = std::bit_cast<Float4>(std::bit_cast<Mask4>(splat(sign_factor_)) ^ negative);
-        w = select4(simple | empty, sign, splat(kComplexSign));
+        const Float4 sign = std::bit_cast<Float4>(std::bit_cast<Mask4>(splat(sink_.sign(true))) ^ negative);
+        w = sign;
         x = select4(empty, splat(1), inverse * x);
         y = select4(empty, splat(0), inverse * y);
         z = select4(empty, splat(0), inverse * z);
@@ -369,108 +341,68 @@ class OnePass {
         sum[0] = s.x;
         sum[1] = s.y;
         sum[2] = s.z;
-        sum[3] = positive ? sign_factor_ : -sign_factor_;  // from here on the sign
+        sum[3] = sink_.sign(positive);  // from here on the sign
     }
 
     void finishRest(std::size_t node, bool is_default, float weight) {
         GroupRest& rest = sums_.rest[node];
-        const Vec3 sum_t{rest.t[0], rest.t[1], rest.t[2]};
-        const Vec3 t = signFactor(options_.convention) * (is_default   ? Vec3{0, 1, 0}
-                                                          : estimates_ ? sum_t
-                                                                       : unit(sum_t));
-        rest.t[0] = t.x;
-        rest.t[1] = t.y;
-        rest.t[2] = t.z;
         if (is_default) {
-            rest.t[3] = rest.length_t = 1;
-        } else if (weight > 0 && !estimates_) {
-            rest.t[3] /= weight;
-            rest.length_t /= weight;
+            rest = restOf(Tangents{});
+        } else if (!estimates_) {
+            rest = restOf(sumOf({}, rest, weight).mean(false));
         }
     }
 
+    /// Those of complex nodes get what nobody needs.
     void writeCorners() {
-        const std::size_t blocks = (mesh_.cornerCount() + kBlockCorners - 1) / kBlockCorners;
-        has_complex_ = Marks(allocator_, blocks);
-        parallel_.forRanges(blocks, kCornerGrain / kBlockCorners,
-                            [&](std::size_t begin, std::size_t end) { writeBlocks(begin, end); });
-        for (const std::uint32_t c : triangles_.skipped_corners) {
-            out_.tangents[c] = {};
-            if (!sums_.rest.empty()) writeRest(c, GroupRest{});
-        }
+        parallel_.forRanges(in_.mesh.cornerCount(), kCornerGrain,
+                            [&](std::size_t begin, std::size_t end) { writeCorners(begin, end); });
+        for (const std::uint32_t c : in_.triangles.skipped_corners) sink_.clear(c);
     }
 
     /// Nodes of one part are looked up, and asked for, before the part before it is written.
-    void writeBlocks(std::size_t first_block, std::size_t end_block) {
+    void writeCorners(std::size_t first, std::size_t end) {
         constexpr std::size_t kPart = 64;
-        static_assert(kBlockCorners % kPart == 0);
-        const std::size_t end = std::min(end_block * kBlockCorners, mesh_.cornerCount());
-        const bool streamed = out_.tangents.stride_bytes == sizeof(Vec4) &&
-                              areStreamed(out_.tangents.data, out_.tangents.count * sizeof(Vec4));
+        const bool streamed = in_.out.tangents.stride_bytes == sizeof(Vec4) &&
+                              areStreamed(in_.out.tangents.data, in_.out.tangents.count * sizeof(Vec4));
         std::uint32_t rooms[2][kPart];
-        const auto lookUp = [&](std::size_t first, std::uint32_t* room) {
-            const std::size_t count = std::min(kPart, end - first);
-            const std::uint32_t* nodes = nodes_.ofVertices(readIndices(mesh_.indices, first, count, room), count, room);
+        const auto lookUp = [&](std::size_t begin, std::uint32_t* room) {
+            const std::size_t count = std::min(kPart, end - begin);
+            const std::uint32_t* nodes =
+                in_.nodes.ofVertices(readIndices(in_.mesh.indices, begin, count, room), count, room);
             if (!sums_.scattered) return nodes;
             for (std::size_t i = 0; i < count; ++i) __builtin_prefetch(sums_.row(nodes[i]));
             return nodes;
         };
-        std::fill(has_complex_.data() + first_block, has_complex_.data() + end_block, std::uint8_t{0});
-        std::size_t first = first_block * kBlockCorners, other = 1;
         const std::uint32_t* nodes = lookUp(first, rooms[0]);
-        for (; first < end; first += kPart, other ^= 1) {
+        for (std::size_t other = 1; first < end; first += kPart, other ^= 1) {
             const std::uint32_t* following = first + kPart < end ? lookUp(first + kPart, rooms[other]) : nullptr;
             const std::size_t count = std::min(kPart, end - first);
-            if (writeTangents(first, nodes, count, streamed)) has_complex_[first / kBlockCorners] = 1;
-            for (std::size_t i = 0; !sums_.rest.empty() && i < count; ++i) writeRest(first + i, sums_.rest[nodes[i]]);
+            const auto write = [&, to = in_.out.tangents, rows = sums_.nodes.data()](const auto& store) {
+                for (std::size_t i = 0; i < count; ++i) store(&to[first + i].x, rows[nodes[i]].s);
+            };
+            if (streamed) {
+                write([](float* to, const float* row) { streamRow(to, row); });
+            } else {
+                write([](float* to, const float* row) { storeFloat4(to, loadFloat4(row)); });
+            }
+            for (std::size_t i = 0; !sums_.rest.empty() && i < count; ++i)
+                sink_.writeRest(first + i, sums_.rest[nodes[i]]);
             nodes = following;
         }
         if (streamed) endOfRows();
     }
 
-    /// Returns whether some node is complex, whose corners get what nobody needs.
-    bool writeTangents(std::size_t first, const std::uint32_t* nodes, std::size_t count, bool streamed) const {
-        Float4 any = {};
-        if (streamed) {
-            auto* to = reinterpret_cast<float*>(out_.tangents.data + first);
-            for (std::size_t i = 0; i < count; ++i) {
-                const float* row = sums_.row(nodes[i]);
-                any = or4(any, loadFloat4(row));
-                streamRow(to + 4 * i, row);
-            }
-        } else {
-            for (std::size_t i = 0; i < count; ++i) {
-                const float* row = sums_.row(nodes[i]);
-                any = or4(any, loadFloat4(row));
-                out_.tangents[first + i] = {row[0], row[1], row[2], row[3]};
-            }
-        }
-        return (std::bit_cast<std::uint32_t>(any[3]) & std::bit_cast<std::uint32_t>(kComplexSign)) != 0;
-    }
-
-    void writeRest(std::size_t c, const GroupRest& rest) const {
-        if (!out_.bitangents.empty()) out_.bitangents[c] = {rest.t[0], rest.t[1], rest.t[2]};
-        if (!out_.magnitudes_s.empty()) out_.magnitudes_s[c] = rest.t[3];
-        if (!out_.magnitudes_t.empty()) out_.magnitudes_t[c] = rest.length_t;
-    }
-
-    const NodeSetting& setting_;
-    const MeshView& mesh_;
-    const TangentOptions& options_;
-    const TriangleList& triangles_;
-    const Nodes& nodes_;
-    const LastBucket& bucket_;
+    const NodeSetting& in_;
     PassOptions pass_;
-    TangentOutput out_;
     ScratchBlock& transient_;
     Parallel& parallel_;
     const Allocator* allocator_;
-    bool estimates_;     // fast and best: the estimators sum, and this class only groups
-    float sign_factor_;  // what the sign of the UV determinant is multiplied with
+    bool estimates_;  // fast and best: the estimators sum, and this class only groups
+    Sink sink_;
 
     NodeSums sums_;
     Buffer<std::uint64_t> complex_;  // one bit per node
-    Marks has_complex_;              // one per block of corners
     std::atomic<std::size_t> complex_count_{0};
     std::atomic<std::uint64_t> group_count_{0};
     std::atomic<bool> any_replaced_{false};  // by defaults: estimates that vanish
@@ -479,9 +411,9 @@ class OnePass {
 
 }  // namespace
 
-TangentReport evaluateInOnePass(const NodeSetting& setting, const LastBucket& bucket, ScratchBlock& transient,
-                                Parallel& parallel, const PassOptions& pass) {
-    return OnePass(setting, bucket, transient, parallel, pass).run();
+TangentReport evaluateInOnePass(const NodeSetting& setting, ScratchBlock& transient, Parallel& parallel,
+                                const PassOptions& pass) {
+    return OnePass(setting, transient, parallel, pass).run();
 }
 
 }  // namespace tspace::mikk

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "core/scratch_block.h"
-#include "tangents/mikktspace/node_results.h"
+#include "tangents/mikktspace/vertex_path.h"
 
 namespace tspace::mikk {
 
@@ -19,7 +19,7 @@ struct PassOptions {
 
 /// Writes tangents of the mesh's own pose. `transient`: for what is not needed any more when tangents are written: their own
 /// memory, unless somebody looks at it. Throws OutOfMemory.
-TangentReport evaluateInOnePass(const NodeSetting& setting, const LastBucket& bucket, ScratchBlock& transient,
-                                Parallel& parallel, const PassOptions& pass = {});
+TangentReport evaluateInOnePass(const NodeSetting& setting, ScratchBlock& transient, Parallel& parallel,
+                                const PassOptions& pass = {});
 
 }  // namespace tspace::mikk

@@ -27,11 +27,11 @@ class Planner {
   public:
     explicit Planner(const PlanSource& from)
         : from_(from),
-          mesh_(from.setting.mesh),
+          mesh_(from.path.setting.mesh),
           corners_(from.corners),
-          allocator_(from.setting.options.execution.allocator),
+          allocator_(from.path.setting.options.execution.allocator),
           room_(allocator_, from.grouping.largest()),
-          splits_(mesh_, from.setting.triangles, from.setting.nodes, from.corners, from.threshold_cosine, allocator_),
+          splits_(from.path.setting, from.corners, from.threshold_cosine, allocator_),
           sources_(allocator_),
           ends_(allocator_),
           members_(allocator_),
@@ -44,14 +44,14 @@ class Planner {
           default_corners_(allocator_) {}
 
     EvaluationPlan run() {
-        to_.method = from_.setting.options.method;
-        to_.refine = from_.setting.options.refine;
-        to_.convention = from_.setting.options.convention;
+        to_.method = from_.path.setting.options.method;
+        to_.refine = from_.path.setting.options.refine;
+        to_.convention = from_.path.setting.options.convention;
         to_.vertex_count = mesh_.vertexCount();
         to_.corner_count = mesh_.cornerCount();
         numberTriangles();
         readTriangles();
-        for (std::size_t place = 0; place < from_.chosen.size(); ++place) {
+        for (std::size_t place = 0; place < from_.path.chosen.size(); ++place) {
             if (isPlanned(place)) addNode(place);
         }
         to_.report.default_corner_count = default_corners_.size();
@@ -92,7 +92,7 @@ class Planner {
     }
 
     void readTriangles() {
-        const TriangleList& triangles = from_.setting.triangles;
+        const TriangleList& triangles = from_.path.setting.triangles;
         const bool kept = from_.use == PlanUse::kept;
         to_.groups = Buffer<std::uint32_t>(allocator_, 3 * to_.triangle_count, kNone);
         to_.vertices = Buffer<std::uint32_t>(allocator_, 3 * to_.triangle_count + kTermCorners, 0u);
@@ -104,7 +104,7 @@ class Planner {
                 const std::size_t to = 3 * std::size_t{numberOf(t)} + k;
                 const std::uint32_t slot = triangles.corner(3 * std::size_t{corners_.triangleOf(t)} + k);
                 const std::uint32_t own = mesh_.indices[slot];
-                const std::uint32_t vertex = from_.setting.nodes.vertex(corners_.nodes[3 * t + k]);
+                const std::uint32_t vertex = from_.path.setting.nodes.vertex(corners_.nodes[3 * t + k]);
                 to_.vertices[to] = kept && (own == vertex || sameData(mesh_, own, vertex)) ? own : vertex;
                 if (!to_.slots.empty()) to_.slots[to] = slot;
             }
@@ -134,8 +134,8 @@ class Planner {
             if (!corner.addsNothing()) positive_[sources_[i]] = (corner.common & kIsUp) != 0 ? 1 : 0;
         }
         to_.report.group_count += groups.count;
-        if (from_.setting.maySplit() && count > 1) splitGroups(place, groups, first);
-        if (from_.setting.hasPolygons() && addRepeats(groups)) return;
+        if (from_.path.setting.maySplit() && count > 1) splitGroups(place, groups, first);
+        if (from_.path.setting.hasPolygons() && addRepeats(groups)) return;
         for (std::size_t i = 0; i < count; ++i) {
             if (sources_[i] == kNone) default_corners_.push(groups.corners[i].slot);
         }
@@ -171,7 +171,7 @@ class Planner {
         }
         if (areTogether({adding_.begin(), adding_.size()}, s, t, from_.threshold_cosine)) return;
         const std::size_t rows = splits_.rows.size(), leaders = splits_.leaders.size();
-        if (!splits_.splits(members, mesh_.normals[from_.setting.nodes.vertex(from_.chosen[place])])) return;
+        if (!splits_.splits(members, mesh_.normals[from_.path.setting.nodes.vertex(from_.path.chosen[place])])) return;
         const auto begin = static_cast<std::uint32_t>(split_members_.size());
         const auto count = static_cast<std::uint32_t>(members.size());
         split_groups_.push({begin, count, rows, leaders, positive_[sources_[members[0] - corners]] != 0});

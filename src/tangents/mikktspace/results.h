@@ -3,13 +3,28 @@
 // merged, and where they go.
 #pragma once
 
+#include <cfloat>
+#include <cmath>
+
 #include "core/float4.h"
+#include "core/vec_math.h"
 #include "tangents/estimators/group_estimates.h"
 #include "tangents/mikktspace/corner_terms.h"
 #include "tangents/mikktspace/evaluation_plan.h"
-#include "tangents/mikktspace/vector_rules.h"
 
 namespace tspace::mikk {
+
+// The reference's rules for "not zero" and for normalising, which decide bits for tiny, zero and non-finite vectors.
+
+/// Subnormal numbers, zero and NaN count as zero; infinity does not.
+inline bool notZero(float x) { return std::fabs(x) > FLT_MIN; }
+inline bool notZero(const Vec3& v) { return notZero(v.x) || notZero(v.y) || notZero(v.z); }
+
+/// v divided by its length; a vector that counts as zero comes back as it is.
+inline Vec3 unit(const Vec3& v) { return notZero(v) ? (1.0f / length(v)) * v : v; }
+
+/// The unit vector of v without its part along n. n is used as given, never normalised.
+inline Vec3 flatten(const Vec3& n, const Vec3& v) { return unit(v - dot(n, v) * n); }
 
 inline bool wantsTangentsOnly(const TangentOutput& out) {
 #ifdef TSPACE_MIKKTSPACE_ONLY
@@ -41,11 +56,19 @@ inline CornerSource cornerSource(const Pose& pose, const StridedSpan<const Vec2>
     return {vertexArrays(pose, uvs), weightingOf(method), tangents_only};
 }
 
+using estimators::GroupRest;
+
+inline Vec3 vectorOf(const float* row) { return {row[0], row[1], row[2]}; }
+inline Vec3 vectorOf(Float4 row) { return {row[0], row[1], row[2]}; }
+
 struct Tangents {
     Vec3 s{1, 0, 0}, t{0, 1, 0};
     float mag_s = 1, mag_t = 1;
     bool positive = false;
 };
+
+/// All but the tangent and the orientation, in the place of its sum.
+inline GroupRest restOf(const Tangents& r) { return {{r.t.x, r.t.y, r.t.z, r.mag_s}, r.mag_t}; }
 
 /// What the members of a group add up to: rows as in corner_terms.h.
 struct TangentSum {
@@ -68,6 +91,10 @@ struct TangentSum {
         return r;
     }
 };
+
+inline TangentSum sumOf(const Vec3& s, const GroupRest& rest, float weight) {
+    return {s, vectorOf(rest.t), rest.t[3], rest.length_t, weight};
+}
 
 inline bool sameResult(const Tangents& a, const Tangents& b) {
     return a.mag_s == b.mag_s && a.mag_t == b.mag_t && a.s == b.s && a.t == b.t;
@@ -96,9 +123,12 @@ class Sink {
     [[nodiscard]] float sign(bool positive) const { return positive ? sign_factor_ : -sign_factor_; }
     void write(std::size_t corner, const Tangents& r) const {
         out_.tangents[corner] = {r.s.x, r.s.y, r.s.z, sign(r.positive)};
-        if (!out_.bitangents.empty()) out_.bitangents[corner] = bitangent_factor_ * r.t;
-        if (!out_.magnitudes_s.empty()) out_.magnitudes_s[corner] = r.mag_s;
-        if (!out_.magnitudes_t.empty()) out_.magnitudes_t[corner] = r.mag_t;
+        writeRest(corner, restOf(r));
+    }
+    void writeRest(std::size_t corner, const GroupRest& rest) const {
+        if (!out_.bitangents.empty()) out_.bitangents[corner] = bitangent_factor_ * vectorOf(rest.t);
+        if (!out_.magnitudes_s.empty()) out_.magnitudes_s[corner] = rest.t[3];
+        if (!out_.magnitudes_t.empty()) out_.magnitudes_t[corner] = rest.length_t;
     }
     void clear(std::size_t corner) const {
         out_.tangents[corner] = {};
@@ -118,8 +148,6 @@ class Sink {
     TangentOutput out_;
     float sign_factor_, bitangent_factor_;
 };
-
-using estimators::GroupRest;
 
 /// Adds corner k of triangle t.
 inline void addRest(GroupRest& sum, const CornerTerms& terms, std::size_t t, std::size_t k) {

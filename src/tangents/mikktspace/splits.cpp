@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/float4.h"
-#include "tangents/mikktspace/vector_rules.h"
+#include "tangents/mikktspace/results.h"
 
 namespace tspace::mikk {
 
@@ -17,8 +17,6 @@ namespace {
 constexpr float kOffPlane = 0.02f, kMargin = 1e-3f;
 constexpr float kLeastWeight = 1e-4f;    // below, a corner says too little about its direction
 constexpr std::size_t kFewMembers = 64;  // all pairs of so few are compared at most
-
-Vec3 vectorOf(const float* row) { return {row[0], row[1], row[2]}; }
 
 /// If all members lie within half the threshold of one direction, all pairs are within the threshold: the cosine of the
 /// half angle is sqrt((1 + c) / 2).
@@ -106,13 +104,11 @@ bool areTogether(Members members, const Vec3& sum_s, const Vec3& sum_t, float th
            (members.size() <= kFewMembers && areNearEachOther(members, near));
 }
 
-SplitFinder::SplitFinder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes,
-                         const VertexCorners& corners, float threshold_cosine, const Allocator* allocator)
+SplitFinder::SplitFinder(const WeldedMesh& welded, const VertexCorners& corners, float threshold_cosine,
+                         const Allocator* allocator)
     : rows(allocator),
       leaders(allocator),
-      mesh_(mesh),
-      triangles_(triangles),
-      nodes_(nodes),
+      in_(welded),
       corners_(corners),
       cosine_(threshold_cosine),
       allocator_(allocator) {}
@@ -122,9 +118,9 @@ SplitFinder::Direction SplitFinder::directionOf(const NodeCorner& corner, const 
     Vec2 uv[3];
     const std::size_t triangle = corners_.numberOf(corner);
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t vertex = nodes_.vertex(corners_.nodes[3 * triangle + k]);
-        p[k] = mesh_.positions[vertex];
-        uv[k] = mesh_.uvs[vertex];
+        const std::uint32_t vertex = in_.nodes.vertex(corners_.nodes[3 * triangle + k]);
+        p[k] = in_.mesh.positions[vertex];
+        uv[k] = in_.mesh.uvs[vertex];
     }
     Direction direction;
     triangleDirections(p, uv, direction.s, direction.t);
@@ -163,7 +159,7 @@ bool SplitFinder::splits(Members members, const Vec3& normal) {
     std::uint64_t* const first_row = rows.extend(words * count);
     std::fill_n(first_row, words * count, std::uint64_t{0});
     const auto face = [&](std::size_t i) {
-        return triangles_.face(corners_.triangleOf(corners_.numberOf(*members[i])));
+        return in_.triangles.face(corners_.triangleOf(corners_.numberOf(*members[i])));
     };
     bool whole = true;
     for (std::uint32_t a = 0; a < count; ++a) {

@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "tangents/mikktspace/vertex_corners.h"
+#include "tangents/mikktspace/vertex_path.h"
 
 namespace tspace::mikk {
 
@@ -26,8 +26,8 @@ inline constexpr std::uint32_t kLargestSplitGroup = 4096;
 /// Compares all members of a group with each other, as the reference does.
 class SplitFinder {
   public:
-    SplitFinder(const MeshView& mesh, const TriangleList& triangles, const Nodes& nodes, const VertexCorners& corners,
-                float threshold_cosine, const Allocator* allocator);
+    SplitFinder(const WeldedMesh& welded, const VertexCorners& corners, float threshold_cosine,
+                const Allocator* allocator);
 
     /// `members` of a group, ascending, those without UV area too. Returns whether it splits; then their rows and leaders
     /// have been added. Groups of more than kLargestSplitGroup members that might split stay whole.
@@ -45,9 +45,7 @@ class SplitFinder {
     [[nodiscard]] bool isNarrow(Members members) const;
     void findLeaders(const std::uint64_t* first_row, std::uint32_t count, std::size_t words);
 
-    const MeshView& mesh_;
-    const TriangleList& triangles_;
-    const Nodes& nodes_;
+    const WeldedMesh& in_;
     const VertexCorners& corners_;
     float cosine_;
     const Allocator* allocator_;

@@ -2,10 +2,9 @@
 // Lists the corners of chosen nodes: finds the triangles around them, computes them, gives each face one
 // orientation, counts which node has how many, puts corners where they belong, plans copies for corners of
 // degenerate triangles.
-#include "tangents/mikktspace/vertex_corners.h"
+#include "tangents/mikktspace/vertex_path.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include "core/float4.h"
@@ -20,18 +19,20 @@ constexpr float kNothing[4] = {-0.0f, -0.0f, -0.0f, -0.0f};  // added to any num
 
 class CornerReader {
   public:
-    explicit CornerReader(const CornerReading& reading)
-        : from_(reading),
-          mesh_(reading.mesh),
-          triangles_(reading.triangles),
-          to_(reading.allocator),
-          good_(reading.allocator) {}
+    CornerReader(const VertexPath& path, const CornerSource& source)
+        : path_(path),
+          in_(path.setting),
+          source_(source),
+          terms_(cornerTermsFor(in_.options.execution.simd)),
+          allocator_(in_.options.execution.allocator),
+          to_(allocator_),
+          good_(allocator_) {}
 
     VertexCorners run() {
-        if (from_.sums != nullptr) to_.found = aroundChosen();
-        count_ = from_.sums != nullptr ? to_.found.size() : triangles_.count;
+        if (path_.sums != nullptr) to_.found = aroundChosen();
+        count_ = path_.sums != nullptr ? to_.found.size() : in_.triangles.count;
         readTriangles();
-        if (!triangles_.faces.empty()) uniteFaces();
+        if (!in_.triangles.faces.empty()) uniteFaces();
         countCorners();
         makeRoom();
         placeCorners();
@@ -40,71 +41,61 @@ class CornerReader {
     }
 
   private:
-    struct Counts {
-        std::uint64_t degenerate = 0, degenerate_uvs = 0, mirrored = 0;
-    };
-
     Buffer<std::uint32_t> aroundChosen() {
-        for (std::size_t i = 0; i < from_.chosen.size(); ++i)
-            from_.sums->setNumber(from_.chosen[i], static_cast<std::uint32_t>(i));
-        Marks at_nodes = noMarks(from_.allocator, from_.nodes.count);
-        for (const std::uint32_t node : from_.chosen) at_nodes[node] = 1;
-        const Nodes& nodes = from_.nodes;
+        for (std::size_t i = 0; i < path_.chosen.size(); ++i)
+            path_.sums->setNumber(path_.chosen[i], static_cast<std::uint32_t>(i));
+        Marks at_nodes = noMarks(allocator_, in_.nodes.count);
+        for (const std::uint32_t node : path_.chosen) at_nodes[node] = 1;
+        const Nodes& nodes = in_.nodes;
         return collectTriangles(
-            mesh_, triangles_, from_.blocks, [&](std::uint32_t v) { return at_nodes[nodes.ofVertex(v)]; }, 1,
-            from_.allocator, from_.parallel);
+            in_.mesh, in_.triangles, [&](std::uint32_t v) { return at_nodes[nodes.ofVertex(v)]; }, 1, allocator_,
+            path_.parallel);
     }
 
     /// A node's row holds its number in `chosen` from here on; what it held before is no such number, or that of
     /// another node.
     [[nodiscard]] std::uint32_t placeOf(std::uint32_t node) const {
-        const std::uint32_t number = from_.sums->number(node);
-        return number < from_.chosen.size() && from_.chosen[number] == node
+        const std::uint32_t number = path_.sums->number(node);
+        return number < path_.chosen.size() && path_.chosen[number] == node
                    ? number
-                   : static_cast<std::uint32_t>(from_.chosen.size());
+                   : static_cast<std::uint32_t>(path_.chosen.size());
     }
 
     void readTriangles() {
-        to_.nodes = Buffer<std::uint32_t>(from_.allocator, 3 * count_);
-        if (from_.sums != nullptr) to_.places = Buffer<std::uint32_t>(from_.allocator, 3 * count_);
-        to_.flags = Buffer<std::uint8_t>(from_.allocator, count_);
-        to_.terms = Buffer<CornerTerms>(from_.allocator, (count_ + kTermTriangles - 1) / kTermTriangles);
-        std::atomic<std::uint64_t> degenerate{0}, degenerate_uvs{0}, mirrored{0};
-        from_.parallel.forRanges(to_.terms.size(), kBlockGrain, [&](std::size_t begin, std::size_t end) {
-            Counts counts;
-            for (std::size_t block = begin; block < end; ++block) readBlock(block, counts);
-            degenerate += counts.degenerate;
-            degenerate_uvs += counts.degenerate_uvs;
-            mirrored += counts.mirrored;
+        to_.nodes = Buffer<std::uint32_t>(allocator_, 3 * count_);
+        if (path_.sums != nullptr) to_.places = Buffer<std::uint32_t>(allocator_, 3 * count_);
+        to_.flags = Buffer<std::uint8_t>(allocator_, count_);
+        to_.terms = Buffer<CornerTerms>(allocator_, (count_ + kTermTriangles - 1) / kTermTriangles);
+        path_.parallel.forRanges(to_.terms.size(), kBlockGrain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t block = begin; block < end; ++block) readBlock(block);
         });
-        to_.degenerate_count = degenerate;
-        to_.no_uv_area_count = degenerate_uvs;
-        to_.mirrored_count = mirrored;
+        for (const std::uint8_t flags : to_.flags) {
+            to_.degenerate_count += flags == kDegenerate ? 1 : 0;
+            to_.no_uv_area_count += flags == kAny ? 1 : 0;
+            to_.mirrored_count += flags == 0 ? 1 : 0;
+        }
     }
 
-    void readBlock(std::size_t block, Counts& counts) {
+    void readBlock(std::size_t block) {
         const std::size_t begin = block * kTermTriangles, count = std::min(kTermTriangles, count_ - begin);
         std::uint32_t vertices[kTermCorners];
         if (to_.found.empty()) {
-            const std::uint32_t* read = mikk::readTriangles(mesh_, triangles_, begin, count, vertices);
+            const std::uint32_t* read = mikk::readTriangles(in_.mesh, in_.triangles, begin, count, vertices);
             if (read != vertices) std::copy_n(read, 3 * count, vertices);
         } else {
             for (std::size_t t = 0; t < count; ++t) {
                 const std::size_t first = 3 * std::size_t{to_.found[begin + t]};
-                for (std::size_t k = 0; k < 3; ++k) vertices[3 * t + k] = mesh_.indices[triangles_.corner(first + k)];
+                for (std::size_t k = 0; k < 3; ++k) vertices[3 * t + k] = in_.vertexAt(first + k);
             }
         }
         // The rest of the block may be any vertex; a block has one triangle at least.
         std::fill(vertices + 3 * count, vertices + kTermCorners, vertices[0]);
         readNodes(3 * begin, 3 * count, vertices);
         CornerTerms& terms = to_.terms[block];
-        from_.terms(from_.source, vertices, count, terms);
-        counts.degenerate += terms.degenerate_count;
-        counts.degenerate_uvs += terms.no_uv_area_count;
-        counts.mirrored += terms.mirrored_count;
+        terms_(source_, vertices, count, terms);
         std::uint8_t* flags = to_.flags.data() + begin;
         for (std::size_t t = 0; t < count; ++t) {
-            flags[t] = flagsOf(terms.marks[0][t] | terms.marks[1][t] | terms.marks[2][t], begin + t);
+            flags[t] = flagsOf(terms.marks[0][t]);
             if ((flags[t] & kAny) != 0) clearRows(terms, t);
         }
     }
@@ -119,7 +110,7 @@ class CornerReader {
 
     /// And takes those vertices whose data stand for the nodes.
     void readNodes(std::size_t first, std::size_t count, std::uint32_t* vertices) {
-        const Nodes& map = from_.nodes;
+        const Nodes& map = in_.nodes;
         std::uint32_t* nodes = to_.nodes.data() + first;
         if (map.ofVertices(vertices, count, nodes) == vertices) std::copy_n(vertices, count, nodes);
         for (std::size_t i = 0; map.mixed && i < count; ++i) vertices[i] = map.vertex(nodes[i]);
@@ -129,9 +120,9 @@ class CornerReader {
 
     /// Corners of all triangles but degenerate ones.
     void countCorners() {
-        const std::size_t place_count = from_.chosen.size() + 1;
-        to_.facing = noMarks(from_.allocator, place_count);
-        to_.end = Buffer<std::uint32_t>(from_.allocator, place_count, 0u);
+        const std::size_t place_count = path_.chosen.size() + 1;
+        to_.facing = noMarks(allocator_, place_count);
+        to_.end = Buffer<std::uint32_t>(allocator_, place_count, 0u);
         std::uint8_t* facing = to_.facing.data();
         std::uint32_t* sizes = to_.end.data();
         const std::uint8_t* flags = to_.flags.data();
@@ -149,20 +140,20 @@ class CornerReader {
     }
 
     void makeRoom() {
-        const std::size_t place_count = from_.chosen.size();
-        to_.begin = Buffer<std::uint32_t>(from_.allocator, place_count);
+        const std::size_t place_count = path_.chosen.size();
+        to_.begin = Buffer<std::uint32_t>(allocator_, place_count);
         std::uint32_t *begin = to_.begin.data(), *end = to_.end.data(), sum = 0;
         for (std::size_t place = 0; place < place_count; ++place) {
             const std::uint32_t size = end[place];
             begin[place] = end[place] = sum;
             sum += size;
         }
-        to_.corners = Buffer<NodeCorner>(from_.allocator, sum);
+        to_.corners = Buffer<NodeCorner>(allocator_, sum);
     }
 
     void placeCorners() {
-        const auto nowhere = static_cast<std::uint32_t>(from_.chosen.size());
-        const std::uint32_t* slots = triangles_.corners.empty() ? nullptr : triangles_.corners.data();
+        const auto nowhere = static_cast<std::uint32_t>(path_.chosen.size());
+        const std::uint32_t* slots = in_.triangles.corners.empty() ? nullptr : in_.triangles.corners.data();
         const std::uint32_t* found = to_.found.empty() ? nullptr : to_.found.data();
         std::uint32_t* ends = to_.end.data();
         NodeCorner* corners = to_.corners.data();
@@ -198,22 +189,20 @@ class CornerReader {
         return (flags & kAny) != 0 ? NodeCorner::kAddsNothing : orientation;
     }
 
-    /// `marks`: what some corner of the triangle has. A triangle with a NaN has none of both orientations.
-    [[nodiscard]] std::uint8_t flagsOf(std::uint32_t marks, std::size_t t) const {
+    static std::uint8_t flagsOf(std::uint32_t marks) {
         if ((marks & kDegenerateMark) != 0) return kDegenerate;
         if ((marks & kNoUvArea) != 0) return kAny;
-        const bool known = (marks & (kFacesUp | kFacesDown)) != 0;
-        return (known ? (marks & kFacesUp) != 0 : uvArea(t) > 0) ? std::uint8_t{kPositive} : std::uint8_t{0};
+        return (marks & kMirroredMark) != 0 ? std::uint8_t{0} : std::uint8_t{kPositive};
     }
 
     [[nodiscard]] float uvArea(std::size_t t) const {
         Vec2 uv[3];
-        for (std::size_t k = 0; k < 3; ++k) uv[k] = mesh_.uvs[from_.nodes.vertex(to_.nodes[3 * t + k])];
+        for (std::size_t k = 0; k < 3; ++k) uv[k] = in_.mesh.uvs[in_.nodes.vertex(to_.nodes[3 * t + k])];
         const Vec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
         return a.x * b.y - a.y * b.x;
     }
 
-    [[nodiscard]] std::uint32_t faceOf(std::size_t t) const { return triangles_.faces[to_.triangleOf(t)]; }
+    [[nodiscard]] std::uint32_t faceOf(std::size_t t) const { return in_.triangles.faces[to_.triangleOf(t)]; }
 
     /// One orientation for each face. All triangles of a face that does not simply agree have been found; of
     /// another face, a part may be here.
@@ -232,9 +221,9 @@ class CornerReader {
 
     [[nodiscard]] bool isWhole(std::size_t first, std::size_t end) const {
         const std::size_t before = to_.triangleOf(first), after = std::size_t{to_.triangleOf(end - 1)} + 1;
-        const std::uint32_t face = triangles_.faces[before];
-        return (before == 0 || triangles_.faces[before - 1] != face) &&
-               (after == triangles_.count || triangles_.faces[after] != face);
+        const std::uint32_t face = in_.triangles.faces[before];
+        return (before == 0 || in_.triangles.faces[before - 1] != face) &&
+               (after == in_.triangles.count || in_.triangles.faces[after] != face);
     }
 
     /// Degenerate triangles have no say.
@@ -276,8 +265,8 @@ class CornerReader {
     /// degenerate triangles are at chosen nodes.
     void planCopies() {
         Buffer<std::uint8_t> done;  // of polygons' corners: 1 has a good triangle, 2 is planned
-        if (!triangles_.faces.empty()) {
-            done = Buffer<std::uint8_t>(from_.allocator, mesh_.cornerCount(), std::uint8_t{0});
+        if (!in_.triangles.faces.empty()) {
+            done = Buffer<std::uint8_t>(allocator_, in_.mesh.cornerCount(), std::uint8_t{0});
             for (std::size_t t = 0; t < count_; ++t) {
                 if ((to_.flags[t] & kDegenerate) != 0) continue;
                 for (std::uint32_t k = 0; k < 3; ++k) done[slot(t, k)] = 1;
@@ -302,7 +291,7 @@ class CornerReader {
 
     /// The corner at the same position in the same triangle, if a good triangle of its face has it too; else kNone.
     std::uint32_t copiedInFace(std::size_t t, std::uint32_t k, const Buffer<std::uint8_t>& done) const {
-        const auto position = [&](std::uint32_t corner) { return mesh_.positions[mesh_.indices[corner]]; };
+        const auto position = [&](std::uint32_t corner) { return in_.mesh.positions[in_.mesh.indices[corner]]; };
         for (std::uint32_t j = 1; j < 3; ++j) {
             const std::uint32_t other = slot(t, (k + j) % 3);
             if (done[other] == 1 && position(other) == position(slot(t, k))) return other;
@@ -311,12 +300,14 @@ class CornerReader {
     }
 
     [[nodiscard]] std::uint32_t slot(std::size_t t, std::uint32_t k) const {
-        return triangles_.corner(3 * std::size_t{to_.triangleOf(t)} + k);
+        return in_.triangles.corner(3 * std::size_t{to_.triangleOf(t)} + k);
     }
 
-    const CornerReading& from_;
-    const MeshView& mesh_;
-    const TriangleList& triangles_;
+    const VertexPath& path_;
+    const NodeSetting& in_;
+    const CornerSource& source_;
+    CornerTermsFunction terms_;
+    const Allocator* allocator_;
     VertexCorners to_;
     std::size_t count_ = 0;        // of triangles
     Growing<std::uint32_t> good_;  // of one face
@@ -324,6 +315,8 @@ class CornerReader {
 
 }  // namespace
 
-VertexCorners readCorners(const CornerReading& reading) { return CornerReader(reading).run(); }
+VertexCorners readCorners(const VertexPath& path, const CornerSource& source) {
+    return CornerReader(path, source).run();
+}
 
 }  // namespace tspace::mikk

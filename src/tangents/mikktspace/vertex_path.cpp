@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tangents/method_kind.h"
+#include "tangents/mikktspace/node_results.h"
 #include "tangents/mikktspace/splits.h"
 
 namespace tspace::mikk {
@@ -21,9 +22,7 @@ VertexCorners read(const VertexPath& path, bool needs_sums) {
                                        setting.options.method, tangents_only);
     source.adding_only = true;
     if (!needs_sums && !setting.maySplit()) source.weighting = Weighting::none;
-    const Execution& execution = setting.options.execution;
-    return readCorners({setting.mesh, setting.triangles, setting.nodes, path.chosen, source,
-                        cornerTermsFor(execution.simd), path.sums, path.blocks, execution.allocator, path.parallel});
+    return readCorners(path, source);
 }
 
 /// Corners of degenerate triangles: what they copy, or the default where that is one or where there is nothing to copy.
@@ -62,9 +61,9 @@ TangentReport writeNodes(const VertexPath& path) {
     const Allocator* allocator = setting.options.execution.allocator;
     const float threshold_cosine = cosineOf(setting.options);
     VertexCorners corners = read(path, true);
-    const Grouping grouping(corners, path.chosen, path.bucket, allocator);
+    const Grouping grouping(path, corners);
     Marks is_default = cornerMarks(path, corners);
-    const NodeResults results(setting, path.chosen, corners, threshold_cosine, is_default);
+    const NodeResults results(path, corners, threshold_cosine, is_default);
     Marks left(allocator, path.chosen.size());  // 1: needs a plan
     std::atomic<std::uint64_t> groups{0}, default_corners{0}, left_count{0};
     path.parallel.forRanges(left.size(), kNodeGrain, [&](std::size_t begin, std::size_t end) {
@@ -83,8 +82,8 @@ TangentReport writeNodes(const VertexPath& path) {
     });
     TangentReport report;
     if (left_count != 0 || !corners.copies.empty()) {
-        EvaluationPlan plan = planNodes(
-            {setting, path.chosen, corners, grouping, {left.data(), left.size()}, threshold_cosine, PlanUse::once});
+        EvaluationPlan plan =
+            planNodes({path, corners, grouping, {left.data(), left.size()}, threshold_cosine, PlanUse::once});
         planCopies(corners.copies, is_default, allocator, plan);
         report = evaluateGroups(plan, {setting.mesh.positions, setting.mesh.normals}, setting.mesh.uvs, setting.out,
                                 setting.options.execution, path.parallel);
@@ -101,8 +100,8 @@ EvaluationPlan planChosen(const VertexPath& path, PlanUse use) {
     const NodeSetting& setting = path.setting;
     const Allocator* allocator = setting.options.execution.allocator;
     VertexCorners corners = read(path, false);
-    const Grouping grouping(corners, path.chosen, path.bucket, allocator);
-    EvaluationPlan plan = planNodes({setting, path.chosen, corners, grouping, {}, cosineOf(setting.options), use});
+    const Grouping grouping(path, corners);
+    EvaluationPlan plan = planNodes({path, corners, grouping, {}, cosineOf(setting.options), use});
     Marks is_default = cornerMarks(path, corners);
     planCopies(corners.copies, is_default, allocator, plan);
     plan.report.degenerate_triangle_count = corners.degenerate_count;

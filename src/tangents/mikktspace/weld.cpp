@@ -172,7 +172,7 @@ void numberNodes(Buffer<std::uint32_t> root_of, Nodes& nodes) {
         if (!sameBits(mesh, v, first)) different.push(first);
     }
     Buffer<std::uint32_t> corners(allocator, nodes.count, kNone);
-    findRepresentatives(mesh, triangles, nodes, {different.begin(), different.end()}, corners.data(), allocator,
+    findRepresentatives({mesh, triangles, nodes}, {different.begin(), different.end()}, corners.data(), allocator,
                         parallel);
     for (std::size_t node = 0; node < nodes.count; ++node) {
         if (corners[node] != kNone) nodes.vertices[node] = mesh.indices[corners[node]];

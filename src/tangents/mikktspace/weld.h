@@ -29,13 +29,22 @@ struct Nodes {
         for (std::size_t i = 0; !of_vertex.empty() && i < some_count; ++i) to[i] = of_vertex[some[i]];
         return of_vertex.empty() ? some : to;
     }
-    [[nodiscard]] std::uint32_t of(const MeshView& mesh, std::uint32_t corner) const {
-        return ofVertex(mesh.indices[corner]);
-    }
     /// Valid after listVertices.
     [[nodiscard]] std::uint32_t vertex(std::size_t node) const {
         return vertices.empty() ? static_cast<std::uint32_t>(node) : vertices[node];
     }
+};
+
+/// A mesh whose faces are cut and whose vertices are welded.
+struct WeldedMesh {
+    const MeshView& mesh;
+    const TriangleList& triangles;
+    const Nodes& nodes;
+
+    [[nodiscard]] std::uint32_t vertexAt(std::size_t half_edge) const {
+        return mesh.indices[triangles.corner(half_edge)];
+    }
+    [[nodiscard]] std::uint32_t nodeAt(std::size_t half_edge) const { return nodes.ofVertex(vertexAt(half_edge)); }
 };
 
 /// Takes what findRoots of core/weld.h takes, of which up to 4 bytes per vertex remain. `transient`: for what does not
