@@ -8,11 +8,14 @@
 #include <cstdint>
 #include <cstring>
 
+#define TSPACE_ROWS
+
 namespace tspace::simd::avx2 {
 
 inline constexpr std::size_t kWidth = 8;
 
 #include "simd/lanes_arithmetic.h"
+#include "simd/lanes_loads.h"
 #include "simd/lanes_masks.h"
 
 inline unsigned bitsOf(Mask m) { return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(m.v))); }
@@ -79,69 +82,19 @@ inline void addDoubleRow(double* to, double k, DoubleRow row) {
     _mm256_store_pd(to, _mm256_add_pd(_mm256_load_pd(to), _mm256_mul_pd(_mm256_set1_pd(k), row.v)));
 }
 
-#include "simd/loads_x86.h"
-inline __m256 combine(__m128 low, __m128 high) { return _mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1); }
-
-inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact, Floats& x,
-                    Floats& y, Floats& z) {
-    __m256 r[4];
-    for (std::size_t j = 0; j < 4; ++j) {
-        r[j] = combine(loadVector(base + stride * index[3 * j], exact),
-                       loadVector(base + stride * index[3 * j + 12], exact));
-    }
-    const __m256 ab = _mm256_unpacklo_ps(r[0], r[1]), cd = _mm256_unpacklo_ps(r[2], r[3]);
-    x = {_mm256_shuffle_ps(ab, cd, 0x44)};
-    y = {_mm256_shuffle_ps(ab, cd, 0xee)};
-    z = {_mm256_shuffle_ps(_mm256_unpackhi_ps(r[0], r[1]), _mm256_unpackhi_ps(r[2], r[3]), 0x44)};
+template <int kA, int kB, int kC, int kD>
+inline FloatVector inFours(FloatVector x, FloatVector y) {
+    constexpr int a = kA + kA / 4 * 4, b = kB + kB / 4 * 4, c = kC + kC / 4 * 4, d = kD + kD / 4 * 4;
+    return __builtin_shufflevector(x, y, a, b, c, d, a + 4, b + 4, c + 4, d + 4);
 }
-inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index, Floats& x, Floats& y) {
-    // A pair is loaded to all places and blended, which takes none of the few shuffle units.
-    const auto at = [&](std::size_t i) {
-        return _mm256_broadcast_sd(reinterpret_cast<const double*>(base + stride * index[3 * i]));
-    };
-    const auto join = [&](__m256d a, __m256d b, __m256d c, __m256d d) {
-        return _mm256_castpd_ps(_mm256_blend_pd(_mm256_blend_pd(a, b, 2), _mm256_blend_pd(c, d, 8), 12));
-    };
-    const __m256 ab = join(at(0), at(1), at(4), at(5)), cd = join(at(2), at(3), at(6), at(7));
-    x = {_mm256_shuffle_ps(ab, cd, 0x88)};
-    y = {_mm256_shuffle_ps(ab, cd, 0xdd)};
+inline constexpr Quads<0, 1> kQuads;
+inline FloatVector joinQuads(Quad a, Quad b) { return _mm256_insertf128_ps(_mm256_castps128_ps256(a), b, 1); }
+template <std::size_t kWhich>
+inline Quad quad(FloatVector v) {
+    return _mm256_extractf128_ps(v, kWhich);
 }
-template <std::size_t kStep = 12>
-inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
-    const __m256 xy_low = _mm256_unpacklo_ps(x.v, y.v), xy_high = _mm256_unpackhi_ps(x.v, y.v);
-    const __m256 zw_low = _mm256_unpacklo_ps(z.v, w.v), zw_high = _mm256_unpackhi_ps(z.v, w.v);
-    const __m256 r[4] = {_mm256_shuffle_ps(xy_low, zw_low, 0x44), _mm256_shuffle_ps(xy_low, zw_low, 0xee),
-                         _mm256_shuffle_ps(xy_high, zw_high, 0x44), _mm256_shuffle_ps(xy_high, zw_high, 0xee)};
-    for (std::size_t j = 0; j < 4; ++j) _mm_storeu_ps(rows + kStep * j, _mm256_castps256_ps128(r[j]));
-    for (std::size_t j = 0; j < 4; ++j) _mm_storeu_ps(rows + kStep * (j + 4), _mm256_extractf128_ps(r[j], 1));
-}
-template <std::size_t kStep>
-inline void storePairs(float* rows, Floats x, Floats y) {
-    const __m256 low = _mm256_unpacklo_ps(x.v, y.v), high = _mm256_unpackhi_ps(x.v, y.v);
-    storeTwoPairs<kStep>(rows, _mm256_castps256_ps128(low));
-    storeTwoPairs<kStep>(rows + 2 * kStep, _mm256_castps256_ps128(high));
-    storeTwoPairs<kStep>(rows + 4 * kStep, _mm256_extractf128_ps(low, 1));
-    storeTwoPairs<kStep>(rows + 6 * kStep, _mm256_extractf128_ps(high, 1));
-}
-
-template <std::size_t kStep>
-inline void loadRows(const float* rows, Floats& x, Floats& y, Floats& z, Floats& w) {
-    __m256 r[4];
-    for (std::size_t j = 0; j < 4; ++j)
-        r[j] = combine(_mm_loadu_ps(rows + kStep * j), _mm_loadu_ps(rows + kStep * (j + 4)));
-    const __m256 ab_low = _mm256_unpacklo_ps(r[0], r[1]), cd_low = _mm256_unpacklo_ps(r[2], r[3]);
-    const __m256 ab_high = _mm256_unpackhi_ps(r[0], r[1]), cd_high = _mm256_unpackhi_ps(r[2], r[3]);
-    x = {_mm256_shuffle_ps(ab_low, cd_low, 0x44)};
-    y = {_mm256_shuffle_ps(ab_low, cd_low, 0xee)};
-    z = {_mm256_shuffle_ps(ab_high, cd_high, 0x44)};
-    w = {_mm256_shuffle_ps(ab_high, cd_high, 0xee)};
-}
-
-inline void loadPairs(const float* pairs, Floats& x, Floats& y) {
-    const __m256 a = combine(_mm_loadu_ps(pairs), _mm_loadu_ps(pairs + 8));
-    const __m256 b = combine(_mm_loadu_ps(pairs + 4), _mm_loadu_ps(pairs + 12));
-    x = {_mm256_shuffle_ps(a, b, 0x88)};
-    y = {_mm256_shuffle_ps(a, b, 0xdd)};
-}
+#include "simd/lanes_rows.h"
 
 }  // namespace tspace::simd::avx2
+
+#undef TSPACE_ROWS

@@ -8,11 +8,14 @@
 #include <cstdint>
 #include <cstring>
 
+#define TSPACE_ROWS [[gnu::always_inline]]
+
 namespace tspace::simd::avx512 {
 
 inline constexpr std::size_t kWidth = 16;
 
 #include "simd/lanes_arithmetic.h"
+#include "simd/lanes_loads.h"
 
 struct Mask {
     __mmask16 v;
@@ -98,75 +101,24 @@ inline void addDoubleRow(double* to, double k, DoubleRow row) {
     _mm256_store_pd(to, _mm256_add_pd(_mm256_load_pd(to), _mm256_mul_pd(_mm256_set1_pd(k), row.v)));
 }
 
-#include "simd/loads_x86.h"
-inline __m512 combine(__m128 a, __m128 b, __m128 c, __m128 d) {
+template <int kA, int kB, int kC, int kD>
+inline FloatVector inFours(FloatVector x, FloatVector y) {
+    constexpr int a = kA + kA / 4 * 12, b = kB + kB / 4 * 12, c = kC + kC / 4 * 12, d = kD + kD / 4 * 12;
+    return __builtin_shufflevector(x, y, a, b, c, d, a + 4, b + 4, c + 4, d + 4, a + 8, b + 8, c + 8, d + 8, a + 12,
+                                   b + 12, c + 12, d + 12);
+}
+inline constexpr Quads<0, 1, 2, 3> kQuads;
+inline FloatVector joinQuads(Quad a, Quad b, Quad c, Quad d) {
     const __m256 ab = _mm256_insertf128_ps(_mm256_castps128_ps256(a), b, 1);
     const __m256 cd = _mm256_insertf128_ps(_mm256_castps128_ps256(c), d, 1);
     return _mm512_insertf32x8(_mm512_castps256_ps512(ab), cd, 1);
 }
-
-[[gnu::always_inline]] inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index,
-                                           bool exact, Floats& x, Floats& y, Floats& z) {
-    const auto at = [&](std::size_t i) { return loadVector(base + stride * index[3 * i], exact); };
-    __m512 r[4];
-    for (std::size_t j = 0; j < 4; ++j) r[j] = combine(at(j), at(j + 4), at(j + 8), at(j + 12));
-    const __m512 ab = _mm512_unpacklo_ps(r[0], r[1]), cd = _mm512_unpacklo_ps(r[2], r[3]);
-    x = {_mm512_shuffle_ps(ab, cd, 0x44)};
-    y = {_mm512_shuffle_ps(ab, cd, 0xee)};
-    z = {_mm512_shuffle_ps(_mm512_unpackhi_ps(r[0], r[1]), _mm512_unpackhi_ps(r[2], r[3]), 0x44)};
+template <std::size_t kWhich>
+inline Quad quad(FloatVector v) {
+    return _mm512_extractf32x4_ps(v, kWhich);
 }
-[[gnu::always_inline]] inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index,
-                                           Floats& x, Floats& y) {
-    const auto pair = [&](std::size_t i) {
-        return loadPair(base + stride * index[3 * i], base + stride * index[3 * i + 3]);
-    };
-    const __m512 ab = combine(pair(0), pair(4), pair(8), pair(12)), cd = combine(pair(2), pair(6), pair(10), pair(14));
-    x = {_mm512_shuffle_ps(ab, cd, 0x88)};
-    y = {_mm512_shuffle_ps(ab, cd, 0xdd)};
-}
-template <std::size_t kStep = 12>
-inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
-    const __m512 xy_low = _mm512_unpacklo_ps(x.v, y.v), xy_high = _mm512_unpackhi_ps(x.v, y.v);
-    const __m512 zw_low = _mm512_unpacklo_ps(z.v, w.v), zw_high = _mm512_unpackhi_ps(z.v, w.v);
-    const __m512 r[4] = {_mm512_shuffle_ps(xy_low, zw_low, 0x44), _mm512_shuffle_ps(xy_low, zw_low, 0xee),
-                         _mm512_shuffle_ps(xy_high, zw_high, 0x44), _mm512_shuffle_ps(xy_high, zw_high, 0xee)};
-    for (std::size_t j = 0; j < 4; ++j) _mm_storeu_ps(rows + kStep * j, _mm512_castps512_ps128(r[j]));
-    for (std::size_t j = 0; j < 4; ++j) _mm_storeu_ps(rows + kStep * (j + 4), _mm512_extractf32x4_ps(r[j], 1));
-    for (std::size_t j = 0; j < 4; ++j) _mm_storeu_ps(rows + kStep * (j + 8), _mm512_extractf32x4_ps(r[j], 2));
-    for (std::size_t j = 0; j < 4; ++j) _mm_storeu_ps(rows + kStep * (j + 12), _mm512_extractf32x4_ps(r[j], 3));
-}
-template <std::size_t kStep>
-inline void storePairs(float* rows, Floats x, Floats y) {
-    const __m512 low = _mm512_unpacklo_ps(x.v, y.v), high = _mm512_unpackhi_ps(x.v, y.v);
-    const auto four = [&](float* to, __m128 a, __m128 b) {
-        storeTwoPairs<kStep>(to, a);
-        storeTwoPairs<kStep>(to + 2 * kStep, b);
-    };
-    four(rows, _mm512_castps512_ps128(low), _mm512_castps512_ps128(high));
-    four(rows + 4 * kStep, _mm512_extractf32x4_ps(low, 1), _mm512_extractf32x4_ps(high, 1));
-    four(rows + 8 * kStep, _mm512_extractf32x4_ps(low, 2), _mm512_extractf32x4_ps(high, 2));
-    four(rows + 12 * kStep, _mm512_extractf32x4_ps(low, 3), _mm512_extractf32x4_ps(high, 3));
-}
-
-template <std::size_t kStep>
-inline void loadRows(const float* rows, Floats& x, Floats& y, Floats& z, Floats& w) {
-    const auto at = [&](std::size_t i) { return _mm_loadu_ps(rows + kStep * i); };
-    __m512 r[4];
-    for (std::size_t j = 0; j < 4; ++j) r[j] = combine(at(j), at(j + 4), at(j + 8), at(j + 12));
-    const __m512 ab_low = _mm512_unpacklo_ps(r[0], r[1]), cd_low = _mm512_unpacklo_ps(r[2], r[3]);
-    const __m512 ab_high = _mm512_unpackhi_ps(r[0], r[1]), cd_high = _mm512_unpackhi_ps(r[2], r[3]);
-    x = {_mm512_shuffle_ps(ab_low, cd_low, 0x44)};
-    y = {_mm512_shuffle_ps(ab_low, cd_low, 0xee)};
-    z = {_mm512_shuffle_ps(ab_high, cd_high, 0x44)};
-    w = {_mm512_shuffle_ps(ab_high, cd_high, 0xee)};
-}
-
-inline void loadPairs(const float* pairs, Floats& x, Floats& y) {
-    const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
-    const __m512i odd = _mm512_setr_epi32(1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
-    const __m512 a = _mm512_loadu_ps(pairs), b = _mm512_loadu_ps(pairs + 16);
-    x = {_mm512_permutex2var_ps(a, even, b)};
-    y = {_mm512_permutex2var_ps(a, odd, b)};
-}
+#include "simd/lanes_rows.h"
 
 }  // namespace tspace::simd::avx512
+
+#undef TSPACE_ROWS

@@ -19,9 +19,10 @@ namespace tspace::simd::neon {
 inline constexpr std::size_t kWidth = 4;
 
 #include "simd/lanes_arithmetic.h"
+#include "simd/lanes_loads.h"
 #include "simd/lanes_masks.h"
 #include "simd/lanes_of_four.h"
-#include "simd/lanes_rows_of_four.h"
+#include "simd/lanes_rows.h"
 
 inline unsigned bitsOf(Mask m) {
     constexpr WholeVector kBits = {1, 2, 4, 8};

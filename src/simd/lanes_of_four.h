@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Four lanes. Included as lanes_arithmetic.h, behind lanes_masks.h.
+// Four lanes. Included as lanes_arithmetic.h, behind lanes_masks.h and lanes_loads.h.
 
 inline Floats select(Mask m, Floats yes, Floats no) {
     return {reinterpret_cast<FloatVector>((m.v & reinterpret_cast<WholeVector>(yes.v)) |
@@ -14,42 +14,16 @@ inline Bits smaller(Bits a, Bits b) {
     return asBits(select(m, asFloats(a), asFloats(b)));
 }
 
-// Clang overlooks `aligned` behind the equals sign.
-using RowInMemory __attribute__((aligned(4), may_alias)) = FloatVector;
-inline FloatVector loadRow(const void* p) { return *static_cast<const RowInMemory*>(p); }
-inline void storeRow(void* to, FloatVector row) { *static_cast<RowInMemory*>(to) = row; }
-
-/// Two floats as one double.
-inline double loadTwo(const void* p) {
-    double d;
-    std::memcpy(&d, p, sizeof d);
-    return d;
+/// Of each quad of x (0 to 3) and the same of y (4 to 7) four floats.
+template <int kA, int kB, int kC, int kD>
+inline FloatVector inFours(FloatVector x, FloatVector y) {
+    return __builtin_shufflevector(x, y, kA, kB, kC, kD);
 }
-inline void storeTwo(void* to, double two) { std::memcpy(to, &two, sizeof two); }
-/// Three floats. `exact` reads no more; otherwise the four bytes after them are read too.
-inline FloatVector loadVector(const std::byte* p, bool exact) {
-    if (!exact) return loadRow(p);
-    float z;
-    std::memcpy(&z, p + 8, sizeof z);
-    const FloatVector xy = reinterpret_cast<FloatVector>(DoubleVector{loadTwo(p), 0}), zz = {z, 0, 0, 0};
-    return __builtin_shufflevector(xy, zz, 0, 1, 4, 5);
-}
-
-/// Rows become columns.
-inline void transpose(FloatVector (&r)[4]) {
-    const FloatVector ab_low = __builtin_shufflevector(r[0], r[1], 0, 4, 1, 5);
-    const FloatVector ab_high = __builtin_shufflevector(r[0], r[1], 2, 6, 3, 7);
-    const FloatVector cd_low = __builtin_shufflevector(r[2], r[3], 0, 4, 1, 5);
-    const FloatVector cd_high = __builtin_shufflevector(r[2], r[3], 2, 6, 3, 7);
-    r[0] = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
-    r[1] = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
-    r[2] = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
-    r[3] = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
-}
-
-inline void splitPairs(FloatVector ab, FloatVector cd, Floats& x, Floats& y) {
-    x = {__builtin_shufflevector(ab, cd, 0, 2, 4, 6)};
-    y = {__builtin_shufflevector(ab, cd, 1, 3, 5, 7)};
+inline constexpr Quads<0> kQuads;
+inline FloatVector joinQuads(Quad a) { return a; }
+template <std::size_t>
+inline Quad quad(FloatVector v) {
+    return v;
 }
 
 /// Writes lane i's four values to row i of an array of rows of four doubles.

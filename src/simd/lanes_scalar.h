@@ -21,9 +21,10 @@ namespace tspace::simd::scalar {
 inline constexpr std::size_t kWidth = 4;
 
 #include "simd/lanes_arithmetic.h"
+#include "simd/lanes_loads.h"
 #include "simd/lanes_masks.h"
 #include "simd/lanes_of_four.h"
-#include "simd/lanes_rows_of_four.h"
+#include "simd/lanes_rows.h"
 
 /// Bit i: lane i.
 inline unsigned bitsOf(Mask m) {

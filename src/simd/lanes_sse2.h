@@ -15,9 +15,10 @@ namespace tspace::simd::sse2 {
 inline constexpr std::size_t kWidth = 4;
 
 #include "simd/lanes_arithmetic.h"
+#include "simd/lanes_loads.h"
 #include "simd/lanes_masks.h"
 #include "simd/lanes_of_four.h"
-#include "simd/lanes_rows_of_four.h"
+#include "simd/lanes_rows.h"
 
 inline unsigned bitsOf(Mask m) { return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(m.v))); }
 inline bool all(Mask m) { return bitsOf(m) == 15; }

@@ -26,6 +26,7 @@ inline constexpr std::size_t kWidth = 4;
 
 #pragma clang attribute push(__attribute__((always_inline)), apply_to = function)
 #include "simd/lanes_arithmetic.h"
+#include "simd/lanes_loads.h"
 #include "simd/lanes_masks.h"
 #include "simd/lanes_of_four.h"
 
@@ -67,7 +68,7 @@ inline Floats join(const Doubles* parts) {
 }
 #pragma clang attribute pop
 
-#include "simd/lanes_rows_of_four.h"
+#include "simd/lanes_rows.h"
 
 }  // namespace tspace::simd::wasm
 

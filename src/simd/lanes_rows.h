@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Rows of four numbers to and from lanes. Included as lanes_arithmetic.h, behind all but what begins with "operator".
+// TSPACE_ROWS: what the compiler is told about these functions. A vector of lanes is 1, 2 or 4 quads; quad q has the rows
+// from 4 * q on.
+
+/// The vectors with the quads at(i), at(4 + i), ...: row i of each quad.
+template <class At, std::size_t... kQuad>
+inline FloatVector quadsAt(const At& at, std::size_t i, Quads<kQuad...>) {
+    return joinQuads(at(4 * kQuad + i)...);
+}
+inline FloatVector lowPairs(FloatVector a, FloatVector b) { return inFours<0, 1, 4, 5>(a, b); }
+inline FloatVector highPairs(FloatVector a, FloatVector b) { return inFours<2, 3, 6, 7>(a, b); }
+inline FloatVector mixLow(FloatVector a, FloatVector b) { return inFours<0, 4, 1, 5>(a, b); }
+inline FloatVector mixHigh(FloatVector a, FloatVector b) { return inFours<2, 6, 3, 7>(a, b); }
+
+/// Rows become columns, in each quad.
+inline void transpose(FloatVector (&r)[4]) {
+    const FloatVector ab_low = mixLow(r[0], r[1]), ab_high = mixHigh(r[0], r[1]);
+    const FloatVector cd_low = mixLow(r[2], r[3]), cd_high = mixHigh(r[2], r[3]);
+    r[0] = lowPairs(ab_low, cd_low);
+    r[1] = highPairs(ab_low, cd_low);
+    r[2] = lowPairs(ab_high, cd_high);
+    r[3] = highPairs(ab_high, cd_high);
+}
+template <std::size_t kStep, std::size_t... kQuad>
+inline void storeQuads(float* rows, const FloatVector (&r)[4], Quads<kQuad...>) {
+    const auto store = [&](float* to, Quad a, Quad b, Quad c, Quad d) {
+        storeQuad(to, a);
+        storeQuad(to + kStep, b);
+        storeQuad(to + 2 * kStep, c);
+        storeQuad(to + 3 * kStep, d);
+    };
+    (store(rows + 4 * kStep * kQuad, quad<kQuad>(r[0]), quad<kQuad>(r[1]), quad<kQuad>(r[2]), quad<kQuad>(r[3])), ...);
+}
+template <std::size_t kStep, std::size_t... kQuad>
+inline void storeQuadPairs(float* rows, FloatVector low, FloatVector high, Quads<kQuad...>) {
+    const auto store = [](float* to, Quad pairs) {
+        storeTwo(to, reinterpret_cast<TwoDoubles>(pairs)[0]);
+        storeTwo(to + kStep, reinterpret_cast<TwoDoubles>(pairs)[1]);
+    };
+    ((store(rows + 4 * kStep * kQuad, quad<kQuad>(low)), store(rows + (4 * kQuad + 2) * kStep, quad<kQuad>(high))),
+     ...);
+}
+
+/// Reads the elements numbered index[0], index[3], index[6], ... (one corner of consecutive triangles) of an
+/// array of vectors. `exact` reads their 12 bytes and no more; otherwise the 4 bytes after them are read too.
+TSPACE_ROWS inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact,
+                                Floats& x, Floats& y, Floats& z) {
+    const auto at = [&](std::size_t i) { return loadVector(base + stride * index[3 * i], exact); };
+    FloatVector r[4];
+    for (std::size_t i = 0; i < 4; ++i) r[i] = quadsAt(at, i, kQuads);
+    transpose(r);
+    x = {r[0]};
+    y = {r[1]};
+    z = {r[2]};
+}
+TSPACE_ROWS inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index, Floats& x,
+                                Floats& y) {
+    const auto two = [&](std::size_t i) {
+        return twoPairs(base + stride * index[3 * i], base + stride * index[3 * i + 3]);
+    };
+    const FloatVector ab = quadsAt(two, 0, kQuads), cd = quadsAt(two, 2, kQuads);
+    x = {inFours<0, 2, 4, 6>(ab, cd)};
+    y = {inFours<1, 3, 5, 7>(ab, cd)};
+}
+/// Reads kWidth pairs of floats that lie side by side.
+TSPACE_ROWS inline void loadPairs(const float* pairs, Floats& x, Floats& y) {
+    const auto two = [&](std::size_t i) { return loadQuad(pairs + 2 * i); };
+    const FloatVector ab = quadsAt(two, 0, kQuads), cd = quadsAt(two, 2, kQuads);
+    x = {inFours<0, 2, 4, 6>(ab, cd)};
+    y = {inFours<1, 3, 5, 7>(ab, cd)};
+}
+/// Writes lane i's four values to rows[kStep * i ...], by default row 3 * i of an array of rows of four floats. At any
+/// address that floats may have. Rows are written one after the other: with a step of 3, all but the last row hold three
+/// values, and one more is written after them.
+template <std::size_t kStep = 12>
+TSPACE_ROWS inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
+    FloatVector r[4] = {x.v, y.v, z.v, w.v};
+    transpose(r);
+    storeQuads<kStep>(rows, r, kQuads);
+}
+/// The opposite of storeRows.
+template <std::size_t kStep>
+TSPACE_ROWS inline void loadRows(const float* rows, Floats& x, Floats& y, Floats& z, Floats& w) {
+    const auto at = [&](std::size_t i) { return loadQuad(rows + kStep * i); };
+    FloatVector r[4];
+    for (std::size_t i = 0; i < 4; ++i) r[i] = quadsAt(at, i, kQuads);
+    transpose(r);
+    x = {r[0]};
+    y = {r[1]};
+    z = {r[2]};
+    w = {r[3]};
+}
+/// As storeRows, for two values.
+template <std::size_t kStep>
+TSPACE_ROWS inline void storePairs(float* rows, Floats x, Floats y) {
+    storeQuadPairs<kStep>(rows, mixLow(x.v, y.v), mixHigh(x.v, y.v), kQuads);
+}
