@@ -162,38 +162,29 @@ RangeLists::Batches::Batches(const TriangleGroups& triangles, const RangeLists& 
 
 bool RangeLists::Batches::next(TriangleBatch& batch, bool wants_vertices) {
     batch.count = 0;
-    batch.is_block = batch.is_whole = false;
+    if (next_ == end_) return false;
     batch.vertices = batch.own_vertices;
     batch.groups = batch.own_groups;
-    const auto add = [&](std::size_t first, std::size_t size) {
-        batch.numbers[batch.count] = static_cast<std::uint32_t>(first);
-        triangles_.read(first, size, wants_vertices ? batch.own_vertices + 3 * batch.count : nullptr,
-                        batch.own_groups + 3 * batch.count);
-        batch.count += size;
-    };
-    for (; next_ != end_ && batch.count < block_size_; ++next_) {
-        const std::size_t entry = entries_ != nullptr ? entries_[next_] : kBlock | next_;
-        if ((entry & kBlock) == 0) {
-            add(entry, 1);
-            continue;
-        }
-        if (batch.count != 0) break;
-        const std::size_t first = (entry & ~std::size_t{kBlock}) * block_size_;
-        const std::size_t size = std::min(block_size_, triangles_.count - first);
-        const std::uint32_t* const in_place = size == block_size_ ? triangles_.inPlace(first, size) : nullptr;
-        if (in_place == nullptr) {
-            add(first, size);
-        } else {
-            batch.numbers[0] = static_cast<std::uint32_t>(first);
-            batch.vertices = batch.groups = in_place;
-            batch.count = size;
-        }
-        batch.is_block = true;
-        batch.is_whole = are_whole_;
-        ++next_;
-        break;
+    std::uint32_t* const vertices = wants_vertices ? batch.own_vertices : nullptr;
+    batch.is_block = entries_ == nullptr || (entries_[next_] & kBlock) != 0;
+    batch.is_whole = batch.is_block && are_whole_;
+    if (!batch.is_block) {
+        for (; next_ != end_ && batch.count < block_size_ && (entries_[next_] & kBlock) == 0; ++next_)
+            batch.numbers[batch.count++] = entries_[next_];
+        triangles_.readSome(batch.numbers, batch.count, vertices, batch.own_groups);
+        return true;
     }
-    return batch.count != 0;
+    const std::size_t block = entries_ != nullptr ? entries_[next_] & ~kBlock : next_, first = block * block_size_;
+    ++next_;
+    batch.numbers[0] = static_cast<std::uint32_t>(first);
+    batch.count = std::min(block_size_, triangles_.count - first);
+    const std::uint32_t* const in_place = batch.count == block_size_ ? triangles_.inPlace(first, batch.count) : nullptr;
+    if (in_place == nullptr) {
+        triangles_.read(first, batch.count, vertices, batch.own_groups);
+    } else {
+        batch.vertices = batch.groups = in_place;
+    }
+    return true;
 }
 
 }  // namespace tspace

@@ -24,6 +24,12 @@ class TriangleGroups {
     /// more, and above all groups) means that nothing is added.
     virtual void read(std::size_t first, std::size_t triangles, std::uint32_t* vertices,
                       std::uint32_t* groups) const = 0;
+    /// The same for any triangles.
+    virtual void readSome(const std::uint32_t* numbers, std::size_t size, std::uint32_t* vertices,
+                          std::uint32_t* groups) const {
+        for (std::size_t i = 0; i < size; ++i)
+            read(numbers[i], 1, vertices == nullptr ? nullptr : vertices + 3 * i, groups + 3 * i);
+    }
     /// Where read() needs not copy: the numbers of these triangles, if their vertices are their groups. Or null.
     [[nodiscard]] virtual const std::uint32_t* inPlace(std::size_t, std::size_t) const { return nullptr; }
 

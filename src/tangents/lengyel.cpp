@@ -204,30 +204,19 @@ class VertexFrames {
     }
 
     void write(GroupRange range, RangeCounts& counts) const {
-        std::uint32_t v = range.begin;
-        const std::uint32_t in_place = has_extras_ ? 0 : inPlaceCount(range);
-        for (const std::uint32_t end = v + in_place; v != end;) {
-            const std::uint32_t count = std::min(kMost, end - v);
-            finishInPlace(v, count, counts);
-            v += count;
-        }
-        while (v != range.end) {
-            const std::uint32_t count = std::min(kMost, range.end - v);
-            finishCopy(v, count, counts);
-            v += count;
+        for (std::uint32_t v = range.begin; v != range.end;) {
+            const std::uint32_t left = std::min(kMost, range.end - v);
+            // Whole groups, without the last vertex of all: the kernel would read past its normal.
+            const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(left, normals_.count - 1 - v));
+            const std::uint32_t whole = has_extras_ ? 0 : most / derivatives::kTermGroup * derivatives::kTermGroup;
+            whole != 0 ? finishInPlace(v, whole, counts) : finishCopy(v, left, counts);
+            v += whole != 0 ? whole : left;
         }
         if (copies_tangents_) copyTangents(range);
     }
 
   private:
     static constexpr std::uint32_t kMost = 64;  ///< vertices at a time
-
-    /// Whole groups, without the last vertex of all: the kernel would read past its normal.
-    [[nodiscard]] std::uint32_t inPlaceCount(GroupRange range) const {
-        const auto most = std::min<std::size_t>(range.end, normals_.count - 1);
-        const auto count = static_cast<std::uint32_t>(most - std::min<std::size_t>(most, range.begin));
-        return count / derivatives::kTermGroup * derivatives::kTermGroup;
-    }
 
     void finishInPlace(std::uint32_t first, std::uint32_t count, RangeCounts& counts) const {
         const auto* normals = reinterpret_cast<const std::byte*>(&normals_[first]);
@@ -236,11 +225,7 @@ class VertexFrames {
         prefetchLines(normals, kMost * normals_.stride_bytes);
         const std::uint64_t safe =
             kernel_.finish({sums_.head(first), sums_.tail(first)}, normals, normals_.stride_bytes, sign_factor_, count);
-        counts.used += static_cast<unsigned>(std::popcount(safe));
-        for (std::uint64_t rest = ~safe & lowBits(count); rest != 0; rest &= rest - 1) {
-            const std::uint32_t v = first + static_cast<std::uint32_t>(std::countr_zero(rest));
-            store(v, frameInDouble(v, counts));
-        }
+        finishOthers(first, count, safe, counts);
     }
 
     /// The same for any vertices and all outputs.
@@ -250,24 +235,27 @@ class VertexFrames {
         std::copy_n(sums_.head(first), 4 * count, heads);
         std::copy_n(sums_.tail(first), 2 * count, tails);
         for (std::uint32_t i = 0; i < count; ++i) normals[i] = normals_[first + i];
-        const std::uint32_t whole_groups = (count + derivatives::kTermGroup - 1) / derivatives::kTermGroup;
         const std::uint64_t safe = kernel_.finish({heads, tails}, reinterpret_cast<const std::byte*>(normals),
-                                                  sizeof(Vec3), sign_factor_, whole_groups * derivatives::kTermGroup);
+                                                  sizeof(Vec3), sign_factor_, kMost);
+        finishOthers(first, count, has_extras_ ? 0 : safe, counts);
         for (std::uint32_t i = 0; i < count; ++i) {
-            const std::uint32_t v = first + i;
-            const bool is_safe = (safe >> i & 1) != 0;
-            if (is_safe && !has_extras_) {
-                ++counts.used;
-            } else {
-                const CornerFrame frame = frameInDouble(v, counts);
-                writeExtras(out_, v, frame);
-                store(v, frame);
-            }
-            if (is_safe) storeFloat4(sums_.head(v), loadFloat4(heads + 4 * i));
+            if ((safe >> i & 1) != 0) storeFloat4(sums_.head(first + i), loadFloat4(heads + 4 * i));
         }
     }
 
-    /// RangeCounts the vertex, too.
+    /// In double: those that are not `done`, which are counted as well.
+    void finishOthers(std::uint32_t first, std::uint32_t count, std::uint64_t done, RangeCounts& counts) const {
+        counts.used += static_cast<unsigned>(std::popcount(done & lowBits(count)));
+        for (std::uint64_t rest = ~done & lowBits(count); rest != 0; rest &= rest - 1) {
+            const std::uint32_t v = first + static_cast<std::uint32_t>(std::countr_zero(rest));
+            const CornerFrame frame = frameInDouble(v, counts);
+            writeExtras(out_, v, frame);
+            const Vec4& t = frame.tangent;
+            storeFloat4(sums_.head(v), Float4{t.x, t.y, t.z, t.w});
+        }
+    }
+
+    /// Counts the vertex, too.
     [[nodiscard]] CornerFrame frameInDouble(std::uint32_t v, RangeCounts& counts) const {
         if (!sums_.isTouched(v)) return {};
         ++counts.used;
@@ -282,11 +270,6 @@ class VertexFrames {
             frame.magnitude_t = meanLength(d.t, visits_[v]);
         }
         return frame;
-    }
-
-    void store(std::uint32_t v, const CornerFrame& frame) const {
-        const Vec4& t = frame.tangent;
-        storeFloat4(sums_.head(v), Float4{t.x, t.y, t.z, t.w});
     }
 
     void copyTangents(GroupRange range) const {

@@ -9,7 +9,6 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
-#include <optional>
 
 #include "core/add_row.h"
 #include "core/range_lists.h"
@@ -34,19 +33,7 @@ struct Sweep : WeldedMesh {
     const CornerSource& source;
     CornerTermsFunction terms;
     NodeSums& sums;
-    const RangeLists* lists = nullptr;  // of the ranges; null: there is one
-    bool asks = false;                  // for memory that is in no near cache
-};
-
-/// Triangles to compute. The numbers are the caller's own where they can be taken as they are.
-struct Block {
-    const std::uint32_t* vertices = nullptr;  // where data is read
-    const std::uint32_t* nodes = nullptr;     // where it is added
-    std::size_t count = 0;
-    bool is_whole = false;  // consecutive, and all their nodes are in the range
-    std::uint32_t own_vertices[kTermCorners];
-    std::uint32_t own_nodes[kTermCorners];
-    std::uint32_t triangles[kTermTriangles];  // their numbers; of a whole block the first one
+    bool asks = false;  // for memory that is in no near cache
 };
 
 /// One task's worth of ranges.
@@ -54,103 +41,56 @@ class Summer {
   public:
     explicit Summer(const Sweep& sweep) : sweep_(sweep), sums_(sweep.sums) {}
 
-    void run(std::size_t range, std::size_t first_node, std::size_t end_node, const FanRoom& room) {
+    void run(GroupRange range, RangeLists::Batches triangles, const FanRoom& room) {
         fan_room_ = room;
-        first_node_ = static_cast<std::uint32_t>(first_node);
-        node_count_ = static_cast<std::uint32_t>(end_node - first_node);
-        std::fill_n(sums_.nodes.data() + first_node_, node_count_, NodeSum{});
-        std::fill_n(sums_.marks.data() + first_node_, node_count_, std::uint16_t{kAllMarks});
-        if (!sums_.rest.empty()) std::fill_n(sums_.rest.data() + first_node_, node_count_, GroupRest{});
-        next_ = 0;
-        if (sweep_.lists != nullptr) entries_ = sweep_.lists->entries(range);
-        // One block is read, and memory asked for what it needs, before the one before it is computed.
-        Block blocks[2];
-        fill(blocks[0]);
-        for (std::size_t current = 0; blocks[current].count != 0; current ^= 1) {
-            fill(blocks[current ^ 1]);
-            compute(blocks[current]);
+        range_ = range;
+        std::fill_n(sums_.nodes.data() + range.begin, range.size(), NodeSum{});
+        std::fill_n(sums_.marks.data() + range.begin, range.size(), std::uint16_t{kAllMarks});
+        if (!sums_.rest.empty()) std::fill_n(sums_.rest.data() + range.begin, range.size(), GroupRest{});
+        // One batch is read, and memory asked for what it needs, before the one before it is computed.
+        TriangleBatch batches[2];
+        bool more = read(triangles, batches[0]);
+        for (std::size_t current = 0; more; current ^= 1) {
+            more = read(triangles, batches[current ^ 1]);
+            compute(batches[current]);
         }
     }
 
   private:
-    [[nodiscard]] bool owns(std::uint32_t node) const { return node - first_node_ < node_count_; }
-
-    /// The next triangles.
-    void fill(Block& block) {
-        block.count = 0;
-        if (sweep_.lists == nullptr) {
-            fillWhole(block, next_);
-            next_ += kTermTriangles;
-            return;
-        }
-        constexpr std::uint32_t kBlock = RangeLists::kBlock;
-        if (next_ < entries_.size() && (entries_[next_] & kBlock) != 0) {
-            fillWhole(block, std::size_t{entries_[next_++] & ~kBlock} * kTermTriangles);
-            return;
-        }
-        while (block.count < kTermTriangles && next_ < entries_.size() && (entries_[next_] & kBlock) == 0)
-            block.triangles[block.count++] = entries_[next_++];
-        block.is_whole = false;
-        withIndices(sweep_.mesh.indices, [&](auto vertexOf) {
-            std::uint32_t* to = block.own_vertices;
-            for (std::size_t t = 0; t < block.count; ++t, to += 3) {
-                const std::size_t first = 3 * std::size_t{block.triangles[t]};
-                for (std::size_t k = 0; k < 3; ++k) to[k] = vertexOf(sweep_.triangles.corner(first + k));
-            }
-        });
-        block.vertices = block.own_vertices;
-        finish(block);
-    }
-
-    void fillWhole(Block& block, std::size_t first) {
-        if (first >= sweep_.triangles.count) return;
-        block.count = std::min(kTermTriangles, sweep_.triangles.count - first);
-        block.is_whole = true;
-        block.triangles[0] = static_cast<std::uint32_t>(first);
-        block.vertices = readTriangles(sweep_.mesh, sweep_.triangles, first, block.count, block.own_vertices);
-        finish(block);
-    }
-
-    /// Looks up the nodes.
-    void finish(Block& block) {
-        const Nodes& map = sweep_.nodes;
-        if (block.count == 0) return;
-        block.nodes = map.ofVertices(block.vertices, 3 * block.count, block.own_nodes);
-        if (map.mixed) {
-            for (std::size_t i = 0; i < 3 * block.count; ++i) block.own_vertices[i] = map.vertex(block.nodes[i]);
-            block.vertices = block.own_vertices;
-        }
-        block.vertices = fillGroup(block.vertices, block.count, kTermGroup, block.own_vertices);
-        if (sweep_.asks) askFor(block);
+    bool read(RangeLists::Batches& triangles, TriangleBatch& batch) {
+        if (!triangles.next(batch)) return false;
+        batch.vertices = fillGroup(batch.vertices, batch.count, kTermGroup, batch.own_vertices);
+        if (sweep_.asks) askFor(batch);
+        return true;
     }
 
     /// Inlined by force: GCC 12 sees a function that only asks for memory as one without effect, and drops
     /// calls to it.
-    [[gnu::always_inline]] void askFor(const Block& block) const {
+    [[gnu::always_inline]] void askFor(const TriangleBatch& batch) const {
         const CornerSource& source = sweep_.source;
-        for (std::size_t i = 0; i < 3 * block.count; ++i) {
-            __builtin_prefetch(&sums_.nodes[block.nodes[i]], 1, kSecondCache);
-            __builtin_prefetch(source.positions + source.position_stride * block.vertices[i], 0, kSecondCache);
-            __builtin_prefetch(source.normals + source.normal_stride * block.vertices[i], 0, kSecondCache);
-            __builtin_prefetch(source.uvs + source.uv_stride * block.vertices[i], 0, kSecondCache);
+        for (std::size_t i = 0; i < 3 * batch.count; ++i) {
+            __builtin_prefetch(&sums_.nodes[batch.groups[i]], 1, kSecondCache);
+            __builtin_prefetch(source.positions + source.position_stride * batch.vertices[i], 0, kSecondCache);
+            __builtin_prefetch(source.normals + source.normal_stride * batch.vertices[i], 0, kSecondCache);
+            __builtin_prefetch(source.uvs + source.uv_stride * batch.vertices[i], 0, kSecondCache);
         }
     }
 
-    void compute(const Block& block) {
-        sweep_.terms(sweep_.source, block.vertices, block.count, terms_);
+    void compute(const TriangleBatch& batch) {
+        sweep_.terms(sweep_.source, batch.vertices, batch.count, terms_);
         const auto kindOf = [&](std::size_t t) { return static_cast<TriangleKind>(terms_.marks[0][t] >> 8); };
         TriangleKind* const kinds = sums_.kinds.data();
-        const std::size_t first = block.triangles[0], whole_count = block.is_whole ? block.count : 0;
+        const std::size_t first = batch.numbers[0], whole_count = batch.is_whole ? batch.count : 0;
         for (std::size_t t = 0; t < whole_count; ++t) kinds[first + t] = kindOf(t);
-        for (std::size_t t = 0; !block.is_whole && t < block.count; ++t) {
-            if (owns(block.nodes[3 * t])) kinds[block.triangles[t]] = kindOf(t);
+        for (std::size_t t = 0; !batch.is_whole && t < batch.count; ++t) {
+            if (range_.has(batch.groups[3 * t])) kinds[batch.number(t)] = kindOf(t);
         }
         if (sweep_.source.weighting == Weighting::none) {
-            add<Sums::none>(block);
+            add<Sums::none>(batch);
         } else if (sums_.rest.empty()) {
-            add<Sums::tangents>(block);
+            add<Sums::tangents>(batch);
         } else {
-            add<Sums::all>(block);
+            add<Sums::all>(batch);
         }
     }
 
@@ -163,11 +103,12 @@ class Summer {
     };
 
     template <Sums kSums>
-    void add(const Block& block) {
+    void add(const TriangleBatch& batch) {
         const Target to{sums_.nodes.data(), sums_.marks.data()};
-        const bool is_whole = block.is_whole;
-        for (std::size_t t = 0; t < block.count; ++t) {
-            const std::uint32_t* n = block.nodes + 3 * t;
+        const bool is_whole = batch.is_whole;
+        const GroupRange range = range_;
+        for (std::size_t t = 0; t < batch.count; ++t) {
+            const std::uint32_t* n = batch.groups + 3 * t;
             if ((terms_.marks[0][t] & (kDegenerateMark | kNoUvArea)) != 0) [[unlikely]] {
                 addUnusual(n, (terms_.marks[0][t] & kDegenerateMark) != 0);
                 continue;
@@ -179,16 +120,16 @@ class Summer {
                 to.marks[node] = static_cast<std::uint16_t>(to.marks[node] & terms_.marks[k][t]);
                 to.nodes[node].fan.add(next, previous, fan_room_);
             };
-            if (is_whole || owns(a)) addCorner(0, a, b, c);
-            if (is_whole || owns(b)) addCorner(1, b, c, a);
-            if (is_whole || owns(c)) addCorner(2, c, a, b);
+            if (is_whole || range.has(a)) addCorner(0, a, b, c);
+            if (is_whole || range.has(b)) addCorner(1, b, c, a);
+            if (is_whole || range.has(c)) addCorner(2, c, a, b);
         }
     }
 
     /// Triangles that add nothing to the sums. Nodes of degenerate ones are left to the vertex path.
     void addUnusual(const std::uint32_t* n, bool degenerate) {
         for (std::size_t k = 0; k < 3; ++k) {
-            if (!owns(n[k])) continue;
+            if (!range_.has(n[k])) continue;
             if (degenerate) {
                 sums_.marks[n[k]] = 0;
             } else {
@@ -200,12 +141,9 @@ class Summer {
     const Sweep& sweep_;
     NodeSums& sums_;
     FanRoom fan_room_{nullptr, 0};
-    std::uint32_t first_node_ = 0, node_count_ = 0;
-    std::span<const std::uint32_t> entries_;
-    std::size_t next_ = 0;  // triangle or entry to read
+    GroupRange range_;
     CornerTerms terms_;
 };
-
 /// Of the triangles of a sample, how many test(t) says yes to, of 1024.
 template <class Test>
 std::size_t outOf1024(std::size_t count, const Test& test) {
@@ -243,17 +181,40 @@ unsigned rangeShift(const Sweep& sweep, unsigned width) {
 
 }  // namespace
 
+const std::uint32_t* MeshTriangles::inPlace(std::size_t first, std::size_t) const {
+    const bool is_own = in_.nodes.of_vertex.empty() && in_.triangles.corners.empty() && kinds_ == nullptr;
+    if (!is_own || in_.mesh.indices.type != IndexType::u32) return nullptr;
+    return static_cast<const std::uint32_t*>(in_.mesh.indices.data) + 3 * first;
+}
+
 void MeshTriangles::read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const {
-    const std::uint32_t* const found = readTriangles(in_.mesh, in_.triangles, first, size, groups);
-    if (vertices != nullptr) std::copy_n(found, 3 * size, vertices);
-    const std::uint32_t* const nodes = in_.nodes.ofVertices(found, 3 * size, groups);
-    if (nodes != groups) std::copy_n(nodes, 3 * size, groups);
-    if (vertices != nullptr && in_.nodes.mixed) {
-        for (std::size_t i = 0; i < 3 * size; ++i) vertices[i] = in_.nodes.vertex(groups[i]);
-    }
+    finish(readTriangles(in_.mesh, in_.triangles, first, size, groups), size, vertices, groups);
     for (std::size_t t = 0; kinds_ != nullptr && t < size; ++t) {
         if ((kinds_[first + t] & kDegenerateUv) != 0) std::fill_n(groups + 3 * t, 3, kNone);
     }
+}
+
+void MeshTriangles::readSome(const std::uint32_t* numbers, std::size_t size, std::uint32_t* vertices,
+                             std::uint32_t* groups) const {
+    withIndices(in_.mesh.indices, [&](auto vertexOf) {
+        for (std::size_t t = 0; t < size; ++t) {
+            const std::size_t first = 3 * std::size_t{numbers[t]};
+            for (std::size_t k = 0; k < 3; ++k) groups[3 * t + k] = vertexOf(in_.triangles.corner(first + k));
+        }
+    });
+    finish(groups, size, vertices, groups);
+    for (std::size_t t = 0; kinds_ != nullptr && t < size; ++t) {
+        if ((kinds_[numbers[t]] & kDegenerateUv) != 0) std::fill_n(groups + 3 * t, 3, kNone);
+    }
+}
+
+void MeshTriangles::finish(const std::uint32_t* found, std::size_t size, std::uint32_t* vertices,
+                           std::uint32_t* groups) const {
+    if (vertices != nullptr) std::copy_n(found, 3 * size, vertices);
+    const std::uint32_t* const nodes = in_.nodes.ofVertices(found, 3 * size, groups);
+    if (nodes != groups) std::copy_n(nodes, 3 * size, groups);
+    for (std::size_t i = 0; vertices != nullptr && in_.nodes.mixed && i < 3 * size; ++i)
+        vertices[i] = in_.nodes.vertex(groups[i]);
 }
 
 bool sumCannotSplit(const float* sum, std::uint32_t marks, const Vec3& normal) {
@@ -283,24 +244,20 @@ void sumNodes(const WeldedMesh& welded, const CornerSource& source, CornerTermsF
     Sweep sweep{welded, source, terms, sums};
     sums.scattered = isScattered(sweep);
     const unsigned shift = range_shift != 0 ? range_shift : rangeShift(sweep, parallel.width());
-    const std::size_t ranges = ((node_count - 1) >> shift) + 1;
     sweep.asks = sums.scattered && shift > kScatteredShift;
-    std::optional<RangeLists> range_lists;
-    if (ranges > 1) {
-        range_lists.emplace(MeshTriangles(welded, nullptr), kTermTriangles, node_count, std::size_t{1} << shift,
-                            transient.allocator(), parallel);
-        sweep.lists = &*range_lists;
-    }
-    const std::size_t tasks = std::min<std::size_t>(ranges, parallel.width());
-    const std::size_t fans_each = std::min(node_count, std::size_t{1} << shift) / kManyShare + 64;
+    const MeshTriangles by_node(welded, nullptr);
+    const RangeLists lists(by_node, kTermTriangles, node_count, std::size_t{1} << shift, transient.allocator(),
+                           parallel);
+    const std::size_t ranges = lists.count(), tasks = std::min<std::size_t>(ranges, parallel.width());
+    const std::size_t fans_each = lists.range(0).size() / kManyShare + 64;
     Buffer<ManyPaths> many_paths(transient.allocator(), tasks * fans_each);
     std::atomic<std::size_t> next{0};
     parallel.forTasks(tasks, [&](std::size_t task) {
         Summer summer(sweep);
-        for (std::size_t range = next++; range < ranges; range = next++) {
-            const std::size_t end = std::min((range + 1) << shift, node_count);
-            summer.run(range, range << shift, end, {many_paths.data() + task * fans_each, fans_each});
-            if (ranges > 1) finish(range << shift, end);
+        for (std::size_t index = next++; index < ranges; index = next++) {
+            const GroupRange range = lists.range(index);
+            summer.run(range, {by_node, lists, index}, {many_paths.data() + task * fans_each, fans_each});
+            if (ranges > 1) finish(range.begin, range.end);
         }
     });
     std::uint32_t degenerate = 0, no_uv_area = 0, mirrored = 0;

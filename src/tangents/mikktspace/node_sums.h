@@ -79,8 +79,14 @@ class MeshTriangles final : public TriangleGroups {
     MeshTriangles(const WeldedMesh& welded, const TriangleKind* kinds)
         : TriangleGroups(welded.triangles.count), in_(welded), kinds_(kinds) {}
     void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const override;
+    void readSome(const std::uint32_t* numbers, std::size_t size, std::uint32_t* vertices,
+                  std::uint32_t* groups) const override;
+    [[nodiscard]] const std::uint32_t* inPlace(std::size_t first, std::size_t size) const override;
 
   private:
+    /// From the vertices that were found.
+    void finish(const std::uint32_t* found, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const;
+
     const WeldedMesh& in_;
     const TriangleKind* kinds_;
 };
