@@ -18,33 +18,6 @@ namespace tspace::mikk {
 inline constexpr std::size_t kCollectBlock = 64;                 ///< triangles, a bit each
 inline constexpr std::size_t kBlockCorners = 3 * kCollectBlock;  ///< of the mesh
 
-/// The numbers of the bits that are set, ascending: bitsOf(block) has kCollectBlock of them for each block.
-template <class BitsOf>
-Buffer<std::uint32_t> collectBits(std::size_t block_count, const BitsOf& bitsOf, const Allocator* allocator,
-                                  Parallel& parallel) {
-    constexpr std::size_t kGrain = 256;  // blocks
-    if (block_count == 0) return {};
-    Buffer<std::uint64_t> passed(allocator, block_count);
-    Buffer<std::uint32_t> ends(allocator, block_count);  // first how many, then where they end
-    parallel.forRanges(block_count, kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t block = begin; block < end; ++block) {
-            passed[block] = bitsOf(block);
-            ends[block] = static_cast<std::uint32_t>(std::popcount(passed[block]));
-        }
-    });
-    for (std::size_t block = 1; block < block_count; ++block) ends[block] += ends[block - 1];
-    Buffer<std::uint32_t> found(allocator, ends[block_count - 1]);
-    parallel.forRanges(block_count, kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t block = begin; block < end; ++block) {
-            std::uint32_t* to = found.data() + (block == 0 ? 0 : ends[block - 1]);
-            for (std::uint64_t bits = passed[block]; bits != 0; bits &= bits - 1)
-                *to++ = static_cast<std::uint32_t>(kCollectBlock * block +
-                                                   static_cast<std::size_t>(std::countr_zero(bits)));
-        }
-    });
-    return found;
-}
-
 /// 0, 1, 2, ...
 inline Buffer<std::uint32_t> numbersBelow(std::size_t count, const Allocator* allocator) {
     Buffer<std::uint32_t> numbers(allocator, count);
@@ -76,7 +49,28 @@ Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList&
             bits |= std::uint64_t{(marked[t] & mask) != 0 ? 1u : 0u} << t;
         return bits;
     };
-    return collectBits((triangles.count + kCollectBlock - 1) / kCollectBlock, bitsOf, allocator, parallel);
+    constexpr std::size_t kGrain = 256;  // blocks
+    const std::size_t block_count = (triangles.count + kCollectBlock - 1) / kCollectBlock;
+    if (block_count == 0) return {};
+    Buffer<std::uint64_t> passed(allocator, block_count);
+    Buffer<std::uint32_t> ends(allocator, block_count);  // first how many, then where they end
+    parallel.forRanges(block_count, kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t block = begin; block < end; ++block) {
+            passed[block] = bitsOf(block);
+            ends[block] = static_cast<std::uint32_t>(std::popcount(passed[block]));
+        }
+    });
+    for (std::size_t block = 1; block < block_count; ++block) ends[block] += ends[block - 1];
+    Buffer<std::uint32_t> found(allocator, ends[block_count - 1]);
+    parallel.forRanges(block_count, kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t block = begin; block < end; ++block) {
+            std::uint32_t* to = found.data() + (block == 0 ? 0 : ends[block - 1]);
+            for (std::uint64_t bits = passed[block]; bits != 0; bits &= bits - 1)
+                *to++ = static_cast<std::uint32_t>(kCollectBlock * block +
+                                                   static_cast<std::size_t>(std::countr_zero(bits)));
+        }
+    });
+    return found;
 }
 
 }  // namespace tspace::mikk

@@ -76,7 +76,7 @@ EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, 
     listVertices(nodes, allocator);
     const Buffer<std::uint32_t> all = numbersBelow(nodes.count, allocator);
     const NodeSetting setting{{mesh, triangles, nodes}, options, bucket, {}};
-    EvaluationPlan plan = planChosen({setting, {all.data(), all.size()}, nullptr, parallel}, PlanUse::kept);
+    EvaluationPlan plan = planChosen({setting, {all.data(), all.size()}, true, parallel}, PlanUse::kept);
     plan.skipped_corners = std::move(triangles.skipped_corners);
     plan.report.triangle_count = triangles.count;
     plan.report.skipped_face_count = triangles.skipped_face_count;

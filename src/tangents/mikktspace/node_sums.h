@@ -2,7 +2,6 @@
 // The sums of all nodes, by one sweep over the triangles.
 #pragma once
 
-#include <cstring>
 #include <functional>
 
 #include "core/float4.h"
@@ -41,14 +40,6 @@ struct NodeSums {
     /// The sum of a node.
     [[nodiscard]] float* row(std::size_t node) { return nodes[node].s; }
     [[nodiscard]] const float* row(std::size_t node) const { return nodes[node].s; }
-
-    /// When all results are written, rows may hold numbers.
-    [[nodiscard]] std::uint32_t number(std::size_t node) const {
-        std::uint32_t number = 0;
-        std::memcpy(&number, row(node), sizeof number);
-        return number;
-    }
-    void setNumber(std::size_t node, std::uint32_t number) { std::memcpy(row(node), &number, sizeof number); }
 
     /// Whether no triangle adds to the node: there are none, or all have degenerate UVs.
     [[nodiscard]] bool isEmpty(std::size_t node) const {

@@ -84,7 +84,7 @@ class OnePass {
     TangentReport writeAll() {
         for (const std::uint32_t c : in_.triangles.skipped_corners) sink_.clear(c);
         const Buffer<std::uint32_t> all = numbersBelow(in_.nodes.count, allocator_);
-        return writeNodes({in_, {all.data(), all.size()}, nullptr, parallel_});
+        return writeNodes({in_, {all.data(), all.size()}, true, parallel_});
     }
 
     TangentReport passOverTriangles() {
@@ -111,12 +111,12 @@ class OnePass {
 
     TangentReport writeSums() {
         writeCorners();
-        // Only the nodes' own places are read from here on.
+        sums_.nodes = {};
         sums_.marks = {};
         sums_.rest = {};
         if (complex_count_ == 0) return {};
         const Buffer<std::uint32_t> chosen = complexNodes();
-        return writeNodes({in_, {chosen.data(), chosen.size()}, &sums_, parallel_});
+        return writeNodes({in_, {chosen.data(), chosen.size()}, false, parallel_});
     }
 
     /// Complex nodes are planned first, since a step reads the results of all groups around.
@@ -124,7 +124,7 @@ class OnePass {
         EvaluationPlan plan;
         if (complex_count_ != 0) {
             const Buffer<std::uint32_t> chosen = complexNodes();
-            plan = planChosen({in_, {chosen.data(), chosen.size()}, &sums_, parallel_}, PlanUse::once);
+            plan = planChosen({in_, {chosen.data(), chosen.size()}, false, parallel_}, PlanUse::once);
         }
         GroupSums estimates = estimateGroupsWith(plan);
         finishInRanges(

@@ -25,12 +25,13 @@ class CornerReader {
           source_(source),
           terms_(cornerTermsFor(in_.options.execution.simd)),
           allocator_(in_.options.execution.allocator),
+          by_node_(in_, nullptr),
           to_(allocator_),
           good_(allocator_) {}
 
     VertexCorners run() {
-        if (path_.sums != nullptr) to_.found = aroundChosen();
-        count_ = path_.sums != nullptr ? to_.found.size() : in_.triangles.count;
+        if (!path_.are_all) findTriangles();
+        count_ = path_.are_all ? in_.triangles.count : to_.found.size();
         readTriangles();
         if (!in_.triangles.faces.empty()) uniteFaces();
         countCorners();
@@ -41,29 +42,19 @@ class CornerReader {
     }
 
   private:
-    Buffer<std::uint32_t> aroundChosen() {
+    void findTriangles() {
+        place_of_ = Buffer<std::uint32_t>(allocator_, in_.nodes.count, kNone);
         for (std::size_t i = 0; i < path_.chosen.size(); ++i)
-            path_.sums->setNumber(path_.chosen[i], static_cast<std::uint32_t>(i));
-        Marks at_nodes = noMarks(allocator_, in_.nodes.count);
-        for (const std::uint32_t node : path_.chosen) at_nodes[node] = 1;
-        const Nodes& nodes = in_.nodes;
-        return collectTriangles(
-            in_.mesh, in_.triangles, [&](std::uint32_t v) { return at_nodes[nodes.ofVertex(v)]; }, 1, allocator_,
-            path_.parallel);
-    }
-
-    /// A node's row holds its number in `chosen` from here on; what it held before is no such number, or that of
-    /// another node.
-    [[nodiscard]] std::uint32_t placeOf(std::uint32_t node) const {
-        const std::uint32_t number = path_.sums->number(node);
-        return number < path_.chosen.size() && path_.chosen[number] == node
-                   ? number
-                   : static_cast<std::uint32_t>(path_.chosen.size());
+            place_of_[path_.chosen[i]] = static_cast<std::uint32_t>(i);
+        const auto markOf = [places = place_of_.data(), nodes = in_.nodes.of_vertex.data()](std::uint32_t vertex) {
+            return ~places[nodes == nullptr ? vertex : nodes[vertex]];
+        };
+        to_.found = collectTriangles(in_.mesh, in_.triangles, markOf, ~0u, allocator_, path_.parallel);
     }
 
     void readTriangles() {
         to_.nodes = Buffer<std::uint32_t>(allocator_, 3 * count_);
-        if (path_.sums != nullptr) to_.places = Buffer<std::uint32_t>(allocator_, 3 * count_);
+        if (!path_.are_all) to_.places = Buffer<std::uint32_t>(allocator_, 3 * count_);
         to_.flags = Buffer<std::uint8_t>(allocator_, count_);
         to_.terms = Buffer<CornerTerms>(allocator_, (count_ + kTermTriangles - 1) / kTermTriangles);
         path_.parallel.forRanges(to_.terms.size(), kBlockGrain, [&](std::size_t begin, std::size_t end) {
@@ -78,19 +69,17 @@ class CornerReader {
 
     void readBlock(std::size_t block) {
         const std::size_t begin = block * kTermTriangles, count = std::min(kTermTriangles, count_ - begin);
-        std::uint32_t vertices[kTermCorners];
-        if (to_.found.empty()) {
-            const std::uint32_t* read = mikk::readTriangles(in_.mesh, in_.triangles, begin, count, vertices);
-            if (read != vertices) std::copy_n(read, 3 * count, vertices);
+        std::uint32_t vertices[kTermCorners], *nodes = to_.nodes.data() + 3 * begin;
+        if (path_.are_all) {
+            by_node_.read(begin, count, vertices, nodes);
         } else {
-            for (std::size_t t = 0; t < count; ++t) {
-                const std::size_t first = 3 * std::size_t{to_.found[begin + t]};
-                for (std::size_t k = 0; k < 3; ++k) vertices[3 * t + k] = in_.vertexAt(first + k);
-            }
+            by_node_.readSome(to_.found.data() + begin, count, vertices, nodes);
+            const auto nowhere = static_cast<std::uint32_t>(path_.chosen.size());
+            for (std::size_t i = 0; i < 3 * count; ++i)
+                to_.places[3 * begin + i] = std::min(place_of_[nodes[i]], nowhere);
         }
         // The rest of the block may be any vertex; a block has one triangle at least.
         std::fill(vertices + 3 * count, vertices + kTermCorners, vertices[0]);
-        readNodes(3 * begin, 3 * count, vertices);
         CornerTerms& terms = to_.terms[block];
         terms_(source_, vertices, count, terms);
         std::uint8_t* flags = to_.flags.data() + begin;
@@ -106,16 +95,6 @@ class CornerReader {
             storeFloat4(terms.t[3 * t + k], loadFloat4(kNothing));
             terms.lengths_t[k][t] = kNothing[0];
         }
-    }
-
-    /// And takes those vertices whose data stand for the nodes.
-    void readNodes(std::size_t first, std::size_t count, std::uint32_t* vertices) {
-        const Nodes& map = in_.nodes;
-        std::uint32_t* nodes = to_.nodes.data() + first;
-        if (map.ofVertices(vertices, count, nodes) == vertices) std::copy_n(vertices, count, nodes);
-        for (std::size_t i = 0; map.mixed && i < count; ++i) vertices[i] = map.vertex(nodes[i]);
-        if (to_.places.empty()) return;
-        for (std::size_t i = 0; i < count; ++i) to_.places[first + i] = placeOf(nodes[i]);
     }
 
     /// Corners of all triangles but degenerate ones.
@@ -308,9 +287,11 @@ class CornerReader {
     const CornerSource& source_;
     CornerTermsFunction terms_;
     const Allocator* allocator_;
+    MeshTriangles by_node_;
     VertexCorners to_;
-    std::size_t count_ = 0;        // of triangles
-    Growing<std::uint32_t> good_;  // of one face
+    Buffer<std::uint32_t> place_of_;  // of each node, its number in `chosen`, or kNone
+    std::size_t count_ = 0;           // of triangles
+    Growing<std::uint32_t> good_;     // of one face
 };
 
 }  // namespace

@@ -34,7 +34,7 @@ struct VertexPath {
     /// unless no other triangle is there, and those of degenerate triangles and of faces whose triangles do not simply
     /// agree (node_sums.cpp).
     std::span<const std::uint32_t> chosen;
-    NodeSums* sums = nullptr;  ///< the rows are used; null: `chosen` are all nodes
+    bool are_all = false;  ///< `chosen` are all nodes
     Parallel& parallel;
 };
 
