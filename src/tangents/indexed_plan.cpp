@@ -35,21 +35,13 @@ void cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator, Ind
     plan.face_begins[mesh.faceCount()] = static_cast<std::uint32_t>(mesh.cornerCount());
 }
 
-void keepIndices(const Allocator* allocator, Parallel& parallel, IndexedPlan& plan) {
-    const IndexView from = plan.corner_vertices;
-    plan.kept_vertices = Buffer<std::uint32_t>(allocator, from.count);
+/// Copies what the plan looks at.
+template <class View, class T>
+void keep(const View& from, Buffer<T>& kept, const Allocator* allocator, Parallel& parallel) {
+    kept = Buffer<T>(allocator, from.count);
     parallel.forRanges(from.count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) plan.kept_vertices[c] = from[c];
+        for (std::size_t i = begin; i < end; ++i) kept[i] = from[i];
     });
-    plan.corner_vertices = {plan.kept_vertices.data(), from.count, IndexType::u32};
-}
-
-void keepUvs(const Allocator* allocator, Parallel& parallel, IndexedPlan& plan) {
-    plan.kept_uvs = Buffer<Vec2>(allocator, plan.uvs.count);
-    parallel.forRanges(plan.uvs.count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v) plan.kept_uvs[v] = plan.uvs[v];
-    });
-    plan.uvs = {plan.kept_uvs.data(), plan.kept_uvs.size()};
 }
 
 void countUvs(Parallel& parallel, IndexedPlan& plan) {
@@ -110,8 +102,11 @@ IndexedPlan planIndexed(const MeshView& mesh, const TangentOptions& options, Par
     plan.corner_vertices.count = mesh.cornerCount();
     if (plan.method != Method::basis) plan.uvs = mesh.uvs;
     if (use == PlanUse::kept) {
-        keepIndices(allocator, parallel, plan);
-        keepUvs(allocator, parallel, plan);
+        keep(plan.corner_vertices, plan.kept_vertices, allocator, parallel);
+        keep(plan.uvs, plan.kept_uvs, allocator, parallel);
+        plan.corner_vertices.data = plan.kept_vertices.data();
+        plan.corner_vertices.type = IndexType::u32;
+        plan.uvs = {plan.kept_uvs.data(), plan.kept_uvs.size()};
     }
     cutFaces(mesh, options.ngons, allocator, plan);
     plan.report.triangle_count = plan.triangleCount();

@@ -90,7 +90,7 @@ Grouping::Grouping(const VertexPath& path, VertexCorners& corners)
     const Allocator* allocator = path.setting.options.execution.allocator;
     for (std::size_t place = 0; place < chosen_.size(); ++place)
         largest_ = std::max(largest_, static_cast<std::uint32_t>(corners.around(place).size()));
-    if (corners.no_uv_area_count == 0) return;
+    if (corners.report.degenerate_uv_count == 0) return;
     findContested(allocator);
     if (!contested_.empty()) spreadContested(allocator);
 }

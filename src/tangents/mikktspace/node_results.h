@@ -64,7 +64,7 @@ struct PlanSource {
 };
 
 /// The plan of some nodes. Skipped corners are left out, and corners of degenerate triangles; of these, the report has
-/// only groups and default corners. Throws OutOfMemory.
+/// no default corners. Throws OutOfMemory.
 EvaluationPlan planNodes(const PlanSource& source);
 
 }  // namespace tspace::mikk

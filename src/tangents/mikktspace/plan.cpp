@@ -44,6 +44,7 @@ class Planner {
           default_corners_(allocator_) {}
 
     EvaluationPlan run() {
+        to_.report = corners_.report;
         to_.method = from_.path.setting.options.method;
         to_.refine = from_.path.setting.options.refine;
         to_.convention = from_.path.setting.options.convention;

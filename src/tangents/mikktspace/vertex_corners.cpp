@@ -35,9 +35,8 @@ class CornerReader {
         readTriangles();
         if (!in_.triangles.faces.empty()) uniteFaces();
         countCorners();
-        makeRoom();
         placeCorners();
-        if (to_.degenerate_count != 0) planCopies();
+        if (to_.report.degenerate_triangle_count != 0) planCopies();
         return std::move(to_);
     }
 
@@ -61,9 +60,9 @@ class CornerReader {
             for (std::size_t block = begin; block < end; ++block) readBlock(block);
         });
         for (const std::uint8_t flags : to_.flags) {
-            to_.degenerate_count += flags == kDegenerate ? 1 : 0;
-            to_.no_uv_area_count += flags == kAny ? 1 : 0;
-            to_.mirrored_count += flags == 0 ? 1 : 0;
+            to_.report.degenerate_triangle_count += flags == kDegenerate ? 1 : 0;
+            to_.report.degenerate_uv_count += flags == kAny ? 1 : 0;
+            to_.report.mirrored_count += flags == 0 ? 1 : 0;
         }
     }
 
@@ -97,13 +96,13 @@ class CornerReader {
         }
     }
 
-    /// Corners of all triangles but degenerate ones.
+    /// Corners of all triangles but degenerate ones; and makes room for them.
     void countCorners() {
-        const std::size_t place_count = path_.chosen.size() + 1;
-        to_.facing = noMarks(allocator_, place_count);
-        to_.end = Buffer<std::uint32_t>(allocator_, place_count, 0u);
+        const std::size_t chosen_count = path_.chosen.size();
+        to_.facing = noMarks(allocator_, chosen_count + 1);
+        to_.begin = Buffer<std::uint32_t>(allocator_, chosen_count + 3, 0u);
         std::uint8_t* facing = to_.facing.data();
-        std::uint32_t* sizes = to_.end.data();
+        std::uint32_t *begin = to_.begin.data(), *sizes = begin + 2;
         const std::uint8_t* flags = to_.flags.data();
         const std::uint32_t* places = to_.placesOf(0);
         const std::size_t count = count_;
@@ -115,26 +114,17 @@ class CornerReader {
                 facing[places[k]] |= here;
             }
         }
-        facing[place_count - 1] = 0;
-    }
-
-    void makeRoom() {
-        const std::size_t place_count = path_.chosen.size();
-        to_.begin = Buffer<std::uint32_t>(allocator_, place_count);
-        std::uint32_t *begin = to_.begin.data(), *end = to_.end.data(), sum = 0;
-        for (std::size_t place = 0; place < place_count; ++place) {
-            const std::uint32_t size = end[place];
-            begin[place] = end[place] = sum;
-            sum += size;
-        }
-        to_.corners = Buffer<NodeCorner>(allocator_, sum);
+        facing[chosen_count] = 0;
+        // Now begin[place + 1] becomes where the place begins, and by placing corners where it ends.
+        for (std::size_t place = 0; place < chosen_count; ++place) begin[place + 2] += begin[place + 1];
+        to_.corners = Buffer<NodeCorner>(allocator_, begin[chosen_count + 1]);
     }
 
     void placeCorners() {
         const auto nowhere = static_cast<std::uint32_t>(path_.chosen.size());
         const std::uint32_t* slots = in_.triangles.corners.empty() ? nullptr : in_.triangles.corners.data();
         const std::uint32_t* found = to_.found.empty() ? nullptr : to_.found.data();
-        std::uint32_t* ends = to_.end.data();
+        std::uint32_t* ends = to_.begin.data() + 1;
         NodeCorner* corners = to_.corners.data();
         for (std::size_t begin = 0; begin < count_; begin += kTermTriangles) {
             const CornerTerms& terms = to_.terms[begin / kTermTriangles];
@@ -164,8 +154,8 @@ class CornerReader {
         return static_cast<std::uint8_t>((flags & kAny) != 0 ? 0 : facing);
     }
     static std::uint32_t orientationOf(std::uint8_t flags) {
-        const std::uint32_t orientation = (flags & kPositive) != 0 ? kIsUp : kIsDown;
-        return (flags & kAny) != 0 ? NodeCorner::kAddsNothing : orientation;
+        static_assert(kIsUp == kFacesUp << 16 && kIsDown == kFacesDown << 16);
+        return (flags & kAny) != 0 ? NodeCorner::kAddsNothing : std::uint32_t{facingOf(flags)} << 16;
     }
 
     static std::uint8_t flagsOf(std::uint32_t marks) {

@@ -80,7 +80,7 @@ TangentReport writeNodes(const VertexPath& path) {
         default_corners += counts.default_corners;
         left_count += left_here;
     });
-    TangentReport report;
+    TangentReport report = corners.report;
     if (left_count != 0 || !corners.copies.empty()) {
         EvaluationPlan plan =
             planNodes({path, corners, grouping, {left.data(), left.size()}, threshold_cosine, PlanUse::once});
@@ -88,9 +88,6 @@ TangentReport writeNodes(const VertexPath& path) {
         report = evaluateGroups(plan, {setting.mesh.positions, setting.mesh.normals}, setting.mesh.uvs, setting.out,
                                 setting.options.execution, path.parallel);
     }
-    report.degenerate_triangle_count = corners.degenerate_count;
-    report.degenerate_uv_count = corners.no_uv_area_count;
-    report.mirrored_count = corners.mirrored_count;
     report.group_count += groups;
     report.default_corner_count += default_corners;
     return report;
@@ -104,9 +101,6 @@ EvaluationPlan planChosen(const VertexPath& path, PlanUse use) {
     EvaluationPlan plan = planNodes({path, corners, grouping, {}, cosineOf(setting.options), use});
     Marks is_default = cornerMarks(path, corners);
     planCopies(corners.copies, is_default, allocator, plan);
-    plan.report.degenerate_triangle_count = corners.degenerate_count;
-    plan.report.degenerate_uv_count = corners.no_uv_area_count;
-    plan.report.mirrored_count = corners.mirrored_count;
     plan.triangles = std::move(corners.found);
     return plan;
 }

@@ -74,11 +74,11 @@ struct VertexCorners {
     // Three per triangle.
     Buffer<std::uint32_t> nodes;
     Buffer<std::uint32_t> places;  ///< numbers of their nodes in `chosen`, of others its size; empty: as `nodes`
-    std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;
+    TangentReport report;          ///< counts of triangles
 
     Buffer<NodeCorner> corners;  ///< node by node, ascending by triangle
     // One per chosen node.
-    Buffer<std::uint32_t> begin, end;  ///< its range of `corners`
+    Buffer<std::uint32_t> begin;  ///< of its range of `corners`, where that of the next one begins
     /// Which orientations the triangles that add to it have: kFacesUp, kFacesDown. One more, 0, for nodes
     /// that are not chosen.
     Marks facing;
@@ -88,7 +88,7 @@ struct VertexCorners {
     explicit VertexCorners(const Allocator* allocator) : copies(allocator) {}
 
     [[nodiscard]] std::span<const NodeCorner> around(std::size_t place) const {
-        return {corners.data() + begin[place], end[place] - begin[place]};
+        return {corners.data() + begin[place], begin[place + 1] - begin[place]};
     }
     [[nodiscard]] std::uint32_t triangleOf(std::size_t t) const {
         return found.empty() ? static_cast<std::uint32_t>(t) : found[t];
