@@ -256,9 +256,14 @@ class OnePass {
         bool any_replaced = false;
         for (std::size_t n = first; n < end; ++n) {
             if (isComplex(n)) continue;
-            const bool empty = sums_.isEmpty(n), is_default = empty || !notZero(tangentOf(n));
-            finishResult(n, is_default ? Vec3{1, 0, 0} : tangentOf(n), is_default);
-            if (empty || !is_default) continue;
+            float* const row = sums_.row(n);
+            const bool empty = sums_.isEmpty(n), is_default = empty || !notZero(vectorOf(row));
+            row[3] = sink_.sign(!empty && (sums_.marks[n] & kFacesUp) != 0);
+            if (!is_default) continue;
+            row[0] = 1;
+            row[1] = row[2] = 0;
+            if (!sums_.rest.empty()) sums_.rest[n] = restOf(Tangents{});
+            if (empty) continue;
             sums_.marks[n] |= kReplaced;
             any_replaced = true;
         }
@@ -313,7 +318,7 @@ class OnePass {
             simple &= (square > splat(0)) & (square < splat(__builtin_huge_valf()));
         }
         for (std::size_t i = 0; !sums_.rest.empty() && i < std::min<std::size_t>(left, 4); ++i)
-            finishRest(at[i], empty[i] != 0, nodes[at[i]].s[3]);
+            finishRest(sums_.rest[at[i]], empty[i] != 0, nodes[at[i]].s[3]);
         const Float4 inverse = splat(1) / sqrt4(square);
         const Mask4 negative = ~(marks & ~empty) << 31;  // the bit of kFacesUp becomes that of the sign
         const Float4 sign = std::bit_cast<Float4>(std::bit_cast<Mask4>(splat(sink_.sign(true))) ^ negative);
@@ -329,28 +334,8 @@ class OnePass {
         return {laneBits(~(simple | empty)) & ~missing, laneBits(empty) & ~missing};
     }
 
-    [[nodiscard]] Vec3 tangentOf(std::size_t n) const {
-        const float* row = sums_.row(n);
-        return {row[0], row[1], row[2]};
-    }
-
-    void finishResult(std::size_t n, const Vec3& s, bool is_default) {
-        float* sum = sums_.row(n);
-        if (!sums_.rest.empty()) finishRest(n, is_default, sum[3]);
-        const bool positive = !sums_.isEmpty(n) && (sums_.marks[n] & kFacesUp) != 0;
-        sum[0] = s.x;
-        sum[1] = s.y;
-        sum[2] = s.z;
-        sum[3] = sink_.sign(positive);  // from here on the sign
-    }
-
-    void finishRest(std::size_t node, bool is_default, float weight) {
-        GroupRest& rest = sums_.rest[node];
-        if (is_default) {
-            rest = restOf(Tangents{});
-        } else if (!estimates_) {
-            rest = restOf(sumOf({}, rest, weight).mean(false));
-        }
+    static void finishRest(GroupRest& rest, bool is_default, float weight) {
+        rest = restOf(is_default ? Tangents{} : sumOf({}, rest, weight).mean(false));
     }
 
     /// Those of complex nodes get what nobody needs.
