@@ -38,11 +38,11 @@ struct Welded {
         const LastBucket bucket = findLastBucket({mesh, triangles, nodes}, nullptr, nullptr, parallel);
         EXPECT_FALSE(bucket.abandoned);
         Links links;
-        for (std::size_t i = 0; i < bucket.half_edges.size(); ++i) {
-            links[bucket.half_edges[i]] = bucket.partners[i];
-            EXPECT_TRUE(i == 0 || bucket.half_edges[i - 1] < bucket.half_edges[i]);
-            const std::uint32_t first = bucket.half_edges[i] / 3 * 3;
-            for (const std::uint32_t end : {bucket.half_edges[i], first + (bucket.half_edges[i] + 1 - first) % 3}) {
+        for (const auto& [half_edge, partner] : bucket.links) {
+            EXPECT_TRUE(links.empty() || links.rbegin()->first < half_edge);
+            links[half_edge] = partner;
+            const std::uint32_t first = half_edge / 3 * 3;
+            for (const std::uint32_t end : {half_edge, first + (half_edge + 1 - first) % 3}) {
                 const std::uint32_t node = nodes.ofVertex(mesh.indices[triangles.corner(end)]);
                 EXPECT_TRUE(std::binary_search(bucket.nodes.begin(), bucket.nodes.end(), node));
             }

@@ -290,18 +290,17 @@ class BucketFinder {
 
     [[gnu::cold]] void listChanges(LastBucket& result, const Allocator* kept) {
         sortEdges(bucket_.begin(), bucket_.end(), false);
-        Growing<std::uint32_t> half_edges(kept), partners(kept), nodes(kept);
+        Growing<LastBucket::Link> links(kept);
+        Growing<std::uint32_t> nodes(kept);
         for (const BucketEdge& e : bucket_) {
             if (e.usual == e.partner) continue;
-            half_edges.push(e.half_edge);
-            partners.push(e.partner);
+            links.push({e.half_edge, e.partner});
             nodes.push(e.high_node);
         }
-        if (half_edges.empty()) return;
+        if (links.empty()) return;
         nodes.push(low_node_);
         sortList(nodes.begin(), nodes.end(), std::less<>());
-        result.half_edges = half_edges.exact();
-        result.partners = partners.exact();
+        result.links = links.exact();
         result.nodes = nodes.exact();
     }
 

@@ -16,18 +16,22 @@ namespace tspace::mikk {
 /// The links of the last bucket's half-edges, where they differ from those that linking by nodes finds. Empty for most
 /// meshes.
 struct LastBucket {
-    Buffer<std::uint32_t> half_edges;  ///< 3 * triangle + k, of the triangle list; ascending
-    Buffer<std::uint32_t> partners;    ///< one per half-edge; kNone: no neighbour
-    Buffer<std::uint32_t> nodes;       ///< ends of these edges, ascending; some more than once
-    bool abandoned = false;  ///< the input drives the reference's sort into quadratic time; links are not known
+    struct Link {
+        std::uint32_t half_edge;  ///< 3 * triangle + k, of the triangle list
+        std::uint32_t partner;    ///< kNone: no neighbour
+    };
+    Buffer<Link> links;           ///< by half-edges
+    Buffer<std::uint32_t> nodes;  ///< ends of these edges, ascending; some more than once
+    bool abandoned = false;       ///< the input drives the reference's sort into quadratic time; links are not known
 
     [[nodiscard]] bool concerns(std::uint32_t node) const {
         return !nodes.empty() && std::binary_search(nodes.begin(), nodes.end(), node);
     }
     /// Null when the half-edge keeps its usual link.
     [[nodiscard]] const std::uint32_t* partnerOf(std::uint32_t half_edge) const {
-        const std::uint32_t* at = std::lower_bound(half_edges.begin(), half_edges.end(), half_edge);
-        return at == half_edges.end() || *at != half_edge ? nullptr : partners.data() + (at - half_edges.begin());
+        const Link* at = std::lower_bound(links.begin(), links.end(), half_edge,
+                                          [](const Link& link, std::uint32_t h) { return link.half_edge < h; });
+        return at == links.end() || at->half_edge != half_edge ? nullptr : &at->partner;
     }
 };
 

@@ -221,15 +221,6 @@ class OnePass {
         }
     }
 
-    /// body(node), ascending.
-    template <class Body>
-    void forEachComplex(const Body& body) const {
-        for (std::size_t word = 0; word < complex_.size(); ++word) {
-            for (std::uint64_t bits = complex_[word]; bits != 0; bits &= bits - 1)
-                body(static_cast<std::uint32_t>(64 * word) + static_cast<std::uint32_t>(std::countr_zero(bits)));
-        }
-    }
-
     /// Turns the sums of simple nodes into results, in place, but for methods that estimate; finds the others. `first`: a
     /// multiple of 64.
     void finishNodes(std::size_t first, std::size_t end) {
@@ -281,7 +272,10 @@ class OnePass {
     [[nodiscard]] Buffer<std::uint32_t> complexNodes() const {
         Buffer<std::uint32_t> chosen(allocator_, complex_count_);
         std::size_t count = 0;
-        forEachComplex([&](std::uint32_t node) { chosen[count++] = node; });
+        for (std::size_t word = 0; word < complex_.size(); ++word) {
+            for (std::uint64_t bits = complex_[word]; bits != 0; bits &= bits - 1)
+                chosen[count++] = static_cast<std::uint32_t>(64 * word + static_cast<unsigned>(std::countr_zero(bits)));
+        }
         return chosen;
     }
 
