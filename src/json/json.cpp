@@ -35,12 +35,25 @@ Json Json::array(std::initializer_list<Json> values) {
     return result;
 }
 
-void Json::release() noexcept {
-    if (is_string()) {
-        delete value_.text;
-    } else {
-        delete value_.children;
+Json Json::object(std::initializer_list<Member> members) {
+    Json result(Kind::object);
+    Children& children = *result.value_.children;
+    for (const Member& member : members) {
+        children.names.emplace_back(member.name);
+        children.values.push_back(std::move(member.value));
     }
+    return result;
+}
+
+Json& Json::operator=(Json other) noexcept {
+    std::swap(kind_, other.kind_);
+    std::swap(value_, other.value_);
+    return *this;
+}
+
+Json::~Json() {
+    if (is_string()) delete value_.text;
+    if (is_structured()) delete value_.children;
 }
 
 void Json::failKind() { throw JsonError("a JSON value is not of the kind that is asked for"); }

@@ -54,6 +54,7 @@ inline constexpr std::size_t kMaxJsonDepth = 256;
 /// A value. Not safe to change while another thread reads it. Look-up of a member is linear, as objects are small.
 class Json {
   public:
+    struct Member;
     template <class Child>
     class Members;
     /// A container or a C array, but neither text nor a path.
@@ -91,18 +92,14 @@ class Json {
     Json(std::initializer_list<Json> values);
     Json(const Json& other);
     Json(Json&& other) noexcept : kind_(std::exchange(other.kind_, Kind::null)), value_(other.value_) {}
-    Json& operator=(Json other) noexcept {
-        std::swap(kind_, other.kind_);
-        std::swap(value_, other.value_);
-        return *this;
-    }
-    ~Json() {
-        if (kind_ >= Kind::text) release();
-    }
+    Json& operator=(Json other) noexcept;
+    ~Json();
 
     static Json array() { return Json(Kind::array); }
     static Json array(std::initializer_list<Json> values);
     static Json object() { return Json(Kind::object); }
+    /// The same as braces alone, without copies of values.
+    static Json object(std::initializer_list<Member> members);
 
     /// Throws JsonError: syntax, numbers that no double can hold, repeated members, nesting. `memory` may be null.
     static Json parse(std::string_view text, JsonMemory* memory = nullptr);
@@ -225,12 +222,17 @@ class Json {
     void become(Kind structured);
     [[nodiscard]] Json& element(std::size_t index);
     void eraseElement(std::size_t index);
-    void release() noexcept;
     [[nodiscard]] bool isEqual(const Json& other) const;
     [[nodiscard]] std::partial_ordering compare(const Json& other) const;
 
     Kind kind_;
     Value value_ = {};
+};
+
+/// A member of an object that is being made.
+struct Json::Member {
+    const char* name;
+    mutable Json value;  ///< is moved from
 };
 
 /// Members of an object: `key` and `value` of each, in order.

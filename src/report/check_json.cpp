@@ -6,7 +6,7 @@ namespace tspace::report {
 namespace {
 
 Json findingJson(const Finding& finding) {
-    return {
+    return Json::object({
         {"code", findingName(finding.code)},
         {"severity", severityName(finding.severity)},
         {"place", finding.place},
@@ -23,12 +23,12 @@ Json findingJson(const Finding& finding) {
         {"vertices", finding.vertices},
         {"message", finding.message},
         {"remedy", finding.remedy},
-    };
+    });
 }
 
 Json packedJson(const PackedFramesInfo& info) {
     const FrameErrorBound bound = frameErrorBound(info.format);
-    return {
+    return Json::object({
         {"place", info.place},
         {"attribute", info.attribute},
         {"format", frameFormatName(info.format)},
@@ -42,7 +42,7 @@ Json packedJson(const PackedFramesInfo& info) {
         {"promisedNormalDegrees", bound.normal_deg},
         {"promisedTangentDegrees", bound.tangent_deg},
         {"differingSigns", info.differing_sign_count},
-    };
+    });
 }
 
 Json checkedJson(const CheckOutcome& outcome) {
@@ -54,7 +54,8 @@ Json checkedJson(const CheckOutcome& outcome) {
     json["primitives"] = report.primitive_count;
     json["primitivesWithTangents"] = report.tangents_count;
     json["normalMaps"] = report.image_count;
-    json["counts"] = {{"error", report.error_count}, {"warning", report.warning_count}, {"note", report.note_count}};
+    json["counts"] =
+        Json::object({{"error", report.error_count}, {"warning", report.warning_count}, {"note", report.note_count}});
     json["packedFrames"] = listJson(report.packed_frames, packedJson);
     json["findings"] = listJson(report.findings, findingJson);
     return json;

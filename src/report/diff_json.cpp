@@ -6,47 +6,51 @@ namespace tspace::report {
 namespace {
 
 Json anglesJson(const AngleStatistics& angles) {
-    return {{"corners", angles.count},        {"unusable", angles.unusable_count}, {"meanDeg", angles.mean_deg},
-            {"medianDeg", angles.median_deg}, {"p95Deg", angles.p95_deg},          {"maxDeg", angles.max_deg},
-            {"histogram", angles.histogram}};
+    return Json::object({{"corners", angles.count},
+                         {"unusable", angles.unusable_count},
+                         {"meanDeg", angles.mean_deg},
+                         {"medianDeg", angles.median_deg},
+                         {"p95Deg", angles.p95_deg},
+                         {"maxDeg", angles.max_deg},
+                         {"histogram", angles.histogram}});
 }
 
 Json sideJson(const PrimitiveDiff& p, bool is_a) {
     const std::string& place = is_a ? p.place_a : p.place_b;
     if (place.empty()) return nullptr;
-    return {{"place", place},
-            {"mesh", is_a ? p.mesh_a : p.mesh_b},
-            {"primitive", is_a ? p.primitive_a : p.primitive_b},
-            {"triangles", is_a ? p.triangle_count_a : p.triangle_count_b},
-            {"hasTangents", is_a ? p.has_tangents_a : p.has_tangents_b},
-            {"tangentsNotRead", is_a ? p.tangents_not_read_a : p.tangents_not_read_b},
-            {"hasNormals", is_a ? p.has_normals_a : p.has_normals_b}};
+    return Json::object({{"place", place},
+                         {"mesh", is_a ? p.mesh_a : p.mesh_b},
+                         {"primitive", is_a ? p.primitive_a : p.primitive_b},
+                         {"triangles", is_a ? p.triangle_count_a : p.triangle_count_b},
+                         {"hasTangents", is_a ? p.has_tangents_a : p.has_tangents_b},
+                         {"tangentsNotRead", is_a ? p.tangents_not_read_a : p.tangents_not_read_b},
+                         {"hasNormals", is_a ? p.has_normals_a : p.has_normals_b}});
 }
 
 Json comparedPrimitiveJson(const PrimitiveDiff& p) {
-    return {{"a", sideJson(p, true)},
-            {"b", sideJson(p, false)},
-            {"meshName", p.mesh_name},
-            {"pairedBy", p.paired_by},
-            {"pairedTriangles", p.paired_triangle_count},
-            {"signChanges", p.sign_change_count},
-            {"tangents", anglesJson(p.tangents)},
-            {"normals", anglesJson(p.normals)},
-            {"bitangents", anglesJson(p.bitangents)}};
+    return Json::object({{"a", sideJson(p, true)},
+                         {"b", sideJson(p, false)},
+                         {"meshName", p.mesh_name},
+                         {"pairedBy", p.paired_by},
+                         {"pairedTriangles", p.paired_triangle_count},
+                         {"signChanges", p.sign_change_count},
+                         {"tangents", anglesJson(p.tangents)},
+                         {"normals", anglesJson(p.normals)},
+                         {"bitangents", anglesJson(p.bitangents)}});
 }
 
 Json worstJson(const FrameDifference& d) {
-    return {{"meshA", d.mesh_a},
-            {"primitiveA", d.primitive_a},
-            {"vertexA", d.vertex_a},
-            {"meshB", d.mesh_b},
-            {"primitiveB", d.primitive_b},
-            {"vertexB", d.vertex_b},
-            {"position", {d.position.x, d.position.y, d.position.z}},
-            {"tangentDeg", d.tangent_deg},
-            {"normalDeg", d.normal_deg},
-            {"bitangentDeg", d.bitangent_deg},
-            {"signDiffers", d.sign_differs}};
+    return Json::object({{"meshA", d.mesh_a},
+                         {"primitiveA", d.primitive_a},
+                         {"vertexA", d.vertex_a},
+                         {"meshB", d.mesh_b},
+                         {"primitiveB", d.primitive_b},
+                         {"vertexB", d.vertex_b},
+                         {"position", Json::array({d.position.x, d.position.y, d.position.z})},
+                         {"tangentDeg", d.tangent_deg},
+                         {"normalDeg", d.normal_deg},
+                         {"bitangentDeg", d.bitangent_deg},
+                         {"signDiffers", d.sign_differs}});
 }
 
 }  // namespace

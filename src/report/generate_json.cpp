@@ -7,7 +7,7 @@ namespace tspace::report {
 namespace {
 
 Json sanitizeJson(const SanitizeReport& report) {
-    Json json = {{"mended", report.mendedCount()}};
+    Json json = Json::object({{"mended", report.mendedCount()}});
     for (const NamedCount& cause : kCauses) json["causes"][cause.json_name] = report.*cause.count;
     for (const NamedCount& cure : kCures) json["cures"][cure.json_name] = report.*cure.count;
     json["badNormals"] = report.bad_normal_count;
@@ -16,7 +16,7 @@ Json sanitizeJson(const SanitizeReport& report) {
 
 Json generatedPrimitiveJson(const PrimitiveReport& primitive) {
     const TangentReport& tangents = primitive.tangents;
-    return {
+    return Json::object({
         {"mesh", primitive.mesh},
         {"primitive", primitive.primitive},
         {"meshName", primitive.mesh_name},
@@ -40,27 +40,25 @@ Json generatedPrimitiveJson(const PrimitiveReport& primitive) {
         {"morphTargets", primitive.morph_target_count},
         {"morphDeltas", primitive.morph_deltas_computed},
         {"morphSignFlips", primitive.morph_sign_flip_count},
-        {"normals",
-         {{"faces", primitive.normals.face_count},
-          {"degenerateFaces", primitive.normals.degenerate_face_count},
-          {"fallbackCorners", primitive.normals.fallback_corner_count}}},
-        {"tangents",
-         {{"triangles", tangents.triangle_count},
-          {"degenerateTriangles", tangents.degenerate_triangle_count},
-          {"degenerateUvTriangles", tangents.degenerate_uv_count},
-          {"negativeUvTriangles", tangents.mirrored_count},
-          {"skippedFaces", tangents.skipped_face_count},
-          {"groups", tangents.group_count},
-          {"defaultCorners", tangents.default_corner_count},
-          {"notFiniteCorners", tangents.not_finite_count},
-          {"referenceOrderAbandoned", tangents.reference_order_abandoned}}},
+        {"normals", Json::object({{"faces", primitive.normals.face_count},
+                                  {"degenerateFaces", primitive.normals.degenerate_face_count},
+                                  {"fallbackCorners", primitive.normals.fallback_corner_count}})},
+        {"tangents", Json::object({{"triangles", tangents.triangle_count},
+                                   {"degenerateTriangles", tangents.degenerate_triangle_count},
+                                   {"degenerateUvTriangles", tangents.degenerate_uv_count},
+                                   {"negativeUvTriangles", tangents.mirrored_count},
+                                   {"skippedFaces", tangents.skipped_face_count},
+                                   {"groups", tangents.group_count},
+                                   {"defaultCorners", tangents.default_corner_count},
+                                   {"notFiniteCorners", tangents.not_finite_count},
+                                   {"referenceOrderAbandoned", tangents.reference_order_abandoned}})},
         {"sanitize", sanitizeJson(primitive.sanitize)},
-    };
+    });
 }
 
 Json totalsJson(const GenerateReport& report) {
     const Totals totals = totalsOf(report);
-    Json json = {{"primitives", totals.primitive_count}};
+    Json json = Json::object({{"primitives", totals.primitive_count}});
     for (const PrimitiveAction action : kActions) {
         json["actions"][actionName(action)] = totals.actions[static_cast<std::size_t>(action)];
     }
@@ -74,11 +72,12 @@ Json totalsJson(const GenerateReport& report) {
 }
 
 Json normalMapJson(const NormalMapReport& map) {
-    return {{"image", map.image}, {"name", map.name}, {"flipped", map.flipped}, {"reason", map.reason}};
+    return Json::object({{"image", map.image}, {"name", map.name}, {"flipped", map.flipped}, {"reason", map.reason}});
 }
 
 Json convertedMapJson(const ConvertedMapReport& map) {
-    Json json = {{"image", map.image}, {"name", map.name}, {"converted", map.converted}, {"reason", map.reason}};
+    Json json =
+        Json::object({{"image", map.image}, {"name", map.name}, {"converted", map.converted}, {"reason", map.reason}});
     json["newImage"] = map.converted ? Json(map.new_image) : Json(nullptr);
     json["materials"] = map.materials;
     json["primitives"] = map.primitive_count;
@@ -91,11 +90,13 @@ Json convertedMapJson(const ConvertedMapReport& map) {
 }
 
 Json generatedJson(const GenerateOutcome& outcome) {
-    Json json = {
-        {"input", outcome.input},     {"output", outcome.output},
-        {"ok", outcome.result.ok()},  {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())},
+    Json json = Json::object({
+        {"input", outcome.input},
+        {"output", outcome.output},
+        {"ok", outcome.result.ok()},
+        {"error", errorJson(outcome.result ? nullptr : &outcome.result.error())},
         {"seconds", outcome.seconds},
-    };
+    });
     json["skipped"] = outcome.was_done_before;
     if (!outcome.result || outcome.was_done_before) return json;
     const GenerateReport& report = *outcome.result;

@@ -6,29 +6,29 @@ namespace tspace::report {
 namespace {
 
 Json explanationJson(const Explanation& entry) {
-    return {{"method", methodName(entry.method)},
-            {"faces", facesName(entry.faces)},
-            {"uvSet", entry.uv_set},
-            {"isTexturesSet", entry.is_textures_set},
-            {"isTransformed", entry.is_transformed},
-            {"corners", entry.corner_count},
-            {"undecidedCorners", entry.undecided_count},
-            {"near", entry.near_count},
-            {"nearAtVertex", entry.near_any_count},
-            {"meanDeg", entry.mean_deg},
-            {"gltfSigns", entry.gltf_sign_count},
-            {"invertedSigns", entry.inverted_sign_count},
-            {"signs", signReadingName(entry.signs())}};
+    return Json::object({{"method", methodName(entry.method)},
+                         {"faces", facesName(entry.faces)},
+                         {"uvSet", entry.uv_set},
+                         {"isTexturesSet", entry.is_textures_set},
+                         {"isTransformed", entry.is_transformed},
+                         {"corners", entry.corner_count},
+                         {"undecidedCorners", entry.undecided_count},
+                         {"near", entry.near_count},
+                         {"nearAtVertex", entry.near_any_count},
+                         {"meanDeg", entry.mean_deg},
+                         {"gltfSigns", entry.gltf_sign_count},
+                         {"invertedSigns", entry.inverted_sign_count},
+                         {"signs", signReadingName(entry.signs())}});
 }
 
 Json identityJson(const PrimitiveIdentity& primitive) {
-    return {{"place", primitive.place},
-            {"mesh", primitive.mesh},
-            {"primitive", primitive.primitive},
-            {"meshName", primitive.mesh_name},
-            {"materialName", primitive.material_name},
-            {"skipped", primitive.skipped},
-            {"explanations", listJson(primitive.explanations, explanationJson)}};
+    return Json::object({{"place", primitive.place},
+                         {"mesh", primitive.mesh},
+                         {"primitive", primitive.primitive},
+                         {"meshName", primitive.mesh_name},
+                         {"materialName", primitive.material_name},
+                         {"skipped", primitive.skipped},
+                         {"explanations", listJson(primitive.explanations, explanationJson)}});
 }
 
 Json identifiedJson(const IdentifyOutcome& outcome) {

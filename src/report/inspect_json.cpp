@@ -6,7 +6,7 @@ namespace tspace::report {
 namespace {
 
 Json useJson(const TangentUseInfo& use) {
-    return {
+    return Json::object({
         {"neededBy", use.needed_by},
         {"place", use.place},
         {"material", use.material},
@@ -16,11 +16,11 @@ Json useJson(const TangentUseInfo& use) {
         {"uvRotation", use.uv_rotation_rad},
         {"uvScale", use.uv_scale},
         {"followsFirst", use.follows_first},
-    };
+    });
 }
 
 Json inspectedPrimitiveJson(const PrimitiveInfo& primitive) {
-    return {
+    return Json::object({
         {"mesh", primitive.mesh},
         {"primitive", primitive.primitive},
         {"meshName", primitive.mesh_name},
@@ -50,7 +50,7 @@ Json inspectedPrimitiveJson(const PrimitiveInfo& primitive) {
         {"mirroredTriangles", primitive.mirrored_triangle_count},
         {"uvIslands", primitive.uv_island_count},
         {"mirroredUvIslands", primitive.mirrored_island_count},
-    };
+    });
 }
 
 Json inspectedJson(const InspectOutcome& outcome) {

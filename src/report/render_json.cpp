@@ -21,9 +21,9 @@ std::string renderJson(const Outcome<RenderReport>& outcome, ExitCode exit_code)
     json["primitivesWithoutTangents"] = result->without_tangents_count;
     json["tangentError"] = nullptr;
     if (result->error_sample_count > 0) {
-        json["tangentError"] = Json{{"samples", result->error_sample_count},
-                                    {"meanDeg", result->mean_error_deg},
-                                    {"maxDeg", result->max_error_deg}};
+        json["tangentError"] = Json::object({{"samples", result->error_sample_count},
+                                             {"meanDeg", result->mean_error_deg},
+                                             {"maxDeg", result->max_error_deg}});
     }
     json["warnings"] = result->warnings;
     return jsonText(json);

@@ -135,6 +135,7 @@ TEST(Json, BracesAreAnObjectWhereAllEntriesAreNamed) {
               R"({"n":1,"list":[1,2,0.5],"in":{"x":null},"words":["a","b"],"pair":[1.0,0.5],"bools":[true,false]})");
     EXPECT_EQ(Json::array({Json{{"a", 1}}}).dump(), R"([{"a":1}])");
     EXPECT_EQ(Json::array({"a", 1}).dump(), R"(["a",1])");
+    EXPECT_EQ(Json::object({{"a", words}, {"b", 2}}).dump(), R"({"a":["a","b"],"b":2})");
 }
 
 TEST(Json, MakesMembersAndElementsThatAreAsked) {
