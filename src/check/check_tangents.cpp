@@ -50,7 +50,7 @@ void checkTangentsMissing(PrimitiveFacts& facts) {
 
 /// Goes on with the quads on which the tangents were made, where they were.
 Result<Done> readOnQuads(PrimitiveFacts& facts, FrameHealth& health) {
-    Result<std::optional<QuadReading>> quads = findQuads(facts.mesh, facts.surface, health, facts.options);
+    Result<std::optional<QuadReading>> quads = findQuads(facts.mesh, health, facts.options);
     if (!quads) return std::move(quads).error();
     if (!*quads) return Done{};
     facts.quads = **std::move(quads);

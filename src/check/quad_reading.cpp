@@ -61,16 +61,13 @@ Result<QuadReading> cutQuads(const TangentView& mesh, const QuadFaces& faces) {
 
 }  // namespace
 
-Result<std::optional<QuadReading>> findQuads(const TangentView& mesh, const Surface& surface, const FrameHealth& health,
+Result<std::optional<QuadReading>> findQuads(const TangentView& mesh, const FrameHealth& health,
                                              const CheckOptions& options) {
     const std::optional<QuadReading> none;
     const bool is_asked = options.faces == Faces::quads || (options.faces == Faces::automatic && hasFaults(health));
     if (!is_asked || mesh.normals.empty() || mesh.uvs.empty()) return none;
-    std::vector<std::uint8_t> votes;
-    votes.reserve(surface.faces.size());
-    for (const SurfaceFrame& face : surface.faces) votes.push_back(face.orientation != 0 ? 1 : 0);
-    const StoredTangents stored{.triangles = mesh.triangles(), .tangents = mesh.tangents, .votes = votes};
-    const Result<QuadFaces> faces = chooseFaces(stored, false, options.faces, {.thread_count = 1});
+    const Result<QuadFaces> faces =
+        chooseFaces(mesh.triangles(), mesh.tangents, false, options.faces, {.thread_count = 1});
     if (!faces) return faces.error();
     if (faces->quad_count == 0) return none;
     Result<QuadReading> reading = cutQuads(mesh, *faces);

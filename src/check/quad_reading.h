@@ -15,9 +15,9 @@ struct QuadReading {
 };
 
 /// The quads that CheckOptions::faces means, cut as MikkTSpace cuts them. Nothing: the mesh's own triangles are meant,
-/// or, with Faces::automatic, nothing in `health` asks for another reading. `health` and `surface`: of the mesh.
-/// Near-linear; fails where generateTangents does.
-Result<std::optional<QuadReading>> findQuads(const TangentView& mesh, const Surface& surface, const FrameHealth& health,
+/// or, with Faces::automatic, nothing in `health` asks for another reading. `health`: of the mesh. Near-linear;
+/// fails where generateTangents does.
+Result<std::optional<QuadReading>> findQuads(const TangentView& mesh, const FrameHealth& health,
                                              const CheckOptions& options);
 
 }  // namespace tspace

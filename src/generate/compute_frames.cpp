@@ -13,7 +13,6 @@
 #include "generate/primitive.h"
 #include "generate/unit_lattice.h"
 #include "quads/choose_faces.h"
-#include "surface/uv_votes.h"
 #include "tspace/frame.h"
 #include "tspace/triangulate.h"
 
@@ -37,21 +36,6 @@ std::size_t cornersOfTriangles(const PrimitiveGeometry& primitive) {
     std::size_t triangle_count = 0;
     for (const std::uint32_t size : primitive.face_sizes) triangle_count += size < 3 ? 0 : size - 2;
     return 3 * triangle_count;
-}
-
-template <class T>
-std::vector<T> copyOf(StridedSpan<const T> values) {
-    std::vector<T> copy;
-    copy.reserve(values.count);
-    for (std::size_t i = 0; i < values.count; ++i) copy.push_back(values[i]);
-    return copy;
-}
-
-/// One byte per triangle: 0 where its UVs say nothing.
-std::vector<std::uint8_t> votesOf(const LocalMesh& mesh) {
-    const std::vector<Vec3> positions = copyOf(mesh.positions);
-    const std::vector<Vec2> uvs = copyOf(mesh.uvs);
-    return uvVotes({.positions = positions, .uvs = uvs, .corners = mesh.indices});
 }
 
 class FrameComputer {
@@ -177,15 +161,13 @@ class FrameComputer {
     [[nodiscard]] Result<QuadFaces> chooseFaces(const LocalMesh& mesh) const {
         const bool keeps = !pool_.kept_tangents.empty();
         const Faces faces = keeps ? Faces::automatic : options_.faces;
-        StoredTangents stored{.triangles = mesh.view()};
+        std::span<const Vec4> stored;
         std::vector<Vec4> own;
-        std::vector<std::uint8_t> votes;
         if (faces != Faces::triangles && !generates_normals_) {
-            stored.tangents = keeps ? pool_.kept_tangents : pool_.old_tangents;
-            if (!mesh.sources.empty()) stored.tangents = own = gather(stored.tangents, mesh.sources);
+            stored = keeps ? pool_.kept_tangents : pool_.old_tangents;
+            if (!mesh.sources.empty()) stored = own = gather(stored, mesh.sources);
         }
-        if (!stored.tangents.empty()) stored.votes = votes = votesOf(mesh);
-        return tspace::chooseFaces(stored, pool_.is_blenders, faces, options_.tangents.execution);
+        return tspace::chooseFaces(mesh.view(), stored, pool_.is_blenders, faces, options_.tangents.execution);
     }
 
     /// The next ones of tangents() and bitangents().

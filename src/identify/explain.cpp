@@ -36,16 +36,6 @@ std::vector<UvReading> readingsOf(const ScenePrimitive& primitive) {
     return readings;
 }
 
-/// One byte per triangle: 0 where the UVs say nothing. Empty: they do nowhere.
-std::vector<std::uint8_t> votesOf(const ScenePrimitive& primitive, std::span<const Vec2> uvs) {
-    std::vector<std::uint8_t> votes = uvVotes({.positions = primitive.positions.span(),
-                                               .normals = primitive.normals.span(),
-                                               .tangents = primitive.tangents.span(),
-                                               .uvs = uvs,
-                                               .corners = primitive.corners.span()});
-    return std::find(votes.begin(), votes.end(), 1) == votes.end() ? std::vector<std::uint8_t>{} : votes;
-}
-
 /// `computed` has the raw sign, one per corner.
 void compare(const ScenePrimitive& primitive, std::span<const std::uint8_t> votes, std::span<const Vec4> computed,
              double tolerance_deg, Explanation& explanation) {
@@ -84,16 +74,18 @@ void compare(const ScenePrimitive& primitive, std::span<const std::uint8_t> vote
 /// Along one reading of the UVs.
 class Explainer {
   public:
-    Explainer(const ScenePrimitive& primitive, const UvReading& reading, std::vector<std::uint8_t> votes,
-              const IdentifyOptions& options)
+    Explainer(const ScenePrimitive& primitive, const UvReading& reading, const IdentifyOptions& options)
         : primitive_(primitive),
           reading_(reading),
-          votes_(std::move(votes)),
           options_(options),
           mesh_({.positions = primitive.positions.span(),
                  .normals = primitive.normals.span(),
                  .uvs = reading.uvs,
-                 .indices = primitive.corners.span()}) {}
+                 .indices = primitive.corners.span()}),
+          votes_(uvVotes(mesh_)) {}
+
+    /// Whether the UVs say something anywhere.
+    [[nodiscard]] bool hasVotes() const { return std::find(votes_.begin(), votes_.end(), 1) != votes_.end(); }
 
     Result<Done> tryMethods(std::vector<Explanation>& explanations) const {
         std::vector<Vec4> computed(primitive_.corners.size());
@@ -123,11 +115,8 @@ class Explainer {
     }
 
     Result<Done> tryQuads(std::span<const Vec4> on_triangles, std::vector<Explanation>& explanations) const {
-        const StoredTangents stored{.triangles = mesh_,
-                                    .tangents = primitive_.tangents.span(),
-                                    .votes = votes_,
-                                    .tolerance_deg = options_.tolerance_deg};
-        const Result<QuadFit> fit = fitQuads(stored, on_triangles, options_.execution);
+        const Result<QuadFit> fit =
+            fitQuads(mesh_, primitive_.tangents.span(), options_.execution, options_.tolerance_deg, on_triangles);
         if (!fit) return fit.error();
         if (fit->wins()) explanations.push_back(explainedBy(Method::mikktspace, Faces::quads, fit->tangents));
         return Done{};
@@ -146,9 +135,9 @@ class Explainer {
 
     const ScenePrimitive& primitive_;
     const UvReading& reading_;
-    std::vector<std::uint8_t> votes_;
     const IdentifyOptions& options_;
     MeshView mesh_;
+    std::vector<std::uint8_t> votes_;
 };
 
 /// Near corners, and half of those that are near to another corner of their vertex; less what a method that only tspace
@@ -176,9 +165,8 @@ std::vector<Method> knownMethods() {
 Result<std::vector<Explanation>> explainTangents(const ScenePrimitive& primitive, const IdentifyOptions& options) {
     std::vector<Explanation> explanations;
     for (const UvReading& reading : readingsOf(primitive)) {
-        std::vector<std::uint8_t> votes = votesOf(primitive, reading.uvs);
-        if (votes.empty()) continue;
-        const Explainer explainer(primitive, reading, std::move(votes), options);
+        const Explainer explainer(primitive, reading, options);
+        if (!explainer.hasVotes()) continue;
         if (const Result<Done> done = explainer.tryMethods(explanations); !done) return done.error();
     }
     return explanations;

@@ -28,19 +28,20 @@ bool looksLikeBlendersQuads(const QuadCandidates& candidates, const QuadPairs& p
 
 }  // namespace
 
-Result<QuadFaces> chooseFaces(const StoredTangents& stored, bool is_blenders, Faces faces, const Execution& execution) {
+Result<QuadFaces> chooseFaces(const MeshView& triangles, std::span<const Vec4> stored, bool is_blenders, Faces faces,
+                              const Execution& execution) {
     if (faces == Faces::triangles) return QuadFaces{};
-    if (!stored.tangents.empty()) {
-        Result<QuadFit> fit = fitQuads(stored, {}, execution);
+    if (!stored.empty()) {
+        Result<QuadFit> fit = fitQuads(triangles, stored, execution);
         if (!fit) return std::move(fit).error();
         if (fit->wins()) return std::move(fit->faces);
         if (faces == Faces::automatic) return QuadFaces{};
     } else if (faces == Faces::automatic && !is_blenders) {
         return QuadFaces{};
     }
-    const QuadCandidates candidates(stored.triangles);
+    const QuadCandidates candidates(triangles);
     if (candidates.count() == 0) return QuadFaces{};
-    const QuadPairs pairs = pairsByShape(stored.triangles, candidates);
+    const QuadPairs pairs = pairsByShape(triangles, candidates);
     if (faces == Faces::automatic && !looksLikeBlendersQuads(candidates, pairs)) return QuadFaces{};
     return facesOfPairs(candidates, pairs);
 }

@@ -14,11 +14,13 @@ namespace tspace {
 /// better to quads, those that they fit; else `quads` takes the pairs by shape, and so does `automatic` where Blender
 /// wrote a mesh without tangents most of whose triangles meet as those do that it cuts quads into.
 ///
-/// stored       without tangents: `votes` is not looked at
+/// triangles    as fitQuads wants them
+/// stored       one tangent per vertex, or empty
 /// is_blenders  Blender wrote the file
 ///
 /// Cost and errors: those of fitQuads.
-Result<QuadFaces> chooseFaces(const StoredTangents& stored, bool is_blenders, Faces faces, const Execution& execution);
+Result<QuadFaces> chooseFaces(const MeshView& triangles, std::span<const Vec4> stored, bool is_blenders, Faces faces,
+                              const Execution& execution);
 
 /// Polygons as faces over their own triangles. Those with fewer than three corners are left out.
 QuadFaces facesOfPolygons(std::span<const std::uint32_t> face_sizes, const Triangulation& triangles);

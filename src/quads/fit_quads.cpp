@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/angle.h"
+#include "surface/uv_votes.h"
 #include "tspace/tangents.h"
 
 namespace tspace {
@@ -30,10 +31,10 @@ double shareOf(std::uint64_t count, std::uint64_t total) {
 }
 
 /// How far each stored tangent is from the computed one, in degrees.
-std::vector<float> distances(const StoredTangents& stored, std::span<const Vec4> computed) {
+std::vector<float> distances(const MeshView& triangles, std::span<const Vec4> stored, std::span<const Vec4> computed) {
     std::vector<float> degrees(computed.size(), 180);
     for (std::size_t c = 0; c < computed.size(); ++c) {
-        const Vec3 a = xyz(stored.tangents[stored.triangles.indices[c]]), b = xyz(computed[c]);
+        const Vec3 a = xyz(stored[triangles.indices[c]]), b = xyz(computed[c]);
         if (!isFinite(a) || !isFinite(b) || a == Vec3{} || b == Vec3{}) continue;
         degrees[c] = static_cast<float>(angleBetween(toDouble(a), toDouble(b)) * (180 / kPi));
     }
@@ -42,16 +43,20 @@ std::vector<float> distances(const StoredTangents& stored, std::span<const Vec4>
 
 class Fitter {
   public:
-    Fitter(const StoredTangents& stored, const QuadCandidates& candidates, const Execution& execution)
-        : stored_(stored),
+    Fitter(const MeshView& triangles, std::span<const Vec4> stored, double tolerance_deg,
+           const QuadCandidates& candidates, const Execution& execution)
+        : triangles_(triangles),
+          stored_(stored),
+          tolerance_deg_(tolerance_deg),
           candidates_(candidates),
           execution_(execution),
+          votes_(uvVotes(triangles)),
           alone_(candidates.triangleCount()),
           paired_(candidates.triangleCount(), 0),
           best_kinds_(candidates.triangleCount(), PairKind::quad) {}
 
     void takeTriangles(std::span<const Vec4> tangents) {
-        const std::vector<float> degrees = distances(stored_, tangents);
+        const std::vector<float> degrees = distances(triangles_, stored_, tangents);
         for (std::size_t t = 0; t < alone_.size(); ++t) alone_[t] = fitOf(degrees, t);
         fit_.near_on_triangles = fit_.near_on_quads = countNear(degrees);
     }
@@ -66,9 +71,9 @@ class Fitter {
     /// Computes with these pairs, remembers what each explains, and keeps the best faces.
     Result<Done> tryPairs(const QuadPairs& pairs) {
         QuadFaces faces = facesOfPairs(candidates_, pairs);
-        Result<std::vector<Vec4>> tangents = tangentsOnFaces(stored_.triangles, faces, execution_);
+        Result<std::vector<Vec4>> tangents = tangentsOnFaces(triangles_, faces, execution_);
         if (!tangents) return std::move(tangents).error();
-        const std::vector<float> degrees = distances(stored_, *tangents);
+        const std::vector<float> degrees = distances(triangles_, stored_, *tangents);
         for (std::size_t t = 0; t < pairs.size(); ++t) {
             if (pairs[t] == PairKind::none) {
                 alone_[t] = fitOf(degrees, t);
@@ -106,29 +111,32 @@ class Fitter {
   private:
     /// How well the triangle's corners are explained: most for equal tangents, at least half for near ones.
     [[nodiscard]] float fitOf(const std::vector<float>& degrees, std::size_t t) const {
-        if (stored_.votes[t] == 0) return 0;
+        if (votes_[t] == 0) return 0;
         float sum = 0;
         for (std::size_t c = 3 * t; c < 3 * t + 3; ++c)
             sum += (isNear(degrees[c]) ? 0.5F : 0.0F) + 0.5F / (1 + 10 * degrees[c]);
         return sum;
     }
 
-    [[nodiscard]] bool isNear(float degrees) const { return degrees <= stored_.tolerance_deg; }
+    [[nodiscard]] bool isNear(float degrees) const { return degrees <= tolerance_deg_; }
 
     std::uint64_t countNear(const std::vector<float>& degrees) {
         std::uint64_t near = 0;
         fit_.corner_count = 0;
         for (std::size_t c = 0; c < degrees.size(); ++c) {
-            if (stored_.votes[c / 3] == 0) continue;
+            if (votes_[c / 3] == 0) continue;
             ++fit_.corner_count;
             near += isNear(degrees[c]) ? 1 : 0;
         }
         return near;
     }
 
-    const StoredTangents& stored_;
+    const MeshView& triangles_;
+    std::span<const Vec4> stored_;
+    double tolerance_deg_;
     const QuadCandidates& candidates_;
     const Execution& execution_;
+    std::vector<std::uint8_t> votes_;
     std::vector<float> alone_, paired_;  ///< what was explained, when last computed, at a triangle and at a pair
     QuadPairs best_kinds_;               ///< how the pair was begun when it explained more
     QuadFit fit_ = {};
@@ -171,23 +179,24 @@ Result<std::vector<Vec4>> tangentsOnFaces(const MeshView& triangles, const QuadF
     return tangents;
 }
 
-Result<QuadFit> fitQuads(const StoredTangents& stored, std::span<const Vec4> on_triangles, const Execution& execution) {
-    const QuadCandidates candidates(stored.triangles, stored.tangents);
-    Fitter fitter(stored, candidates, execution);
-    if (candidates.count() == 0) return std::move(fitter.fit());
+Result<QuadFit> fitQuads(const MeshView& triangles, std::span<const Vec4> stored, const Execution& execution,
+                         double tolerance_deg, std::span<const Vec4> on_triangles) {
+    const QuadCandidates candidates(triangles, stored);
+    if (candidates.count() == 0) return QuadFit{};
+    Fitter fitter(triangles, stored, tolerance_deg, candidates, execution);
     std::vector<Vec4> computed;
     if (on_triangles.empty()) {
-        computed.resize(stored.triangles.cornerCount());
+        computed.resize(triangles.cornerCount());
         const Result<TangentReport> made = generateTangents(
-            stored.triangles, {.convention = conventions::opengl, .execution = execution}, {.tangents = computed});
+            triangles, {.convention = conventions::opengl, .execution = execution}, {.tangents = computed});
         if (!made) return made.error();
         on_triangles = computed;
     }
     fitter.takeTriangles(on_triangles);
     if (!fitter.canWin()) return std::move(fitter.fit());
-    const QuadPairs by_shape = pairsByShape(stored.triangles, candidates);
+    const QuadPairs by_shape = pairsByShape(triangles, candidates);
     if (Result<Done> done = fitter.tryPairs(by_shape); !done) return std::move(done).error();
-    if (hasTies(stored.triangles, candidates, by_shape)) {
+    if (hasTies(triangles, candidates, by_shape)) {
         if (Result<Done> done = fitter.tryPairs(turnedPairs(by_shape)); !done) return std::move(done).error();
     }
     if (Result<Done> done = fitter.tryPairs(otherPairs(candidates, by_shape)); !done) return std::move(done).error();

@@ -14,14 +14,6 @@
 
 namespace tspace {
 
-/// Triangles, and the tangents that their vertices have.
-struct StoredTangents {
-    MeshView triangles = {};                   ///< valid; three corners a face; with normals and UVs
-    std::span<const Vec4> tangents = {};       ///< one per vertex
-    std::span<const std::uint8_t> votes = {};  ///< one per triangle: 0 where its UVs say nothing, so that nothing fits
-    double tolerance_deg = 1;                  ///< tangents nearer than this are the same
-};
-
 /// Whether quads explain clearly more corners than triangles do. Which pairs are quads is chosen by what they explain,
 /// and so explains a little more of anything: hence a part of the unexplained is asked for, and some corners.
 bool quadsWin(std::uint64_t corner_count, std::uint64_t near_on_triangles, std::uint64_t near_on_quads);
@@ -40,12 +32,16 @@ struct QuadFit {
 /// after the pairs by shape, these turned, and those they exclude were computed once each; then again with the better
 /// neighbours, as long as that explains more.
 ///
+/// triangles      valid; three corners a face; with normals and UVs. Those whose UVs say nothing (uvVotes) fit nowhere
+/// stored         one tangent per vertex
+/// tolerance_deg  tangents nearer than this are the same
 /// on_triangles   what mikktspace gives on the triangles as they are, one per corner; empty: it is computed here
 ///
 /// Eight runs of mikktspace at most, and none where there are no two consecutive triangles with a common edge, or the
 /// triangles leave too little unexplained for quads to win: then no face is a quad. Otherwise linear, with about 60
 /// bytes per corner. Fails where generateTangents does.
-Result<QuadFit> fitQuads(const StoredTangents& stored, std::span<const Vec4> on_triangles, const Execution& execution);
+Result<QuadFit> fitQuads(const MeshView& triangles, std::span<const Vec4> stored, const Execution& execution,
+                         double tolerance_deg = 1, std::span<const Vec4> on_triangles = {});
 
 /// mikktspace on these faces, one tangent per corner of the triangle list, with the raw sign.
 Result<std::vector<Vec4>> tangentsOnFaces(const MeshView& triangles, const QuadFaces& faces,

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "surface/tangent_view.h"
+#include "tspace/mesh.h"
 
 namespace tspace {
 
 /// One byte per triangle: 1 where its UVs have an orientation; 0 where they have no area, or so little that rounding
-/// decides, or where the triangle itself has none. Positions, UVs and corners of the view are looked at. Linear.
-std::vector<std::uint8_t> uvVotes(const TangentView& mesh);
+/// decides, or where the triangle itself has none. Normals are not looked at. Linear.
+std::vector<std::uint8_t> uvVotes(const MeshView& triangles);
 
 }  // namespace tspace

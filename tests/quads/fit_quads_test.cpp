@@ -12,8 +12,7 @@ namespace tspace::test {
 namespace {
 
 QuadFit fitOf(const ModelData& data) {
-    const std::vector<std::uint8_t> votes(data.indices.size() / 3, 1);
-    Result<QuadFit> fit = fitQuads({.triangles = viewOf(data), .tangents = data.tangents, .votes = votes}, {}, {});
+    Result<QuadFit> fit = fitQuads(viewOf(data), data.tangents, {});
     EXPECT_TRUE(fit.ok());
     return fit ? *std::move(fit) : QuadFit{};
 }
@@ -69,16 +68,11 @@ TEST(FitQuads, FindsTheFewRealTrianglesThatAreOnlyLikeQuads) {
 
 TEST(FitQuads, CornersThatSayNothingDoNotVote) {
     ModelData data = withTangentsOnQuads(hills(12), kFan);
-    std::vector<std::uint8_t> votes(data.indices.size() / 3, 1);
-    // A quarter of the tangents is nonsense.
-    for (std::size_t t = 0; t < votes.size(); t += 4) {
-        votes[t] = 0;
-        for (std::size_t k = 0; k < 3; ++k) data.tangents[3 * t + k] = {0, 0, 1, 1};
-    }
-    const Result<QuadFit> fit =
-        fitQuads({.triangles = viewOf(data), .tangents = data.tangents, .votes = votes}, {}, {});
-    ASSERT_TRUE(fit.ok());
-    EXPECT_EQ(fit->corner_count, data.indices.size() - 3 * ((votes.size() + 3) / 4));
+    const std::size_t triangle_count = data.indices.size() / 3;
+    // A quarter of the triangles has no UV area.
+    for (std::size_t t = 0; t < triangle_count; t += 4)
+        for (std::size_t k = 0; k < 3; ++k) data.uvs[data.indices[3 * t + k]] = {};
+    EXPECT_EQ(fitOf(data).corner_count, 3 * (triangle_count - (triangle_count + 3) / 4));
 }
 
 TEST(FitQuads, WinsOnlyByAMargin) {
@@ -93,11 +87,9 @@ TEST(FitQuads, WinsOnlyByAMargin) {
 TEST(ChooseFaces, TakesTrianglesUnlessTangentsOrBlenderShowQuads) {
     const ModelData on_quads = withTangentsOnQuads(hills(12), kFan);
     const ModelData on_triangles = withTangents(trianglesOf(hills(12), kFan), Method::mikktspace);
-    const std::vector<std::uint8_t> votes(on_quads.indices.size() / 3, 1);
     const auto quads = [&](const ModelData& data, bool has_tangents, bool is_blenders, Faces faces) {
-        StoredTangents stored{.triangles = viewOf(data), .votes = votes};
-        if (has_tangents) stored.tangents = data.tangents;
-        const Result<QuadFaces> chosen = chooseFaces(stored, is_blenders, faces, {});
+        const std::vector<Vec4> stored = has_tangents ? data.tangents : std::vector<Vec4>();
+        const Result<QuadFaces> chosen = chooseFaces(viewOf(data), stored, is_blenders, faces, {});
         EXPECT_TRUE(chosen.ok());
         return chosen ? chosen->quad_count : 0;
     };
