@@ -3,39 +3,21 @@
 // simd/lanes_scalar.h).
 #pragma once
 
-#if defined(TSPACE_SIMD_X86)
-#include <emmintrin.h>
-#endif
+#include "core/float4.h"
 
 namespace tspace {
 
 /// to[0..3] += row[0..3]; both aligned to 16 bytes.
 inline void addRow(float* to, const float* row) {
-#if defined(TSPACE_SIMD_X86)
-    _mm_store_ps(to, _mm_add_ps(_mm_load_ps(to), _mm_load_ps(row)));
-#else
-    // Written when all are read, so that a compiler may add them together.
-    const float x = to[0] + row[0], y = to[1] + row[1], z = to[2] + row[2], w = to[3] + row[3];
-    to[0] = x;
-    to[1] = y;
-    to[2] = z;
-    to[3] = w;
-#endif
+    using Row __attribute__((may_alias)) = Float4;
+    *reinterpret_cast<Row*>(to) += *reinterpret_cast<const Row*>(row);
 }
 
-/// to[0..2] += row[0..2], where only `row` is aligned to 16 bytes.
+/// to[0..2] += row[0..2], where `row` has four numbers.
 inline void addVector(float* to, const float* row) {
-#if defined(TSPACE_SIMD_X86)
-    const __m128 xy = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(to)));
-    const __m128 sum = _mm_add_ps(_mm_movelh_ps(xy, _mm_load_ss(to + 2)), _mm_load_ps(row));
-    _mm_storel_epi64(reinterpret_cast<__m128i*>(to), _mm_castps_si128(sum));
-    _mm_store_ss(to + 2, _mm_movehl_ps(sum, sum));
-#else
-    const float x = to[0] + row[0], y = to[1] + row[1], z = to[2] + row[2];
-    to[0] = x;
-    to[1] = y;
-    to[2] = z;
-#endif
+    const Float4 sum = __builtin_shufflevector(loadPair(to), Float4{to[2], 0, 0, 0}, 0, 1, 4, 5) + loadFloat4(row);
+    storePair(to, sum);
+    to[2] = sum[2];
 }
 
 }  // namespace tspace
