@@ -47,55 +47,45 @@ Error checkFaces(const MeshView& mesh) {
 
 /// Without a branch, four at a time. For i < 2^31 and limit <= 2^31, i - limit has its highest bit set exactly when
 /// i < limit.
-template <class Index>
-bool allBelow(const Index* indices, std::size_t count, std::uint32_t limit) {
+bool allBelow(const std::uint32_t* indices, std::size_t count, std::uint32_t limit) {
     using Four = std::uint32_t __attribute__((vector_size(16)));
-    using FourInMemory __attribute__((vector_size(4 * sizeof(Index)))) = Index;
     const auto below = [=](std::size_t c) {
-        FourInMemory four;
-        std::memcpy(&four, indices + c, sizeof four);
-        const Four index = __builtin_convertvector(four, Four);
+        Four index;
+        std::memcpy(&index, indices + c, sizeof index);
         return (index - limit) & ~index;
     };
     constexpr std::size_t kLanes = 16;
     Four all = ~Four{};
     std::size_t c = 0;
     for (; c + kLanes <= count; c += kLanes) {
-        prefetchLines(indices + c, kLanes * sizeof(Index));
+        prefetchLines(indices + c, kLanes * sizeof *indices);
         all &= below(c) & below(c + 4) & below(c + 8) & below(c + 12);
     }
     std::uint32_t rest = all[0] & all[1] & all[2] & all[3];
-    for (; c < count; ++c) rest &= (indices[c] - limit) & ~std::uint32_t{indices[c]};
+    for (; c < count; ++c) rest &= (indices[c] - limit) & ~indices[c];
     return rest >> 31 != 0;
 }
 
-template <class Index>
-bool allBelow(const IndexView& indices, std::uint32_t limit, Parallel* parallel) {
-    const auto* const data = static_cast<const Index*>(indices.data);
-    if (parallel == nullptr) return allBelow(data, indices.count, limit);
-    constexpr std::size_t kGrain = 200'000;  // takes longer than starting a thread
-    std::atomic<bool> all{true};
-    parallel->forRanges(indices.count, kGrain, [&](std::size_t begin, std::size_t end) {
-        if (!allBelow(data + begin, end - begin, limit)) all.store(false, std::memory_order_relaxed);
-    });
-    return all;
-}
-
 bool allBelow(const IndexView& indices, std::size_t vertex_count, Parallel* parallel) {
+    if (indices.type == IndexType::none) return true;
     const auto limit = static_cast<std::uint32_t>(std::min<std::size_t>(vertex_count, 0x80000000u));
-    switch (indices.type) {
-#ifndef TSPACE_SMALL
-        case IndexType::u8:
-            return allBelow<std::uint8_t>(indices, limit, parallel);
-        case IndexType::u16:
-            return allBelow<std::uint16_t>(indices, limit, parallel);
-#endif
-        case IndexType::u32:
-            return allBelow<std::uint32_t>(indices, limit, parallel);
-        default:
-            break;
-    }
-    return true;
+    std::atomic<bool> all{true};
+    const auto check = [&](std::size_t begin, std::size_t end) {
+        constexpr std::size_t kPart = 1024;  // that are widened at a time; 32-bit numbers are looked at where they are
+        std::uint32_t buffer[kPart];
+        const std::size_t step = indices.type == IndexType::u32 ? end - begin : kPart;
+        for (; begin < end; begin += step) {
+            const std::size_t count = std::min(step, end - begin);
+            if (!allBelow(readIndices(indices, begin, count, buffer), count, limit))
+                all.store(false, std::memory_order_relaxed);
+        }
+    };
+    constexpr std::size_t kGrain = 200'000;  // takes longer than starting a thread
+    if (parallel == nullptr)
+        check(0, indices.count);
+    else
+        parallel->forRanges(indices.count, kGrain, check);
+    return all;
 }
 
 /// Checks that each index is below `count`.
