@@ -133,19 +133,16 @@ struct SurelySound {
     static constexpr float kSquareLean = 1e-13f;            // below kOrthogonalTolerance^2
     static constexpr float kLeast = 1e-20f, kMost = 1e20f;  // squares of components neither vanish nor overflow
 
-    static bool of(const Vec4& tangent, const Vec3& n) {
-        const Vec3 t = xyz(tangent);
-        const float nn = dot(n, n), nt = dot(n, t);
-        const bool is_unit = std::fabs(dot(t, t) - 1) <= kSquareTolerance, has_sign = std::fabs(tangent.w) == 1.0f;
-        const float most = ((t.y == 0) & (t.z == 0)) ? kSquareLean : kSquareCosine;
-        return is_unit & has_sign & (nn >= kLeast) & (nn <= kMost) & (nt * nt <= most * nn);
-    }
-    /// The same of four, with their signs apart.
+    /// Of four, with their signs apart.
     static Mask4 of(const Vec3x4& t, Float4 w, const Vec3x4& n) {
         const Float4 nn = dot(n, n), nt = dot(n, t);
         const Float4 most = select4(or4(t.y, t.z) == splat(0), splat(kSquareLean), splat(kSquareCosine));
         return (abs4(dot(t, t) - splat(1)) <= splat(kSquareTolerance)) & (nn >= splat(kLeast)) & (nn <= splat(kMost)) &
                (nt * nt <= most * nn) & (abs4(w) == splat(1));
+    }
+    static bool of(const Vec4& t, const Vec3& n) {
+        return laneBits(of({splat(t.x), splat(t.y), splat(t.z)}, splat(t.w), {splat(n.x), splat(n.y), splat(n.z)})) !=
+               0;
     }
 };
 
