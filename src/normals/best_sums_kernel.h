@@ -233,9 +233,8 @@ struct Slopes {
     [[nodiscard]] Flat solve(Floats x, Floats y) const { return {xx * x + xy * y, xy * x + yy * y}; }
 };
 
-/// The three second derivatives, with the ridge, by Cholesky's way (L D L^T).
+/// The three second derivatives, with the ridge.
 inline void solveCurvature(const PointSums& s, const Slopes& slopes, Floats (&q)[3]) {
-    const Floats one = broadcast(1.0f), half = broadcast(0.5f);
     const Floats ridge = broadcast(static_cast<float>(kFitRidge * kFitRidgeShare)) * (s.bb[0] + s.bb[3] + s.bb[5]);
     Floats m[6], p[3];
     for (std::size_t i = 0, n = 0; i < 3; ++i) {
@@ -243,16 +242,7 @@ inline void solveCurvature(const PointSums& s, const Slopes& slopes, Floats (&q)
         for (std::size_t j = i; j < 3; ++j, ++n) m[n] = s.bb[n] - (along.x * s.xb[j] + along.y * s.yb[j]);
         p[i] = s.bs[i] - (along.x * s.xs + along.y * s.ys);
     }
-    // The ridge keeps the pivots positive, but for rounding.
-    const Floats i0 = one / larger(m[0] + ridge, half * ridge);
-    const Floats l1 = m[1] * i0, l2 = m[2] * i0;
-    const Floats i1 = one / larger(m[3] + (ridge + ridge) - l1 * m[1], ridge);
-    const Floats rest = m[4] - l1 * m[2], l3 = rest * i1;
-    const Floats i2 = one / larger(m[5] + ridge - l2 * m[2] - l3 * rest, half * ridge);
-    const Floats y1 = p[1] - l1 * p[0], y2 = p[2] - l2 * p[0] - l3 * y1;
-    q[2] = i2 * y2;
-    q[1] = i1 * y1 - l3 * q[2];
-    q[0] = i0 * p[0] - l1 * q[1] - l2 * q[2];
+    solveRidged(m, ridge, p, q);
 }
 
 /// The fitted normal; the plane's own where the edges do not span it.

@@ -58,4 +58,20 @@ struct Plane {
     [[nodiscard]] Vectors raise(Flat f) const { return f.x * x + f.y * y; }
 };
 
+/// Solves three equations by Cholesky's way (L D L^T). m: 00 01 02 11 12 22, to whose diagonal `ridge`, twice that, and
+/// `ridge` are added: this keeps the pivots positive, but for rounding.
+template <class Right>
+inline void solveRidged(const Floats (&m)[6], Floats ridge, const Right (&p)[3], Right (&q)[3]) {
+    const Floats one = broadcast(1.0f), least = broadcast(0.5f) * ridge, two = ridge + ridge;
+    const Floats i0 = one / larger(m[0] + ridge, least);
+    const Floats l1 = m[1] * i0, l2 = m[2] * i0;
+    const Floats i1 = one / larger(m[3] + two - l1 * m[1], ridge);
+    const Floats rest = m[4] - l1 * m[2], l3 = rest * i1;
+    const Floats i2 = one / larger(m[5] + ridge - l2 * m[2] - l3 * rest, least);
+    const Right y1 = p[1] - l1 * p[0], y2 = p[2] - l2 * p[0] - l3 * y1;
+    q[2] = i2 * y2;
+    q[1] = i1 * y1 - l3 * q[2];
+    q[0] = i0 * p[0] - l1 * q[1] - l2 * q[2];
+}
+
 }  // namespace tspace::simd::TSPACE_LANES

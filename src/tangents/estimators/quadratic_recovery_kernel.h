@@ -196,7 +196,7 @@ struct Reduced {
     Floats i0, i1, i2;  ///< M^-1
     Flat linear[2];     ///< M^-1 R: J of a fit without quadratic part
     Floats s[6];        ///< Q - C^T M^-1 C
-    Floats ridge[3];    ///< what k is multiplied with, on the diagonal of s
+    Floats ridge;       ///< what k is multiplied with, on the diagonal of s, and twice that in its middle
     Flat p[3];          ///< P - C^T M^-1 R
 
     explicit Reduced(const Fit& f) {
@@ -208,9 +208,7 @@ struct Reduced {
         i2 = f.m0 * inverse;
         linear[0] = i0 * f.r[0] + i1 * f.r[1];
         linear[1] = i1 * f.r[0] + i2 * f.r[1];
-        ridge[0] = broadcast(kRidgeShare) * (f.q[0] + f.q[3] + f.q[5]);
-        ridge[1] = ridge[0] + ridge[0];
-        ridge[2] = ridge[0];
+        ridge = broadcast(kRidgeShare) * (f.q[0] + f.q[3] + f.q[5]);
         std::size_t n = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             const Floats a = i0 * f.c[0][i] + i1 * f.c[1][i], b = i1 * f.c[0][i] + i2 * f.c[1][i];
@@ -223,19 +221,8 @@ struct Reduced {
 struct Solution {
     Flat q[3], j[2];
 
-    /// Cholesky's way (L D L^T); `k` keeps the pivots positive, but for rounding.
     Solution(const Fit& f, const Reduced& m, Floats k) {
-        const Floats one = broadcast(1.0f), half = broadcast(0.5f);
-        const Floats k0 = k * m.ridge[0], k1 = k * m.ridge[1], k2 = k * m.ridge[2];
-        const Floats d0 = larger(m.s[0] + k0, half * k0), i0 = one / d0;
-        const Floats l1 = m.s[1] * i0, l2 = m.s[2] * i0;
-        const Floats d1 = larger(m.s[3] + k1 - l1 * m.s[1], half * k1), i1 = one / d1;
-        const Floats rest = m.s[4] - l1 * m.s[2], l3 = rest * i1;
-        const Floats d2 = larger(m.s[5] + k2 - l2 * m.s[2] - l3 * rest, half * k2);
-        const Flat y1 = m.p[1] - l1 * m.p[0], y2 = m.p[2] - l2 * m.p[0] - l3 * y1;
-        q[2] = (one / d2) * y2;
-        q[1] = i1 * y1 - l3 * q[2];
-        q[0] = i0 * m.p[0] - l1 * q[1] - l2 * q[2];
+        solveRidged(m.s, k * m.ridge, m.p, q);
         Flat r0 = f.r[0], r1 = f.r[1];
         for (std::size_t i = 0; i < 3; ++i) {
             r0 = r0 - f.c[0][i] * q[i];
@@ -258,7 +245,7 @@ inline Doubt doubtIn(const Fit& f, const Reduced& m, const Solution& s) {
     const Floats straight = f.m0 * dot(s.j[0], s.j[0]) + two * f.m1 * dot(s.j[0], s.j[1]) + f.m2 * dot(s.j[1], s.j[1]);
     const Floats bend = bent / straight;
     const Floats held =
-        m.ridge[0] * dot(s.q[0], s.q[0]) + m.ridge[1] * dot(s.q[1], s.q[1]) + m.ridge[2] * dot(s.q[2], s.q[2]);
+        m.ridge * dot(s.q[0], s.q[0]) + (m.ridge + m.ridge) * dot(s.q[1], s.q[1]) + m.ridge * dot(s.q[2], s.q[2]);
     const Floats explained = dot(s.q[0], m.p[0]) + dot(s.q[1], m.p[1]) + dot(s.q[2], m.p[2]) + broadcast(kRidge) * held;
     const Floats left = f.energy - dot(f.r[0], m.linear[0]) - dot(f.r[1], m.linear[1]) - explained;
     // A NaN becomes the limit: the second one counts then.
