@@ -58,7 +58,7 @@ class Welder {
   private:
     static constexpr std::size_t kGrain = 16384;  // vertices per task: below, starting threads costs more than it saves
     static constexpr std::size_t kFew = 4096;     // vertices; so few are all looked up
-    static constexpr std::size_t kPlacesPerVertex = 8;  // of a counting table: leaves 1 vertex of 9 to be looked up
+    static constexpr std::size_t kPlacesPerVertex = 4;  // of a counting table: leaves 1 vertex of 5 to be looked up
     static constexpr std::size_t kBlock = 256;          // vertices; their hashes stay in the first cache
 
     struct Slot {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/face_walk.h"
+#include "core/prefetch.h"
 #include "core/typed_indices.h"
 
 namespace tspace {
@@ -28,47 +29,71 @@ Faces::Faces(const MeshView& mesh, const Allocator* allocator) {
     first_corners_[mesh.faceCount()] = static_cast<std::uint32_t>(mesh.cornerCount());
 }
 
-PointItems::PointItems(const MeshView& mesh, const Faces& faces, const Buffer<std::uint32_t>& points)
+PointItems::PointItems(const MeshView& mesh, const Faces& faces, const Buffer<std::uint32_t>& points,
+                       const Allocator* allocator)
     : TriangleGroups(areTriangles(mesh) ? mesh.faceCount() : mesh.cornerCount()),
       mesh_(mesh),
       faces_(faces),
       points_(points),
       in_place_(areTriangles(mesh) && mesh.indices.type == IndexType::u32
                     ? static_cast<const std::uint32_t*>(mesh.indices.data)
-                    : nullptr),
-      is_own_mesh_(points.empty()) {}
+                    : nullptr) {
+    if (in_place_ != nullptr && !points.empty())
+        blocks_ = Buffer<std::uint8_t>(allocator, count / TriangleBatch::kMost + 1, unknown);
+}
 
-void PointItems::findOwn(const Allocator* allocator, Parallel& parallel) {
-    if (in_place_ == nullptr || is_own_mesh_) return;
-    const std::uint32_t* const points = points_.data();
-    constexpr std::size_t kBlock = TriangleBatch::kMost, kGrain = Parallel::kGrain / kBlock;
-    are_own_ = Buffer<std::uint8_t>(allocator, (count + kBlock - 1) / kBlock);
-    parallel.forRanges(are_own_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t block = begin; block < end; ++block) {
-            const std::uint32_t* v = in_place_ + 3 * kBlock * block;
-            const std::uint32_t* const past = v + 3 * std::min(kBlock, count - kBlock * block);
-            while (v != past && points[v[0]] == v[0] && points[v[1]] == v[1] && points[v[2]] == v[2]) v += 3;
-            are_own_[block] = v == past ? 1 : 0;
+const std::uint32_t* PointItems::inPlace(std::size_t first, std::size_t) const {
+    if (in_place_ == nullptr || points_.empty()) return in_place_ == nullptr ? nullptr : in_place_ + 3 * first;
+    constexpr std::size_t kBlock = TriangleBatch::kMost;
+    std::uint8_t* const block = &blocks_[first / kBlock];
+    std::uint8_t known = __atomic_load_n(block, __ATOMIC_RELAXED);  // of two threads at once both find the same
+    if (known == unknown) {
+        const std::size_t begin = first / kBlock * kBlock, end = std::min(begin + kBlock, count);
+        const std::uint32_t *v = in_place_ + 3 * begin, *const past = in_place_ + 3 * end,
+                            *const points = points_.data();
+        prefetchLines(v, 3 * kBlock * sizeof *v);
+        while (v != past && points[v[0]] == v[0] && points[v[1]] == v[1] && points[v[2]] == v[2]) v += 3;
+        known = v == past ? own : shared;
+        __atomic_store_n(block, known, __ATOMIC_RELAXED);
+    }
+    return known == own ? in_place_ + 3 * first : nullptr;
+}
+
+template <class NumberOf>
+void PointItems::readEach(NumberOf numberOf, std::size_t size, std::uint32_t* vertices, std::uint32_t* points) const {
+    const std::uint32_t* const roots = points_.empty() ? nullptr : points_.data();
+    const auto readTriangle = [&](std::size_t i, const auto& vertexOf) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t vertex = vertexOf(k);
+            if (vertices != nullptr) vertices[3 * i + k] = vertex;
+            points[3 * i + k] = roots != nullptr ? roots[vertex] : vertex;
+        }
+    };
+    withIndices(mesh_.indices, [&](const auto vertexOf) {
+        if (areTriangles(mesh_)) {
+            for (std::size_t i = 0; i < size; ++i) {
+                const std::size_t first = std::size_t{3} * numberOf(i);
+                readTriangle(i, [&](std::size_t k) { return vertexOf(first + k); });
+            }
+            return;
+        }
+        for (std::size_t i = 0; i < size; ++i) {
+            const auto corner = static_cast<std::uint32_t>(numberOf(i));
+            const Faces::Around around = faces_.around(corner);
+            readTriangle(i, [&](std::size_t k) { return vertexOf(around.corners[k]); });
+            const bool is_used = faces_.isUsed(faces_.of(corner));
+            std::fill_n(points + 3 * i, 3, is_used ? points[3 * i] : ~std::uint32_t{0});
         }
     });
 }
 
 void PointItems::read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* points) const {
-    if (areTriangles(mesh_)) {
-        const std::uint32_t* const v =
-            readIndices(mesh_.indices, 3 * first, 3 * size, vertices != nullptr ? vertices : points);
-        if (vertices != nullptr && v != vertices) std::copy_n(v, 3 * size, vertices);
-        for (std::size_t i = 0; i < 3 * size; ++i) points[i] = is_own_mesh_ ? v[i] : points_[v[i]];
-        return;
-    }
-    for (std::size_t i = 0; i < size; ++i) {
-        const auto corner = static_cast<std::uint32_t>(first + i);
-        const bool is_used = faces_.isUsed(faces_.of(corner));
-        std::fill_n(points + 3 * i, 3, is_used ? pointOf(corner) : ~std::uint32_t{0});
-        if (vertices == nullptr) continue;
-        const Faces::Around around = faces_.around(corner);
-        for (std::size_t k = 0; k < 3; ++k) vertices[3 * i + k] = mesh_.indices[around.corners[k]];
-    }
+    readEach([first](std::size_t i) { return first + i; }, size, vertices, points);
+}
+
+void PointItems::readSome(const std::uint32_t* numbers, std::size_t size, std::uint32_t* vertices,
+                          std::uint32_t* points) const {
+    readEach([numbers](std::size_t i) { return std::size_t{numbers[i]}; }, size, vertices, points);
 }
 
 /// Newell's sum taken about the first corner: the same value, but far from the origin no digits cancel.

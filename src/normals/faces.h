@@ -54,7 +54,8 @@ class Faces {
 class PointItems final : public TriangleGroups {
   public:
     /// `points`: of each vertex; empty when each is its own.
-    PointItems(const MeshView& mesh, const Faces& faces, const Buffer<std::uint32_t>& points);
+    PointItems(const MeshView& mesh, const Faces& faces, const Buffer<std::uint32_t>& points,
+               const Allocator* allocator);
 
     static bool areTriangles(const MeshView& mesh) { return mesh.face_sizes.empty() && mesh.face_size == 3; }
 
@@ -65,23 +66,23 @@ class PointItems final : public TriangleGroups {
     /// A corner comes with the next and the previous one, and its own point three times; those of faces with fewer than 3
     /// corners have none.
     void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* points) const override;
-    [[nodiscard]] const std::uint32_t* inPlace(std::size_t first, std::size_t) const override {
-        const bool is_own = is_own_mesh_ || (!are_own_.empty() && are_own_[first / TriangleBatch::kMost] != 0);
-        return in_place_ != nullptr && is_own ? in_place_ + 3 * first : nullptr;
-    }
-    /// Finds blocks in which each vertex is its own point. Where triangles lie close together nearly all are such ones,
-    /// and comparing once is cheaper than looking points up in each pass.
-    void findOwn(const Allocator* allocator, Parallel& parallel);
-    /// From now on each vertex is its own point.
-    void forgetPoints() { is_own_mesh_ = true; }
+    void readSome(const std::uint32_t* numbers, std::size_t size, std::uint32_t* vertices,
+                  std::uint32_t* points) const override;
+    [[nodiscard]] const std::uint32_t* inPlace(std::size_t first, std::size_t) const override;
 
   private:
+    template <class NumberOf>
+    void readEach(NumberOf numberOf, std::size_t size, std::uint32_t* vertices, std::uint32_t* points) const;
+
+    enum Block : std::uint8_t { unknown, own, shared };  // own: each vertex is its own point
+
     const MeshView& mesh_;
     const Faces& faces_;
     const Buffer<std::uint32_t>& points_;
     const std::uint32_t* in_place_;  ///< the indices; null where they are not triangles of 32-bit numbers
-    bool is_own_mesh_;
-    Buffer<std::uint8_t> are_own_;  ///< per block; empty: not known
+    /// Of blocks, when somebody has asked. Nearly all are `own` where triangles lie close together, and comparing once is
+    /// cheaper than looking points up in each pass.
+    mutable Buffer<std::uint8_t> blocks_;
 };
 
 struct FaceNormal {

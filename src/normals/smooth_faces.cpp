@@ -111,7 +111,7 @@ struct Setting {
           faces(m, options.execution.allocator),
           points(options.weld_positions ? weldPositions(m, options.execution.allocator, parallel)
                                         : Buffer<std::uint32_t>()),
-          items(m, faces, points),
+          items(m, faces, points, options.execution.allocator),
           kernel(smooth::faceKernelFor(options.execution.simd)),
           is_best(options.weighting == NormalWeighting::best),
           weighting(is_best ? NormalWeighting::angleArea : options.weighting),

@@ -14,6 +14,7 @@
 
 #include "core/angle.h"
 #include "core/float4.h"
+#include "core/prefetch.h"
 #include "core/range_lists.h"
 #include "core/typed_indices.h"
 #include "core/vec_math.h"
@@ -87,7 +88,7 @@ class TriangleSmoother {
           parallel_(parallel),
           faces_(mesh, allocator_),
           points_(options.weld_positions ? weldPositions(mesh, allocator_, parallel_) : Buffer<std::uint32_t>()),
-          triangles_(mesh, faces_, points_),
+          triangles_(mesh, faces_, points_, allocator_),
           lists_(makeLists()) {}
 
     /// Each range is written when it is summed, with memory for the sums of one per task, which stays in the cache. But
@@ -111,11 +112,15 @@ class TriangleSmoother {
             smooth::refineTriangles(triangles_, mesh_.vertexCount(), positions_, options_, sums_.data()->floats(),
                                     parallel_);
         if (!is_near) {
-            copyToVertices();
+            for (std::size_t v = 0; v < points_.size(); ++v) {
+                if (points_[v] != v) sums_[v] = sums_[points_[v]];
+            }
+            const Buffer<std::uint32_t> own;
+            const PointItems vertices(mesh_, faces_, own, allocator_);
             const RangeSums all{{0, static_cast<std::uint32_t>(mesh_.vertexCount())}, sums_.data()};
-            parallel_.forRanges(lists_.blockCount(triangles_.count), Parallel::kGrain / kTermTriangles,
+            parallel_.forRanges(lists_.blockCount(vertices.count), Parallel::kGrain / kTermTriangles,
                                 [&](std::size_t begin, std::size_t end) {
-                                    substitutes += write({triangles_, kTermTriangles, begin, end}, all);
+                                    substitutes += write({vertices, kTermTriangles, begin, end}, all);
                                 });
         }
         return {triangles_.count, degenerate, substitutes};
@@ -131,15 +136,7 @@ class TriangleSmoother {
         const std::size_t near = width == 1 ? kNearPoints : std::min(kNearPoints, shared);
         is_near_ = near < points && RangeLists::areCompact(triangles_, kTermTriangles, points, near);
         if (!is_near_) return {kTermTriangles, points, std::bit_ceil((points + width - 1) / width)};
-        triangles_.findOwn(allocator_, parallel_);
         return {triangles_, kTermTriangles, points, near, allocator_, parallel_};
-    }
-
-    void copyToVertices() {
-        for (std::size_t v = 0; v < points_.size(); ++v) {
-            if (points_[v] != v) sums_[v] = sums_[points_[v]];
-        }
-        triangles_.forgetPoints();
     }
 
     [[nodiscard]] FaceSource faceSource(bool by_angle, bool by_area) const {
@@ -234,6 +231,7 @@ class TriangleSmoother {
         Float4 marks = splat(0.0f);
         std::size_t i = 0;
         if (stride == sizeof(Vec3)) {
+            prefetchLines<true>(to, count * sizeof(Vec3));
             for (; i + 4 <= count; i += 4, to += 4 * sizeof(Vec3)) {
                 const Float4 a = normalAt(i), b = normalAt(i + 1), c = normalAt(i + 2), d = normalAt(i + 3);
                 marks = or4(or4(marks, or4(a, b)), or4(c, d));
