@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The calls that both entries have, for the module that they load.
-import { boolean, choice, count, fail, floats, integers, number, object } from "./check.js";
+import { boolean, choice, count, fail, failType, floats, integers, number, object, optionsOf } from "./check.js";
 import { conventionBits } from "./convention.js";
 
 export const tangentCounts = [
@@ -44,9 +44,11 @@ export function setMesh(call, { positions, normals, uvs, ...lists }) {
   call.wasm.setMesh(...arrays);
 }
 
+/** Names of options of tangents. */
+export const mikktspaceOptions = ["method", "threshold", "pairing", "ngons", "convention"];
+
 /** What the module takes for options of tangents. */
 export function tangentArguments(options, { methods, ngons }) {
-  object(options, "options");
   return [
     choice(options.method ?? "mikktspace", "method", methods),
     number(options.threshold ?? 180, "threshold"),
@@ -60,7 +62,7 @@ export function tangentArguments(options, { methods, ngons }) {
 
 /** Fills in options.report, where there is one. */
 export function keepReport(call, options, names) {
-  if (options.report !== undefined) call.report(names, object(options.report, "report"));
+  if (options.report) call.report(names, options.report);
 }
 
 /** Runs compute(exports, place), which writes four floats for each output. */
@@ -76,7 +78,7 @@ export function writeTangents(wasm, mesh, outputCount, options, compute) {
 
 function attributeOf(attribute, i, cornerCount) {
   const name = `attribute ${i}`;
-  const { size, tolerance = 0 } = object(attribute, name);
+  const { size, tolerance = 0 } = object(attribute, name, ["data", "size", "tolerance"]);
   count(size, `size of ${name}`);
   const data = floats(attribute.data, name, Math.max(size, 1), true);
   if (size * cornerCount !== data.length) {
@@ -102,6 +104,7 @@ function putAttributes(call, list) {
 export function makeCalls(wasm, choices) {
   return {
     generateTangents(mesh, options = {}) {
+      optionsOf(options, [...choices.options, "report"]);
       const given = tangentArguments(options, choices);
       const checked = meshOf(mesh);
       return writeTangents(wasm, checked, checked.cornerCount, options, (module, out) =>
@@ -109,16 +112,16 @@ export function makeCalls(wasm, choices) {
     },
 
     sanitizeTangents(mesh, tangents, options = {}) {
-      object(options, "options");
+      optionsOf(options, ["orthogonalizeAll", "report"]);
       const all = boolean(options.orthogonalizeAll ?? false, "orthogonalizeAll");
       const checked = meshOf(mesh, true);
-      floats(tangents, "tangents", 4, true);
+      const given = floats(tangents, "tangents", 4, true);
       return wasm.run((call) => {
         setMesh(call, checked);
-        const place = call.put(tangents);
-        call.check(call.wasm.sanitizeTangents(place, tangents.length / 4, all));
+        const place = call.put(given);
+        call.check(call.wasm.sanitizeTangents(place, given.length / 4, all));
         keepReport(call, options, sanitizeCounts);
-        return call.get(Float32Array, place, tangents.length);
+        return call.get(Float32Array, place, given.length);
       });
     },
 
@@ -126,9 +129,9 @@ export function makeCalls(wasm, choices) {
       const { vertexCount } = object(vertices, "vertices");
       const indices = integers(vertices.indices, "indices");
       count(vertexCount, "vertexCount");
-      if (!Array.isArray(attributes)) fail("wrongType", "attributes is not an array of { data, size, tolerance }");
+      if (!Array.isArray(attributes)) failType(attributes, "attributes", "an array of { data, size, tolerance }");
       const cornerCount = indices ? indices.length : vertexCount;
-      const list = attributes.map((attribute, i) => attributeOf(attribute, i, cornerCount));
+      const list = Array.from(attributes, (attribute, i) => attributeOf(attribute, i, cornerCount));
       return wasm.run((call) => {
         const at = call.put(indices, Uint32Array);
         const table = putAttributes(call, list);

@@ -1,22 +1,33 @@
 // SPDX-License-Identifier: MIT
 // What callers hand over is looked at before anything is copied. The module checks counts and indices, not types.
-import { TspaceError } from "./error.js";
-
-export const fail = (code, message, element) => {
-  throw new TspaceError(code, message, element);
-};
-
-const describe = (value) =>
-  value === null ? "null" : typeof value === "object" ? (value.constructor?.name ?? "an object") : `a ${typeof value}`;
+import { TspaceError, typeError } from "./error.js";
 
 const isMissing = (value) => value === undefined || value === null;
 
-/** Throws for a view whose buffer is gone or became too short. */
-function mustBeAttached(array, name) {
+export const fail = (code, message, element) => {
+  throw code === "wrongType" ? typeError(code, message) : new TspaceError(code, message, element);
+};
+
+/** A value as messages call it. */
+function describe(value) {
+  const type = typeof value;
+  if (type === "string") return JSON.stringify(value.length > 40 ? `${value.slice(0, 40)}...` : value);
+  if (type === "number" || type === "boolean" || isMissing(value)) return String(value);
+  const kind = (type === "object" && value.constructor?.name) || type;
+  return `${/^[AEIO]/i.test(kind) ? "an" : "a"} ${kind}`;
+}
+
+export const failType = (value, name, needed) => fail("wrongType", `${name} must be ${needed}, not ${describe(value)}`);
+
+/** The array as a view of its own: it stays as long as it is now, whatever buffers and getters do. Arrays of other windows are taken. */
+function viewOf(array, name, types, needed) {
+  const Type = ArrayBuffer.isView(array) && types.find((type) => type.name === array[Symbol.toStringTag]);
+  if (!Type) failType(array, name, needed);
   try {
-    array.indexOf(0, array.length);
+    array.indexOf(0, array.length); // throws where the buffer is gone or too short
+    return new Type(array.buffer, array.byteOffset, array.length);
   } catch {
-    fail("detached", `${name} cannot be read: its buffer was detached or resized`);
+    return fail("detached", `${name} cannot be read: its buffer was detached or resized`);
   }
 }
 
@@ -26,57 +37,55 @@ export function floats(array, name, size, isRequired = false) {
     if (isRequired) fail("missingAttribute", `${name} is missing: a Float32Array, ${size} numbers for each element`);
     return undefined;
   }
-  if (!(array instanceof Float32Array)) fail("wrongType", `${name} is ${describe(array)}, not a Float32Array`);
-  mustBeAttached(array, name);
-  if (array.length % size !== 0)
-    fail("countMismatch", `${name} has ${array.length} numbers, which is no multiple of ${size}`);
-  return array;
+  const numbers = viewOf(array, name, [Float32Array], "a Float32Array");
+  if (numbers.length % size !== 0)
+    fail("countMismatch", `${name} has ${numbers.length} numbers, which is no multiple of ${size}`);
+  return numbers;
 }
 
 /** Bytes as a Uint8Array. */
 export function bytes(value, name) {
-  const isBuffer = value instanceof ArrayBuffer;
+  const isBuffer = /ArrayBuffer$/.test(value?.[Symbol.toStringTag]);
   if (isBuffer && value.byteLength === 0) return new Uint8Array(0); // detached, or nothing in it
-  const array = isBuffer ? new Uint8Array(value) : value;
-  if (!(array instanceof Uint8Array)) fail("wrongType", `${name} is ${describe(array)}, not a Uint8Array or an ArrayBuffer`);
-  mustBeAttached(array, name);
-  return array;
+  return viewOf(isBuffer ? new Uint8Array(value) : value, name, [Uint8Array], "a Uint8Array or an ArrayBuffer");
 }
 
 /** An array of unsigned integers, or undefined. */
 export function integers(array, name) {
   if (isMissing(array)) return undefined;
-  if (!(array instanceof Uint32Array || array instanceof Uint16Array || array instanceof Uint8Array))
-    fail("wrongType", `${name} is ${describe(array)}, not a Uint32Array, Uint16Array or Uint8Array`);
-  mustBeAttached(array, name);
-  return array;
+  return viewOf(array, name, [Uint32Array, Uint16Array, Uint8Array], "a Uint32Array, Uint16Array or Uint8Array");
 }
 
 export function count(value, name) {
   if (!Number.isInteger(value) || value < 0 || value > 0xffffffff)
-    fail("invalidOption", `${name} is ${String(value)}, not a whole number from 0 to 4294967295`);
+    fail("invalidOption", `${name} must be a whole number from 0 to 4294967295, not ${describe(value)}`);
   return value;
 }
 
 export function number(value, name) {
-  if (typeof value !== "number") fail("wrongType", `${name} is ${describe(value)}, not a number`);
-  return value;
+  return typeof value === "number" && value === value ? value : failType(value, name, "a number");
 }
 
 export function boolean(value, name) {
-  if (typeof value !== "boolean") fail("wrongType", `${name} is ${describe(value)}, not true or false`);
-  return value;
+  return typeof value === "boolean" ? value : failType(value, name, "true or false");
 }
 
 /** The place of a name in a list. */
 export function choice(value, name, list) {
   const place = list.indexOf(value);
-  const text = typeof value === "string" ? JSON.stringify(value) : isMissing(value) ? "missing" : describe(value);
-  if (place < 0) fail("invalidOption", `${name} is ${text}, not one of ${list.join(", ")}`);
+  if (place < 0) fail("invalidOption", `${name} must be one of ${list.join(", ")}, not ${describe(value)}`);
   return place;
 }
 
-export function object(value, name) {
-  if (typeof value !== "object" || value === null) fail("wrongType", `${name} is ${describe(value)}, not an object`);
+/** An object; where all of its members are known, one that has no other. */
+export function object(value, name, known) {
+  if (typeof value !== "object" || value === null) failType(value, name, "an object");
+  const strange = known && Object.keys(value).find((member) => !known.includes(member));
+  if (strange !== undefined)
+    throw typeError("invalidOption", `${name}.${strange} is unknown: known are ${known.join(", ")}`);
   return value;
+}
+
+export function optionsOf(value, known) {
+  object(object(value, "options", known).report ?? {}, "report");
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What callers of "tspace/gltf" may hand in beside the model: codecs from npm, and what decodes images. The module asks for
 // them while a call runs.
-import { fail, object } from "./check.js";
+import { fail, failType, object } from "./check.js";
 import { decodeDraco, encodeDraco } from "./draco.js";
 
 /** In the order of the module's numbers (wasm/codecs.h). */
@@ -16,7 +16,7 @@ const isMissing = (value) => value === undefined || value === null;
 /** Codecs by the names above, out of an option { decoder, encoder }. */
 function pairOf(option, value, { decoder: decoding, encoder: encoding }, from) {
   if (isMissing(value)) return {};
-  const { decoder, encoder } = object(value, option);
+  const { decoder, encoder } = object(value, option, ["decoder", "encoder"]);
   if (isMissing(decoder)) fail("wrongType", `${option} has no decoder: ${from}`);
   if (typeof decoder[decoding] !== "function") fail("wrongType", `${option}.decoder has no ${decoding}: it is not ${from}`);
   if (!isMissing(encoder) && typeof encoder[encoding] !== "function")
@@ -25,7 +25,7 @@ function pairOf(option, value, { decoder: decoding, encoder: encoding }, from) {
 }
 
 function functionOf(option, value) {
-  if (!isMissing(value) && typeof value !== "function") fail("wrongType", `${option} is not a function`);
+  if (!isMissing(value) && typeof value !== "function") failType(value, option, "a function");
   return { [option]: value };
 }
 
@@ -170,7 +170,7 @@ export class Codecs {
     const data = this.#view(Type, pixels, count).slice();
     const image = { width, height, channels, bits: 8 * sampleBytes, data, quality };
     const file = this.given.encodeImage(image, mimeType);
-    if (!(file instanceof Uint8Array)) fail("wrongType", "encodeImage gave no Uint8Array");
+    if (!(file instanceof Uint8Array)) failType(file, "what encodeImage gives", "a Uint8Array");
     return this.#give(file, size);
   }
 }

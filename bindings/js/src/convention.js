@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the sign of a tangent means, as the modules take it: bits.
-import { choice, fail } from "./check.js";
+import { choice, fail, object } from "./check.js";
 
 const directx = { vAxis: "down", green: "down", handedness: "left", winding: "clockwise" };
 
@@ -16,18 +16,19 @@ export const conventions = Object.freeze({
 });
 
 const names = Object.keys(conventions);
+const parts = ["vAxis", "green", "storedSign", "handedness", "winding"];
 const bit = (value, name, list) => (value === undefined ? 0 : choice(value, `convention.${name}`, list));
 
 /** Bits of a preset's name, or of an object that says each part. */
 export function conventionBits(value) {
   if (value === undefined || value === null)
     fail("invalidOption", `convention is missing: say what the tangents are for, "gltf" or one of ${names.slice(1).join(", ")}`);
-  const parts = typeof value === "object" ? value : conventions[names[choice(value, "convention", names)]];
+  const chosen = typeof value === "object" ? object(value, "convention", parts) : conventions[names[choice(value, "convention", names)]];
   return (
-    (choice(parts.vAxis, "convention.vAxis", ["up", "down"]) + 1) |
-    (bit(parts.green, "green", ["up", "down"]) << 2) |
-    (bit(parts.storedSign, "storedSign", ["asIs", "negated"]) << 3) |
-    (bit(parts.handedness, "handedness", ["right", "left"]) << 4) |
-    (bit(parts.winding, "winding", ["counterClockwise", "clockwise"]) << 5)
+    (choice(chosen.vAxis, "convention.vAxis", ["up", "down"]) + 1) |
+    (bit(chosen.green, "green", ["up", "down"]) << 2) |
+    (bit(chosen.storedSign, "storedSign", ["asIs", "negated"]) << 3) |
+    (bit(chosen.handedness, "handedness", ["right", "left"]) << 4) |
+    (bit(chosen.winding, "winding", ["counterClockwise", "clockwise"]) << 5)
   );
 }

@@ -7,7 +7,21 @@ export class TspaceError extends Error {
     this.name = "TspaceError";
     this.code = code;
     this.element = element;
+    errors.add(this);
   }
+
+  static [Symbol.hasInstance](error) {
+    return errors.has(error);
+  }
+}
+
+const errors = new WeakSet();
+
+/** What JavaScript itself calls wrong types and unknown names, as one of the errors of tspace. */
+export function typeError(code, message) {
+  const error = Object.assign(new TypeError(message), { code });
+  errors.add(error);
+  return error;
 }
 
 /** Names of the numbers in tspace/result.h. */

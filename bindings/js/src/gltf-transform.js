@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The entry "tspace/gltf-transform": a transform that indexes, computes tangents, splits vertices, and gives morph targets
 // tangents of their own.
+import { object } from "./check.js";
 import { gather } from "./gather.js";
 import { makeIndexedFrames, Plan, ready, sanitizeTangents, splitVertices } from "./index.js";
 
@@ -49,7 +50,7 @@ function rewrite(document, primitive, indices, sources) {
 }
 
 /** Tangents per corner of each morph target's pose, with the groups of the base. */
-function targetTangents(primitive, mesh, options) {
+function targetTangents(primitive, mesh, { makeNormals, normals, sanitize, orthogonalizeAll, report, ...options }) {
   const targets = primitive.listTargets().filter((t) => t.getAttribute("POSITION") || t.getAttribute("NORMAL"));
   if (targets.length === 0) return [];
   const plan = new Plan(mesh, options);
@@ -110,7 +111,7 @@ function addTangents(document, primitive, options) {
 }
 
 export function tspaceTangents(options = {}) {
-  const { overwrite = false, ...rest } = options;
+  const { overwrite = false, ...rest } = object(options, "options");
   return async function tspaceTangents(document) {
     await ready;
     for (const mesh of document.getRoot().listMeshes()) {

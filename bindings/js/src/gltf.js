@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The entry "tspace/gltf": models as bytes. Options and reports are those of the tool and its JSON.
-import { bytes, fail, object } from "./check.js";
+import { bytes, fail, failType, object } from "./check.js";
 import { Codecs, codecsOf } from "./codecs.js";
 import { TspaceError } from "./error.js";
 import { textAt, Wasm } from "./wasm.js";
@@ -28,6 +28,21 @@ const wasm = new Wasm(new URL("./gltf.wasm", import.meta.url), {
 export const ready = wasm.ready;
 
 const verbs = ["generate", "check", "inspect", "identify", "diff"];
+const ofAll = ["resources", "meshopt", "draco", "signal", "memoryLimit", "allowExternal"];
+const watched = ["decodeImage", "onProgress", "convention", "faces"];
+
+/** Names of the options of each verb. */
+const known = {
+  generate: [
+    "name", ...ofAll, ...watched, "all", "onlyMissing", "overwrite", "repair", "strip", "method", "pairing", "threshold", "frame", "refine",
+    "textureTransform", "bitangents", "format", "pack", "packDrop", "normals", "crease", "compress", "flipGreen", "flipGreenAll", "encodeImage",
+    "noSanitize", "orthogonalize", "dryRun",
+  ],
+  check: ["name", ...ofAll, ...watched, "failOn", "severity", "ignore", "angle", "noImages"],
+  inspect: ["name", ...ofAll],
+  identify: ["name", ...ofAll, "tolerance"],
+  diff: [...ofAll, "tolerance", "worst"],
+};
 const cannotRead = 103;
 
 const utf8 = new TextEncoder();
@@ -51,8 +66,8 @@ function textOfOptions(options) {
   for (const [name, value] of Object.entries(options)) {
     const parts = Array.isArray(value) ? value : [value];
     for (const part of parts)
-      if (!["string", "number", "boolean", "undefined"].includes(typeof part) && part !== null)
-        fail("wrongType", `${name} is neither text, a number, true nor false`);
+      if (!["string", "boolean", "undefined"].includes(typeof part) && part !== null && !Number.isFinite(part))
+        failType(part, name, "text, a number, true or false");
     given[toolName(name)] = value;
   }
   return JSON.stringify(given);
@@ -84,7 +99,7 @@ class Files {
 /** Progress, and the end of a call that its caller no longer wants. */
 class Watch {
   constructor(onProgress, signal) {
-    if (onProgress !== undefined && onProgress !== null && typeof onProgress !== "function") fail("wrongType", "onProgress is not a function");
+    if (onProgress !== undefined && onProgress !== null && typeof onProgress !== "function") failType(onProgress, "onProgress", "a function");
     if (signal !== undefined && signal !== null && typeof object(signal, "signal").aborted !== "boolean")
       fail("wrongType", "signal has no aborted that is true or false: it is not an AbortSignal");
     this.onProgress = onProgress ?? undefined;
@@ -137,7 +152,7 @@ function callFiles(verb, models, options) {
 
 function modelOf(data, name, what = "the model") {
   if (name !== undefined && name !== null && (typeof name !== "string" || name.includes("\0")))
-    fail("wrongType", "name is not text");
+    failType(name, "name", "text without a 0 in it");
   return { data: bytes(data, what), name: name ?? "" };
 }
 
@@ -145,7 +160,7 @@ function modelOf(data, name, what = "the model") {
 const ofFile = ({ files, exitCode }) => ({ ...files[0], exitCode });
 
 function ask(verb, data, options) {
-  const { name, ...others } = object(options, "options");
+  const { name, ...others } = object(options, "options", known[verb]);
   const made = callFiles(verb, [modelOf(data, name)], others);
   return { ...made, report: ofFile(made.report) };
 }
@@ -155,13 +170,13 @@ export const check = (data, options = {}) => ask("check", data, options).report;
 export const inspect = (data, options = {}) => ask("inspect", data, options).report;
 export const identify = (data, options = {}) => ask("identify", data, options).report;
 export const diff = (a, b, options = {}) =>
-  callFiles("diff", [modelOf(a, "a", "the first model"), modelOf(b, "b", "the second model")], object(options, "options")).report;
+  callFiles("diff", [modelOf(a, "a", "the first model"), modelOf(b, "b", "the second model")], object(options, "options", known.diff)).report;
 
 const isSame = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[i]);
 
 /** An option decodeImage for this model, of a decode(bytes, mimeType) that may give promises. */
 export async function decodeImages(data, decode, options = {}) {
-  if (typeof decode !== "function") fail("wrongType", "decode is not a function");
+  if (typeof decode !== "function") failType(decode, "decode", "a function");
   const { resources, meshopt, draco, memoryLimit, allowExternal, signal, name } = object(options, "options");
   const files = run([modelOf(data, name)], { resources, meshopt, draco, memoryLimit, allowExternal, signal }, (call, table, given, codecs) => {
     call.wasm.findImages(table, given);

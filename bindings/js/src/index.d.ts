@@ -79,7 +79,7 @@ export function makeIndexedFrames(mesh: Mesh, options: IndexedFramesOptions): In
 
 /** What of a mesh stays while it deforms. It lies in the module's memory: destroy it, or leave that to the collector. */
 export class Plan {
-  constructor(mesh: Mesh, options: TangentOptions);
+  constructor(mesh: Mesh, options: Omit<TangentOptions, "report">);
   readonly vertexCount: number;
   readonly cornerCount: number;
   /** Memory that the plan holds. */

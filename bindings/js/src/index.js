@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The entry "tspace": the whole core.
-import { keepReport, makeCalls, meshOf, setMesh, tangentArguments, tangentCounts, writeTangents } from "./calls.js";
-import { boolean, choice, count, fail, floats, integers, number, object } from "./check.js";
+import { keepReport, makeCalls, meshOf, mikktspaceOptions, setMesh, tangentArguments, tangentCounts, writeTangents } from "./calls.js";
+import { boolean, choice, count, fail, floats, integers, number, object, optionsOf } from "./check.js";
 import { conventionBits } from "./convention.js";
 import { Wasm } from "./wasm.js";
 
@@ -12,15 +12,17 @@ const wasm = new Wasm(new URL("./core.wasm", import.meta.url));
 export const ready = wasm.ready;
 
 const methods = ["mikktspace", "lengyel", "uniform", "angle", "area", "flat", "basis", "fast", "best"];
-const choices = { methods, ngons: ["triangulate", "skip"] };
+const tangentOptions = [...mikktspaceOptions, "frame", "refine"];
+const choices = { methods, ngons: ["triangulate", "skip"], options: tangentOptions };
 const weightings = ["flat", "uniform", "area", "angle", "angleArea", "max", "best"];
+const normalOptions = ["weighting", "creaseAngle", "smoothingGroups", "smoothingGroupsAreMasks", "weldPositions", "refine"];
+const steps = ["makeNormals", "sanitize", "orthogonalizeAll"];
 const normalCounts = ["faceCount", "degenerateFaceCount", "fallbackCornerCount"];
 
 export const { generateTangents, sanitizeTangents, splitVertices } = makeCalls(wasm, choices);
 
 /** What the module takes for options of normals: a function, since groups are copied for a call. */
 function normalArguments(options) {
-  object(options, "options");
   const groups = integers(options.smoothingGroups, "smoothingGroups");
   const before = [choice(options.weighting ?? "angle", "weighting", weightings), number(options.creaseAngle ?? 180, "creaseAngle")];
   const after = [
@@ -33,6 +35,7 @@ function normalArguments(options) {
 }
 
 export function generateNormals(mesh, options = {}) {
+  optionsOf(options, [...normalOptions, "convention", "report"]);
   const given = normalArguments(options);
   const { positions, indices, faceSizes } = object(mesh, "mesh");
   const checked = meshOf({ positions, indices, faceSizes });
@@ -46,18 +49,20 @@ export function generateNormals(mesh, options = {}) {
 }
 
 export function makeIndexedFrames(mesh, options = {}) {
+  optionsOf(options, [...tangentOptions, ...steps, "normals", "report"]);
   const tangents = tangentArguments(options, choices);
-  const steps = ["makeNormals", "sanitize", "orthogonalizeAll"].map((name) => boolean(options[name] ?? name === "sanitize", name));
-  const normals = normalArguments(options.normals ?? {});
+  const chosen = steps.map((name) => boolean(options[name] ?? name === "sanitize", name));
+  const normals = normalArguments(object(options.normals ?? {}, "normals", normalOptions));
   const checked = meshOf(mesh);
   return wasm.run((call) => {
     setMesh(call, checked);
     const result = call.allocate(40);
-    call.check(call.wasm.makeIndexedFrames(...tangents, ...steps, ...normals(call), result));
+    call.check(call.wasm.makeIndexedFrames(...tangents, ...chosen, ...normals(call), result));
     const words = call.get(Uint32Array, result, 10);
     const take = (Type, i, size) => call.take(Type, words[2 * i], size * words[2 * i + 1]);
     const report = {};
     call.report(tangentCounts, report);
+    Object.assign(options.report ?? {}, report);
     return {
       indices: take(Uint32Array, 0, 1),
       sourceVertex: take(Uint32Array, 1, 1),
@@ -77,6 +82,7 @@ export class Plan {
   #end;
 
   constructor(mesh, options = {}) {
+    optionsOf(options, tangentOptions);
     const given = tangentArguments(options, choices);
     const checked = meshOf(mesh);
     wasm.run((call) => {
@@ -107,7 +113,7 @@ export class Plan {
 
   evaluate(pose, options = {}) {
     object(pose, "pose");
-    object(options, "options");
+    optionsOf(options, ["report"]);
     const positions = floats(pose.positions, "positions", 3, true);
     const normals = floats(pose.normals, "normals", 3, true);
     this.#held();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The entry "tspace/mikktspace": one method, mending and splitting, in half of the bytes.
-import { makeCalls } from "./calls.js";
+import { makeCalls, mikktspaceOptions } from "./calls.js";
 import { fail } from "./check.js";
 import { Wasm } from "./wasm.js";
 
@@ -10,7 +10,7 @@ export { TspaceError } from "./error.js";
 const wasm = new Wasm(new URL("./mikktspace.wasm", import.meta.url));
 export const ready = wasm.ready;
 
-const calls = makeCalls(wasm, { methods: ["mikktspace"], ngons: ["skip"] });
+const calls = makeCalls(wasm, { methods: ["mikktspace"], ngons: ["skip"], options: mikktspaceOptions });
 export const { splitVertices } = calls;
 
 function withoutLists(mesh) {

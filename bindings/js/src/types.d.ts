@@ -117,7 +117,7 @@ export interface Split {
   sourceCorners: Uint32Array;
 }
 
-/** Why a call failed. The module can be used afterwards. */
+/** Why a call failed. The module can be used afterwards. Wrong types, and options that do not exist, are instances of TypeError too. */
 export class TspaceError extends Error {
   /**
    * Stable: wrongType, detached, notReady, or one of the library: nullData, countMismatch, indexOutOfRange, tooLarge,

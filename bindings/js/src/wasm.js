@@ -12,9 +12,6 @@ class Failure {
   }
 }
 
-/** Thrown by the module where its input is wrong. */
-class Ended extends TspaceError {}
-
 /** What is loaded has the module in it, squeezed. */
 function unsqueezed({ instance }) {
   const { memory, unsqueeze } = instance.exports;
@@ -40,17 +37,30 @@ export class Wasm {
   get exports() {
     if (!this.#module) throw new TspaceError("notReady", "tspace is not loaded: `await ready` first");
     if (!this.#instance) {
-      const env = { endCall: (number) => this.#endCall(number), attempt: (body, context) => this.#attempt(body, context) };
-      this.#instance = new WebAssembly.Instance(this.#module, { env: { ...env, ...this.#imports } });
+      const imports = { endCall: (number) => this.#endCall(number), attempt: (...given) => this.#attempt(...given), ...this.#imports };
+      const env = Object.fromEntries(Object.entries(imports).map(([name, call]) => [name, this.#throughFrames(call)]));
+      this.#instance = new WebAssembly.Instance(this.#module, { env });
       this.#instance.exports.__wasm_call_ctors();
     }
     return this.#instance.exports;
   }
 
+  /** What `call` throws goes through frames of the module, and what those had allocated stays behind. */
+  #throughFrames(call) {
+    return (...given) => {
+      try {
+        return call(...given);
+      } catch (error) {
+        this.#isWorn = true;
+        throw error;
+      }
+    };
+  }
+
   #endCall(number) {
     if (number === 9) throw new TspaceError("outOfMemory", "out of memory");
     if (number === 11) throw new TspaceError("internal", "internal error of tspace");
-    throw new Ended(...errorOf(this.#instance.exports, number));
+    throw new Failure(number);
   }
 
   /** Calls a function of the module; 1 where it ended as calls do whose input is wrong. */
@@ -61,9 +71,8 @@ export class Wasm {
       functions.get(body)(context);
       return 0;
     } catch (error) {
-      if (!(error instanceof Ended)) throw error;
+      if (!(error instanceof Failure)) throw error;
       stackRestore(top);
-      this.#isWorn = true; // what that function had allocated stays behind
       return 1;
     }
   }
@@ -71,21 +80,17 @@ export class Wasm {
   /** body(call), and the end of what it allocated. */
   run(body) {
     const call = new Call(this.exports);
-    let isClean = false;
     try {
-      const result = body(call);
-      isClean = !this.#isWorn;
-      return result;
+      return body(call);
     } catch (error) {
-      isClean = error instanceof Failure && !this.#isWorn;
       if (error instanceof Failure) throw new TspaceError(...errorOf(call.wasm, error.number));
-      if (error instanceof Ended) throw new TspaceError(error.code, error.message, error.element);
+      this.#isWorn ||= error instanceof WebAssembly.RuntimeError || error instanceof RangeError; // a full stack is one
       if (error instanceof WebAssembly.RuntimeError)
         throw new TspaceError("internal", `internal error of tspace: ${error.message}`);
       throw error;
     } finally {
-      if (isClean) call.end();
-      else this.#instance = undefined;
+      if (this.#isWorn) this.#instance = undefined;
+      else call.end();
       this.#isWorn = false;
     }
   }

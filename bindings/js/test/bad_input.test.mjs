@@ -2,10 +2,12 @@
 // Each mistake is an exception that says what and where, and the module works afterwards.
 import assert from "node:assert/strict";
 import { after, describe, it } from "node:test";
-import { generateNormals, generateTangents, Plan, ready, sanitizeTangents, splitVertices, TspaceError } from "tspace";
+import { runInNewContext } from "node:vm";
+import { generateNormals, generateTangents, makeIndexedFrames, Plan, ready, sanitizeTangents, splitVertices, TspaceError } from "tspace";
+import * as small from "tspace/mikktspace";
 import { grid } from "./meshes.mjs";
 
-await ready;
+await Promise.all([ready, small.ready]);
 const mesh = grid(3);
 const options = { convention: "gltf" };
 const good = generateTangents(mesh, options);
@@ -14,6 +16,7 @@ const good = generateTangents(mesh, options);
 function refuses(code, words, body, element) {
   assert.throws(body, (error) => {
     assert.ok(error instanceof TspaceError && error instanceof Error, String(error));
+    assert.equal(error instanceof TypeError, code === "wrongType" || / is unknown: /.test(error.message));
     assert.equal(error.code, code, error.message);
     for (const word of words) assert.match(error.message, word);
     if (element !== undefined) assert.equal(error.element, element);
@@ -32,27 +35,52 @@ describe("refused", () => {
   });
 
   it("wrong types", () => {
-    refuses("wrongType", [/mesh is null/], () => generateTangents(null, options));
+    refuses("wrongType", [/^mesh must be an object, not null$/], () => generateTangents(null, options));
+    refuses("wrongType", [/^mesh must be an object, not undefined$/], () => generateTangents(undefined, options));
+    refuses("wrongType", [/^mesh must be an object, not a function$/], () => generateTangents(grid, options));
     refuses("wrongType", [/positions/, /Float64Array/, /Float32Array/], tangentsOf({ positions: new Float64Array(9) }));
-    refuses("wrongType", [/positions is Array/], tangentsOf({ positions: [0, 0, 0] }));
-    refuses("wrongType", [/uvs is a string/], tangentsOf({ uvs: "uv" }));
-    refuses("wrongType", [/indices is Float32Array/], tangentsOf({ indices: new Float32Array(3) }));
-    refuses("wrongType", [/indices is Int32Array/], tangentsOf({ indices: new Int32Array(3) }));
+    refuses("wrongType", [/positions must be a Float32Array, not an Array/], tangentsOf({ positions: [0, 0, 0] }));
+    refuses("wrongType", [/uvs must be a Float32Array, not "uv"/], tangentsOf({ uvs: "uv" }));
+    refuses("wrongType", [/indices must be a Uint32Array, Uint16Array or Uint8Array, not a Float32Array/], tangentsOf({ indices: new Float32Array(3) }));
+    refuses("wrongType", [/not an Int32Array/], tangentsOf({ indices: new Int32Array(3) }));
     refuses("wrongType", [/faceSizes/], tangentsOf({ faceSizes: 4 }));
-    refuses("wrongType", [/threshold/], tangentsOf({}, { threshold: "180" }));
+    refuses("wrongType", [/threshold must be a number, not "180"/], tangentsOf({}, { threshold: "180" }));
+    refuses("wrongType", [/threshold must be a number, not NaN/], tangentsOf({}, { threshold: NaN }));
+    refuses("wrongType", [/report must be an object, not 5/], tangentsOf({}, { report: 5 }));
+    refuses("wrongType", [/normals must be an object, not true/], () => makeIndexedFrames(mesh, { ...options, normals: true }));
     refuses("wrongType", [/options/], () => generateTangents(mesh, "gltf"));
     refuses("wrongType", [/tangents/], () => sanitizeTangents(mesh, [...good]));
     refuses("wrongType", [/attributes/], () => splitVertices({ vertexCount: 3 }, {}));
+    refuses("wrongType", [/attribute 0 must be an object, not undefined/], () => splitVertices({ vertexCount: 3 }, new Array(3)));
   });
 
   it("wrong options", () => {
-    refuses("invalidOption", [/method is "mikkt"/, /mikktspace, lengyel/], tangentsOf({}, { method: "mikkt" }));
+    refuses("invalidOption", [/method must be one of mikktspace, lengyel/, /"mikkt"/], tangentsOf({}, { method: "mikkt" }));
     refuses("invalidOption", [/pairing/], tangentsOf({}, { pairing: "good" }));
     refuses("invalidOption", [/refine/], tangentsOf({}, { refine: 7 }));
     refuses("invalidOption", [/refine/], tangentsOf({}, { refine: -1 }));
     refuses("invalidOption", [/symmetric/], tangentsOf({}, { frame: "symmetric" }));
     refuses("invalidOption", [/crease/], () => generateNormals(mesh, { creaseAngle: 181 }));
     refuses("invalidOption", [/weighting/], () => generateNormals(mesh, { weighting: "heavy" }));
+  });
+
+  it("options that nobody knows, with those that are", () => {
+    const unknown = (words, body) => refuses("invalidOption", [/ is unknown: known are /, ...words], body);
+    const typo = { ...options, treshold: 90 };
+    const words = [/^options\.treshold/, /method, threshold, pairing, ngons, convention, frame, refine/];
+    unknown([...words, /report$/], () => generateTangents(mesh, typo));
+    unknown(words, () => new Plan(mesh, typo));
+    unknown([...words, /makeNormals, sanitize, orthogonalizeAll, normals/], () => makeIndexedFrames(mesh, typo));
+    unknown([/^options\.threshold/, /weighting, creaseAngle/], () => generateNormals(mesh, { threshold: 90 }));
+    unknown([/^normals\.crease /, /creaseAngle/], () => makeIndexedFrames(mesh, { ...options, normals: { crease: 90 } }));
+    unknown([/^convention\.greenUp/, /vAxis, green/], tangentsOf({}, { convention: { vAxis: "up", greenUp: true } }));
+    unknown([/^options\.orthogonalize /, /orthogonalizeAll/], () => sanitizeTangents(mesh, good, { orthogonalize: true }));
+    const plan = new Plan(mesh, options);
+    unknown([/^options\.convention/, /report/], () => plan.evaluate(mesh, options));
+    plan.destroy();
+    const attribute = { data: new Float32Array(3), size: 1, epsilon: 0 };
+    unknown([/^attribute 0\.epsilon/, /tolerance/], () => splitVertices({ vertexCount: 3 }, [attribute]));
+    unknown([/^options\.frame/], () => small.generateTangents(mesh, { ...options, frame: "symmetric" }));
   });
 
   it("wrong shapes", () => {
@@ -102,6 +130,18 @@ describe("refused", () => {
     refuses("detached", [/uvs/], tangentsOf({ uvs }));
   });
 
+  it("buffers that change while the call looks at them", () => {
+    const shrinking = mesh.positions.slice();
+    const detaches = { ...mesh, positions: shrinking, get uvIndices() { structuredClone(shrinking.buffer, { transfer: [shrinking.buffer] }); } };
+    assert.throws(() => generateTangents(detaches, options), TypeError);
+    assert.deepEqual(generateTangents(mesh, options), good);
+    if (!ArrayBuffer.prototype.resize) return;
+    const buffer = new ArrayBuffer(mesh.positions.byteLength, { maxByteLength: 1e7 });
+    const positions = new Float32Array(buffer);
+    positions.set(mesh.positions);
+    assert.deepEqual(generateTangents({ ...mesh, positions, get uvIndices() { buffer.resize(1e7); } }, options), good);
+  });
+
   it("plans with poses of another size", () => {
     const plan = new Plan(mesh, options);
     refuses("planMismatch", [/15 positions/, /16/], () =>
@@ -144,11 +184,22 @@ describe("taken as it is", () => {
     shared.set(mesh.positions);
     assert.deepEqual(generateTangents({ ...mesh, positions: shared }, options), good);
   });
+
+  it("arrays of another context", () => {
+    const positions = runInNewContext("Float32Array.from(numbers)", { numbers: [...mesh.positions] });
+    assert.ok(!(positions instanceof Float32Array));
+    assert.deepEqual(generateTangents({ ...mesh, positions }, options), good);
+  });
 });
 
 describe("running out of memory", () => {
   it("is an error, after which the module works", () => {
     const plan = new Plan(mesh, options);
+    // What the caller does wrong ends no plan.
+    assert.throws(() => generateTangents(mesh, { ...options, report: 5 }), TypeError);
+    assert.throws(() => generateTangents(mesh, { ...options, report: Object.freeze({}) }), TypeError);
+    assert.throws(() => generateTangents({ ...mesh, indices: new Uint8Array(2 ** 31) }, options), { code: "outOfMemory" });
+    assert.deepEqual(plan.evaluate(mesh), good);
     const vertexCount = 2 ** 31 - 1; // 8 GB of numbers for the new vertices alone
     refuses("outOfMemory", [/memory/], () => splitVertices({ indices: Uint32Array.of(0), vertexCount }, [{ data: new Float32Array(1), size: 1 }]));
     assert.throws(() => plan.evaluate(mesh), { code: "planMismatch" });

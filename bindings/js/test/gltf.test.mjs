@@ -69,18 +69,22 @@ describe("models in memory", () => {
     refuses("invalidFile", [/a grid\.bin/], () => generate(named));
     refuses("invalidFile", [/a grid\.bin/, /not given/], () => generate(named, { resources: {} }));
     assert.throws(() => generate(named, { resources: () => { throw new RangeError("mine"); } }), RangeError);
-    refuses("wrongType", [/a grid\.bin/, /string/], () => check(named, { resources: { [path]: "text" } }));
+    refuses("wrongType", [/a grid\.bin/, /not "text"/], () => check(named, { resources: { [path]: "text" } }));
     refuses("wrongType", [/resources/], () => check(named, { resources: 5 }));
     refuses("invalidOption", [/must not call/], () => check(named, { resources: () => check(model) }));
     refuses("forbiddenPath", [/folder/], () => check(gridModel({ uri: "../grid.bin" }).model, { resources: () => buffer }));
   });
 
   it("are refused with a sentence where the call is wrong", () => {
-    refuses("wrongType", [/model is a string/, /Uint8Array/], () => check("model.glb"));
-    refuses("wrongType", [/model is a/], () => check());
+    refuses("wrongType", [/model must be a Uint8Array or an ArrayBuffer, not "model.glb"/], () => check("model.glb"));
+    refuses("wrongType", [/model must be .* not undefined/], () => check());
     refuses("wrongType", [/options/], () => check(model, "all"));
     refuses("wrongType", [/ignore/], () => check(model, { ignore: [{}] }));
     refuses("wrongType", [/name/], () => check(model, { name: 5 }));
+    refuses("wrongType", [/threshold/, /NaN/], () => generate(model, { threshold: NaN }));
+    for (const call of [generate, check, inspect, identify, (a, options) => diff(a, a, options)])
+      assert.throws(() => call(model, { treshold: 90 }), (error) =>
+        error instanceof TypeError && error instanceof TspaceError && /options\.treshold is unknown: .*memoryLimit/.test(error.message));
     refuses("invalidOption", [/methods/, /method/], () => generate(model, { methods: "best" }));
     refuses("invalidOption", [/method/, /mikktspace/], () => generate(model, { method: "mikkt" }));
     refuses("invalidOption", [/crease/], () => generate(model, { crease: "1e400" }));
@@ -91,6 +95,29 @@ describe("models in memory", () => {
     const gone = Uint8Array.from(model);
     structuredClone(gone.buffer, { transfer: [gone.buffer] });
     refuses("detached", [/model/], () => check(gone));
+  });
+
+  it("know the options that their types have, and that the module knows", () => {
+    const types = readFileSync(new URL("../node_modules/tspace/src/gltf.d.ts", import.meta.url), "utf8");
+    const membersOf = (name) => {
+      const [, parents = "", body] = types.match(new RegExp(`interface ${name}(?: extends (.*?))? \\{\\n([\\s\\S]*?)\\n\\}`));
+      const own = [...body.matchAll(/^  (\w+)\?:/gm)].map((match) => match[1]);
+      return [...own, ...(parents.match(/\w+Options/g) ?? []).flatMap(membersOf)];
+    };
+    const calls = { Generate: generate, Check: check, Model: inspect, Identify: identify, Diff: (a, options) => diff(a, a, options) };
+    for (const [name, call] of Object.entries(calls)) {
+      const wanted = membersOf(`${name}Options`).filter((member) => name !== "Diff" || member !== "name").sort();
+      assert.throws(() => call(model, { "": 0 }), (error) => {
+        assert.deepEqual(error.message.split("known are ")[1].split(", ").sort(), wanted, name);
+        return true;
+      });
+      for (const option of wanted) // a wrong value is refused by the module, if it is, and never as a name
+        try {
+          call(model, { [option]: "?" });
+        } catch (error) {
+          assert.doesNotMatch(error.message, /there is no option/, name);
+        }
+    }
   });
 
   it("leave memory as it was, also where they are wrong", () => {

@@ -8,10 +8,13 @@ import subprocess
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
-from tspace import _abi, _files_abi
+import tspace
+from tspace import _abi, _files, _files_abi
 
-INCLUDE = Path(__file__).resolve().parents[3] / "include"
+ROOT = Path(__file__).resolve().parents[3]
+INCLUDE, OPTIONS = ROOT / "include", ROOT / "src/options"
 HEADERS = ("tspace.h", "tspace_frame.h", "tspace_indexed_frames.h", "tspace_normals.h", "tspace_pack.h", "tspace_files.h")
 ENUMERATIONS = {
     "METHOD": _abi.METHODS,
@@ -49,6 +52,30 @@ def expected():
         for name, number in table.items():
             values[f"TSPACE_{prefix}_{name.upper()}"] = number
     return values
+
+
+class Names(unittest.TestCase):
+    def test_conventions_are_those_that_the_library_finds(self):
+        for name in _abi.CONVENTIONS:
+            self.assertEqual(_abi.library.tspace_findConvention(name.encode(), _abi.Convention(), _abi.Error()), 0)
+
+    @unittest.skipUnless(OPTIONS.exists(), "the sources are not there")
+    def test_options_of_files_are_those_that_the_library_knows(self):
+        """Every function is asked, past the check of names, for every option that any has."""
+        names = set()
+        for path in OPTIONS.glob("*_options.cpp"):
+            names.update(name.replace("-", "_") for name in re.findall(r'"--([a-z-]+)"', path.read_text()))
+        self.assertGreater(len(names), 40)
+        for verb, known in _files._OPTIONS.items():
+            call = {"generate": tspace.generate_bytes, "flipGreen": tspace.flip_green_bytes}.get(verb)
+            models = (b"", b"") if verb == "diff" else (b"",)
+            has = {name for name in names if self.knows(call or getattr(tspace, verb), models, name)}
+            self.assertEqual(has, set(known.split()), verb)
+
+    def knows(self, call, models, option):
+        with mock.patch.object(_files, "_check_names"), self.assertRaises(tspace.Error) as caught:
+            call(*models, **{option: "\1"})
+        return "there is no option" not in str(caught.exception)
 
 
 @unittest.skipUnless(INCLUDE.exists(), "the C headers are not there")

@@ -141,6 +141,10 @@ class BadInput(unittest.TestCase):
                 with self.subTest(option=option, value=value):
                     self.refuses_tangents(TypeError, option, **{option: value})
         self.refuses(TypeError, "convention", tspace.tangents, *self.shape)
+        names = [f"'{name}'" for name in "gltf opengl directx unreal unity blender godot".split()]
+        self.refuses_tangents(ValueError, ["'maya'", *names], convention="maya")
+        self.refuses_tangents(TypeError, names, convention=None)
+        self.refuses_tangents(TypeError, "treshold", treshold=90)
         self.refuses_tangents(ValueError, "per vertex", domain="vertex")
         parts = tspace.Convention("sideways")
         self.refuses_tangents(ValueError, ["v_axis", "sideways"], convention=parts)

@@ -183,10 +183,14 @@ class Refused(Files):
         self.refuses(TypeError, "name", tspace.check, self.plain, name=b"a")
 
     def test_options(self):
-        for options in (dict(method="mikk"), dict(colour=1), dict(crease="sharp"), dict(crease=-1), dict(all="yes")):
+        for options in (dict(method="mikk"), dict(crease="sharp"), dict(crease=-1), dict(all="yes")):
             with self.subTest(options):
                 error = self.refuses(ValueError, "", tspace.generate_bytes, self.plain, **options)
                 self.assertEqual(error.code, "invalidOption")
+        for call in (tspace.generate_bytes, tspace.check, tspace.identify, tspace.inspect):
+            error = self.refuses(TypeError, "no option 'treshold': .*memory_limit", call, self.plain, treshold=1)
+            self.assertEqual(error.code, "invalidOption")
+        self.refuses(tspace.InputError, "treshold.*worst", tspace.diff, self.plain, self.plain, treshold=1)
         self.refuses(TypeError, "options are", tspace.generate_bytes, self.plain, method=object())
 
     def test_broken_bytes(self):

@@ -61,7 +61,8 @@ Arrays
 Errors
     TypeError for what is no array of numbers, InputError (a ValueError) for wrong shapes and options, IndexRangeError (an
     IndexError too) for indices: they say which argument, and where. FileError for broken models, ReadWriteError (an OSError) for
-    files that cannot be read or written. Broken geometry is no error: it is counted in the reports
+    files that cannot be read or written. An option that does not exist is a TypeError that lists those that do
+    (UnknownOptionError, for models). Broken geometry is no error: it is counted in the reports
     that `full=True` gives.
 
 Threads
@@ -70,7 +71,7 @@ Threads
 """
 
 from ._abi import library as _library
-from ._errors import Error, FileError, IndexRangeError, InputError, ReadWriteError
+from ._errors import Error, FileError, IndexRangeError, InputError, ReadWriteError, UnknownOptionError
 from ._files import (
     CheckReport,
     Finding,
@@ -123,6 +124,7 @@ __all__ = [
     "TangentReport",
     "TangentResult",
     "Triangles",
+    "UnknownOptionError",
     "check",
     "diff",
     "flip_green_bytes",

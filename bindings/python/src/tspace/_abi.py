@@ -24,6 +24,7 @@ NGONS = {"triangulate": 0, "skip": 1}
 DOMAINS = {"corner": 0, "vertex": 1}
 FRAME_SHAPES = {"gram_schmidt": 0, "symmetric": 1}
 WEIGHTINGS = {"flat": 0, "uniform": 1, "area": 2, "angle": 3, "angle_area": 4, "max": 5, "best": 6}
+CONVENTIONS = ("gltf", "opengl", "directx", "unreal", "unity", "blender", "godot")
 FRAME_FORMATS = {
     "frame32": 0,
     "frame48": 1,

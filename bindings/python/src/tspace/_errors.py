@@ -30,6 +30,10 @@ class InputError(Error, ValueError):
     """An argument with the right type and a wrong value: shape, count, range, name of an option."""
 
 
+class UnknownOptionError(InputError, TypeError):
+    """An option that a function of files does not have."""
+
+
 class IndexRangeError(InputError, IndexError):
     """An index that names no vertex."""
 

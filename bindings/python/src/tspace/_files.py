@@ -12,13 +12,26 @@ from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Tuple
 import numpy
 
 from . import _abi, _files_abi
-from ._errors import InputError, raise_error
+from ._errors import InputError, UnknownOptionError, raise_error
 
 PathLike = Union[str, "os.PathLike[str]"]
 BytesLike = Union[bytes, bytearray, memoryview]
 FindFile = Union[Callable[[str], Optional[bytes]], Mapping[str, bytes]]
 
 _INTERNAL, _CANNOT_READ = 11, 103
+
+# What each function takes, by the name in its C functions.
+_LIMITS = "allow_external memory_limit import_seconds"
+_OPTIONS = {
+    "generate": "all only_missing overwrite repair strip method faces pairing threshold frame refine texture_transform"
+    " bitangents convention format pack pack_drop normals crease compress flip_green flip_green_all convert_maps"
+    f" no_sanitize orthogonalize dry_run threads {_LIMITS}",
+    "check": f"fail_on severity ignore angle convention faces no_images threads {_LIMITS}",
+    "inspect": _LIMITS,
+    "identify": f"tolerance threads {_LIMITS}",
+    "diff": f"tolerance worst {_LIMITS}",
+    "flipGreen": "dry_run memory_limit",
+}
 
 
 class Report:
@@ -188,6 +201,7 @@ class _Call:
 
     def run(self, function: str, *arguments: Any, options: Mapping[str, Any], has_output: bool = False) -> Any:
         """The document of the report, and the output where there is one."""
+        _check_names(function, options)
         text = json.dumps({name.replace("_", "-"): value for name, value in options.items()}, default=_plain)
         backs = [_files_abi.Bytes() for _ in range(2 if has_output else 1)]
         error = _abi.Error()
@@ -204,6 +218,14 @@ class _Call:
             self.keep.clear()  # the callback refers to this object: without it, buffers stay locked
         document = json.loads(values[-1])
         return (values[0], document) if has_output else document
+
+
+def _check_names(function: str, options: Mapping[str, Any]) -> None:
+    verb = re.sub("^tspace_|(File|Bytes)s?$", "", function)
+    known = _OPTIONS[verb].split()
+    for name in options:
+        if name not in known:
+            raise UnknownOptionError(f"there is no option {name!r}: known are {', '.join(known)}", "invalidOption")
 
 
 def _plain(value: Any) -> Any:

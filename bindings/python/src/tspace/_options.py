@@ -53,6 +53,7 @@ class Convention:
 
 
 _CONVENTION_TABLES = (_abi.V_AXES, _abi.GREENS, _abi.STORED_SIGNS, _abi.HANDEDNESSES, _abi.WINDINGS)
+_PRESETS = ", ".join(map(repr, _abi.CONVENTIONS))
 ConventionLike = Union[str, Convention]
 
 
@@ -63,6 +64,8 @@ def _convention_struct(convention: ConventionLike) -> _abi.Convention:
         for (field, _), table in zip(struct._fields_, _CONVENTION_TABLES):
             setattr(struct, field, named(field, getattr(convention, field), table))
         return struct
+    if convention not in _abi.CONVENTIONS:
+        raise InputError(f"convention is {convention!r}, which is none of {_PRESETS}", "invalidOption")
     error = _abi.Error()
     if _abi.library.tspace_findConvention(convention.encode(), byref(struct), byref(error)):
         raise_error(error)
@@ -72,7 +75,7 @@ def _convention_struct(convention: ConventionLike) -> _abi.Convention:
 def convention_struct(convention: ConventionLike) -> _abi.Convention:
     """The struct of the C API; it is shared, so nobody may write it."""
     if not isinstance(convention, (str, Convention)):
-        raise TypeError(f"convention must be the name of a preset or a tspace.Convention, not {convention!r}")
+        raise TypeError(f"convention must be a tspace.Convention or one of {_PRESETS}, not {convention!r}")
     return _convention_struct(convention)
 
 
