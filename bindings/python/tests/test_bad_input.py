@@ -137,9 +137,10 @@ class BadInput(unittest.TestCase):
                 error = self.refuses_tangents(ValueError, "", **{option: value})
                 self.assertEqual(error.code, "invalidOption")
         for option in ("method", "pairing", "ngons", "domain", "frame", "convention", "threshold", "refine", "threads"):
-            for value in (None, [], b"mikktspace", 1j, {}):
+            for value in (None, [], b"mikktspace", 1j, {}, self.positions):
                 with self.subTest(option=option, value=value):
-                    self.refuses_tangents(TypeError, option, **{option: value})
+                    error = self.refuses_tangents(TypeError, option, **{option: value})
+                    self.assertNotIn("\n", str(error))
         self.refuses(TypeError, "convention", tspace.tangents, *self.shape)
         names = [f"'{name}'" for name in "gltf opengl directx unreal unity blender godot".split()]
         self.refuses_tangents(ValueError, ["'maya'", *names], convention="maya")

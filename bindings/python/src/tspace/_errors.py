@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Exceptions, and turning the errors of the C API into them."""
 
-from typing import Optional, Type
+from typing import Any, Optional, Type
 
 from . import _abi
 
@@ -44,6 +44,12 @@ class FileError(Error):
 
 class ReadWriteError(FileError, OSError):
     """A file that cannot be read or written."""
+
+
+def shown(value: Any) -> str:
+    """A value as messages show it: what is long by its type."""
+    text = repr(value)
+    return text if len(text) <= 60 and "\n" not in text else f"an object of type {type(value).__name__}"
 
 
 def raise_error(error: _abi.Error) -> None:

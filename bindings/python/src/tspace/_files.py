@@ -12,7 +12,7 @@ from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Tuple
 import numpy
 
 from . import _abi, _files_abi
-from ._errors import InputError, UnknownOptionError, raise_error
+from ._errors import InputError, UnknownOptionError, raise_error, shown
 
 PathLike = Union[str, "os.PathLike[str]"]
 BytesLike = Union[bytes, bytearray, memoryview]
@@ -169,7 +169,7 @@ class _Call:
     def model(self, name: str, value: Any, file_name: Optional[str], find_file: Optional[FindFile]) -> _files_abi.Model:
         data = self.buffer(name, value)
         if file_name is not None and (not isinstance(file_name, str) or "\0" in file_name):
-            raise TypeError(f"name must be text, not {file_name!r}")
+            raise TypeError(f"name must be text, not {shown(file_name)}")
         encoded = None if file_name is None else os.fsencode(file_name)
         callback = _files_abi.FindFile(0) if find_file is None else self.callback(find_file)
         self.keep += [encoded, callback]

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any, Dict, Union
 
 from . import _abi
-from ._errors import InputError, raise_error
+from ._errors import InputError, raise_error, shown
 
 
 def named(option: str, name: Any, table: Dict[str, int]) -> int:
@@ -18,8 +18,8 @@ def named(option: str, name: Any, table: Dict[str, int]) -> int:
     if number is None:
         known = ", ".join(repr(known) for known in table)
         if not isinstance(name, str):
-            raise TypeError(f"{option} must be one of {known}, not {name!r}")
-        raise InputError(f"{option} is {name!r}, which is none of {known}", "invalidOption")
+            raise TypeError(f"{option} must be one of {known}, not {shown(name)}")
+        raise InputError(f"{option} is {shown(name)}, which is none of {known}", "invalidOption")
     return number
 
 
@@ -65,7 +65,7 @@ def _convention_struct(convention: ConventionLike) -> _abi.Convention:
             setattr(struct, field, named(field, getattr(convention, field), table))
         return struct
     if convention not in _abi.CONVENTIONS:
-        raise InputError(f"convention is {convention!r}, which is none of {_PRESETS}", "invalidOption")
+        raise InputError(f"convention is {shown(convention)}, which is none of {_PRESETS}", "invalidOption")
     error = _abi.Error()
     if _abi.library.tspace_findConvention(convention.encode(), byref(struct), byref(error)):
         raise_error(error)
@@ -75,15 +75,15 @@ def _convention_struct(convention: ConventionLike) -> _abi.Convention:
 def convention_struct(convention: ConventionLike) -> _abi.Convention:
     """The struct of the C API; it is shared, so nobody may write it."""
     if not isinstance(convention, (str, Convention)):
-        raise TypeError(f"convention must be a tspace.Convention or one of {_PRESETS}, not {convention!r}")
+        raise TypeError(f"convention must be a tspace.Convention or one of {_PRESETS}, not {shown(convention)}")
     return _convention_struct(convention)
 
 
 def thread_count(threads: Union[int, str]) -> int:
     """The number of the C API: `threads` is a number from 1 on, or "all"."""
-    if threads == 1:
+    if type(threads) is int and threads == 1:
         return 1
-    if threads == "all":
+    if isinstance(threads, str) and threads == "all":
         return _abi.ALL_THREADS
     count = small_number("threads", threads)
     if not 1 <= count < _abi.ALL_THREADS:
@@ -98,7 +98,7 @@ def execution(threads: Union[int, str]) -> _abi.Execution:
 def real(option: str, value: Any) -> float:
     """A real number; the library says which range it needs."""
     if not isinstance(value, numbers.Real) or isinstance(value, bool):
-        raise TypeError(f"{option} must be a real number, not {value!r}")
+        raise TypeError(f"{option} must be a real number, not {shown(value)}")
     if math.isnan(value):
         raise InputError(f"{option} is not a number", "invalidOption")
     return float(value)
@@ -107,7 +107,7 @@ def real(option: str, value: Any) -> float:
 def small_number(option: str, value: Any) -> int:
     """A whole number that a uint32 holds; the library says which it takes."""
     if not isinstance(value, numbers.Integral) or isinstance(value, bool):
-        raise TypeError(f"{option} must be a whole number, not {value!r}")
+        raise TypeError(f"{option} must be a whole number, not {shown(value)}")
     number = int(value)
     if not 0 <= number < 2**32:
         raise InputError(f"{option} is {value}, which is out of range", "invalidOption")

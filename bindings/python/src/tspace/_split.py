@@ -9,7 +9,7 @@ import numpy
 
 from . import _abi
 from ._arrays import NO_INDICES, UINT32, copied, fail_at_index, float_array, index_array, read_indices, read_span
-from ._errors import InputError
+from ._errors import InputError, shown
 from ._mesh import Mesh
 from ._options import execution, real
 
@@ -66,7 +66,7 @@ def split(
     >>> new_positions, new_tangents = positions[s.source_vertex], tangents[s.source_corner]
     """
     if not isinstance(vertex_count, (int, numpy.integer)) or isinstance(vertex_count, bool):
-        raise TypeError(f"vertex_count must be a number, not {vertex_count!r}")
+        raise TypeError(f"vertex_count must be a number, not {shown(vertex_count)}")
     if not 0 <= vertex_count <= _abi.MAX_COUNT:
         raise InputError(f"vertex_count is {vertex_count}; it must be 0 to {_abi.MAX_COUNT}", "tooLarge")
     struct, corner_count, index_list = NO_INDICES, int(vertex_count), None
