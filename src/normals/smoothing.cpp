@@ -3,12 +3,9 @@
 #include "normals/smoothing.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <iterator>
 
 #include "core/angle.h"
-#include "core/float4.h"
 #include "core/sort.h"
 
 namespace tspace {
@@ -59,132 +56,35 @@ inline bool isSmooth(const SmoothingRule& rule, const FaceRow& a, const FaceRow&
     return !(above < -clear) && isSmoothByAngle(rule, a, b);
 }
 
-using Four = std::int32_t __attribute__((vector_size(16)));
-
-/// The usual point: few corners, and edges that two faces share, all but the two ends of a row.
-class FewCorners {
-  public:
-    static constexpr std::uint32_t kMost = 16;
-
-    FewCorners(const Surroundings& around, const PointCorners& at) : around_(around), at_(at), count_(at.count) {}
-
-    /// Null when it is not the usual point.
-    const Link* find(Link* links) {
-        if (!read() || !(count_ <= 8 ? connect<2>() : connect<4>())) return nullptr;
-        const std::uint32_t all = (1u << count_) - 1;
-        Link* link = links;
-        for (std::uint32_t left = all; left != 0;) {
-            const std::uint32_t component = componentOf(left);
-            if (component == all) return oneComponent(count_, links);
-            const auto first = static_cast<std::uint32_t>(std::countr_zero(component));
-            for (std::uint32_t rest = component; rest != 0; rest &= rest - 1)
-                *link++ = {first, static_cast<std::uint32_t>(std::countr_zero(rest))};
-            left &= ~component;
-        }
-        return links;
-    }
-
-  private:
-    bool read() {
-        bool sound = true;
-        for (std::uint32_t i = 0; i < count_; ++i) {
-            next_[i] = at_.next(i);
-            previous_[i] = at_.previous(i);
-            rows_[i] = around_.rows + at_.triangle(i);
-            sound &= !rows_[i]->isDegenerate();
-        }
-        return sound;
-    }
-
-    /// Finds who may share a normal with whom over an edge. False where an edge has more than two faces, or two that do
-    /// not agree on its direction.
-    template <std::uint32_t kFours>
-    bool connect() {
-        Four previous[kFours];
-        std::memcpy(previous, previous_, sizeof previous);
-        const std::uint32_t all = (1u << count_) - 1;
-        std::uint32_t led_to = 0;
-        bool has_end = false;
-        for (std::uint32_t i = 0; i < count_; ++i) {
-            std::uint32_t followers = 0;
-            for (std::uint32_t k = 0; k < kFours; ++k)
-                followers |= laneBits(previous[k] == static_cast<std::int32_t>(next_[i])) << 4 * k;
-            followers &= all;
-            if ((followers & (led_to | (followers - 1))) != 0) return false;
-            led_to |= followers;
-            if (followers == 0) {
-                if (has_end) return false;  // of two, each may be the same edge seen from the other side
-                has_end = true;
-                continue;
-            }
-            const auto follower = static_cast<std::uint32_t>(std::countr_zero(followers));
-            if (!isSmooth(around_.rule, *rows_[i], *rows_[follower]) || !mayConnect(i, follower)) continue;
-            connected_[i] |= followers;
-            connected_[follower] |= 1u << i;
-        }
-        return true;
-    }
-
-    /// Of the bits `left`, the lowest one and all that are connected with it.
-    [[nodiscard]] std::uint32_t componentOf(std::uint32_t left) const {
-        std::uint32_t component = left & -left;
-        for (std::uint32_t rest = component; rest != 0;) {
-            const std::uint32_t more = connected_[std::countr_zero(rest)] & ~component;
-            component |= more;
-            rest = (rest & (rest - 1)) | more;
-        }
-        return component;
-    }
-
-    [[nodiscard]] bool mayConnect(std::uint32_t a, std::uint32_t b) const {
-        // An edge of length zero connects a face to itself.
-        if (around_.rule.groups.empty() || next_[a] == at_.point) return true;
-        const std::uint32_t g = around_.rule.groups[around_.faces.of(at_.corner(a))];
-        const std::uint32_t h = around_.rule.groups[around_.faces.of(at_.corner(b))];
-        return around_.rule.groups_are_masks ? (g & h) != 0 : g == h && g != 0;
-    }
-
-    const Surroundings& around_;
-    const PointCorners& at_;
-    std::uint32_t count_;
-    std::uint32_t connected_[kMost] = {}, next_[kMost];  ///< bits of other corners; points
-    alignas(16) std::uint32_t previous_[kMost];
-    const FaceRow* rows_[kMost];
-};
-
-/// Any point.
+/// The corners around one point.
 class PointComponents {
   public:
     PointComponents(const Surroundings& around, const PointCorners& at, Link* links, std::uint32_t* parents)
-        : mesh_(around.mesh),
-          faces_(around.faces),
+        : around_(around),
           rule_(around.rule),
-          rows_(around.rows),
           at_(at),
           count_(at.count),
+          components_(at.count),
           links_(links),
           parents_(parents) {}
 
-    [[gnu::noinline]] void find() {
+    const Link* find() {
         for (std::uint32_t slot = 0; slot < count_; ++slot) parents_[slot] = slot;
         if (rule_.any_angle)
             joinByGroup();
         else
             joinOverEdges();
+        if (components_ == 1) return oneComponent(count_, links_);
         for (std::uint32_t slot = 0; slot < count_; ++slot) links_[slot] = {root(slot), slot};
         sortLinks(links_, links_ + count_);
+        return links_;
     }
 
   private:
-    /// Corners that follow one another on the same side of a smooth edge, closed into a ring.
-    struct Ring {
-        std::uint32_t first = kNoSlot, last = kNoSlot;
-    };
-
     [[nodiscard]] std::uint32_t corner(std::uint32_t slot) const { return at_.corner(slot); }
-    [[nodiscard]] const FaceRow& row(std::uint32_t slot) const { return rows_[at_.triangle(slot)]; }
+    [[nodiscard]] const FaceRow& row(std::uint32_t slot) const { return around_.rows[at_.triangle(slot)]; }
     [[nodiscard]] std::uint32_t group(std::uint32_t slot) const {
-        return rule_.groups.empty() ? 1 : rule_.groups[faces_.of(corner(slot))];
+        return rule_.groups.empty() ? 1 : rule_.groups[around_.faces.of(corner(slot))];
     }
 
     std::uint32_t root(std::uint32_t slot) {
@@ -194,6 +94,8 @@ class PointComponents {
     void join(std::uint32_t a, std::uint32_t b) {
         a = root(a);
         b = root(b);
+        if (a == b) return;
+        --components_;
         // The lower one stays root: linking by order with halved paths is O(log n) per step, and needs no
         // ranks.
         if (a < b)
@@ -202,7 +104,7 @@ class PointComponents {
             parents_[a] = b;
     }
     void joinIfSmooth(std::uint32_t a, std::uint32_t b) {
-        if (isSmooth(rule_, row(a), row(b))) join(a, b);
+        if (rule_.any_angle || isSmooth(rule_, row(a), row(b))) join(a, b);
     }
 
     static void sortLinks(Link* begin, Link* end) {
@@ -212,26 +114,11 @@ class PointComponents {
 
     void joinByGroup() {
         Link* end = links_;
-        std::uint32_t first_of_bit[32];
-        std::fill(std::begin(first_of_bit), std::end(first_of_bit), kNoSlot);
         for (std::uint32_t slot = 0; slot < count_; ++slot) {
-            const std::uint32_t number = group(slot);
-            if (!rule_.groups_are_masks) {
-                if (number != 0) *end++ = {number, slot};
-                continue;
-            }
-            for (unsigned bit = 0; bit < 32; ++bit) {
-                if ((number >> bit & 1) == 0) continue;
-                if (first_of_bit[bit] == kNoSlot)
-                    first_of_bit[bit] = slot;
-                else
-                    join(first_of_bit[bit], slot);
-            }
+            if (group(slot) != 0) *end++ = {rule_.groups_are_masks ? 0 : group(slot), slot};
         }
         sortLinks(links_, end);
-        for (Link* link = links_; link != end; ++link) {
-            if (link != links_ && link->key == link[-1].key) join(link[-1].slot, link->slot);
-        }
+        joinGroups(links_, end);
     }
 
     void joinOverEdges() {
@@ -250,7 +137,7 @@ class PointComponents {
     /// itself.
     Link* addEdges(std::uint32_t slot, Link* end) {
         const std::uint32_t next = at_.next(slot), previous = at_.previous(slot);
-        if (previous == at_.point) join(slot, slotOf(faces_.previous(corner(slot)), slot));
+        if (previous == at_.point) join(slot, slotOf(around_.faces.previous(corner(slot)), slot));
         if (row(slot).isDegenerate() || group(slot) == 0) return end;
         if (next != at_.point) *end++ = {next, slot};
         if (previous != at_.point) *end++ = {previous, slot};
@@ -267,43 +154,48 @@ class PointComponents {
 
     void joinOverEdge(Link* run, Link* past) {
         if (past - run < 2) return;
-        if (past - run == 2 && rule_.groups.empty()) return joinIfSmooth(run[0].slot, run[1].slot);
-        sortAboutEdge(run, past);
-        Ring rings[32];
-        std::uint32_t number = group(run->slot);
-        for (Link* link = run; link != past; ++link) {
-            if (rule_.groups_are_masks) {
-                for (unsigned bit = 0; bit < 32; ++bit) {
-                    if (group(link->slot) >> bit & 1) append(rings[bit], link->slot);
-                }
-                continue;
-            }
-            if (group(link->slot) != number) {
-                close(rings[0]);
-                number = group(link->slot);
-            }
-            append(rings[0], link->slot);
+        if (past - run == 2) {
+            const std::uint32_t g = group(run[0].slot), h = group(run[1].slot);
+            if (rule_.groups_are_masks ? (g & h) != 0 : g == h) joinIfSmooth(run[0].slot, run[1].slot);
+            return;
         }
-        for (Ring& ring : rings) close(ring);
+        sortAboutEdge(run, past);
+        joinGroups(run, past);
     }
 
-    void append(Ring& ring, std::uint32_t slot) {
-        if (ring.first == kNoSlot)
-            ring.first = slot;
-        else
-            joinIfSmooth(ring.last, slot);
-        ring.last = slot;
+    /// Each group for itself. They are sorted by group, unless these are masks.
+    void joinGroups(const Link* run, const Link* past) {
+        std::uint32_t masks = 0;
+        for (const Link* link = run; rule_.groups_are_masks && link != past; ++link) masks |= group(link->slot);
+        for (; masks != 0; masks &= masks - 1)
+            joinRing(run, past, [&, bit = masks & -masks](std::uint32_t slot) { return (group(slot) & bit) != 0; });
+        for (const Link* end = run; !rule_.groups_are_masks && run != past; run = end) {
+            while (end != past && group(end->slot) == group(run->slot)) ++end;
+            joinRing(run, end, [](std::uint32_t) { return true; });
+        }
     }
-    void close(Ring& ring) {
-        if (ring.first != ring.last) joinIfSmooth(ring.first, ring.last);
-        ring = {};
+
+    /// Joins each corner that counts to the one before it, and the last to the first.
+    template <class Counts>
+    void joinRing(const Link* run, const Link* past, const Counts& counts) {
+        std::uint32_t first = kNoSlot, last = kNoSlot;
+        for (; run != past; ++run) {
+            if (!counts(run->slot)) continue;
+            if (first == kNoSlot)
+                first = run->slot;
+            else
+                joinIfSmooth(last, run->slot);
+            last = run->slot;
+        }
+        if (first != last) joinIfSmooth(first, last);
     }
 
     void sortAboutEdge(Link* run, Link* past) {
         const std::uint32_t here = corner(run->slot);
-        const std::uint32_t there = at_.next(run->slot) == run->key ? faces_.next(here) : faces_.previous(here);
-        const Turn turn(toDouble(mesh_.positions[mesh_.indices[there]]) -
-                        toDouble(mesh_.positions[mesh_.indices[here]]));
+        const std::uint32_t there =
+            at_.next(run->slot) == run->key ? around_.faces.next(here) : around_.faces.previous(here);
+        const Turn turn(toDouble(around_.mesh.positions[around_.mesh.indices[there]]) -
+                        toDouble(around_.mesh.positions[around_.mesh.indices[here]]));
         sortList(run, past, [&](const Link& a, const Link& b) {
             const std::uint32_t group_a = rule_.groups_are_masks ? 0 : group(a.slot);
             const std::uint32_t group_b = rule_.groups_are_masks ? 0 : group(b.slot);
@@ -314,12 +206,10 @@ class PointComponents {
         });
     }
 
-    const MeshView& mesh_;
-    const Faces& faces_;
+    const Surroundings& around_;
     const SmoothingRule& rule_;
-    const FaceRow* rows_;
     const PointCorners& at_;
-    std::uint32_t count_;
+    std::uint32_t count_, components_;
     Link* links_;
     std::uint32_t* parents_;
 };
@@ -334,11 +224,7 @@ SmoothingRule::SmoothingRule(const NormalOptions& options)
       groups_are_masks(options.smoothing_groups_are_masks) {}
 
 const Link* findComponents(const Surroundings& around, const PointCorners& at, Link* links, std::uint32_t* parents) {
-    if (!around.rule.any_angle && at.count <= FewCorners::kMost) {
-        if (const Link* const few = FewCorners(around, at).find(links); few != nullptr) return few;
-    }
-    PointComponents(around, at, links, parents).find();
-    return links;
+    return PointComponents(around, at, links, parents).find();
 }
 
 const Link* oneComponent(std::uint32_t count, Link* links) {
