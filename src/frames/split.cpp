@@ -111,7 +111,7 @@ class Splitter {
           vertex_count_(vertex_count),
           parallel_(execution, corner_count),
           pending_(execution.allocator, (corner_count + kCornersPerTask - 1) / kCornersPerTask),
-          variants_(attributes, result_, execution.allocator) {
+          variants_(attributes, result_) {
         resizeAtOnce(result_.indices, corner_count, corner_count);
         // Room for some copies costs nothing until it is used.
         resizeAtOnce(result_.source_corners, vertex_count, vertex_count + vertex_count / 8, kNoCorner);
