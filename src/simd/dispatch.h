@@ -19,26 +19,18 @@
 #define TSPACE_SCALAR_OR_NULL(function, other) static_cast<decltype(&other::function)>(nullptr)
 #endif
 
-/// Declares a function of a kernel in the namespace of each target.
-#define TSPACE_DECLARE_KERNEL(...)     \
-    namespace scalar {                 \
-    TSPACE_SCALAR_LINKAGE __VA_ARGS__; \
-    }                                  \
-    namespace sse2 {                   \
-    __VA_ARGS__;                       \
-    }                                  \
-    namespace avx2 {                   \
-    __VA_ARGS__;                       \
-    }                                  \
-    namespace avx512 {                 \
-    __VA_ARGS__;                       \
-    }                                  \
-    namespace neon {                   \
-    __VA_ARGS__;                       \
-    }                                  \
-    namespace wasm {                   \
-    __VA_ARGS__;                       \
+#define TSPACE_IN_NAMESPACE(target, ...) \
+    namespace target {                   \
+    __VA_ARGS__;                         \
     }
+/// Declares a function of a kernel in the namespace of each target.
+#define TSPACE_DECLARE_KERNEL(...)                                 \
+    TSPACE_IN_NAMESPACE(scalar, TSPACE_SCALAR_LINKAGE __VA_ARGS__) \
+    TSPACE_IN_NAMESPACE(sse2, __VA_ARGS__)                         \
+    TSPACE_IN_NAMESPACE(avx2, __VA_ARGS__)                         \
+    TSPACE_IN_NAMESPACE(avx512, __VA_ARGS__)                       \
+    TSPACE_IN_NAMESPACE(neon, __VA_ARGS__)                         \
+    TSPACE_IN_NAMESPACE(wasm, __VA_ARGS__)
 
 /// Those functions that this build has, for simd::choose. NOT_AVX512: where AVX2 is as fast.
 #if defined(TSPACE_SIMD_X86)

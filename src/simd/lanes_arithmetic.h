@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What compilers make of their own vector types as well as intrinsics say it: arithmetic and bits. Included inside the
+// What compilers make of their own vector types as well as intrinsics say it: arithmetic, bits, masks. Included inside the
 // namespace of each lanes_*.h of more than one lane, behind its kWidth, so that each CPU has functions of its own: see
 // the rules in lanes_scalar.h. Without a guard, for the same reason.
 
@@ -41,6 +41,10 @@ template <int kBy>
 inline Bits shiftRight(Bits a) {
     return {a.v >> kBy};
 }
+/// Of numbers below 2^31.
+inline Bits smaller(Bits a, Bits b) {
+    return {reinterpret_cast<WholeVector>(a.v) < reinterpret_cast<WholeVector>(b.v) ? a.v : b.v};
+}
 /// The lower half of the product.
 inline Bits product(Bits a, std::uint32_t k) { return {a.v * k}; }
 /// Numbers below 2^31, rounded to the nearest float.
@@ -51,6 +55,24 @@ inline Floats absolute(Floats a) { return asFloats({asBits(a).v & 0x7fffffffu});
 inline void store(std::uint32_t* to, Bits b) { *reinterpret_cast<WordsInMemory*>(to) = b.v; }
 inline Bits load(const std::uint32_t* p) { return {*reinterpret_cast<const WordsInMemory*>(p)}; }
 
+/// From a comparison: all bits of a lane or none. Compilers keep it in registers for masks where a CPU has them.
+struct Mask {
+    WholeVector v;
+};
+inline Mask operator&(Mask a, Mask b) { return {a.v & b.v}; }
+inline Mask operator|(Mask a, Mask b) { return {a.v | b.v}; }
+inline Mask operator!(Mask a) { return {~a.v}; }
+/// Comparisons with NaN are false.
+inline Mask operator>(Floats a, Floats b) { return {a.v > b.v}; }
+inline Mask operator<(Floats a, Floats b) { return {a.v < b.v}; }
+inline Mask operator==(Floats a, Floats b) { return {a.v == b.v}; }
+/// Bit i: lane i.
+inline unsigned bitsOf(Mask m);
+inline bool all(Mask m) { return bitsOf(m) == (1u << kWidth) - 1; }
+inline Floats select(Mask m, Floats yes, Floats no) { return {m.v ? yes.v : no.v}; }
+/// a | bit where the mask is set, else a.
+inline Bits orWhere(Bits a, Mask m, std::uint32_t bit) { return {a.v | (reinterpret_cast<WordVector>(m.v) & bit)}; }
+
 /// Half of the lanes as doubles.
 struct Doubles {
     DoubleVector v;
@@ -59,12 +81,66 @@ inline constexpr std::size_t kDoubleParts = 2;
 inline constexpr auto kSignBit = static_cast<long long>(1ull << 63);
 inline LongVector longsOf(Doubles a) { return reinterpret_cast<LongVector>(a.v); }
 inline Doubles doublesOf(LongVector v) { return {reinterpret_cast<DoubleVector>(v)}; }
+inline FloatVector pairsOf(Doubles a) { return reinterpret_cast<FloatVector>(a.v); }
 inline Doubles broadcastDouble(double x) { return {x - DoubleVector{}}; }
 inline Doubles operator+(Doubles a, Doubles b) { return {a.v + b.v}; }
 inline Doubles operator-(Doubles a, Doubles b) { return {a.v - b.v}; }
 inline Doubles operator*(Doubles a, Doubles b) { return {a.v * b.v}; }
 inline Doubles operator/(Doubles a, Doubles b) { return {a.v / b.v}; }
+inline Doubles smaller(Doubles a, Doubles b) { return {a.v < b.v ? a.v : b.v}; }
 inline Doubles absolute(Doubles a) { return doublesOf(longsOf(a) & ~kSignBit); }
 /// a with its sign turned over where b is negative (-0 counts), else a.
 inline Doubles withSignOf(Doubles a, Doubles b) { return doublesOf(longsOf(a) ^ (longsOf(b) & kSignBit)); }
 inline void storeDoubles(double* to, Doubles a) { *reinterpret_cast<DoublesInMemory*>(to) = a.v; }
+struct DoubleMask {
+    LongVector v;
+};
+inline DoubleMask operator&(DoubleMask a, DoubleMask b) { return {a.v & b.v}; }
+inline Doubles select(DoubleMask m, Doubles yes, Doubles no) { return {m.v ? yes.v : no.v}; }
+/// a where the mask is set, else +0.
+inline Doubles keepWhere(DoubleMask m, Doubles a) { return doublesOf(m.v & longsOf(a)); }
+/// a where the mask is set, else -a.
+inline Doubles negateUnless(DoubleMask m, Doubles a) { return doublesOf(longsOf(a) ^ (~m.v & kSignBit)); }
+
+// Four floats at any address, whatever the number of lanes.
+
+using Quad = float __attribute__((vector_size(16)));
+using TwoDoubles = double __attribute__((vector_size(16)));
+// Clang overlooks `aligned` behind the equals sign.
+using QuadInMemory __attribute__((aligned(4), may_alias)) = Quad;
+using AlignedQuad = float __attribute__((vector_size(16), may_alias));
+inline Quad loadQuad(const void* p) { return *static_cast<const QuadInMemory*>(p); }
+inline void storeQuad(void* to, Quad quad) { *static_cast<QuadInMemory*>(to) = quad; }
+
+/// Two floats as one double.
+inline double loadTwo(const void* p) {
+    double d;
+    std::memcpy(&d, p, sizeof d);
+    return d;
+}
+inline void storeTwo(void* to, double two) { std::memcpy(to, &two, sizeof two); }
+inline Quad twoPairs(const void* a, const void* b) {
+    return reinterpret_cast<Quad>(TwoDoubles{loadTwo(a), loadTwo(b)});
+}
+/// Three floats. `exact` reads no more; otherwise the four bytes after them are read too.
+inline Quad loadVector(const std::byte* p, bool exact) {
+    if (!exact) return loadQuad(p);
+    float z;
+    std::memcpy(&z, p + 8, sizeof z);
+    return __builtin_shufflevector(reinterpret_cast<Quad>(TwoDoubles{loadTwo(p), 0}), Quad{z, 0, 0, 0}, 0, 1, 4, 5);
+}
+
+/// Four doubles, whatever the number of lanes.
+struct DoubleRow {
+    double __attribute__((vector_size(32))) v;
+};
+using DoubleRowInMemory __attribute__((aligned(16), may_alias)) = decltype(DoubleRow::v);
+inline DoubleRow loadDoubleRow(const double* p) { return {*reinterpret_cast<const DoubleRowInMemory*>(p)}; }
+/// to[0 .. 4) += k * row
+inline void addDoubleRow(double* to, double k, const DoubleRow& row) {
+    *reinterpret_cast<DoubleRowInMemory*>(to) += k * row.v;
+}
+
+/// Numbers of the quads in a vector.
+template <std::size_t... kNumbers>
+struct Quads {};

@@ -19,8 +19,6 @@ namespace tspace::simd::neon {
 inline constexpr std::size_t kWidth = 4;
 
 #include "simd/lanes_arithmetic.h"
-#include "simd/lanes_loads.h"
-#include "simd/lanes_masks.h"
 #include "simd/lanes_of_four.h"
 #include "simd/lanes_rows.h"
 
@@ -28,9 +26,8 @@ inline unsigned bitsOf(Mask m) {
     constexpr WholeVector kBits = {1, 2, 4, 8};
     return vaddvq_u32(reinterpret_cast<uint32x4_t>(m.v & kBits));
 }
-inline bool all(Mask m) { return vminvq_u32(reinterpret_cast<uint32x4_t>(m.v)) != 0; }
-inline Floats smaller(Floats a, Floats b) { return select(a < b, a, b); }
-inline Floats larger(Floats a, Floats b) { return select(a > b, a, b); }
+inline Floats smaller(Floats a, Floats b) { return {a.v < b.v ? a.v : b.v}; }
+inline Floats larger(Floats a, Floats b) { return {a.v > b.v ? a.v : b.v}; }
 inline Floats squareRoot(Floats a) {
     return {reinterpret_cast<FloatVector>(vsqrtq_f32(reinterpret_cast<float32x4_t>(a.v)))};
 }
@@ -47,7 +44,6 @@ inline unsigned bitsOf(DoubleMask m) {
     constexpr LongVector kBits = {1, 2};
     return static_cast<unsigned>(vaddvq_u64(reinterpret_cast<uint64x2_t>(m.v & kBits)));
 }
-inline Doubles smaller(Doubles a, Doubles b) { return select(b > a, a, b); }
 inline Doubles squareRoot(Doubles a) { return fromNeon(vsqrtq_f64(neonOf(a))); }
 inline Doubles loadAsDoubles(const float* p) { return fromNeon(vcvt_f64_f32(vld1_f32(p))); }
 inline void storeAsFloats(float* to, Doubles a) { vst1_f32(to, vcvt_f32_f64(neonOf(a))); }

@@ -96,3 +96,20 @@ template <std::size_t kStep>
 TSPACE_ROWS inline void storePairs(float* rows, Floats x, Floats y) {
     storeQuadPairs<kStep>(rows, mixLow(x.v, y.v), mixHigh(x.v, y.v), kQuads);
 }
+
+/// Writes lane i's four values to row i of an array of rows of four doubles: half of the lanes.
+inline void storeDoubleRows(double* rows, Doubles x, Doubles y, Doubles z, Doubles w) {
+    const FloatVector r[4] = {lowPairs(pairsOf(x), pairsOf(y)), lowPairs(pairsOf(z), pairsOf(w)),
+                              highPairs(pairsOf(x), pairsOf(y)), highPairs(pairsOf(z), pairsOf(w))};
+    storeQuads<4>(reinterpret_cast<float*>(rows), r, kQuads);
+}
+/// The opposite of storeDoubleRows.
+inline void loadDoubleRows(const double* rows, Doubles& x, Doubles& y, Doubles& z, Doubles& w) {
+    const auto at = [&](std::size_t i) { return reinterpret_cast<const AlignedQuad*>(rows)[i]; };
+    FloatVector r[4];
+    for (std::size_t i = 0; i < 4; ++i) r[i] = quadsAt(at, i, kQuads);
+    x = {reinterpret_cast<DoubleVector>(lowPairs(r[0], r[2]))};
+    y = {reinterpret_cast<DoubleVector>(highPairs(r[0], r[2]))};
+    z = {reinterpret_cast<DoubleVector>(lowPairs(r[1], r[3]))};
+    w = {reinterpret_cast<DoubleVector>(highPairs(r[1], r[3]))};
+}

@@ -21,21 +21,17 @@ namespace tspace::simd::scalar {
 inline constexpr std::size_t kWidth = 4;
 
 #include "simd/lanes_arithmetic.h"
-#include "simd/lanes_loads.h"
-#include "simd/lanes_masks.h"
 #include "simd/lanes_of_four.h"
 #include "simd/lanes_rows.h"
 
-/// Bit i: lane i.
 inline unsigned bitsOf(Mask m) {
     unsigned bits = 0;
     for (std::size_t i = 0; i < kWidth; ++i) bits |= m.v[i] != 0 ? 1u << i : 0;
     return bits;
 }
-inline bool all(Mask m) { return bitsOf(m) == 15; }
 /// The second one when either is NaN.
-inline Floats smaller(Floats a, Floats b) { return select(a < b, a, b); }
-inline Floats larger(Floats a, Floats b) { return select(a > b, a, b); }
+inline Floats smaller(Floats a, Floats b) { return {a.v < b.v ? a.v : b.v}; }
+inline Floats larger(Floats a, Floats b) { return {a.v > b.v ? a.v : b.v}; }
 inline Floats squareRoot(Floats a) {
     for (std::size_t i = 0; i < kWidth; ++i) a.v[i] = std::sqrt(a.v[i]);
     return a;
@@ -49,7 +45,6 @@ inline Bits highProduct(Bits a, std::uint32_t k) {
 /// Comparisons with NaN are false.
 inline DoubleMask operator>(Doubles a, Doubles b) { return {a.v > b.v}; }
 inline unsigned bitsOf(DoubleMask m) { return (m.v[0] != 0 ? 1u : 0u) | (m.v[1] != 0 ? 2u : 0u); }
-inline Doubles smaller(Doubles a, Doubles b) { return select(b > a, a, b); }
 inline Doubles squareRoot(Doubles a) { return {DoubleVector{std::sqrt(a.v[0]), std::sqrt(a.v[1])}}; }
 /// Between floats in memory and doubles: half of the lanes. All addresses are multiples of the vector's size.
 inline Doubles loadAsDoubles(const float* p) { return {DoubleVector{p[0], p[1]}}; }

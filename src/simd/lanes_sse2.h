@@ -15,13 +15,11 @@ namespace tspace::simd::sse2 {
 inline constexpr std::size_t kWidth = 4;
 
 #include "simd/lanes_arithmetic.h"
-#include "simd/lanes_loads.h"
-#include "simd/lanes_masks.h"
 #include "simd/lanes_of_four.h"
 #include "simd/lanes_rows.h"
 
 inline unsigned bitsOf(Mask m) { return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(m.v))); }
-inline bool all(Mask m) { return bitsOf(m) == 15; }
+/// Not by operators: GCC sees no minimum where one of the two is a constant.
 inline Floats smaller(Floats a, Floats b) { return {_mm_min_ps(a.v, b.v)}; }
 inline Floats larger(Floats a, Floats b) { return {_mm_max_ps(a.v, b.v)}; }
 inline Floats squareRoot(Floats a) { return {_mm_sqrt_ps(a.v)}; }
@@ -35,7 +33,6 @@ inline Bits highProduct(Bits a, std::uint32_t k) {
 /// Not by the operator: GCC makes branches of it.
 inline DoubleMask operator>(Doubles a, Doubles b) { return {reinterpret_cast<LongVector>(_mm_cmpgt_pd(a.v, b.v))}; }
 inline unsigned bitsOf(DoubleMask m) { return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(m.v))); }
-inline Doubles smaller(Doubles a, Doubles b) { return {_mm_min_pd(a.v, b.v)}; }
 inline Doubles squareRoot(Doubles a) { return {_mm_sqrt_pd(a.v)}; }
 inline Doubles loadAsDoubles(const float* p) {
     return {_mm_cvtps_pd(_mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(p))))};

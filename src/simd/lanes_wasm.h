@@ -26,8 +26,6 @@ inline constexpr std::size_t kWidth = 4;
 
 #pragma clang attribute push(__attribute__((always_inline)), apply_to = function)
 #include "simd/lanes_arithmetic.h"
-#include "simd/lanes_loads.h"
-#include "simd/lanes_masks.h"
 #include "simd/lanes_of_four.h"
 
 inline v128_t wasmOf(Floats a) { return reinterpret_cast<v128_t>(a.v); }
@@ -36,7 +34,6 @@ inline Floats floatsOf(v128_t v) { return {reinterpret_cast<FloatVector>(v)}; }
 inline Doubles doublesOf(v128_t v) { return {reinterpret_cast<DoubleVector>(v)}; }
 
 inline unsigned bitsOf(Mask m) { return static_cast<unsigned>(wasm_i32x4_bitmask(reinterpret_cast<v128_t>(m.v))); }
-inline bool all(Mask m) { return wasm_i32x4_all_true(reinterpret_cast<v128_t>(m.v)); }
 inline Floats smaller(Floats a, Floats b) { return floatsOf(wasm_f32x4_pmin(wasmOf(b), wasmOf(a))); }
 inline Floats larger(Floats a, Floats b) { return floatsOf(wasm_f32x4_pmax(wasmOf(b), wasmOf(a))); }
 inline Floats squareRoot(Floats a) { return floatsOf(wasm_f32x4_sqrt(wasmOf(a))); }
@@ -50,7 +47,6 @@ inline DoubleMask operator>(Doubles a, Doubles b) { return {a.v > b.v}; }
 inline unsigned bitsOf(DoubleMask m) {
     return static_cast<unsigned>(wasm_i64x2_bitmask(reinterpret_cast<v128_t>(m.v)));
 }
-inline Doubles smaller(Doubles a, Doubles b) { return doublesOf(wasm_f64x2_pmin(wasmOf(b), wasmOf(a))); }
 inline Doubles squareRoot(Doubles a) { return doublesOf(wasm_f64x2_sqrt(wasmOf(a))); }
 inline Doubles loadAsDoubles(const float* p) {
     return doublesOf(wasm_f64x2_promote_low_f32x4(wasm_v128_load64_zero(p)));
