@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "normals/best_rounds.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <utility>
 
 #include "core/input_scale.h"
+#include "core/sum_rounds.h"
+#include "normals/best_sums.h"
 
 namespace tspace::smooth {
 
@@ -14,98 +14,95 @@ namespace {
 
 static_assert(kBestTriangles == SumRound::kTriangles && kBestGroup == SumRound::kGroups);
 
-constexpr std::size_t kRowsOf[] = {1, kFitRows, kStepRows};  // of each kind
-constexpr std::size_t kNormalFloats = 8;                     // from one of the given normals to the next
-
 /// The vectors of a block of groups, from `first` on.
 struct Fours {
     alignas(64) float floats[4 * SumRound::kGroups] = {};
 
-    Fours(const std::byte* from, std::size_t stride, std::size_t first, std::size_t count) {
-        from += stride * first;
-        for (std::size_t i = 0; i < count; ++i, from += stride) std::memcpy(floats + 4 * i, from, sizeof(float[3]));
+    Fours(const Vec3* from, std::size_t first, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) std::memcpy(floats + 4 * i, from + first + i, sizeof(Vec3));
     }
 };
 
-bool isZero(const float* vector) { return vector[0] == 0 && vector[1] == 0 && vector[2] == 0; }
+/// `sharp` gives the means by `max`, `fit` what both means say together, `step` moves that.
+enum class Kind { sharp, fit, step };
+constexpr std::size_t kRowsOf[] = {1, kFitRows, kStepRows};
+
+/// One round.
+class BestRound final : public SumRound {
+  public:
+    /// to: the result of each group; never what the source names.
+    BestRound(Kind kind, const BestKernel& kernel, const BestSource& source, StridedSpan<Vec3> to)
+        : SumRound(kRowsOf[static_cast<std::size_t>(kind)], kind == Kind::fit),
+          kind_(kind),
+          kernel_(kernel),
+          source_(source),
+          to_(to) {}
+
+    void add(const std::uint32_t* vertices, const std::uint32_t* groups, std::size_t count,
+             float* rows) const override {
+        if (kind_ == Kind::sharp)
+            kernel_.add_sharp(source_, vertices, count, rows);
+        else
+            (kind_ == Kind::fit ? kernel_.add_fit : kernel_.add_step)(source_, vertices, groups, count, rows);
+    }
+
+    void finish(float* sums, const std::uint32_t*, std::size_t first, std::size_t count) const override {
+        if (kind_ == Kind::sharp)
+            kernel_.finish_sharp(sums, kGroups);
+        else if (kind_ == Kind::step)
+            kernel_.finish_step(sums, Fours(source_.robust, first, count).floats, kGroups);
+        else
+            kernel_.finish_fit(sums, Fours(source_.robust, first, count).floats,
+                               Fours(source_.sharp, first, count).floats, kGroups);
+        for (std::size_t i = 0; i < count; ++i) std::memcpy(&to_[first + i].x, sums + 4 * row_count * i, sizeof(Vec3));
+    }
+
+  private:
+    Kind kind_;
+    const BestKernel& kernel_;
+    const BestSource& source_;
+    StridedSpan<Vec3> to_;
+};
 
 }  // namespace
 
-BestRound::BestRound(Kind kind, const BestKernel& kernel, const BestSource& source, void* to, std::size_t to_stride)
-    : SumRound(kRowsOf[static_cast<std::size_t>(kind)], kind == Kind::fit),
-      kind_(kind),
-      kernel_(kernel),
-      source_(source),
-      to_(static_cast<std::byte*>(to)),
-      to_stride_(to_stride) {}
+void refine(const NormalsCall& call, const TriangleGroups& triangles, std::size_t adding_corners,
+            StridedSpan<Vec3> normals, Buffer<Vec3> sharp) {
+    const std::size_t count = normals.count;
+    const auto forGroups = [&](const auto& body) {
+        call.parallel.forRanges(count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) body(i);
+        });
+    };
+    const bool has_sharp = !sharp.empty();
+    if (!has_sharp) sharp = Buffer<Vec3>(call.allocator, count + kBehind, Vec3{});
+    Buffer<Vec3> robust(call.allocator, count + kBehind, Vec3{});
+    forGroups([&](std::size_t i) { robust[i] = normals[i]; });
 
-void BestRound::add(const std::uint32_t* vertices, const std::uint32_t* groups, std::size_t count, float* rows) const {
-    if (kind_ == Kind::sharp)
-        kernel_.add_sharp(source_, vertices, count, rows);
-    else
-        (kind_ == Kind::fit ? kernel_.add_fit : kernel_.add_step)(source_, vertices, groups, count, rows);
-}
-
-void BestRound::finish(float* sums, const std::uint32_t*, std::size_t first, std::size_t count) const {
-    if (kind_ == Kind::sharp) {
-        kernel_.finish_sharp(sums, kGroups);
-    } else {
-        const Fours robust(source_.robust, source_.robust_stride, first, count);
-        if (kind_ == Kind::step)
-            kernel_.finish_step(sums, robust.floats, kGroups);
-        else
-            kernel_.finish_fit(sums, robust.floats, Fours(source_.sharp, source_.sharp_stride, first, count).floats,
-                               kGroups);
-    }
-    for (std::size_t i = 0; i < count; ++i)
-        std::memcpy(to_ + to_stride_ * (first + i), sums + 4 * row_count * i, sizeof(Vec3));
-}
-
-BestSource bestSource(const TriangleGroups& triangles, const StridedSpan<const Vec3>& positions,
-                      Convention convention) {
+    const BestKernel kernel = bestKernelFor(call.options.execution.simd);
     BestSource source;
-    source.positions = reinterpret_cast<const std::byte*>(positions.data);
-    source.stride = positions.stride_bytes;
-    source.last_vertex = static_cast<std::uint32_t>(positions.count - 1);
-    source.scale = inputScale(triangles, positions, {}).positions;
-    source.factor = static_cast<float>(normalFactor(convention));
-    return source;
-}
+    source.positions = reinterpret_cast<const std::byte*>(call.posed.positions.data);
+    source.stride = call.posed.positions.stride_bytes;
+    source.last_vertex = static_cast<std::uint32_t>(call.posed.positions.count - 1);
+    source.scale = inputScale(call.items, call.posed.positions, {}).positions;
+    source.factor = static_cast<float>(call.factor);
+    source.robust = robust.data();
+    source.sharp = sharp.data();
+    SumRounds rounds(triangles, adding_corners, count, kFitRows, call.allocator, call.parallel);
+    const auto run = [&](Kind kind, StridedSpan<Vec3> to) { rounds.run(BestRound(kind, kernel, source, to)); };
 
-void refineTriangles(const TriangleGroups& triangles, std::size_t point_count, const StridedSpan<const Vec3>& positions,
-                     const NormalOptions& options, float* normals, Parallel& parallel) {
-    const Allocator* const allocator = options.execution.allocator;
-    Buffer<float> sharp(allocator, 4 * point_count), results(allocator, 4 * point_count);
-    constexpr std::size_t kStride = sizeof(float[4]);
-    const BestKernel kernel = bestKernelFor(options.execution.simd);
-    BestSource source = bestSource(triangles, positions, options.convention);
-    source.robust = reinterpret_cast<const std::byte*>(normals);
-    source.sharp = reinterpret_cast<const std::byte*>(sharp.data());
-    source.robust_stride = sizeof(float[kNormalFloats]);
-    source.sharp_stride = kStride;
-    SumRounds rounds(triangles, 3, point_count, kFitRows, allocator, parallel);
-    rounds.run(BestRound(BestRound::Kind::sharp, kernel, source, sharp.data(), kStride));
-    rounds.run(BestRound(BestRound::Kind::fit, kernel, source, results.data(), kStride));
-    parallel.forRanges(point_count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p) {
-            float *const normal = normals + kNormalFloats * p, *const result = results.data() + 4 * p;
-            const bool has_mean = !std::signbit(normal[3]);
-            if (has_mean) std::copy_n(result, 3, normal);
-            if (!has_mean || isZero(sharp.data() + 4 * p)) std::fill_n(result, 3, 0.0f);  // takes no part
-        }
-    });
-    source.robust_stride = kStride;
-    for (unsigned step = 0; step < options.refine; ++step) {
-        source.robust = reinterpret_cast<const std::byte*>(results.data());
-        rounds.run(BestRound(BestRound::Kind::step, kernel, source, sharp.data(), kStride));
-        std::swap(results, sharp);
+    if (!has_sharp) run(Kind::sharp, {sharp.data(), count});
+    run(Kind::fit, normals);
+    // The others take no part in steps.
+    forGroups(
+        [&](std::size_t i) { robust[i] = robust[i] == Vec3{} || sharp[i] == Vec3{} ? Vec3{} : Vec3{normals[i]}; });
+    for (unsigned step = 0; step < call.options.refine; ++step) {
+        source.robust = robust.data();
+        run(Kind::step, {sharp.data(), count});
+        std::swap(robust, sharp);
     }
-    if (options.refine == 0) return;
-    parallel.forRanges(point_count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p) {
-            const float* const result = results.data() + 4 * p;
-            if (!isZero(result)) std::copy_n(result, 3, normals + kNormalFloats * p);
-        }
+    forGroups([&](std::size_t i) {
+        if (robust[i] != Vec3{}) normals[i] = robust[i];
     });
 }
 

@@ -1,43 +1,23 @@
 // SPDX-License-Identifier: MIT
-// The rounds of NormalWeighting::best, over triangles or over corners.
+// NormalWeighting::best: rounds of sums at groups of corners that share a normal.
 #pragma once
 
-#include "core/sum_rounds.h"
-#include "normals/best_sums.h"
-#include "tspace/normals.h"
+#include "normals/normals_call.h"
 
 namespace tspace::smooth {
 
-/// One round: `sharp` gives the means by `max`, `fit` what both means say together, `step` moves that.
-class BestRound final : public SumRound {
-  public:
-    enum class Kind { sharp, fit, step };
+/// Vectors that are read behind those of all groups: one, and a part of another.
+inline constexpr std::size_t kBehind = 2;
 
-    /// to: the result of each group, three floats with this stride; never what the source names.
-    BestRound(Kind kind, const BestKernel& kernel, const BestSource& source, void* to, std::size_t to_stride);
-
-    void add(const std::uint32_t* vertices, const std::uint32_t* groups, std::size_t count, float* rows) const override;
-    void finish(float* sums, const std::uint32_t* vertices, std::size_t first, std::size_t count) const override;
-
-  private:
-    Kind kind_;
-    const BestKernel& kernel_;
-    const BestSource& source_;
-    std::byte* to_;
-    std::size_t to_stride_;
-};
-
-/// A source without means.
-BestSource bestSource(const TriangleGroups& triangles, const StridedSpan<const Vec3>& positions, Convention convention);
-
-/// From the means by angle * area to the normals of `best`, in place, where every point has one normal.
+/// From the means by angle * area to the normals of `best`, in place; then options.refine steps.
 ///
-/// triangles  with points as groups
-/// normals    eight floats per point: the unit mean, and a fourth number whose sign bit is set where it vanished;
-///            such points, and those whose mean by `max` vanishes, stay as they are
+/// adding_corners  3, or 1 where only the first corner of each triangle adds something
+/// normals         one per group, zero where a mean vanished; what is there afterwards means nothing
+/// sharp           the means by `max`, or zero where one vanished, and kBehind more; empty: they are found by the same
+///                 triangles. Where one vanished the mean by angle * area stays
 ///
-/// Then options.refine steps. Scratch memory: 32 bytes per point, and core/sum_rounds.h. Linear. Throws OutOfMemory.
-void refineTriangles(const TriangleGroups& triangles, std::size_t point_count, const StridedSpan<const Vec3>& positions,
-                     const NormalOptions& options, float* normals, Parallel& parallel);
+/// Scratch memory: 24 bytes per group with `sharp`, and core/sum_rounds.h. Linear. Throws OutOfMemory.
+void refine(const NormalsCall& call, const TriangleGroups& triangles, std::size_t adding_corners,
+            StridedSpan<Vec3> normals, Buffer<Vec3> sharp);
 
 }  // namespace tspace::smooth

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "simd/dispatch.h"
+#include "tspace/vec.h"
 
 namespace tspace::smooth {
 
@@ -18,10 +19,9 @@ struct BestSource {
     std::uint32_t last_vertex = 0;  ///< right after its position nothing may be read
     float scale = 1;                ///< of positions: a power of four that brings them near 1
     float factor = 1;               ///< normalFactor(convention)
-    /// Means by angle * area, and by `max`: three floats and four bytes that are read too. A step reads the normals of
-    /// the round before as `robust`; those that are zero stay so, and edges to them do not count.
-    const std::byte *robust = nullptr, *sharp = nullptr;
-    std::size_t robust_stride = 32, sharp_stride = 16;
+    /// Means by angle * area, and by `max`; four bytes behind each are read too. A step reads the normals of the round before
+    /// as `robust`; those that are zero stay so, and edges to them do not count.
+    const Vec3 *robust = nullptr, *sharp = nullptr;
 };
 
 inline constexpr std::size_t kBestTriangles = 32;  ///< of one block

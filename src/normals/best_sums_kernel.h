@@ -46,6 +46,10 @@ constexpr double kStepNoise = 1.0 / 30.0;  // of the turn over the edges, what t
 
 constexpr std::size_t kStepStride = 12 * kStepRows;  // floats from triangle to triangle
 
+inline Vectors gatherNormals(const Vec3* normals, const std::uint32_t* points) {
+    return gatherVectors(reinterpret_cast<const std::byte*>(normals), sizeof(Vec3), points, false);
+}
+
 /// Edge k goes from corner k to corner k + 1. Of a triangle that does not count all is zero.
 struct Edges {
     Vectors edge[3];
@@ -162,8 +166,8 @@ inline void addFitOf(const BestSource& source, const std::uint32_t* vertices, co
     const Floats area_square = dot(t.turn, t.turn), one = broadcast(1.0f);
     Vectors robust[3], sharp[3];
     for (std::size_t k = 0; k < 3; ++k) {
-        robust[k] = gatherVectors(source.robust, source.robust_stride, points + k, false);
-        sharp[k] = gatherVectors(source.sharp, source.sharp_stride, points + k, false);
+        robust[k] = gatherNormals(source.robust, points + k);
+        sharp[k] = gatherNormals(source.sharp, points + k);
     }
     Floats size[3], inverse[3];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -330,7 +334,7 @@ void addStep(const BestSource& source, const std::uint32_t* vertices, const std:
         Vectors normal[3];
         Floats inverse[3];
         for (std::size_t k = 0; k < 3; ++k) {
-            normal[k] = gatherVectors(source.robust, source.robust_stride, points + 3 * g + k, false);
+            normal[k] = gatherNormals(source.robust, points + 3 * g + k);
             inverse[k] = quotient(one, squareRoot(t.square[k]));
         }
         for (std::size_t k = 0; k < 3; ++k) {

@@ -5,9 +5,8 @@
 
 #include "core/border.h"
 #include "core/parallel.h"
+#include "normals/normals_call.h"
 #include "normals/pose_normals.h"
-#include "normals/smooth_faces.h"
-#include "normals/smooth_triangles.h"
 
 namespace tspace {
 
@@ -37,8 +36,8 @@ Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& pose
     if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
     if (Error e = checkSpan(posed.positions, mesh.vertexCount(), "positions"); e.code != ErrorCode::ok) return e;
     if (Error e = checkOptions(mesh, options, out); e.code != ErrorCode::ok) return e;
-    if (canSmoothTriangles(mesh, options)) return smoothTriangles(mesh, posed.positions, options, out, parallel);
-    return smoothFaces(mesh, posed, options, out, parallel);
+    const NormalsCall call(mesh, posed, options, out, parallel);
+    return canSmoothTriangles(mesh, options) ? smoothTriangles(call) : smoothFaces(call);
 }
 
 }  // namespace

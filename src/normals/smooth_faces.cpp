@@ -4,8 +4,6 @@
 // come from the kernel.
 // Based on: Gouraud 1971 (uniform); Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998
 // (angle); Max, "Weights for Computing Vertex Normals from Facet Normals", 1999 (max).
-#include "normals/smooth_faces.h"
-
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -16,22 +14,18 @@
 
 #include "core/angle.h"
 #include "core/range_lists.h"
-#include "core/weld.h"
 #include "normals/best_rounds.h"
-#include "normals/face_terms.h"
-#include "normals/faces.h"
 #include "normals/smoothing.h"
 
 namespace tspace {
 
 namespace {
 
-using smooth::FaceSource, smooth::FaceTerms, smooth::kDoubtful, smooth::kTermTriangles, smooth::kVanished;
+using smooth::FaceTerms, smooth::kDoubtful, smooth::kTermTriangles, smooth::kVanished;
 
 constexpr std::size_t kMostRange = 4096, kLeastRange = 64, kRanges = 8;  // points; ranges of a small mesh
 constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
 constexpr std::size_t kItemsPerTask = 1024;
-constexpr std::size_t kBehind = 2;  // vectors that are read behind those of all corners, one and a part of another
 
 /// For `best`: each corner with the next and the previous one, as a triangle of which that corner alone counts, for its
 /// component.
@@ -104,54 +98,34 @@ double maxWeight(const DVec3& e1, const DVec3& e2) {
 
 /// What all ranges have in common.
 struct Setting {
-    Setting(const MeshView& m, const MeshView& p, const NormalOptions& options, StridedSpan<Vec3> o, Parallel& parallel)
-        : mesh(m),
-          posed(p),
-          rule(options),
-          faces(m, options.execution.allocator),
-          points(options.weld_positions ? weldPositions(m, options.execution.allocator, parallel)
-                                        : Buffer<std::uint32_t>()),
-          items(m, faces, points, options.execution.allocator),
-          kernel(smooth::faceKernelFor(options.execution.simd)),
-          is_best(options.weighting == NormalWeighting::best),
-          weighting(is_best ? NormalWeighting::angleArea : options.weighting),
-          by_area(weighting == NormalWeighting::area || weighting == NormalWeighting::angleArea),
-          by_angle(weighting == NormalWeighting::angle || weighting == NormalWeighting::angleArea),
-          are_triangles(PointItems::areTriangles(m)),
-          factor(normalFactor(options.convention)),
-          out(o) {}
+    explicit Setting(const NormalsCall& c) : call(c), rule(c.options) {}
 
     /// Whether what is hard is decided by other positions.
-    [[nodiscard]] bool hasPose() const { return needsComponents() && mesh.positions.data != posed.positions.data; }
+    [[nodiscard]] bool hasPose() const {
+        return needsComponents() && call.mesh.positions.data != call.posed.positions.data;
+    }
     /// Without hard edges a point has one component, and `flat` has none.
-    [[nodiscard]] bool needsComponents() const { return weighting != NormalWeighting::flat && !rule.connectsAll(); }
+    [[nodiscard]] bool needsComponents() const {
+        return call.weighting != NormalWeighting::flat && !rule.connectsAll();
+    }
 
     /// What a face's row is multiplied with at a corner, in double. A face that visits a point with several corners in
     /// a row (a collapsed edge) counts once, at the first of them: the others weigh 0.
     [[nodiscard]] double weightOf(NormalWeighting by, std::uint32_t point, std::uint32_t corner,
                                   const FaceRow& row) const {
-        const std::uint32_t previous = faces.previous(corner);
-        if (row.isDegenerate() || items.pointOf(previous) == point) return 0;
+        const std::uint32_t previous = call.faces.previous(corner);
+        if (row.isDegenerate() || call.items.pointOf(previous) == point) return 0;
         if (by != NormalWeighting::angle && by != NormalWeighting::angleArea && by != NormalWeighting::max) return 1;
-        std::uint32_t next = faces.next(corner);
-        while (items.pointOf(next) == point) next = faces.next(next);  // ends: `previous` is another point
-        const auto position = [&](std::uint32_t c) { return toDouble(posed.positions[mesh.indices[c]]); };
+        std::uint32_t next = call.faces.next(corner);
+        while (call.items.pointOf(next) == point) next = call.faces.next(next);  // ends: `previous` is another point
+        const auto position = [&](std::uint32_t c) { return toDouble(call.posed.positions[call.mesh.indices[c]]); };
         const DVec3 here = position(corner), e1 = position(next) - here, e2 = position(previous) - here;
         return by == NormalWeighting::max ? maxWeight(e1, e2) / row.size
-                                          : interiorAngle(e1, e2, factor * DVec3{row.x, row.y, row.z});
+                                          : interiorAngle(e1, e2, call.factor * DVec3{row.x, row.y, row.z});
     }
 
-    const MeshView &mesh, &posed;
+    const NormalsCall& call;
     SmoothingRule rule;
-    Faces faces;
-    Buffer<std::uint32_t> points;
-    PointItems items;
-    smooth::FaceKernel kernel;
-    bool is_best;
-    NormalWeighting weighting;  ///< of the means
-    bool by_area, by_angle, are_triangles;
-    double factor;
-    StridedSpan<Vec3> out;
     // For `best`, per corner: the means by `max`, zero where one vanishes, and ComponentCorners.
     Vec3* sharp = nullptr;
     std::uint32_t* components = nullptr;
@@ -168,7 +142,7 @@ struct Room {
 
 class RangeWork {
   public:
-    RangeWork(const Setting& setting, const Room& room) : setting_(setting), room_(room) {}
+    RangeWork(const Setting& setting, const Room& room) : setting_(setting), call_(setting.call), room_(room) {}
 
     /// Reads what lies at the points of a range; returns how many faces are degenerate, each counted once.
     std::uint64_t read(GroupRange range, RangeLists::Batches items) {
@@ -177,7 +151,7 @@ class RangeWork {
         size_ = 0;
         degenerate_ = 0;
         std::fill_n(room_.begins, count_ + 3, 0u);
-        while (items.next(batch_, setting_.are_triangles)) setting_.are_triangles ? addTriangles() : addCorners();
+        while (items.next(batch_, call_.are_triangles)) call_.are_triangles ? addTriangles() : addCorners();
         sortByPoint();
         return degenerate_;
     }
@@ -185,7 +159,7 @@ class RangeWork {
     /// Writes means, or what stands for them; returns how many corners got a substitute.
     std::uint64_t average() {
         std::uint64_t substitutes = 0;
-        const Surroundings around{setting_.mesh, setting_.faces, setting_.rule, room_.deciding};
+        const Surroundings around{call_.mesh, call_.faces, setting_.rule, room_.deciding};
         const bool is_one = !setting_.needsComponents();
         for (std::uint32_t p = 0; p < count_; ++p) {
             const std::uint32_t begin = room_.begins[p], count = room_.begins[p + 1] - begin;
@@ -212,11 +186,11 @@ class RangeWork {
         const std::size_t count = batch_.count;
         const std::uint32_t* const v = fillGroup(batch_.vertices, count, smooth::kTermGroup, batch_.own_vertices);
         if (room_.deciding != room_.rows) {
-            setting_.kernel.compute(sourceOf(setting_.mesh.positions, false, false), v, count, terms_);
+            call_.kernel.compute(call_.source(call_.mesh, false, false), v, count, terms_);
             std::memcpy(room_.deciding + size_, terms_.normal, count * sizeof(FaceRow));
         }
-        const std::size_t degenerate = setting_.kernel.compute(
-            sourceOf(setting_.posed.positions, setting_.by_angle, setting_.by_area), v, count, terms_);
+        const std::size_t degenerate =
+            call_.kernel.compute(call_.source(call_.posed, call_.by_angle, call_.by_area), v, count, terms_);
         std::memcpy(room_.rows + size_, terms_.normal, count * sizeof(FaceRow));
         for (std::size_t t = 0; t < count; ++t) {
             const std::uint32_t* const p = batch_.groups + 3 * t;
@@ -225,7 +199,7 @@ class RangeWork {
                                           {terms_.angle[0][t], terms_.angle[1][t], terms_.angle[2][t]}};
             for (std::size_t k = 0; k < 3; ++k) countAt(p[k]);
         }
-        if (degenerate != 0 || setting_.weighting == NormalWeighting::max || room_.deciding != room_.rows) mend();
+        if (degenerate != 0 || call_.weighting == NormalWeighting::max || room_.deciding != room_.rows) mend();
         size_ += static_cast<std::uint32_t>(count);
     }
 
@@ -237,7 +211,7 @@ class RangeWork {
             if (row.isDegenerate() && placeOf(triangle.points[0]) < count_) ++degenerate_;
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const std::uint32_t point = triangle.points[k];
-                if (setting_.weighting == NormalWeighting::max)
+                if (call_.weighting == NormalWeighting::max)
                     triangle.weights[k] = setting_.weightOf(NormalWeighting::max, point, triangle.corner + k, row);
                 else if (triangle.points[k + 2] == point)
                     triangle.weights[k] = 0;
@@ -245,37 +219,26 @@ class RangeWork {
         }
     }
 
-    [[nodiscard]] FaceSource sourceOf(const StridedSpan<const Vec3>& positions, bool by_angle, bool by_area) const {
-        return {reinterpret_cast<const std::byte*>(positions.data),
-                positions.stride_bytes,
-                static_cast<std::uint32_t>(positions.count - 1),
-                setting_.factor,
-                by_angle,
-                by_area};
-    }
-
     /// Of other faces the items are corners.
     void addCorners() {
         for (std::size_t i = 0; i < batch_.count; ++i) {
-            const std::uint32_t corner = batch_.number(i), point = batch_.groups[3 * i],
-                                face = setting_.faces.of(corner);
+            const std::uint32_t corner = batch_.number(i), point = batch_.groups[3 * i], face = call_.faces.of(corner);
             if (placeOf(point) == count_) continue;
-            const std::uint32_t next = setting_.items.pointOf(setting_.faces.next(corner));
-            const std::uint32_t previous = setting_.items.pointOf(setting_.faces.previous(corner));
+            const std::uint32_t next = call_.items.pointOf(call_.faces.next(corner));
+            const std::uint32_t previous = call_.items.pointOf(call_.faces.previous(corner));
             addFace(face);
             const FaceRow& row = room_.rows[size_];
-            if (row.isDegenerate() && corner == setting_.faces.first(face)) ++degenerate_;
+            if (row.isDegenerate() && corner == call_.faces.first(face)) ++degenerate_;
             room_.triangles[size_++] = {{point, next, previous, kNoPoint, kNoPoint},
                                         corner,
-                                        {setting_.weightOf(setting_.weighting, point, corner, row), 0, 0}};
+                                        {setting_.weightOf(call_.weighting, point, corner, row), 0, 0}};
             countAt(point);
         }
     }
 
     void addFace(std::uint32_t face) {
         const auto rowOf = [&](const MeshView& mesh, bool by_area) {
-            const FaceNormal n =
-                faceNormal(mesh, setting_.faces.first(face), setting_.faces.past(face), setting_.factor);
+            const FaceNormal n = faceNormal(mesh, call_.faces.first(face), call_.faces.past(face), call_.factor);
             const double size = n.length == 0 ? 0 : by_area ? n.length : 1;
             return FaceRow{size * n.unit.x, size * n.unit.y, size * n.unit.z, size};
         };
@@ -285,8 +248,8 @@ class RangeWork {
             return;
         }
         last_face_ = face;
-        room_.rows[size_] = rowOf(setting_.posed, setting_.by_area);
-        if (room_.deciding != room_.rows) room_.deciding[size_] = rowOf(setting_.mesh, false);
+        room_.rows[size_] = rowOf(call_.posed, call_.by_area);
+        if (room_.deciding != room_.rows) room_.deciding[size_] = rowOf(call_.mesh, false);
     }
 
     void sortByPoint() {
@@ -294,7 +257,7 @@ class RangeWork {
         for (std::uint32_t t = 0; t < size_; ++t) {
             const std::uint32_t* const p = room_.triangles[t].points;
             enter(p[0], 4 * t);
-            if (!setting_.are_triangles) continue;
+            if (!call_.are_triangles) continue;
             enter(p[1], 4 * t + 1);
             enter(p[2], 4 * t + 2);
         }
@@ -302,10 +265,10 @@ class RangeWork {
 
     std::uint64_t write(const PointCorners& at, const Link* links, std::uint32_t count) {
         Vec3 normal;
-        if (setting_.weighting == NormalWeighting::flat || !mean(at, links, count, normal))
+        if (call_.weighting == NormalWeighting::flat || !mean(at, links, count, normal))
             return writeSubstitutes(at, links, count);
-        for (std::uint32_t i = 0; i < count; ++i) setting_.out[at.corner(links[i].slot)] = normal;
-        if (setting_.is_best && exactMean(NormalWeighting::max, at, links, count, normal))
+        for (std::uint32_t i = 0; i < count; ++i) call_.out[at.corner(links[i].slot)] = normal;
+        if (call_.is_best && exactMean(NormalWeighting::max, at, links, count, normal))
             writeSharp(at, links, count, normal);
         return 0;
     }
@@ -323,7 +286,7 @@ class RangeWork {
         Sum sum;
         for (std::uint32_t i = 0; i < count; ++i)
             sum.add(at.weight(links[i].slot), room_.rows[at.triangle(links[i].slot)]);
-        return sum.write(kDoubtful, normal) || exactMean(setting_.weighting, at, links, count, normal);
+        return sum.write(kDoubtful, normal) || exactMean(call_.weighting, at, links, count, normal);
     }
     [[gnu::noinline]] bool exactMean(NormalWeighting weighting, const PointCorners& at, const Link* links,
                                      std::uint32_t count, Vec3& normal) const {
@@ -343,7 +306,7 @@ class RangeWork {
             const std::uint32_t corner = at.corner(links[i].slot);
             const FaceRow& row = room_.rows[at.triangle(links[i].slot)];
             if (!row.isDegenerate()) {
-                setting_.out[corner] = toFloat(row.unit());
+                call_.out[corner] = toFloat(row.unit());
                 continue;
             }
             if (others_point_ != at.point) {  // taken once, however many components vanish
@@ -351,13 +314,14 @@ class RangeWork {
                 const Link* const all = oneComponent(at.count, room_.links + at.count);
                 if (!mean(at, all, at.count, of_others_)) of_others_ = {0, 0, 1};
             }
-            setting_.out[corner] = of_others_;
+            call_.out[corner] = of_others_;
             ++degenerate;
         }
-        return setting_.weighting == NormalWeighting::flat ? degenerate : count;
+        return call_.weighting == NormalWeighting::flat ? degenerate : count;
     }
 
     const Setting& setting_;
+    const NormalsCall& call_;
     Room room_;
     std::uint32_t first_ = 0, count_ = 0;  ///< points of the range
     std::uint32_t size_ = 0;               ///< triangles at hand
@@ -372,15 +336,15 @@ class RangeWork {
 /// The room of each task.
 class Rooms {
   public:
-    Rooms(const Setting& setting, const RangeLists& lists, std::size_t tasks, const Allocator* allocator)
-        : items_(lists.mostTriangles(setting.items.count)),
-          corners_(setting.are_triangles ? 3 * items_ : items_),
+    Rooms(const Setting& setting, const RangeLists& lists, std::size_t tasks)
+        : items_(lists.mostTriangles(setting.call.items.count)),
+          corners_(setting.call.are_triangles ? 3 * items_ : items_),
           numbers_each_(2 * corners_ + lists.range(0).size() + 3),
-          rows_(allocator, tasks * items_),
-          deciding_(allocator, setting.hasPose() ? tasks * items_ : 0),
-          triangles_(allocator, tasks * items_),
-          links_(allocator, tasks * 2 * corners_),
-          numbers_(allocator, tasks * numbers_each_) {}
+          rows_(setting.call.allocator, tasks * items_),
+          deciding_(setting.call.allocator, setting.hasPose() ? tasks * items_ : 0),
+          triangles_(setting.call.allocator, tasks * items_),
+          links_(setting.call.allocator, tasks * 2 * corners_),
+          numbers_(setting.call.allocator, tasks * numbers_each_) {}
 
     Room of(std::size_t task) {
         std::uint32_t* const numbers = numbers_.data() + task * numbers_each_;
@@ -402,69 +366,31 @@ class Rooms {
     Buffer<std::uint32_t> numbers_;
 };
 
-/// From the means by angle * area to the normals of `best`, and options.refine steps. Components without a mean stay as
-/// they are.
-void refineComponents(const Setting& setting, const NormalOptions& options, const Buffer<std::uint32_t>& components,
-                      Buffer<Vec3>& sharp, Parallel& parallel) {
-    using smooth::BestRound;
-    const Allocator* const allocator = options.execution.allocator;
-    const StridedSpan<Vec3>& out = setting.out;
-    const auto forCorners = [&](const auto& body) {
-        parallel.forRanges(components.size(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t c = begin; c < end; ++c) body(c);
-        });
-    };
-    Buffer<Vec3> robust(allocator, components.size() + kBehind, Vec3{});
-    forCorners([&](std::size_t c) { robust[c] = out[c]; });
-    smooth::BestSource source = smooth::bestSource(setting.items, setting.posed.positions, options.convention);
-    source.robust_stride = source.sharp_stride = sizeof(Vec3);
-    source.robust = reinterpret_cast<const std::byte*>(robust.data());
-    source.sharp = reinterpret_cast<const std::byte*>(sharp.data());
-    const smooth::BestKernel kernel = smooth::bestKernelFor(options.execution.simd);
-    const ComponentCorners corners(setting.mesh, setting.faces, components);
-    SumRounds rounds(corners, 1, components.size(), smooth::kFitRows, allocator, parallel);
-    rounds.run(BestRound(BestRound::Kind::fit, kernel, source, out.data, out.stride_bytes));
-    forCorners([&](std::size_t c) { robust[c] = sharp[c] == Vec3{} ? Vec3{} : out[c]; });
-    for (unsigned step = 0; step < options.refine; ++step) {
-        source.robust = reinterpret_cast<const std::byte*>(robust.data());
-        rounds.run(BestRound(BestRound::Kind::step, kernel, source, sharp.data(), sizeof(Vec3)));
-        std::swap(robust, sharp);
-    }
-    forCorners([&](std::size_t c) {
-        const std::uint32_t component = components[c] & ~ComponentCorners::kAside;
-        if (robust[component] != Vec3{})
-            out[c] = robust[component];
-        else if (component != c)
-            out[c] = out[component];
-    });
-}
-
 }  // namespace
 
-NormalReport smoothFaces(const MeshView& mesh, const MeshView& posed, const NormalOptions& options,
-                         StridedSpan<Vec3> out, Parallel& parallel) {
-    const Allocator* const allocator = options.execution.allocator;
-    const std::size_t corner_count = mesh.cornerCount(), point_count = mesh.vertexCount();
-    Setting setting(mesh, posed, options, out, parallel);
-    if (setting.faces.usedCount() != mesh.faceCount()) {
+NormalReport smoothFaces(const NormalsCall& call) {
+    const std::size_t corner_count = call.mesh.cornerCount(), point_count = call.mesh.vertexCount();
+    if (call.faces.usedCount() != call.mesh.faceCount()) {
         for (std::size_t c = 0; c < corner_count; ++c) {
-            if (!setting.faces.isUsed(setting.faces.of(static_cast<std::uint32_t>(c)))) out[c] = {};
+            if (!call.faces.isUsed(call.faces.of(static_cast<std::uint32_t>(c)))) call.out[c] = {};
         }
     }
-    NormalReport report{setting.faces.usedCount(), 0, 0};
+    NormalReport report{call.faces.usedCount(), 0, 0};
     if (report.face_count == 0) return report;
 
-    const std::size_t most_tasks = std::clamp<std::size_t>(setting.items.count / kItemsPerTask, 1, parallel.width());
+    Setting setting(call);
+    Parallel& parallel = call.parallel;
+    const std::size_t most_tasks = std::clamp<std::size_t>(call.items.count / kItemsPerTask, 1, parallel.width());
     const std::size_t range_points =
         std::clamp(std::bit_floor(point_count / (kRanges * most_tasks)), kLeastRange, kMostRange);
-    const RangeLists lists(setting.items, kTermTriangles, point_count, range_points, allocator, parallel);
+    const RangeLists lists(call.items, kTermTriangles, point_count, range_points, call.allocator, parallel);
     const std::size_t tasks = std::min(lists.count(), most_tasks);
-    Rooms rooms(setting, lists, tasks, allocator);
+    Rooms rooms(setting, lists, tasks);
     Buffer<Vec3> sharp;
     Buffer<std::uint32_t> components;
-    if (setting.is_best) {
-        sharp = Buffer<Vec3>(allocator, corner_count + kBehind, Vec3{});
-        components = Buffer<std::uint32_t>(allocator, corner_count);
+    if (call.is_best) {
+        sharp = Buffer<Vec3>(call.allocator, corner_count + smooth::kBehind, Vec3{});
+        components = Buffer<std::uint32_t>(call.allocator, corner_count);
         std::iota(components.begin(), components.end(), 0u);
         setting.sharp = sharp.data();
         setting.components = components.data();
@@ -473,13 +399,21 @@ NormalReport smoothFaces(const MeshView& mesh, const MeshView& posed, const Norm
     parallel.forTasks(tasks, [&](std::size_t task) {
         RangeWork work(setting, rooms.of(task));
         for (std::size_t r = lists.count() * task / tasks; r < lists.count() * (task + 1) / tasks; ++r) {
-            degenerate += work.read(lists.range(r), {setting.items, lists, r});
+            degenerate += work.read(lists.range(r), {call.items, lists, r});
             substitutes += work.average();
         }
     });
     report.degenerate_face_count = degenerate;
     report.fallback_corner_count = substitutes;
-    if (setting.is_best) refineComponents(setting, options, components, sharp, parallel);
+    if (call.is_best) {
+        smooth::refine(call, ComponentCorners(call.mesh, call.faces, components), 1, call.out, std::move(sharp));
+        parallel.forRanges(corner_count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t c = begin; c < end; ++c) {
+                const std::uint32_t component = components[c] & ~ComponentCorners::kAside;
+                if (component != c) call.out[c] = call.out[component];
+            }
+        });
+    }
     return report;
 }
 

@@ -3,8 +3,6 @@
 // corners around a point is needed: where its mean vanishes, a corner's substitute depends on its own face. Ranges of
 // points are summed, finished and written one after the other, and fit into a cache where triangles lie close together.
 // Based on: Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998.
-#include "normals/smooth_triangles.h"
-
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -18,10 +16,7 @@
 #include "core/range_lists.h"
 #include "core/typed_indices.h"
 #include "core/vec_math.h"
-#include "core/weld.h"
 #include "normals/best_rounds.h"
-#include "normals/face_terms.h"
-#include "normals/faces.h"
 
 namespace tspace {
 
@@ -70,82 +65,55 @@ struct RangeSums {
 
 class TriangleSmoother {
   public:
-    /// Vertices are welded by the mesh's positions; all else is computed from `positions`.
-    TriangleSmoother(const MeshView& mesh, const StridedSpan<const Vec3>& positions, const NormalOptions& options,
-                     StridedSpan<Vec3> out, Parallel& parallel)
-        : mesh_(mesh),
-          positions_(positions),
-          options_(options),
-          is_best_(options.weighting == NormalWeighting::best),
-          by_angle_(options.weighting == NormalWeighting::angle || options.weighting == NormalWeighting::angleArea ||
-                    is_best_),
-          by_area_(options.weighting == NormalWeighting::area || options.weighting == NormalWeighting::angleArea ||
-                   is_best_),
-          factor_(normalFactor(options.convention)),
-          kernel_(smooth::faceKernelFor(options.execution.simd)),
-          out_(out),
-          allocator_(options.execution.allocator),
-          parallel_(parallel),
-          faces_(mesh, allocator_),
-          points_(options.weld_positions ? weldPositions(mesh, allocator_, parallel_) : Buffer<std::uint32_t>()),
-          triangles_(mesh, faces_, points_, allocator_),
-          lists_(makeLists()) {}
+    explicit TriangleSmoother(const NormalsCall& call) : call_(call), lists_(makeLists()) {}
 
     /// Each range is written when it is summed, with memory for the sums of one per task, which stays in the cache. But
     /// where nothing is near, and for `best`, which goes over all sums in between, vertices get the sums of their points, so
     /// that no corner has to look its point up, and all are written at last.
     NormalReport run() {
-        const bool is_near = is_near_ && !is_best_;
+        const bool is_near = is_near_ && !call_.is_best;
         const std::size_t ranges = lists_.count(), size = lists_.range(0).size() + kTermGroup;
-        const std::size_t tasks = parallel_.width() == 1 ? 1 : std::min(ranges, kRangesPerThread * parallel_.width());
-        sums_ = Buffer<PointSum>(allocator_, is_near ? tasks * size : mesh_.vertexCount() + kTermGroup);
+        const std::size_t tasks =
+            call_.parallel.width() == 1 ? 1 : std::min(ranges, kRangesPerThread * call_.parallel.width());
+        sums_ = Buffer<PointSum>(call_.allocator, is_near ? tasks * size : call_.mesh.vertexCount() + kTermGroup);
         std::atomic<std::uint64_t> degenerate{0}, substitutes{0};
-        parallel_.forTasks(tasks, [&](std::size_t task) {
+        call_.parallel.forTasks(tasks, [&](std::size_t task) {
             for (std::size_t r = ranges * task / tasks; r < ranges * (task + 1) / tasks; ++r) {
                 const GroupRange range = lists_.range(r);
                 const RangeSums place{range, sums_.data() + (is_near ? task * size : range.begin)};
                 degenerate += sum(r, place);
-                if (is_near) substitutes += write({triangles_, lists_, r}, place);
+                if (is_near) substitutes += write({call_.items, lists_, r}, place);
             }
         });
-        if (is_best_)
-            smooth::refineTriangles(triangles_, mesh_.vertexCount(), positions_, options_, sums_.data()->floats(),
-                                    parallel_);
+        if (call_.is_best)
+            smooth::refine(call_, call_.items, 3,
+                           {reinterpret_cast<Vec3*>(sums_.data()), call_.mesh.vertexCount(), sizeof(PointSum)}, {});
         if (!is_near) {
-            for (std::size_t v = 0; v < points_.size(); ++v) {
-                if (points_[v] != v) sums_[v] = sums_[points_[v]];
+            for (std::size_t v = 0; v < call_.points.size(); ++v) {
+                if (call_.points[v] != v) sums_[v] = sums_[call_.points[v]];
             }
             const Buffer<std::uint32_t> own;
-            const PointItems vertices(mesh_, faces_, own, allocator_);
-            const RangeSums all{{0, static_cast<std::uint32_t>(mesh_.vertexCount())}, sums_.data()};
-            parallel_.forRanges(lists_.blockCount(vertices.count), Parallel::kGrain / kTermTriangles,
-                                [&](std::size_t begin, std::size_t end) {
-                                    substitutes += write({vertices, kTermTriangles, begin, end}, all);
-                                });
+            const PointItems vertices(call_.mesh, call_.faces, own, call_.allocator);
+            const RangeSums all{{0, static_cast<std::uint32_t>(call_.mesh.vertexCount())}, sums_.data()};
+            call_.parallel.forRanges(lists_.blockCount(vertices.count), Parallel::kGrain / kTermTriangles,
+                                     [&](std::size_t begin, std::size_t end) {
+                                         substitutes += write({vertices, kTermTriangles, begin, end}, all);
+                                     });
         }
-        return {triangles_.count, degenerate, substitutes};
+        return {call_.items.count, degenerate, substitutes};
     }
 
   private:
     /// Ranges are near where blocks of triangles lie close together. Otherwise they would only be read more often: there is
     /// one for each thread.
     [[nodiscard]] RangeLists makeLists() {
-        const std::size_t points = mesh_.vertexCount();
-        const std::size_t width = triangles_.count < Parallel::kGrain ? 1 : parallel_.width();
+        const std::size_t points = call_.mesh.vertexCount();
+        const std::size_t width = call_.items.count < Parallel::kGrain ? 1 : call_.parallel.width();
         const std::size_t shared = std::max(std::bit_floor(points / (kRangesPerThread * width)), kTermGroup);
         const std::size_t near = width == 1 ? kNearPoints : std::min(kNearPoints, shared);
-        is_near_ = near < points && RangeLists::areCompact(triangles_, kTermTriangles, points, near);
+        is_near_ = near < points && RangeLists::areCompact(call_.items, kTermTriangles, points, near);
         if (!is_near_) return {kTermTriangles, points, std::bit_ceil((points + width - 1) / width)};
-        return {triangles_, kTermTriangles, points, near, allocator_, parallel_};
-    }
-
-    [[nodiscard]] FaceSource faceSource(bool by_angle, bool by_area) const {
-        return {reinterpret_cast<const std::byte*>(positions_.data),
-                positions_.stride_bytes,
-                static_cast<std::uint32_t>(positions_.count - 1),
-                factor_,
-                by_angle,
-                by_area};
+        return {call_.items, kTermTriangles, points, near, call_.allocator, call_.parallel};
     }
 
     /// Makes the unit normals of a range; returns the degenerate triangles whose first point is in it.
@@ -154,24 +122,24 @@ class TriangleSmoother {
         const std::size_t size = (range.size() + kTermGroup - 1) / kTermGroup * kTermGroup;
         std::memset(place.rows, 0, size * sizeof(PointSum));
         double* const sums = &place.rows->x;
-        const FaceSource source = faceSource(by_angle_, by_area_);
+        const FaceSource source = call_.source(call_.posed, call_.by_angle, call_.by_area);
         TriangleBatch batch;
         FaceTerms terms;
         std::uint64_t degenerate = 0;
-        for (RangeLists::Batches batches(triangles_, lists_, index); batches.next(batch);) {
+        for (RangeLists::Batches batches(call_.items, lists_, index); batches.next(batch);) {
             const std::uint32_t* const v = fillGroup(batch.vertices, batch.count, kTermGroup, batch.own_vertices);
-            const std::size_t without_area = kernel_.compute(source, v, batch.count, terms);
+            const std::size_t without_area = call_.kernel.compute(source, v, batch.count, terms);
             if (batch.is_whole) {
                 degenerate += without_area;
-                kernel_.add(terms, batch.groups, batch.count, sums, range.begin);
+                call_.kernel.add(terms, batch.groups, batch.count, sums, range.begin);
                 continue;
             }
             for (std::size_t t = 0; without_area != 0 && t < batch.count; ++t)
                 degenerate += terms.normal[t][3] == 0.0 && range.has(batch.groups[3 * t]) ? 1 : 0;
-            kernel_.add_some(terms, batch.groups, batch.count, sums, range.begin, range.end);
+            call_.kernel.add_some(terms, batch.groups, batch.count, sums, range.begin, range.end);
         }
         // Sums of products of floats neither overflow nor vanish when squared.
-        if (kernel_.finish(sums, size, kDoubtful) != 0) [[unlikely]]
+        if (call_.kernel.finish(sums, size, kDoubtful) != 0) [[unlikely]]
             sumDoubtful(index, place);
         return degenerate;
     }
@@ -183,7 +151,7 @@ class TriangleSmoother {
             if (row->isDoubtful()) row->takeAgain();
         }
         TriangleBatch batch;
-        for (RangeLists::Batches batches(triangles_, lists_, index); batches.next(batch);) {
+        for (RangeLists::Batches batches(call_.items, lists_, index); batches.next(batch);) {
             for (std::size_t t = 0; t < batch.count; ++t)
                 addExactly(batch.vertices + 3 * t, batch.groups + 3 * t, place);
         }
@@ -195,14 +163,14 @@ class TriangleSmoother {
     void addExactly(const std::uint32_t* v, const std::uint32_t* points, const RangeSums& place) const {
         for (std::size_t k = 0; k < 3; ++k) {
             if (!place.range.has(points[k]) || !place.at(points[k]).isTakenAgain()) continue;
-            const DVec3 here = toDouble(positions_[v[k]]);
-            const DVec3 e1 = toDouble(positions_[v[(k + 1) % 3]]) - here;
-            const DVec3 e2 = toDouble(positions_[v[(k + 2) % 3]]) - here;
+            const DVec3 here = toDouble(call_.posed.positions[v[k]]);
+            const DVec3 e1 = toDouble(call_.posed.positions[v[(k + 1) % 3]]) - here;
+            const DVec3 e2 = toDouble(call_.posed.positions[v[(k + 2) % 3]]) - here;
             const DVec3 turn = cross(e1, e2);
             const double size = length(turn);
             if (!(size > 0) || !std::isfinite(size)) return;
-            const double weight = (by_angle_ ? polarAngle(dot(e1, e2), size) : 1) * (by_area_ ? size : 1);
-            place.at(points[k]).add(weight, (weight * factor_ / size) * turn);
+            const double weight = (call_.by_angle ? polarAngle(dot(e1, e2), size) : 1) * (call_.by_area ? size : 1);
+            place.at(points[k]).add(weight, (weight * call_.factor / size) * turn);
         }
     }
 
@@ -220,14 +188,14 @@ class TriangleSmoother {
 
     /// Returns a mark if any of the normals has one, as writeSome.
     Float4 writeBlock(const TriangleBatch& batch, const RangeSums& place) const {
-        auto* to = reinterpret_cast<std::byte*>(&out_[std::size_t{3} * batch.numbers[0]]);
+        auto* to = reinterpret_cast<std::byte*>(&call_.out[std::size_t{3} * batch.numbers[0]]);
         // In variables of their own, which no store can change.
         const RangeSums sums = place;
         const std::uint32_t* const points = batch.groups;
         const auto normalAt = [&](std::size_t i) __attribute__((always_inline)) {
             return loadFloat4(sums.at(points[i]).floats());
         };
-        const std::size_t count = 3 * batch.count, stride = out_.stride_bytes;
+        const std::size_t count = 3 * batch.count, stride = call_.out.stride_bytes;
         Float4 marks = splat(0.0f);
         std::size_t i = 0;
         if (stride == sizeof(Vec3)) {
@@ -258,7 +226,7 @@ class TriangleSmoother {
             if (!place.range.has(batch.groups[i])) continue;
             const Float4 normal = loadFloat4(place.at(batch.groups[i]).floats());
             marks = or4(marks, normal);
-            storeVec3(out_[std::size_t{3} * batch.number(i / 3) + i % 3], normal);
+            storeVec3(call_.out[std::size_t{3} * batch.number(i / 3) + i % 3], normal);
         }
         return marks;
     }
@@ -268,7 +236,7 @@ class TriangleSmoother {
         for (std::size_t i = 0; i < 3 * batch.count; ++i) {
             const std::uint32_t point = batch.groups[i];
             if (!place.range.has(point) || !PointSum::isMarked(loadFloat4(place.at(point).floats()))) continue;
-            out_[std::size_t{3} * batch.number(i / 3) + i % 3] = ownNormal(batch.number(i / 3));
+            call_.out[std::size_t{3} * batch.number(i / 3) + i % 3] = ownNormal(batch.number(i / 3));
             ++substitutes;
         }
         return substitutes;
@@ -278,25 +246,13 @@ class TriangleSmoother {
     [[nodiscard]] Vec3 ownNormal(std::size_t triangle) const {
         std::uint32_t vertices[3 * kTermGroup];
         FaceTerms terms;
-        const std::uint32_t* const v = readIndices(mesh_.indices, 3 * triangle, 3, vertices);
-        kernel_.compute(faceSource(false, false), fillGroup(v, 1, kTermGroup, vertices), 1, terms);
+        const std::uint32_t* const v = readIndices(call_.mesh.indices, 3 * triangle, 3, vertices);
+        call_.kernel.compute(call_.source(call_.posed, false, false), fillGroup(v, 1, kTermGroup, vertices), 1, terms);
         const double(&normal)[4] = terms.normal[0];
         return normal[3] == 0.0 ? Vec3{0, 0, 1} : toFloat({normal[0], normal[1], normal[2]});
     }
 
-    const MeshView& mesh_;
-    StridedSpan<const Vec3> positions_;
-    const NormalOptions& options_;
-    bool is_best_;  ///< the sums are means by angle * area first
-    bool by_angle_, by_area_;
-    double factor_;
-    smooth::FaceKernel kernel_;
-    StridedSpan<Vec3> out_;
-    const Allocator* allocator_;
-    Parallel& parallel_;
-    Faces faces_;
-    Buffer<std::uint32_t> points_;  ///< the point of each vertex; empty when each is its own
-    PointItems triangles_;
+    const NormalsCall& call_;
     bool is_near_ = false;
     RangeLists lists_;
     Buffer<PointSum> sums_;  ///< of one range for each task; for `best` of all points
@@ -305,14 +261,11 @@ class TriangleSmoother {
 }  // namespace
 
 bool canSmoothTriangles(const MeshView& mesh, const NormalOptions& options) {
-    return mesh.face_sizes.empty() && mesh.face_size == 3 && mesh.vertexCount() != 0 &&
-           options.crease_angle_deg >= 180 && options.smoothing_groups.empty() &&
-           options.weighting != NormalWeighting::flat && options.weighting != NormalWeighting::max;
+    return PointItems::areTriangles(mesh) && mesh.vertexCount() != 0 && options.crease_angle_deg >= 180 &&
+           options.smoothing_groups.empty() && options.weighting != NormalWeighting::flat &&
+           options.weighting != NormalWeighting::max;
 }
 
-NormalReport smoothTriangles(const MeshView& mesh, const StridedSpan<const Vec3>& positions,
-                             const NormalOptions& options, StridedSpan<Vec3> out, Parallel& parallel) {
-    return TriangleSmoother(mesh, positions, options, out, parallel).run();
-}
+NormalReport smoothTriangles(const NormalsCall& call) { return TriangleSmoother(call).run(); }
 
 }  // namespace tspace

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// What both ways to smooth normals read, and these ways.
+#pragma once
+
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "core/weld.h"
+#include "normals/face_terms.h"
+#include "normals/faces.h"
+#include "tspace/normals.h"
+
+namespace tspace {
+
+/// A call whose mesh and options have been checked.
+struct NormalsCall {
+    NormalsCall(const MeshView& m, const MeshView& p, const NormalOptions& o, StridedSpan<Vec3> to, Parallel& threads)
+        : mesh(m),
+          posed(p),
+          options(o),
+          out(to),
+          allocator(o.execution.allocator),
+          parallel(threads),
+          faces(m, allocator),
+          points(o.weld_positions ? weldPositions(m, allocator, parallel) : Buffer<std::uint32_t>()),
+          items(m, faces, points, allocator),
+          kernel(smooth::faceKernelFor(o.execution.simd)),
+          factor(normalFactor(o.convention)),
+          are_triangles(PointItems::areTriangles(m)),
+          is_best(o.weighting == NormalWeighting::best),
+          weighting(is_best ? NormalWeighting::angleArea : o.weighting),
+          by_area(weighting == NormalWeighting::area || weighting == NormalWeighting::angleArea),
+          by_angle(weighting == NormalWeighting::angle || weighting == NormalWeighting::angleArea) {}
+
+    [[nodiscard]] smooth::FaceSource source(const MeshView& of, bool angles, bool areas) const {
+        const StridedSpan<const Vec3>& p = of.positions;
+        return {reinterpret_cast<const std::byte*>(p.data),
+                p.stride_bytes,
+                static_cast<std::uint32_t>(p.count - 1),
+                factor,
+                angles,
+                areas};
+    }
+
+    const MeshView &mesh, &posed;  ///< what is one point and what is hard is decided by the mesh, all else by the pose
+    const NormalOptions& options;
+    StridedSpan<Vec3> out;
+    const Allocator* allocator;
+    Parallel& parallel;
+    Faces faces;
+    Buffer<std::uint32_t> points;  ///< the point of each vertex; empty when each is its own
+    PointItems items;
+    smooth::FaceKernel kernel;
+    double factor;
+    bool are_triangles, is_best;
+    NormalWeighting weighting;  ///< of the means
+    bool by_area, by_angle;
+};
+
+/// Whether smoothTriangles does this: a mesh of triangles, all weightings but flat and max, no crease, no groups.
+bool canSmoothTriangles(const MeshView& mesh, const NormalOptions& options);
+
+/// The common case by a shorter way: a point has one normal. Scratch memory: 4 bytes per vertex, core/range_lists.h and
+/// 512 KB, or up to 2 MB for each of several threads; where triangles that follow one another are far apart 36 bytes per
+/// vertex; for `best` 60, and core/sum_rounds.h. While vertices are welded 10 to 24. Throws OutOfMemory.
+NormalReport smoothTriangles(const NormalsCall& call);
+
+/// Any mesh: faces of any size, hard edges, all weightings. Range by range of points, with a list of the corners around
+/// each. Scratch memory: 4 bytes per vertex, core/range_lists.h, faces.h where faces differ in size, and for each task 150
+/// bytes per triangle of a range, which are an eighth of a small mesh and about 8000 of a large one; for `best` also 28
+/// bytes per corner. While vertices are welded 10 to 24 bytes per vertex. Throws OutOfMemory.
+NormalReport smoothFaces(const NormalsCall& call);
+
+}  // namespace tspace
