@@ -12,7 +12,7 @@ namespace tspace {
 /// How texels are found.
 enum class MapFit : std::uint32_t {
     /// All together, so that the bilinear-filtered map is right between texels too: least squares, counted across the wanted
-    /// direction. Integers are chosen so too: with 8 bits with any length from 0.7 to 1. Rays at each texel's centre, and at
+    /// direction. Integers are chosen so too: with 8 bits with any length from 0.7 to 1.1. Rays at each texel's centre, and at
     /// 2 x 2 or 3 x 3 points a texel where what lies between centres does not follow from them.
     solve = 0,
     texel = 1,  ///< each alone: right at its centre

@@ -185,13 +185,14 @@ class IntegerTexel {
             tryTwoChannels(start.z);
             return best_;
         }
-        // The value is a sum of squares but for what the texels around add, which only they change. At the z where the texel
-        // is, real numbers are taken to leave next to nothing: squared, of a sample that the texel is half of.
+        // The value is a sum of squares but for what the texels around add, which only they change. The best real numbers are
+        // taken to leave next to nothing: squared, of a sample that the texel is half of.
         constexpr float kLeftOver = 2e-6F;
         const float x = start_x_ + slope_x_ * start.z, y = start_y_ + slope_y_ * start.z;
-        const float rest = kLeftOver * (m_[0] + m_[3] + m_[5]) / 8;
         const float linear = 2 * (m_[2] * x + m_[4] * y + m_[5] * start.z + h_.z);
         const float square = m_[2] * slope_x_ + m_[4] * slope_y_ + m_[5];
+        const float rest =
+            kLeftOver * (m_[0] + m_[3] + m_[5]) / 8 + (square > 0 ? linear * linear / (4 * square) : 0.0F);
         // z of a vector of the least and the most length that points as the start does, and some around.
         const float size = std::max(length(start), 1e-6F), slope = start.z / size;
         const float a = slope * choice_.least_length, b = slope * choice_.most_length;
@@ -206,6 +207,8 @@ class IntegerTexel {
     /// So many z are looked at side by side, in loops without branches, which compilers make lanes of.
     static constexpr std::size_t kPlanes = 8;
     using Planes = std::array<float, kPlanes>;
+    /// The squared length of the texels around, times their part in what is mixed.
+    static constexpr float kOthers = 0.4F;
 
     [[nodiscard]] int indexOf(float value) const { return static_cast<int>(std::floor((value + 1) / step_ + 0.5f)); }
 
@@ -244,8 +247,9 @@ class IntegerTexel {
                 // What does not fit loses, without a branch.
                 const float beyond = std::max(0.0F, least_square - squared) + std::max(0.0F, squared - most_square) +
                                      std::max(0.0F, std::fabs(x[i]) - 1) + std::max(0.0F, std::fabs(y[i]) - 1);
-                // Angles are errors in parts of the length.
-                scores[corner][i] = (value[i] + added(column - x[i], row - y[i])) / squared + 1e20F * beyond;
+                // Angles are errors in parts of the length of what is mixed: of the texel, and of those around.
+                scores[corner][i] =
+                    (value[i] + added(column - x[i], row - y[i])) / (squared + kOthers) + 1e20F * beyond;
                 lowest[i] = std::min(lowest[i], scores[corner][i]);
             }
         }
@@ -291,6 +295,11 @@ FitSample holdAt(const IntegerChoice& choice, const Vec3& wanted) {
 void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, unsigned rounds,
                     Parallel& parallel, const Allocator* allocator) {
     const std::uint32_t width = system.width(), height = system.height();
+    // Those that are not chosen yet have about the length that they will have.
+    constexpr float kUsualLength = 0.9F;
+    if (!choice.is_two_channel) {
+        for (Vec3& texel : texels) texel = kUsualLength * texel;
+    }
     Buffer<Vec3> wanted(allocator, texels.size());
     std::copy(texels.begin(), texels.end(), wanted.begin());
     const auto chooseRow = [&](std::uint32_t y) {

@@ -38,8 +38,8 @@ void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& pa
 /// What integers stand for: n from 0 to `most` for 2 n / most - 1.
 struct IntegerChoice {
     unsigned most = 255;
-    float least_length = 0.7F, most_length = 1;  ///< of vectors
-    bool is_two_channel = false;                 ///< z follows from x and y, whose vector is unit
+    float least_length = 0.7F, most_length = 1.1F;  ///< of vectors; no component may be over 1
+    bool is_two_channel = false;                    ///< z follows from x and y, whose vector is unit
 };
 
 /// Makes of `texels` vectors that integers stand for, one after the other, such that what the samples ask is met as well as

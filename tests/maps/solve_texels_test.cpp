@@ -100,8 +100,22 @@ TEST(SolveTexels, IntegersCancelEachOthersErrors) {
             EXPECT_NEAR(integer, std::round(integer), 1e-3F);
         }
         EXPECT_GE(length(texel), 0.69F);
-        EXPECT_LE(length(texel), 1.0001F);
+        EXPECT_LE(length(texel), 1.1001F);
     }
+}
+
+TEST(SolveTexels, FreerLengthsAreNoWorseWhereDetailIsFine) {
+    // A few texels a wave: no vectors are right between them, and a short one leaves those beside it what it does not take.
+    constexpr std::uint32_t kWidth = 22, kHeight = 17;
+    const std::vector<Sample> samples = waves(kWidth, kHeight);
+    const TexelSystem system = systemOf(samples, kWidth, kHeight, 0);
+    Parallel parallel({.thread_count = 1});
+    const auto errorWith = [&](float least_length) {
+        std::vector<Vec3> texels = centres(samples);
+        chooseIntegers(system, {.least_length = least_length}, texels, 3, parallel, nullptr);
+        return errorOf(system, samples, texels);
+    };
+    EXPECT_LT(errorWith(0.5F), errorWith(0.7F));
 }
 
 TEST(SolveTexels, TexelsWithoutSamplesStay) {
