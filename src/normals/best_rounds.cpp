@@ -23,42 +23,23 @@ struct Fours {
     }
 };
 
-/// `sharp` gives the means by `max`, `fit` what both means say together, `step` moves that.
-enum class Kind { sharp, fit, step };
-constexpr std::size_t kRowsOf[] = {1, kFitRows, kStepRows};
-
-/// One round.
 class BestRound final : public SumRound {
   public:
-    /// to: the result of each group; never what the source names.
-    BestRound(Kind kind, const BestKernel& kernel, const BestSource& source, StridedSpan<Vec3> to)
-        : SumRound(kRowsOf[static_cast<std::size_t>(kind)], kind == Kind::fit),
-          kind_(kind),
-          kernel_(kernel),
-          source_(source),
-          to_(to) {}
+    /// to: the result of each group; never what the source names, but for the means by `max` in their own round.
+    BestRound(const BestKernel& kernel, const BestSource& source, StridedSpan<Vec3> to)
+        : SumRound(kernel.row_count, kernel.row_count == kFitRows), kernel_(kernel), source_(source), to_(to) {}
 
     void add(const std::uint32_t* vertices, const std::uint32_t* groups, std::size_t count,
              float* rows) const override {
-        if (kind_ == Kind::sharp)
-            kernel_.add_sharp(source_, vertices, count, rows);
-        else
-            (kind_ == Kind::fit ? kernel_.add_fit : kernel_.add_step)(source_, vertices, groups, count, rows);
+        kernel_.add(source_, vertices, groups, count, rows);
     }
-
     void finish(float* sums, const std::uint32_t*, std::size_t first, std::size_t count) const override {
-        if (kind_ == Kind::sharp)
-            kernel_.finish_sharp(sums, kGroups);
-        else if (kind_ == Kind::step)
-            kernel_.finish_step(sums, Fours(source_.robust, first, count).floats, kGroups);
-        else
-            kernel_.finish_fit(sums, Fours(source_.robust, first, count).floats,
-                               Fours(source_.sharp, first, count).floats, kGroups);
+        kernel_.finish(sums, Fours(source_.robust, first, count).floats, Fours(source_.sharp, first, count).floats,
+                       kGroups);
         for (std::size_t i = 0; i < count; ++i) std::memcpy(&to_[first + i].x, sums + 4 * row_count * i, sizeof(Vec3));
     }
 
   private:
-    Kind kind_;
     const BestKernel& kernel_;
     const BestSource& source_;
     StridedSpan<Vec3> to_;
@@ -79,7 +60,7 @@ void refine(const NormalsCall& call, const TriangleGroups& triangles, std::size_
     Buffer<Vec3> robust(call.allocator, count + kBehind, Vec3{});
     forGroups([&](std::size_t i) { robust[i] = normals[i]; });
 
-    const BestKernel kernel = bestKernelFor(call.options.execution.simd);
+    const BestKernels kernels = bestKernelsFor(call.options.execution.simd);
     BestSource source;
     source.positions = reinterpret_cast<const std::byte*>(call.posed.positions.data);
     source.stride = call.posed.positions.stride_bytes;
@@ -89,16 +70,16 @@ void refine(const NormalsCall& call, const TriangleGroups& triangles, std::size_
     source.robust = robust.data();
     source.sharp = sharp.data();
     SumRounds rounds(triangles, adding_corners, count, kFitRows, call.allocator, call.parallel);
-    const auto run = [&](Kind kind, StridedSpan<Vec3> to) { rounds.run(BestRound(kind, kernel, source, to)); };
+    const auto run = [&](const BestKernel& kernel, StridedSpan<Vec3> to) { rounds.run(BestRound(kernel, source, to)); };
 
-    if (!has_sharp) run(Kind::sharp, {sharp.data(), count});
-    run(Kind::fit, normals);
+    if (!has_sharp) run(kernels.sharp, {sharp.data(), count});
+    run(kernels.fit, normals);
     // The others take no part in steps.
     forGroups(
         [&](std::size_t i) { robust[i] = robust[i] == Vec3{} || sharp[i] == Vec3{} ? Vec3{} : Vec3{normals[i]}; });
     for (unsigned step = 0; step < call.options.refine; ++step) {
         source.robust = robust.data();
-        run(Kind::step, {sharp.data(), count});
+        run(kernels.step, {sharp.data(), count});
         std::swap(robust, sharp);
     }
     forGroups([&](std::size_t i) {

@@ -29,29 +29,24 @@ inline constexpr std::size_t kBestGroup = 16;      ///< lanes; vertices and poin
 inline constexpr std::size_t kFitRows = 7;         ///< of four floats; the last one has maxima in the place of sums
 inline constexpr std::size_t kStepRows = 2;        ///< of four floats
 
-/// The functions for one CPU. `vertices` and `points`: three per triangle, and valid ones up to the end of the last
-/// group. Corner k of triangle t writes to rows + 4 * (rows per corner) * (3 * t + k). Triangles without area, or with
-/// values that are not finite, write zeros.
+/// One round, for one CPU.
 struct BestKernel {
-    /// One row per corner: the normal with the weight of `max`.
-    void (*add_sharp)(const BestSource& source, const std::uint32_t* vertices, std::size_t count, float* rows);
-    /// Makes `count` rows unit, or zero. A multiple of kBestGroup.
-    void (*finish_sharp)(float* rows, std::size_t count);
-    /// kFitRows per corner.
-    void (*add_fit)(const BestSource& source, const std::uint32_t* vertices, const std::uint32_t* points,
-                    std::size_t count, float* rows);
-    /// Makes the first row of each point its unit normal. robust, sharp: four floats per point. A multiple of
-    /// kBestGroup.
-    void (*finish_fit)(float* sums, const float* robust, const float* sharp, std::size_t count);
-    /// kStepRows per corner.
-    void (*add_step)(const BestSource& source, const std::uint32_t* vertices, const std::uint32_t* points,
-                     std::size_t count, float* rows);
-    /// Makes the first row of each point its unit normal, or zero. normals: four floats per point, of the round before.
-    /// A multiple of kBestGroup.
-    void (*finish_step)(float* sums, const float* normals, std::size_t count);
+    std::size_t row_count;  ///< of four floats, per corner and point
+    /// `vertices` and `points`: three per triangle, and valid ones up to the end of the last group. Corner k of triangle t
+    /// writes to rows + 4 * row_count * (3 * t + k). Triangles without area, or with values that are not finite, write zeros.
+    void (*add)(const BestSource& source, const std::uint32_t* vertices, const std::uint32_t* points, std::size_t count,
+                float* rows);
+    /// Makes the first row of each point its unit normal, or zero. robust, sharp: four floats per point, of the source. A
+    /// multiple of kBestGroup.
+    void (*finish)(float* sums, const float* robust, const float* sharp, std::size_t count);
 };
 
-TSPACE_DECLARE_KERNEL(BestKernel bestKernel())
-inline BestKernel bestKernelFor(SimdTarget wish) { return simd::choose(wish, TSPACE_KERNEL_TABLE(bestKernel))(); }
+/// `sharp` gives the means by `max`, `fit` what both means say together, `step` moves that. Each reads what is before it.
+struct BestKernels {
+    BestKernel sharp, fit, step;
+};
+
+TSPACE_DECLARE_KERNEL(BestKernels bestKernels())
+inline BestKernels bestKernelsFor(SimdTarget wish) { return simd::choose(wish, TSPACE_KERNEL_TABLE(bestKernels))(); }
 
 }  // namespace tspace::smooth

@@ -80,7 +80,8 @@ struct Edges {
     }
 };
 
-void addSharp(const BestSource& source, const std::uint32_t* vertices, std::size_t count, float* rows) {
+void addSharp(const BestSource& source, const std::uint32_t* vertices, const std::uint32_t*, std::size_t count,
+              float* rows) {
     const Floats factor = broadcast(source.factor), one = broadcast(1.0f);
     for (std::size_t t = 0; t < count; t += kWidth) {
         const Edges e(source, vertices + 3 * t);
@@ -95,7 +96,7 @@ void addSharp(const BestSource& source, const std::uint32_t* vertices, std::size
     }
 }
 
-void finishSharp(float* rows, std::size_t count) {
+void finishSharp(float* rows, const float*, const float*, std::size_t count) {
     for (std::size_t i = 0; i < count; i += kWidth) {
         Vectors n;
         Floats unused;
@@ -353,7 +354,7 @@ void addStep(const BestSource& source, const std::uint32_t* vertices, const std:
 }
 
 /// The normal turns by 14 degrees at most, however little the edges span: the tangent of that is x / (1 + x^2) / 2.
-void finishStep(float* sums, const float* normals, std::size_t count) {
+void finishStep(float* sums, const float* normals, const float*, std::size_t count) {
     constexpr std::size_t kStep = 4 * kStepRows;
     const Floats one = broadcast(1.0f), half = broadcast(0.5f);
     const auto trust = [&](double limit, Floats doubt) {
@@ -380,6 +381,8 @@ void finishStep(float* sums, const float* normals, std::size_t count) {
 
 }  // namespace
 
-BestKernel bestKernel() { return {addSharp, finishSharp, addFit, finishFit, addStep, finishStep}; }
+BestKernels bestKernels() {
+    return {{1, addSharp, finishSharp}, {kFitRows, addFit, finishFit}, {kStepRows, addStep, finishStep}};
+}
 
 }  // namespace tspace::smooth::TSPACE_LANES

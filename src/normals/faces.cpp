@@ -97,7 +97,7 @@ void PointItems::readSome(const std::uint32_t* numbers, std::size_t size, std::u
 }
 
 /// Newell's sum taken about the first corner: the same value, but far from the origin no digits cancel.
-FaceNormal faceNormal(const MeshView& mesh, std::uint32_t first, std::uint32_t past, double factor) {
+FaceRow faceRow(const MeshView& mesh, std::uint32_t first, std::uint32_t past, double factor, bool by_area) {
     const DVec3 origin = toDouble(mesh.positions[mesh.indices[first]]);
     DVec3 sum;
     DVec3 before = toDouble(mesh.positions[mesh.indices[first + 1]]) - origin;
@@ -108,7 +108,9 @@ FaceNormal faceNormal(const MeshView& mesh, std::uint32_t first, std::uint32_t p
     }
     const double l = length(sum);
     if (!(l > 0) || !std::isfinite(l)) return {};
-    return {(factor / l) * sum, l};
+    const DVec3 unit = (factor / l) * sum;
+    const double size = by_area ? l : 1;
+    return {size * unit.x, size * unit.y, size * unit.z, size};
 }
 
 }  // namespace tspace

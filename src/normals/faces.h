@@ -85,12 +85,16 @@ class PointItems final : public TriangleGroups {
     mutable Buffer<std::uint8_t> blocks_;
 };
 
-struct FaceNormal {
-    DVec3 unit;         ///< zero for a degenerate face
-    double length = 0;  ///< of Newell's sum: twice the face's area; 0 for a degenerate face
+/// The normal of a face times `size`, and `size`: zeros if it is degenerate.
+struct FaceRow {
+    double x, y, z, size;
+
+    [[nodiscard]] bool isDegenerate() const { return size == 0; }
+    [[nodiscard]] DVec3 unit() const { return (1 / size) * DVec3{x, y, z}; }
 };
 
-/// Of the corners from `first` to before `past`; `factor` is normalFactor(convention).
-FaceNormal faceNormal(const MeshView& mesh, std::uint32_t first, std::uint32_t past, double factor);
+/// By Newell's sum over the corners from `first` to before `past`. size: its length, twice the area, if that is a weight,
+/// else 1. `factor` is normalFactor(convention).
+FaceRow faceRow(const MeshView& mesh, std::uint32_t first, std::uint32_t past, double factor, bool by_area);
 
 }  // namespace tspace

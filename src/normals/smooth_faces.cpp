@@ -237,19 +237,15 @@ class RangeWork {
     }
 
     void addFace(std::uint32_t face) {
-        const auto rowOf = [&](const MeshView& mesh, bool by_area) {
-            const FaceNormal n = faceNormal(mesh, call_.faces.first(face), call_.faces.past(face), call_.factor);
-            const double size = n.length == 0 ? 0 : by_area ? n.length : 1;
-            return FaceRow{size * n.unit.x, size * n.unit.y, size * n.unit.z, size};
-        };
         if (size_ != 0 && face == last_face_) {
             room_.rows[size_] = room_.rows[size_ - 1];
             room_.deciding[size_] = room_.deciding[size_ - 1];
             return;
         }
         last_face_ = face;
-        room_.rows[size_] = rowOf(call_.posed, call_.by_area);
-        if (room_.deciding != room_.rows) room_.deciding[size_] = rowOf(call_.mesh, false);
+        const std::uint32_t first = call_.faces.first(face), past = call_.faces.past(face);
+        room_.rows[size_] = faceRow(call_.posed, first, past, call_.factor, call_.by_area);
+        if (room_.deciding != room_.rows) room_.deciding[size_] = faceRow(call_.mesh, first, past, call_.factor, false);
     }
 
     void sortByPoint() {

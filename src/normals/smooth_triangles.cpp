@@ -179,15 +179,13 @@ class TriangleSmoother {
         std::uint64_t substitutes = 0;
         TriangleBatch batch;
         while (batches.next(batch, false)) {
-            const Float4 marks = batch.is_whole ? writeBlock(batch, place) : writeSome(batch, place);
-            if (PointSum::isMarked(marks)) [[unlikely]]
-                substitutes += writeSubstitutes(batch, place);
+            if (!batch.is_whole || !writeBlock(batch, place)) substitutes += writeEach(batch, place);
         }
         return substitutes;
     }
 
-    /// Returns a mark if any of the normals has one, as writeSome.
-    Float4 writeBlock(const TriangleBatch& batch, const RangeSums& place) const {
+    /// False where a normal has the mark.
+    bool writeBlock(const TriangleBatch& batch, const RangeSums& place) const {
         auto* to = reinterpret_cast<std::byte*>(&call_.out[std::size_t{3} * batch.numbers[0]]);
         // In variables of their own, which no store can change.
         const RangeSums sums = place;
@@ -216,27 +214,20 @@ class TriangleSmoother {
             marks = or4(marks, normal);
             storeVec3(*reinterpret_cast<Vec3*>(to), normal);
         }
-        return marks;
+        return !PointSum::isMarked(marks);
     }
 
-    /// At the border of ranges: only the corners at the points of one.
-    Float4 writeSome(const TriangleBatch& batch, const RangeSums& place) const {
-        Float4 marks = splat(0.0f);
+    /// Corner by corner, those at the points of a range; returns how many got a substitute.
+    [[gnu::noinline]] std::uint64_t writeEach(const TriangleBatch& batch, const RangeSums& place) const {
+        std::uint64_t substitutes = 0;
         for (std::size_t i = 0; i < 3 * batch.count; ++i) {
             if (!place.range.has(batch.groups[i])) continue;
             const Float4 normal = loadFloat4(place.at(batch.groups[i]).floats());
-            marks = or4(marks, normal);
-            storeVec3(call_.out[std::size_t{3} * batch.number(i / 3) + i % 3], normal);
-        }
-        return marks;
-    }
-
-    [[gnu::noinline]] std::uint64_t writeSubstitutes(const TriangleBatch& batch, const RangeSums& place) const {
-        std::uint64_t substitutes = 0;
-        for (std::size_t i = 0; i < 3 * batch.count; ++i) {
-            const std::uint32_t point = batch.groups[i];
-            if (!place.range.has(point) || !PointSum::isMarked(loadFloat4(place.at(point).floats()))) continue;
-            call_.out[std::size_t{3} * batch.number(i / 3) + i % 3] = ownNormal(batch.number(i / 3));
+            Vec3& to = call_.out[std::size_t{3} * batch.number(i / 3) + i % 3];
+            storeVec3(to, normal);
+            if (!PointSum::isMarked(normal)) [[likely]]
+                continue;
+            to = ownNormal(batch.number(i / 3));
             ++substitutes;
         }
         return substitutes;

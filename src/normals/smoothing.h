@@ -11,14 +11,6 @@
 
 namespace tspace {
 
-/// The normal of a face times `size`, and `size`: zeros if it is degenerate.
-struct FaceRow {
-    double x, y, z, size;
-
-    [[nodiscard]] bool isDegenerate() const { return size == 0; }
-    [[nodiscard]] DVec3 unit() const { return (1 / size) * DVec3{x, y, z}; }
-};
-
 /// A triangle at hand; or, of another face, one of its corners with its neighbours, which has one entry.
 struct LocalTriangle {
     std::uint32_t points[5];  ///< of the corners, and of the first two again. Named by their lowest vertices.
