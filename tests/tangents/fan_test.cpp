@@ -26,7 +26,8 @@ struct Places {
 
 std::vector<NodeCorner> around(const Corners& corners) {
     std::vector<NodeCorner> around(corners.next.size());
-    for (std::size_t i = 0; i < around.size(); ++i) around[i] = {nullptr, corners.next[i], corners.previous[i], 0, 0};
+    for (std::size_t i = 0; i < around.size(); ++i)
+        around[i] = {nullptr, static_cast<std::uint32_t>(i), corners.next[i], corners.previous[i], kFacesUp};
     return around;
 }
 

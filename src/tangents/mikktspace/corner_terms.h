@@ -45,6 +45,7 @@ inline constexpr std::size_t kTermCorners = 3 * kTermTriangles;
 /// what is left of them is mostly error: kSmallestSquare. A NaN sets no mark.
 inline constexpr std::uint32_t kFacesUp = 0x01;    ///< positive UV area
 inline constexpr std::uint32_t kFacesDown = 0x02;  ///< the opposite
+inline constexpr std::uint32_t kFacing = kFacesUp | kFacesDown;
 inline constexpr std::uint32_t kTurnsLeft = 0x04;
 inline constexpr std::uint32_t kTurnsRight = 0x08;
 inline constexpr std::uint32_t kNotLight = 0x10;   ///< its weight is above kLightWeight

@@ -17,7 +17,7 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kGroupGrain = 8192, kWriteGrain = 16384;
+constexpr std::size_t kGroupGrain = 8192, kWriteGrain = 8192;
 
 // -- sums of groups, of which a task owns a range, as in node_sums.cpp: it computes the triangles that have a corner there --
 
@@ -33,22 +33,23 @@ class GroupSummer {
           sums_(sums),
           first_group_(static_cast<std::uint32_t>(first_group)),
           group_count_(static_cast<std::uint32_t>(end_group - first_group)),
-          owns_all_(end_group - first_group == sums.groups.size()) {}
+          wants_all_(end_group - first_group == sums.groups.size() || !plan.terms.empty()) {}
 
     void run() {
         std::fill_n(sums_.groups.data() + first_group_, group_count_, Vec3{});
         if (!sums_.rest.empty()) std::fill_n(sums_.rest.data() + first_group_, group_count_, GroupRest{});
-        if (owns_all_) {
+        if (wants_all_) {
             for (std::size_t t = 0; t < plan_.triangle_count; t += kTermTriangles) {
                 const std::size_t count = std::min(kTermTriangles, plan_.triangle_count - t);
-                add(plan_.vertices.data() + 3 * t, plan_.groups.data() + 3 * t, count);
+                const std::uint32_t *v = plan_.vertices.data() + 3 * t, *g = plan_.groups.data() + 3 * t;
+                add(g, count, plan_.terms.empty() ? termsOf(v, count) : plan_.terms[t / kTermTriangles]);
             }
             return;
         }
         for (std::size_t t = 0; t < plan_.triangle_count;) {
             std::size_t count = 0;
             for (; t < plan_.triangle_count && count < kTermTriangles; ++t) count += keep(t, count);
-            add(vertices_, groups_, count);
+            add(groups_, count, termsOf(vertices_, count));
         }
     }
 
@@ -66,19 +67,20 @@ class GroupSummer {
         return (int{owns(g[0])} | int{owns(g[1])} | int{owns(g[2])}) != 0 ? 1 : 0;
     }
 
-    void add(const std::uint32_t* vertices, const std::uint32_t* groups, std::size_t count) {
+    const CornerTerms& termsOf(const std::uint32_t* vertices, std::size_t count) {
         terms_of_(source_, vertices, count, terms_);
-        if (sums_.rest.empty()) {
-            for (std::size_t i = 0; i < 3 * count; ++i) {
-                if (owns(groups[i])) addVector(&sums_.groups[groups[i]].x, terms_.s[i]);
-            }
-            return;
+        return terms_;
+    }
+
+    void add(const std::uint32_t* groups, std::size_t count, const CornerTerms& terms) {
+        for (std::size_t i = 0; sums_.rest.empty() && i < 3 * count; ++i) {
+            if (owns(groups[i])) addVector(&sums_.groups[groups[i]].x, terms.s[i]);
         }
-        for (std::size_t i = 0; i < 3 * count; ++i) {
+        for (std::size_t i = 0; !sums_.rest.empty() && i < 3 * count; ++i) {
             if (!owns(groups[i])) continue;
-            addVector(&sums_.groups[groups[i]].x, terms_.s[i]);
-            addRest(sums_.rest[groups[i]], terms_, i / 3, i % 3);
-            sums_.rest[groups[i]].weight += terms_.s[i][3];
+            addVector(&sums_.groups[groups[i]].x, terms.s[i]);
+            addRest(sums_.rest[groups[i]], terms, i / 3, i % 3);
+            sums_.rest[groups[i]].weight += terms.s[i][3];
         }
     }
 
@@ -87,7 +89,7 @@ class GroupSummer {
     CornerTermsFunction terms_of_;
     GroupSums& sums_;
     std::uint32_t first_group_, group_count_;
-    bool owns_all_;
+    bool wants_all_;  // triangles
     std::uint32_t vertices_[kTermCorners] = {};
     std::uint32_t groups_[kTermCorners] = {};
     CornerTerms terms_;
@@ -151,7 +153,6 @@ class Evaluation {
         }
         finishGroups();
         writeCorners();
-        if (unequal_ && plan_.has_repeats) mergeRepeats();
         evaluateSplits();
         mergeConflicts();
         for (const std::uint32_t corner : plan_.default_corners) sink_.write(corner, Tangents{});
@@ -178,7 +179,7 @@ class Evaluation {
         const bool replaces = !isMikktspace(plan_.method);
         if (replaces) replaced_ = Buffer<std::uint8_t>(allocator_, plan_.group_count, std::uint8_t{0});
         parallel_.forRanges(plan_.group_count, kGroupGrain, [&](std::size_t begin, std::size_t end) {
-            bool any_zero = false, all_finite = true, any_unequal = false;
+            bool any_zero = false, all_finite = true;
             for (std::size_t g = begin; g < end; ++g) {
                 Tangents r = meanOf(g);
                 // The reference leaves a sum that vanishes zero, and so does mikktspace; others get a
@@ -189,13 +190,11 @@ class Evaluation {
                     any_zero = true;
                 }
                 all_finite &= isFinite(r.s);
-                any_unequal |= !sameResult(r, r);
                 sums_.groups[g] = r.s;
                 if (!sums_.rest.empty()) sums_.rest[g] = restOf(r);
             }
             if (any_zero) zero_ = true;
             if (!all_finite) finite_ = false;
-            if (any_unequal) unequal_ = true;
         });
     }
 
@@ -217,42 +216,30 @@ class Evaluation {
     }
 
     void writeCorners() {
-        const bool tangents_only = wantsTangentsOnly(out_);
-        const float signs[2] = {sink_.sign(false), sink_.sign(true)};
-        parallel_.forRanges(3 * plan_.triangle_count, kWriteGrain, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t h = begin; h < end; ++h) {
-                const std::uint32_t g = plan_.groups[h] & kValue, c = plan_.slotOf(h);
-                if (g >= plan_.group_count || (c & kMark) != 0) continue;
-                if (tangents_only) {
-                    const Vec3& s = sums_.groups[g];
-                    out_.tangents[c] = {s.x, s.y, s.z, signs[plan_.group_positive[g]]};
-                } else {
-                    sink_.write(c, resultOf(g));
+        parallel_.forRanges(plan_.triangle_count, kWriteGrain, [&](std::size_t begin, std::size_t end) {
+            // In variables of their own, which no store can change.
+            const std::uint32_t *const groups = plan_.groups.data(), *const slots = plan_.slots.data();
+            const std::uint32_t* const triangles = plan_.triangles.data();
+            const std::uint8_t* const positive = plan_.group_positive.data();
+            const Vec3* const sums = sums_.groups.data();
+            const StridedSpan<Vec4> tangents = out_.tangents;
+            const float signs[2] = {sink_.sign(false), sink_.sign(true)};
+            const bool tangents_only = wantsTangentsOnly(out_);
+            const std::uint32_t count = plan_.group_count;
+            for (std::size_t t = begin; t < end; ++t) {
+                const std::size_t first = 3 * (triangles == nullptr ? t : triangles[t]);
+                for (std::size_t h = 3 * t; h < 3 * t + 3; ++h) {
+                    const std::uint32_t g = groups[h] & kValue;
+                    const std::size_t c = slots == nullptr ? first + h - 3 * t : slots[h];
+                    if (g >= count || (c & kMark) != 0) continue;
+                    if (tangents_only) {
+                        tangents[c] = {sums[g].x, sums[g].y, sums[g].z, signs[positive[g]]};
+                    } else {
+                        sink_.write(c, resultOf(g));
+                    }
                 }
             }
         });
-    }
-
-    /// A result that differs from itself (there is a NaN) is merged with itself where a corner gets it again.
-    void mergeRepeats() {
-        struct Last {
-            std::uint32_t slot = kNone;
-            Tangents merged;
-        };
-        Buffer<Last> last(allocator_, plan_.group_count, Last{});
-        for (std::size_t h = 0; h < plan_.groups.size(); ++h) {
-            const std::uint32_t g = plan_.groups[h] & kValue;
-            if (g >= plan_.group_count) continue;
-            const Tangents r = resultOf(g);
-            if (sameResult(r, r)) continue;
-            const std::uint32_t slot = plan_.slots[h] & kValue;
-            if (last[g].slot == slot) {
-                merge(last[g].merged, r);
-            } else {
-                last[g] = {slot, r};
-            }
-            sink_.write(slot, last[g].merged);  // those of conflicts will be written again
-        }
     }
 
     /// Room for one group in which each member has a subset of its own (angular threshold).
@@ -302,7 +289,17 @@ class Evaluation {
         }
     }
 
+    static TangentSum termOf(const CornerTerms& terms, std::size_t row) {
+        const float *s = terms.s[row], *t = terms.t[row];
+        return {vectorOf(s), vectorOf(t), t[3], terms.lengths_t[row % 3][row / 3], s[3]};
+    }
+
     void computeTerms(const EvaluatedSplit& split, SplitRoom& room) const {
+        for (std::uint32_t i = 0; !plan_.terms.empty() && i < split.count; ++i) {
+            const std::uint32_t half_edge = plan_.members[split.begin + i];
+            room.terms[i] = termOf(plan_.terms[half_edge / kTermCorners], half_edge % kTermCorners);
+        }
+        if (!plan_.terms.empty()) return;
         for (std::uint32_t begin = 0; begin < split.count; begin += kTermTriangles) {
             const std::uint32_t count = std::min<std::uint32_t>(kTermTriangles, split.count - begin);
             for (std::uint32_t i = 0; i < count; ++i) {
@@ -310,12 +307,8 @@ class Evaluation {
                 std::copy_n(plan_.vertices.data() + first, 3, room.vertices + 3 * i);
             }
             terms_(source_, room.vertices, count, room.block);
-            for (std::uint32_t i = 0; i < count; ++i) {
-                const std::size_t k = plan_.members[split.begin + begin + i] % 3;
-                const float *s = room.block.s[3 * i + k], *t = room.block.t[3 * i + k];
-                room.terms[begin + i] = {
-                    {s[0], s[1], s[2]}, {t[0], t[1], t[2]}, t[3], room.block.lengths_t[k][i], s[3]};
-            }
+            for (std::uint32_t i = 0; i < count; ++i)
+                room.terms[begin + i] = termOf(room.block, 3 * i + plan_.members[split.begin + begin + i] % 3);
         }
     }
 
@@ -325,13 +318,17 @@ class Evaluation {
         const auto result = [&](const Conflict& c) {
             return (c.source & kMark) != 0 ? members_[c.source & kValue] : resultOf(c.source);
         };
-        for (std::size_t i = 0; i < plan_.conflicts.size();) {
-            const std::uint32_t corner = plan_.conflicts[i].corner;
-            Tangents merged = result(plan_.conflicts[i]);
-            for (++i; i < plan_.conflicts.size() && plan_.conflicts[i].corner == corner; ++i)
-                merge(merged, result(plan_.conflicts[i]));
-            sink_.write(corner, merged);
-        }
+        const Buffer<Conflict>& conflicts = plan_.conflicts;
+        parallel_.forRanges(conflicts.size(), kWriteGrain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end;) {
+                const std::uint32_t corner = conflicts[i].corner;
+                const bool is_first = i == 0 || conflicts[i - 1].corner != corner;
+                Tangents merged = result(conflicts[i]);
+                for (++i; i < conflicts.size() && conflicts[i].corner == corner; ++i)
+                    merge(merged, result(conflicts[i]));
+                if (is_first) sink_.write(corner, merged);  // else another thread does
+            }
+        });
     }
 
     /// Corners of groups whose sum vanishes.
@@ -367,7 +364,7 @@ class Evaluation {
     GroupSums sums_;
     Buffer<Tangents> members_;       // results of groups that split, one per member, where there are conflicts
     Buffer<std::uint8_t> replaced_;  // one per group: 1 when its sum vanishes and it got a default
-    std::atomic<bool> zero_{false}, finite_{true}, unequal_{false};
+    std::atomic<bool> zero_{false}, finite_{true};
 };
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include "core/input_scale.h"
 #include "core/memory.h"
+#include "tangents/method_kind.h"
+#include "tangents/mikktspace/corner_terms.h"
 #include "tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
@@ -17,7 +19,7 @@ struct EvaluatedSplit {
     bool positive = false;
 };
 
-/// One of several results for a corner of the mesh, which are averaged.
+/// One of several results for a corner of the mesh, which are averaged where they differ.
 struct Conflict {
     std::uint32_t corner = 0;
     std::uint32_t source = 0;  ///< a group, or kMark | a place in EvaluationPlan::members
@@ -33,7 +35,6 @@ struct EvaluationPlan {
     std::size_t corner_count = 0;
     std::size_t triangle_count = 0;
     std::uint32_t group_count = 0;  ///< groups that do not split
-    bool has_repeats = false;       ///< some corner of the mesh belongs to several half-edges
 
     /// One per half-edge: the vertex whose data stand for its corner. In a plan that is kept that is the corner's own,
     /// because vertices that are equal on the mesh may come apart in a pose. Followed by the numbers of some more valid
@@ -42,12 +43,12 @@ struct EvaluationPlan {
     /// One per half-edge: the group it belongs to, with kMark if it adds nothing to it; kNone without one,
     /// and for members of groups that split.
     Buffer<std::uint32_t> groups;
-    /// One per half-edge: its corner of the mesh, with kMark where the group's result is not written there: another one
-    /// writes it, or it is among the conflicts. Empty: half-edges are corners.
+    /// One per half-edge: its corner of the mesh, with kMark where that is among the conflicts. Empty: half-edges are corners.
     Buffer<std::uint32_t> slots;
     Buffer<std::uint32_t> triangles;      ///< of some nodes' plan: their numbers in the mesh, ascending
     Buffer<std::uint8_t> group_positive;  ///< one per group: its orientation
     Buffer<Vec2> uvs;                     ///< one per vertex; empty in a plan that is used once
+    Buffer<CornerTerms> terms;            ///< of that one: what its triangles add
 
     Buffer<EvaluatedSplit> splits;
     Buffer<std::uint32_t> members;        ///< half-edges of these groups
@@ -61,14 +62,19 @@ struct EvaluationPlan {
     Buffer<Copy> copies;                    ///< corners of degenerate triangles
     TangentReport report;                   ///< what can be counted without a pose
 
+    [[nodiscard]] std::uint32_t triangleOf(std::size_t t) const {
+        return triangles.empty() ? static_cast<std::uint32_t>(t) : triangles[t];
+    }
     [[nodiscard]] std::uint32_t slotOf(std::size_t half_edge) const {
-        return slots.empty() ? static_cast<std::uint32_t>(half_edge) : slots[half_edge];
+        if (!slots.empty()) return slots[half_edge];
+        return 3 * triangleOf(half_edge / 3) + static_cast<std::uint32_t>(half_edge % 3);
     }
     [[nodiscard]] std::size_t memoryBytes() const;
 };
 
 /// Plans a validated mesh with normals and UVs and at most kMaxHalfEdges, to be kept. Throws OutOfMemory.
-EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Parallel& parallel);
+EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Parallel& parallel,
+                           PlanUse use = PlanUse::kept);
 
 /// Evaluates one pose into checked outputs and completes the plan's report. `uvs`: one per vertex. Scratch memory: 12
 /// bytes per group when only tangents are asked for, else 36. `estimates`: null, or what estimators have given for the

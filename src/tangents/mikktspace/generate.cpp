@@ -11,6 +11,7 @@
 #include "tangents/mikktspace/faces.h"
 #include "tangents/mikktspace/last_bucket.h"
 #include "tangents/mikktspace/one_pass.h"
+#include "tangents/mikktspace/splits.h"
 #include "tangents/mikktspace/vertex_path.h"
 #include "tangents/mikktspace/weld.h"
 
@@ -37,25 +38,31 @@ LastBucket lastBucketOf(const WeldedMesh& welded, const TangentOptions& options,
     return findLastBucket(welded, transient, options.execution.allocator, parallel);
 }
 
+/// By a plan for this call alone.
+TangentReport planAndEvaluate(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
+                              Parallel& parallel) {
+    const EvaluationPlan plan = planGrouped(mesh, options, parallel, PlanUse::once);
+    return evaluateGroups(plan, {mesh.positions, mesh.normals}, mesh.uvs, out, options.execution, parallel);
+}
+
 TangentReport generateWith(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
                            Parallel& parallel) {
+    if (isMikktspace(options.method) && thresholdCosine(options.angular_threshold_deg) != -1.0f)
+        return planAndEvaluate(mesh, options, out, parallel);
     const Allocator* allocator = options.execution.allocator;
     const TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
     ScratchBlock transient(allocator, unwritten(out));
     Nodes nodes = weld(mesh, triangles, allocator, parallel, transient.allocator());
     const LastBucket bucket = lastBucketOf({mesh, triangles, nodes}, options, transient.allocator(), parallel);
     listVertices(nodes, allocator);
-    return evaluateInOnePass({{mesh, triangles, nodes}, options, bucket, out}, transient, parallel);
+    return evaluateInOnePass({{mesh, triangles, nodes}, options, bucket}, out, transient, parallel);
 }
 
 }  // namespace
 
 TangentReport generateGrouped(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
                               Parallel& parallel) {
-    if constexpr (!kHasOnePass) {
-        const EvaluationPlan plan = planGrouped(mesh, options, parallel);
-        return evaluateGroups(plan, {mesh.positions, mesh.normals}, mesh.uvs, out, options.execution, parallel);
-    }
+    if (!kHasOnePass) return planAndEvaluate(mesh, options, out, parallel);
     const std::size_t corners = mesh.cornerCount();
     if (corners > kSmallMesh) return generateWith(mesh, options, out, parallel);
     const std::size_t bytes = std::min(kLeastBlock + corners * kBytesPerCorner, kLargestBlock);
@@ -68,15 +75,15 @@ TangentReport generateGrouped(const MeshView& mesh, const TangentOptions& option
     return generateWith(mesh, small, out, parallel);
 }
 
-EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Parallel& parallel) {
+EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Parallel& parallel, PlanUse use) {
     const Allocator* allocator = options.execution.allocator;
     TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
     Nodes nodes = weld(mesh, triangles, allocator, parallel);
     const LastBucket bucket = lastBucketOf({mesh, triangles, nodes}, options, allocator, parallel);
     listVertices(nodes, allocator);
     const Buffer<std::uint32_t> all = numbersBelow(nodes.count, allocator);
-    const NodeSetting setting{{mesh, triangles, nodes}, options, bucket, {}};
-    EvaluationPlan plan = planChosen({setting, {all.data(), all.size()}, true, parallel}, PlanUse::kept);
+    const NodeSetting setting{{mesh, triangles, nodes}, options, bucket};
+    EvaluationPlan plan = planChosen({setting, {all.data(), all.size()}, true, use, parallel});
     plan.skipped_corners = std::move(triangles.skipped_corners);
     plan.report.triangle_count = triangles.count;
     plan.report.skipped_face_count = triangles.skipped_face_count;

@@ -103,7 +103,7 @@ NodeGroups Grouping::groupsOf(std::size_t place, GroupRoom& room) const {
         return {around, contested_groups_.data() + contested.begin, contested.group_count};
     }
     const std::uint8_t facing = corners_.facing[place];
-    if (facing != (kFacesUp | kFacesDown)) {
+    if (facing != kFacing) {
         if (facing == 0) return {around, nullptr, 0};
         if (!bucket_.concerns(chosen_[place]) && areOneFan(around)) return {around, nullptr, 1};
     }
@@ -114,10 +114,10 @@ NodeGroups Grouping::groupsOf(std::size_t place, GroupRoom& room) const {
     std::fill_n(group, count, kNone);
     std::uint32_t groups = 0;
     for (std::uint32_t seed = 0; seed < count; ++seed) {
-        if (around[seed].addsNothing() || group[seed] != kNone) continue;
+        if (around[seed].facing == 0 || group[seed] != kNone) continue;
         group[seed] = groups++;
-        const std::uint32_t orientation = around[seed].common & (kIsUp | kIsDown);
-        spread(seed, links, group, [&](std::uint32_t m) { return (around[m].common & orientation) != 0; });
+        const std::uint32_t opposite = around[seed].facing ^ kFacing;
+        spread(seed, links, group, [&](std::uint32_t m) { return around[m].facing != opposite; });
     }
     return {around, group, groups};
 }
@@ -130,20 +130,17 @@ void Grouping::link(std::size_t place, const CornerLinks& links, std::uint64_t* 
 
 /// Replaces links by those of the reference's last bucket.
 void Grouping::applyBucket(std::span<const NodeCorner> around, const CornerLinks& links) const {
-    const auto halfEdgeOf = [&](const NodeCorner& corner) {
-        const std::uint32_t own = corners_.halfEdgeOf(corner);
-        return 3 * corners_.triangleOf(own / 3) + own % 3;
-    };
     const auto turn = [](std::uint32_t half_edge, std::uint32_t by) {
         return half_edge / 3 * 3 + (half_edge + by) % 3;
     };
     const auto placeOf = [&](std::uint32_t half_edge) {
-        const auto at = std::lower_bound(around.begin(), around.end(), half_edge,
-                                         [&](const NodeCorner& c, std::uint32_t h) { return halfEdgeOf(c) < h; });
+        const auto at = std::lower_bound(
+            around.begin(), around.end(), half_edge,
+            [&](const NodeCorner& corner, std::uint32_t h) { return corners_.halfEdgeOf(corner.half_edge) < h; });
         return static_cast<std::uint32_t>(at - around.begin());
     };
     for (std::size_t i = 0; i < around.size(); ++i) {
-        const std::uint32_t h = halfEdgeOf(around[i]);
+        const std::uint32_t h = corners_.halfEdgeOf(around[i].half_edge);
         // A partner runs the opposite way: across the leaving edge it arrives here, across the arriving edge it leaves.
         if (const std::uint32_t* partner = bucket_.partnerOf(h))
             links.left[i] = *partner == kNone ? kNone : placeOf(turn(*partner, 1));
@@ -165,7 +162,7 @@ void Grouping::findContested(const Allocator* allocator) {
         const std::uint32_t* places = corners_.placesOf(t);
         std::uint32_t facing = 0;
         for (std::size_t k = 0; k < 3; ++k) facing |= corners_.facing[places[k]];
-        if (facing != (kFacesUp | kFacesDown)) continue;
+        if (facing != kFacing) continue;
         if (contested_of_.empty()) contested_of_ = Buffer<std::uint32_t>(allocator, chosen_.size() + 1, kNone);
         corners_.flags[t] |= kContested;
         for (std::size_t k = 0; k < 3; ++k) add(places[k]);
@@ -183,11 +180,8 @@ void Grouping::spreadContested(const Allocator* allocator) {
     contested_groups_ = Buffer<std::uint32_t>(allocator, size, kNone);
     Buffer<std::uint32_t> left(allocator, size), right(allocator, size);
     Buffer<std::uint64_t> half_edges(allocator, 2 * std::size_t{largest_});
-    for (const Contested& node : contested_) {
+    for (const Contested& node : contested_)
         link(node.place, {left.data() + node.begin, right.data() + node.begin}, half_edges.data());
-        for (const NodeCorner& corner : corners_.around(node.place))
-            corners_.flags[corners_.numberOf(corner)] |= kNearContested;
-    }
     const auto spreadFrom = [&](Contested& node, std::uint32_t flags) {
         const std::uint32_t seed = node.cursor++;
         std::uint32_t* const group = contested_groups_.data() + node.begin;
@@ -195,10 +189,10 @@ void Grouping::spreadContested(const Allocator* allocator) {
         group[seed] = node.group_count++;
         const NodeCorner* const around = corners_.around(node.place).data();
         spread(seed, {left.data() + node.begin, right.data() + node.begin}, group,
-               [&](std::uint32_t m) { return joinsContested(corners_.numberOf(around[m]), flags & kPositive); });
+               [&](std::uint32_t m) { return joinsContested(around[m].half_edge / 3, flags & kFacing); });
     };
     for (std::size_t t = 0; t < corners_.flags.size(); ++t) {
-        if ((corners_.flags[t] & kNearContested) == 0) continue;
+        if ((corners_.flags[t] & kDegenerate) != 0) continue;
         const std::uint32_t* places = corners_.placesOf(t);
         for (std::size_t k = 0; k < 3; ++k) {
             if (contested_of_[places[k]] != kNone) spreadFrom(contested_[contested_of_[places[k]]], corners_.flags[t]);
@@ -207,14 +201,11 @@ void Grouping::spreadContested(const Allocator* allocator) {
 }
 
 /// A triangle that is not contested joins any group; a contested one takes the orientation of the first that asks.
-bool Grouping::joinsContested(std::uint32_t triangle, std::uint32_t orientation) {
+bool Grouping::joinsContested(std::uint32_t triangle, std::uint32_t facing) {
     std::uint8_t& flags = corners_.flags[triangle];
     if ((flags & (kAny | kContested)) == kAny) return true;
-    if ((flags & kAny) != 0 && (flags & kGrouped) == 0)
-        flags = static_cast<std::uint8_t>((flags & ~unsigned{kPositive}) | orientation);
-    if ((flags & kPositive) != orientation) return false;
-    flags |= kGrouped;
-    return true;
+    if ((flags & kFacing) == 0) flags = static_cast<std::uint8_t>(flags | facing);
+    return (flags & kFacing) == facing;
 }
 
 }  // namespace tspace::mikk

@@ -84,7 +84,7 @@ class Grouping {
     };
     void findContested(const Allocator* allocator);
     void spreadContested(const Allocator* allocator);
-    bool joinsContested(std::uint32_t triangle, std::uint32_t orientation);
+    bool joinsContested(std::uint32_t triangle, std::uint32_t facing);
     void link(std::size_t place, const CornerLinks& links, std::uint64_t* half_edges) const;
     void applyBucket(std::span<const NodeCorner> around, const CornerLinks& links) const;
 

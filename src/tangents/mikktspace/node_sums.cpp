@@ -217,14 +217,6 @@ void MeshTriangles::finish(const std::uint32_t* found, std::size_t size, std::ui
         vertices[i] = in_.nodes.vertex(groups[i]);
 }
 
-bool sumCannotSplit(const float* sum, std::uint32_t marks, const Vec3& normal) {
-    if ((marks & (kTurnsLeft | kTurnsRight)) == 0 || (marks & kNotLight) == 0) return false;
-    const Float4 x = splat(sum[0]), y = splat(sum[1]), z = splat(sum[2]);
-    const Vec3x4 n{splat(normal.x), splat(normal.y), splat(normal.z)};
-    return laneBits(cannotSplit(dot(Vec3x4{x, y, z}, Vec3x4{x, y, z}), splat(sum[3]),
-                                Mask4{} + static_cast<std::int32_t>(marks), n)) != 0;
-}
-
 void finishInRanges(std::size_t count, const FinishNodes& finish, Parallel& parallel) {
     constexpr std::size_t kStep = 64, kGrain = 128;  // nodes; steps
     parallel.forRanges((count + kStep - 1) / kStep, kGrain, [&](std::size_t begin, std::size_t end) {
@@ -266,9 +258,10 @@ void sumNodes(const WeldedMesh& welded, const CornerSource& source, CornerTermsF
         no_uv_area += (kind & (kDegenerateTriangle | kDegenerateUv)) == kDegenerateUv ? 1 : 0;
         mirrored += kind == kMirrored ? 1 : 0;
     }
-    sums.degenerate_count = degenerate;
-    sums.no_uv_area_count = no_uv_area;
-    sums.mirrored_count = mirrored;
+    sums.report = {.triangle_count = welded.triangles.count,
+                   .degenerate_triangle_count = degenerate,
+                   .degenerate_uv_count = no_uv_area,
+                   .mirrored_count = mirrored};
     if (ranges == 1) finishInRanges(node_count, finish, parallel);
 }
 

@@ -35,7 +35,7 @@ struct NodeSums {
     Buffer<GroupRest> rest;       ///< of its sum but for the weight, which is in `nodes`; empty when tangents_only
     Buffer<TriangleKind> kinds;   ///< one per triangle, transient
     bool scattered = false;       ///< consecutive triangles lie far apart in memory
-    std::uint64_t degenerate_count = 0, no_uv_area_count = 0, mirrored_count = 0;
+    TangentReport report;         ///< counts of triangles
 
     /// The sum of a node.
     [[nodiscard]] float* row(std::size_t node) { return nodes[node].s; }
@@ -47,11 +47,8 @@ struct NodeSums {
     }
 };
 
-/// Whether a sum of several tangents and their weights (corner_terms.h), and the marks that they have in
-/// common, show that the angular test separates none of them.
-bool sumCannotSplit(const float* sum, std::uint32_t marks, const Vec3& normal);
-
-/// The same for four nodes, per lane: of the square of the sum's tangent, its weight, marks that have kNotLight and a turn,
+/// Whether sums of several tangents and their weights (corner_terms.h), and the marks that they have in common, show that
+/// the angular test separates none of them. Of four nodes, per lane: of the square of the sum's tangent, its weight, marks that have kNotLight and a turn,
 /// and the normal.
 inline Mask4 cannotSplit(Float4 square, Float4 weight, Mask4 marks, const Vec3x4& normal) {
     const auto has = [&](std::uint32_t mark) { return (marks & static_cast<std::int32_t>(mark)) != 0; };

@@ -16,14 +16,12 @@
 #include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/node_sums.h"
 #include "tangents/mikktspace/results.h"
-#include "tangents/mikktspace/splits.h"
 
 namespace tspace::mikk {
 
 namespace {
 
 constexpr std::size_t kCornerGrain = 16384;
-constexpr std::uint32_t kBothFacings = kFacesUp | kFacesDown;
 constexpr std::uint16_t kReplaced = 0x8000;  ///< in NodeSums::marks: the node has a default in place of an estimate
 
 /// For one estimate of all groups of a mesh: triangles in which each node is a group; the groups of planned nodes follow behind all nodes.
@@ -60,87 +58,67 @@ class JoinedTriangles final : public TriangleGroups {
 
 class OnePass {
   public:
-    OnePass(const NodeSetting& setting, ScratchBlock& transient, Parallel& parallel, const PassOptions& pass)
+    OnePass(const NodeSetting& setting, const TangentOutput& out, ScratchBlock& transient, Parallel& parallel)
         : in_(setting),
-          pass_(pass),
+          out_(out),
           transient_(transient),
           parallel_(parallel),
           allocator_(setting.options.execution.allocator),
           estimates_(isEstimated(setting.options.method)),
-          sink_(setting.out, setting.options.convention) {}
+          sink_(out, setting.options.convention) {}
 
-    TangentReport run() {
-        const bool has_threshold = in_.maySplit() && thresholdCosine(in_.options.angular_threshold_deg) != -1.0f;
-        const bool walks = has_threshold || pass_.first_look == FirstLook::eachNode;
-        TangentReport report = walks && !estimates_ ? writeAll() : passOverTriangles();
-        report.triangle_count = in_.triangles.count;
-        report.skipped_face_count = in_.triangles.skipped_face_count;
-        report.reference_order_abandoned |= in_.bucket.abandoned;
-        return report;
-    }
-
-  private:
-    /// By the vertex path alone.
-    TangentReport writeAll() {
-        for (const std::uint32_t c : in_.triangles.skipped_corners) sink_.clear(c);
-        const Buffer<std::uint32_t> all = numbersBelow(in_.nodes.count, allocator_);
-        return writeNodes({in_, {all.data(), all.size()}, true, parallel_});
-    }
-
-    TangentReport passOverTriangles() {
+    TangentReport run(unsigned range_shift) {
         CornerSource source = cornerSource({in_.mesh.positions, in_.mesh.normals}, in_.mesh.uvs, in_.options.method,
-                                           estimates_ || wantsTangentsOnly(in_.out));
+                                           estimates_ || wantsTangentsOnly(out_));
         source.adding_only = true;
         complex_ = Buffer<std::uint64_t>(allocator_, in_.nodes.count / 64 + 1, std::uint64_t{0});
         sumNodes(
             in_, source, cornerTermsFor(in_.options.execution.simd), transient_, allocator_, parallel_, sums_,
-            [&](std::size_t first, std::size_t end) { finishNodes(first, end); }, pass_.range_shift);
+            [&](std::size_t first, std::size_t end) { finishNodes(first, end); }, range_shift);
         checkFaces();
         checkDegenerateUvs();
         for (const std::uint32_t node : in_.bucket.nodes) {
             if (!sums_.isEmpty(node)) leaveNode(node);
         }
-        TangentReport report = estimates_ ? writeEstimates() : writeSums();
-        report.degenerate_triangle_count = sums_.degenerate_count;
-        report.degenerate_uv_count = sums_.no_uv_area_count;
-        report.mirrored_count = sums_.mirrored_count;
-        report.group_count += group_count_;
-        report.default_corner_count += default_corner_count_;
+        TangentReport report = sums_.report;
+        const TangentReport of_complex = write();
+        report.skipped_face_count = in_.triangles.skipped_face_count;
+        report.reference_order_abandoned = of_complex.reference_order_abandoned || in_.bucket.abandoned;
+        report.group_count = of_complex.group_count + group_count_;
+        report.default_corner_count = of_complex.default_corner_count + default_corner_count_;
+        report.not_finite_count = of_complex.not_finite_count;
         return report;
     }
 
-    TangentReport writeSums() {
-        writeCorners();
-        sums_.nodes = {};
-        sums_.marks = {};
-        sums_.rest = {};
-        if (complex_count_ == 0) return {};
-        const Buffer<std::uint32_t> chosen = complexNodes();
-        return writeNodes({in_, {chosen.data(), chosen.size()}, false, parallel_});
-    }
-
-    /// Complex nodes are planned first, since a step reads the results of all groups around.
-    TangentReport writeEstimates() {
+  private:
+    /// Sums are given back before the corners of complex nodes are listed; but estimates need the groups of all nodes, since
+    /// a step reads the results of all groups around.
+    TangentReport write() {
+        if (!estimates_) writeCorners();
+        if (!estimates_) sums_ = {};
+        if (complex_count_ == 0 && !estimates_) return {};
         EvaluationPlan plan;
         if (complex_count_ != 0) {
             const Buffer<std::uint32_t> chosen = complexNodes();
-            plan = planChosen({in_, {chosen.data(), chosen.size()}, false, parallel_}, PlanUse::once);
+            plan = planChosen({in_, {chosen.data(), chosen.size()}, false, PlanUse::once, parallel_});
         }
-        GroupSums estimates = estimateGroupsWith(plan);
-        finishInRanges(
-            in_.nodes.count, [&](std::size_t first, std::size_t end) { finishEstimates(first, end); }, parallel_);
-        if (any_replaced_) countReplaced();
-        writeCorners();
-        if (complex_count_ == 0) return {};
-        return evaluateGroups(plan, {in_.mesh.positions, in_.mesh.normals}, in_.mesh.uvs, in_.out,
-                              in_.options.execution, parallel_, &estimates);
+        GroupSums estimates;
+        if (estimates_) {
+            estimates = estimateGroupsWith(plan);
+            finishInRanges(
+                in_.nodes.count, [&](std::size_t first, std::size_t end) { finishEstimates(first, end); }, parallel_);
+            if (any_replaced_) countReplaced();
+            writeCorners();
+        }
+        return evaluateGroups(plan, {in_.mesh.positions, in_.mesh.normals}, in_.mesh.uvs, out_, in_.options.execution,
+                              parallel_, estimates_ ? &estimates : nullptr);
     }
 
     /// Results of all nodes take the place of their sums; those of the plan's groups are returned.
     GroupSums estimateGroupsWith(const EvaluationPlan& plan) {
-        if (!wantsTangentsOnly(in_.out)) sums_.rest = Buffer<GroupRest>(allocator_, in_.nodes.count);
-        GroupSums planned = roomForSums(plan, wantsOnlyTangents(plan, in_.out), allocator_);
-        const bool has_degenerate_uvs = sums_.no_uv_area_count != 0;
+        if (!wantsTangentsOnly(out_)) sums_.rest = Buffer<GroupRest>(allocator_, in_.nodes.count);
+        GroupSums planned = roomForSums(plan, wantsOnlyTangents(plan, out_), allocator_);
+        const bool has_degenerate_uvs = sums_.report.degenerate_uv_count != 0;
         const MeshTriangles by_node(in_, has_degenerate_uvs ? sums_.kinds.data() : nullptr);
         const JoinedTriangles joined(by_node, in_.nodes.count, plan, {complex_.data(), complex_.size()});
         const estimators::GroupEstimates to[2] = {
@@ -159,20 +137,20 @@ class OnePass {
     /// first; then it just links its neighbours in a fan. Nodes of others are left aside, but for those where
     /// no other triangle is: there is no group.
     void checkDegenerateUvs() {
-        if (sums_.no_uv_area_count == 0) return;
+        if (sums_.report.degenerate_uv_count == 0) return;
         Marks counted;  // several triangles of a polygon may have one corner of the mesh
         if (!in_.triangles.faces.empty()) counted = noMarks(allocator_, in_.mesh.cornerCount());
         forEachDegenerateUv([&](std::size_t triangle) {
             std::uint32_t facing = 0;
             for (std::size_t i = 3 * triangle; i < 3 * triangle + 3; ++i) {
-                const std::uint32_t here = sums_.marks[in_.nodeAt(i)] & kBothFacings;
+                const std::uint32_t here = sums_.marks[in_.nodeAt(i)] & kFacing;
                 // A node that is left aside may have any.
-                facing |= here == 0 ? kBothFacings : here == kBothFacings ? 0 : here;
-                const bool counts = here == kBothFacings && (counted.empty() || counted[in_.triangles.corner(i)] == 0);
+                facing |= here == 0 ? kFacing : here == kFacing ? 0 : here;
+                const bool counts = here == kFacing && (counted.empty() || counted[in_.triangles.corner(i)] == 0);
                 default_corner_count_ += counts ? 1 : 0;
                 if (!counted.empty()) counted[in_.triangles.corner(i)] |= counts ? 1 : 0;
             }
-            for (std::size_t k = 0; facing == kBothFacings && k < 3; ++k) {
+            for (std::size_t k = 0; facing == kFacing && k < 3; ++k) {
                 const std::uint32_t node = in_.nodeAt(3 * triangle + k);
                 if (!sums_.isEmpty(node)) leaveNode(node);
             }
@@ -342,8 +320,8 @@ class OnePass {
     /// Nodes of one part are looked up, and asked for, before the part before it is written.
     void writeCorners(std::size_t first, std::size_t end) {
         constexpr std::size_t kPart = 64;
-        const bool streamed = in_.out.tangents.stride_bytes == sizeof(Vec4) &&
-                              areStreamed(in_.out.tangents.data, in_.out.tangents.count * sizeof(Vec4));
+        const bool streamed = out_.tangents.stride_bytes == sizeof(Vec4) &&
+                              areStreamed(out_.tangents.data, out_.tangents.count * sizeof(Vec4));
         std::uint32_t rooms[2][kPart];
         const auto lookUp = [&](std::size_t begin, std::uint32_t* room) {
             const std::size_t count = std::min(kPart, end - begin);
@@ -357,7 +335,7 @@ class OnePass {
         for (std::size_t other = 1; first < end; first += kPart, other ^= 1) {
             const std::uint32_t* following = first + kPart < end ? lookUp(first + kPart, rooms[other]) : nullptr;
             const std::size_t count = std::min(kPart, end - first);
-            const auto write = [&, to = in_.out.tangents, rows = sums_.nodes.data()](const auto& store) {
+            const auto write = [&, to = out_.tangents, rows = sums_.nodes.data()](const auto& store) {
                 for (std::size_t i = 0; i < count; ++i) store(&to[first + i].x, rows[nodes[i]].s);
             };
             if (streamed) {
@@ -373,7 +351,7 @@ class OnePass {
     }
 
     const NodeSetting& in_;
-    PassOptions pass_;
+    TangentOutput out_;
     ScratchBlock& transient_;
     Parallel& parallel_;
     const Allocator* allocator_;
@@ -390,9 +368,9 @@ class OnePass {
 
 }  // namespace
 
-TangentReport evaluateInOnePass(const NodeSetting& setting, ScratchBlock& transient, Parallel& parallel,
-                                const PassOptions& pass) {
-    return OnePass(setting, transient, parallel, pass).run();
+TangentReport evaluateInOnePass(const NodeSetting& setting, const TangentOutput& out, ScratchBlock& transient,
+                                Parallel& parallel, unsigned range_shift) {
+    return OnePass(setting, out, transient, parallel).run(range_shift);
 }
 
 }  // namespace tspace::mikk

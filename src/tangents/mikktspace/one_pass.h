@@ -9,17 +9,10 @@
 
 namespace tspace::mikk {
 
-/// What to begin with: the pass, or a look at each node alone. Both give the same bits, and tests ask for both.
-enum class FirstLook { onePass, eachNode };
-
-struct PassOptions {
-    FirstLook first_look = FirstLook::onePass;
-    unsigned range_shift = 0;  ///< log2 of the nodes of a range; 0: what suits the mesh
-};
-
-/// Writes tangents of the mesh's own pose. `transient`: for what is not needed any more when tangents are written: their own
-/// memory, unless somebody looks at it. Throws OutOfMemory.
-TangentReport evaluateInOnePass(const NodeSetting& setting, ScratchBlock& transient, Parallel& parallel,
-                                const PassOptions& pass = {});
+/// Writes tangents of the mesh's own pose, but for an angular threshold. `transient`: for what is not needed any more when
+/// tangents are written: their own memory, unless somebody looks at it. `range_shift`: log2 of the nodes of a range; 0: what
+/// suits the mesh. Throws OutOfMemory.
+TangentReport evaluateInOnePass(const NodeSetting& setting, const TangentOutput& out, ScratchBlock& transient,
+                                Parallel& parallel, unsigned range_shift = 0);
 
 }  // namespace tspace::mikk

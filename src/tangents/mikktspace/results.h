@@ -162,7 +162,7 @@ struct GroupSums {
 
 /// Whether results for one corner are merged or kept depends on all their parts.
 inline bool wantsOnlyTangents(const EvaluationPlan& plan, const TangentOutput& out) {
-    return wantsTangentsOnly(out) && !plan.has_repeats;
+    return wantsTangentsOnly(out) && plan.conflicts.empty();
 }
 
 /// Room for sums or what the estimators give, and how these reach it.

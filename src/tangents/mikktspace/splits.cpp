@@ -23,27 +23,38 @@ constexpr std::size_t kFewMembers = 64;  // all pairs of so few are compared at 
 float halfAngleLimit(float threshold_cosine) { return std::sqrt((1.0f + threshold_cosine) * 0.5f) + kOffPlane; }
 
 /// Whether all lie near the direction of their sum.
-bool areNearSum(Members members, const Vec3& s, const Vec3& t, float limit) {
-    const float limit_s = limit * length(s), limit_t = limit * length(t);
-    for (const NodeCorner* corner : members) {
-        const float weight = corner->s[3];
-        if (!(weight > kLeastWeight) || !(dot(s, vectorOf(corner->s)) > weight * limit_s) ||
-            !(dot(t, vectorOf(corner->t())) > weight * limit_t))
-            return false;
+bool areNearSum(Members members, float limit) {
+    Float4 s{}, t{};
+    for (const NodeCorner& corner : members) {
+        if (corner.facing == 0) continue;
+        s += loadFloat4(corner.s);
+        t += loadFloat4(corner.t());
     }
-    return true;
+    const Vec3 sum_s = vectorOf(s), sum_t = vectorOf(t);
+    const float limit_s = limit * length(sum_s), limit_t = limit * length(sum_t);
+    return std::all_of(members.begin(), members.end(), [&](const NodeCorner& corner) {
+        if (corner.facing == 0) return true;
+        const float *row = corner.s, weight = row[3];
+        return weight > kLeastWeight && dot(sum_s, vectorOf(row)) > weight * limit_s &&
+               dot(sum_t, vectorOf(corner.t())) > weight * limit_t;
+    });
 }
 
-/// Whether all pairs are well within the threshold.
+/// Whether all pairs of at most kFewMembers are well within the threshold.
 bool areNearEachOther(Members members, float limit) {
-    for (std::size_t i = 0; i < members.size(); ++i) {
-        const float *s = members[i]->s, *t = members[i]->t();
-        if (!(s[3] > kLeastWeight)) return false;
-        for (std::size_t j = 0; j < i; ++j) {
-            const float *other_s = members[j]->s, *other_t = members[j]->t(), least = limit * s[3] * other_s[3];
-            if (!(dot(vectorOf(s), vectorOf(other_s)) > least && dot(vectorOf(t), vectorOf(other_t)) > least))
+    const float *s[kFewMembers], *t[kFewMembers];
+    std::size_t count = 0;
+    for (const NodeCorner& corner : members) {
+        if (corner.facing == 0) continue;
+        const float* const row = s[count] = corner.s;
+        const float* const row_t = t[count] = corner.t();
+        if (!(row[3] > kLeastWeight)) return false;
+        for (std::size_t j = 0; j < count; ++j) {
+            const float least = limit * row[3] * s[j][3];
+            if (!(dot(vectorOf(row), vectorOf(s[j])) > least && dot(vectorOf(row_t), vectorOf(t[j])) > least))
                 return false;
         }
+        ++count;
     }
     return true;
 }
@@ -96,11 +107,11 @@ float thresholdCosine(float degrees) {
     return static_cast<float>(std::array{cosine(r), -sine(r), -cosine(r), sine(r)}[quarter_turns % 4]);
 }
 
-bool areTogether(Members members, const Vec3& sum_s, const Vec3& sum_t, float threshold_cosine) {
+bool areTogether(Members members, float threshold_cosine) {
     if (members.size() <= 1) return true;
     const float near = threshold_cosine + kMargin;
     if (members.size() <= 4) return areNearEachOther(members, near);
-    return areNearSum(members, sum_s, sum_t, halfAngleLimit(threshold_cosine)) ||
+    return areNearSum(members, halfAngleLimit(threshold_cosine)) ||
            (members.size() <= kFewMembers && areNearEachOther(members, near));
 }
 
@@ -116,7 +127,7 @@ SplitFinder::SplitFinder(const WeldedMesh& welded, const VertexCorners& corners,
 SplitFinder::Direction SplitFinder::directionOf(const NodeCorner& corner, const Vec3& normal) const {
     Vec3 p[3];
     Vec2 uv[3];
-    const std::size_t triangle = corners_.numberOf(corner);
+    const std::size_t triangle = corner.half_edge / 3;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t vertex = in_.nodes.vertex(corners_.nodes[3 * triangle + k]);
         p[k] = in_.mesh.positions[vertex];
@@ -132,7 +143,7 @@ bool SplitFinder::isNarrow(Members members) const {
     Vec3 s, t;
     const auto forEach = [&](const auto& body) {
         for (std::size_t i = 0; i < members.size(); ++i) {
-            if (!members[i]->addsNothing()) body(directions_[i]);
+            if (members[i].facing != 0) body(directions_[i]);
         }
     };
     forEach([&](const Direction& d) {
@@ -150,7 +161,7 @@ bool SplitFinder::isNarrow(Members members) const {
 bool SplitFinder::splits(Members members, const Vec3& normal) {
     const auto count = static_cast<std::uint32_t>(members.size());
     if (directions_.size() < count) directions_ = Buffer<Direction>(allocator_, std::max<std::size_t>(count, 64));
-    for (std::uint32_t i = 0; i < count; ++i) directions_[i] = directionOf(*members[i], normal);
+    for (std::uint32_t i = 0; i < count; ++i) directions_[i] = directionOf(members[i], normal);
     if (count > kLargestSplitGroup) {
         abandoned |= !isNarrow(members);
         return false;
@@ -158,17 +169,15 @@ bool SplitFinder::splits(Members members, const Vec3& normal) {
     const std::size_t words = (std::size_t{count} + 63) / 64;
     std::uint64_t* const first_row = rows.extend(words * count);
     std::fill_n(first_row, words * count, std::uint64_t{0});
-    const auto face = [&](std::size_t i) {
-        return in_.triangles.face(corners_.triangleOf(corners_.numberOf(*members[i])));
-    };
+    const auto face = [&](std::size_t i) { return in_.triangles.face(corners_.triangleOf(members[i].half_edge / 3)); };
     bool whole = true;
     for (std::uint32_t a = 0; a < count; ++a) {
         const Direction& da = directions_[a];
         for (std::uint32_t b = 0; b < count; ++b) {
-            if (members[b]->addsNothing()) continue;  // belongs to every subset, but adds nothing
+            if (members[b].facing == 0) continue;  // belongs to every subset, but adds nothing
             const Direction& db = directions_[b];
-            const bool together = members[a]->addsNothing() ||
-                                  (dot(da.s, db.s) > cosine_ && dot(da.t, db.t) > cosine_) || face(a) == face(b);
+            const bool together = members[a].facing == 0 || (dot(da.s, db.s) > cosine_ && dot(da.t, db.t) > cosine_) ||
+                                  face(a) == face(b);
             if (together) first_row[a * words + b / 64] |= std::uint64_t{1} << (b % 64);
             whole &= together;
         }

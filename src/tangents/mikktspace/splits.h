@@ -12,12 +12,11 @@ namespace tspace::mikk {
 /// Cosine of an angular threshold in degrees, in the reference's arithmetic: for 0 to 360.
 float thresholdCosine(float degrees);
 
-/// Members of one group that add to it.
-using Members = std::span<const NodeCorner* const>;
+/// Corners of one group, ascending, those that add nothing too.
+using Members = std::span<const NodeCorner>;
 
-/// Whether it is plain that every two members are within the threshold. No may also mean that it is not plain. Needs rows
-/// with bitangents (CornerTerms::t), and takes the sums of all rows.
-bool areTogether(Members members, const Vec3& sum_s, const Vec3& sum_t, float threshold_cosine);
+/// Whether it is plain that every two members are within the threshold. No may also mean that it is not plain.
+bool areTogether(Members members, float threshold_cosine);
 
 /// Subsets are quadratic in the size of a group by definition: every member may have another one, and float
 /// sums cannot be shared. Above this size, groups that might split would take quadratic time here too.
@@ -29,8 +28,8 @@ class SplitFinder {
     SplitFinder(const WeldedMesh& welded, const VertexCorners& corners, float threshold_cosine,
                 const Allocator* allocator);
 
-    /// `members` of a group, ascending, those without UV area too. Returns whether it splits; then their rows and leaders
-    /// have been added. Groups of more than kLargestSplitGroup members that might split stay whole.
+    /// Returns whether the group splits; then rows and leaders of its members have been added. Groups of more than
+    /// kLargestSplitGroup members that might split stay whole.
     bool splits(Members members, const Vec3& normal);
 
     Growing<std::uint64_t> rows;     ///< bit b of row a: member b counts for member a

@@ -15,19 +15,21 @@ namespace tspace::mikk {
 namespace {
 
 constexpr std::size_t kBlockGrain = 16;
-constexpr float kNothing[4] = {-0.0f, -0.0f, -0.0f, -0.0f};  // added to any number it leaves all its bits
 
 class CornerReader {
   public:
-    CornerReader(const VertexPath& path, const CornerSource& source)
+    explicit CornerReader(const VertexPath& path)
         : path_(path),
           in_(path.setting),
-          source_(source),
+          source_(cornerSource({in_.mesh.positions, in_.mesh.normals}, in_.mesh.uvs, in_.options.method, false)),
           terms_(cornerTermsFor(in_.options.execution.simd)),
           allocator_(in_.options.execution.allocator),
           by_node_(in_, nullptr),
           to_(allocator_),
-          good_(allocator_) {}
+          good_(allocator_) {
+        source_.adding_only = true;
+        if (path.use == PlanUse::kept && !in_.maySplit()) source_.weighting = Weighting::none;
+    }
 
     VertexCorners run() {
         if (!path_.are_all) findTriangles();
@@ -43,8 +45,7 @@ class CornerReader {
   private:
     void findTriangles() {
         place_of_ = Buffer<std::uint32_t>(allocator_, in_.nodes.count, kNone);
-        for (std::size_t i = 0; i < path_.chosen.size(); ++i)
-            place_of_[path_.chosen[i]] = static_cast<std::uint32_t>(i);
+        for (std::uint32_t i = 0; i < path_.chosen.size(); ++i) place_of_[path_.chosen[i]] = i;
         const auto markOf = [places = place_of_.data(), nodes = in_.nodes.of_vertex.data()](std::uint32_t vertex) {
             return ~places[nodes == nullptr ? vertex : nodes[vertex]];
         };
@@ -62,7 +63,7 @@ class CornerReader {
         for (const std::uint8_t flags : to_.flags) {
             to_.report.degenerate_triangle_count += flags == kDegenerate ? 1 : 0;
             to_.report.degenerate_uv_count += flags == kAny ? 1 : 0;
-            to_.report.mirrored_count += flags == 0 ? 1 : 0;
+            to_.report.mirrored_count += flags == kFacesDown ? 1 : 0;
         }
     }
 
@@ -73,27 +74,16 @@ class CornerReader {
             by_node_.read(begin, count, vertices, nodes);
         } else {
             by_node_.readSome(to_.found.data() + begin, count, vertices, nodes);
+            std::uint32_t* const places = to_.places.data() + 3 * begin;
             const auto nowhere = static_cast<std::uint32_t>(path_.chosen.size());
-            for (std::size_t i = 0; i < 3 * count; ++i)
-                to_.places[3 * begin + i] = std::min(place_of_[nodes[i]], nowhere);
+            for (std::size_t i = 0; i < 3 * count; ++i) places[i] = std::min(place_of_[nodes[i]], nowhere);
         }
         // The rest of the block may be any vertex; a block has one triangle at least.
         std::fill(vertices + 3 * count, vertices + kTermCorners, vertices[0]);
         CornerTerms& terms = to_.terms[block];
         terms_(source_, vertices, count, terms);
         std::uint8_t* flags = to_.flags.data() + begin;
-        for (std::size_t t = 0; t < count; ++t) {
-            flags[t] = flagsOf(terms.marks[0][t]);
-            if ((flags[t] & kAny) != 0) clearRows(terms, t);
-        }
-    }
-
-    static void clearRows(CornerTerms& terms, std::size_t t) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            storeFloat4(terms.s[3 * t + k], loadFloat4(kNothing));
-            storeFloat4(terms.t[3 * t + k], loadFloat4(kNothing));
-            terms.lengths_t[k][t] = kNothing[0];
-        }
+        for (std::size_t t = 0; t < count; ++t) flags[t] = flagsOf(terms.marks[0][t]);
     }
 
     /// Corners of all triangles but degenerate ones; and makes room for them.
@@ -107,11 +97,11 @@ class CornerReader {
         const std::uint32_t* places = to_.placesOf(0);
         const std::size_t count = count_;
         for (std::size_t t = 0; t < count; ++t, places += 3) {
-            if ((flags[t] & kDegenerate) != 0) continue;
-            const std::uint8_t here = facingOf(flags[t]);
+            const std::uint8_t of_triangle = flags[t];
+            if ((of_triangle & kDegenerate) != 0) continue;
             for (std::size_t k = 0; k < 3; ++k) {
                 ++sizes[places[k]];
-                facing[places[k]] |= here;
+                facing[places[k]] |= of_triangle & kFacing;
             }
         }
         facing[chosen_count] = 0;
@@ -122,46 +112,26 @@ class CornerReader {
 
     void placeCorners() {
         const auto nowhere = static_cast<std::uint32_t>(path_.chosen.size());
-        const std::uint32_t* slots = in_.triangles.corners.empty() ? nullptr : in_.triangles.corners.data();
-        const std::uint32_t* found = to_.found.empty() ? nullptr : to_.found.data();
-        std::uint32_t* ends = to_.begin.data() + 1;
-        NodeCorner* corners = to_.corners.data();
-        for (std::size_t begin = 0; begin < count_; begin += kTermTriangles) {
-            const CornerTerms& terms = to_.terms[begin / kTermTriangles];
-            const std::size_t count = std::min(kTermTriangles, count_ - begin);
-            const std::uint32_t *n = to_.nodes.data() + 3 * begin, *places = to_.placesOf(begin);
-            const std::uint8_t* flags = to_.flags.data() + begin;
-            for (std::size_t t = 0; t < count; ++t, n += 3, places += 3) {
-                if ((flags[t] & kDegenerate) != 0) continue;
-                const std::uint32_t first =
-                    3 * (found == nullptr ? static_cast<std::uint32_t>(begin + t) : found[begin + t]);
-                const std::uint32_t orientation = orientationOf(flags[t]);
-                const auto place = [&](std::uint32_t k, std::uint32_t next, std::uint32_t previous) {
-                    if (places[k] == nowhere) return;
-                    corners[ends[places[k]]++] = {terms.s[3 * t + k], next, previous,
-                                                  slots == nullptr ? first + k : slots[first + k],
-                                                  terms.marks[k][t] | orientation};
-                };
-                place(0, n[1], n[2]);
-                place(1, n[2], n[0]);
-                place(2, n[0], n[1]);
-            }
+        std::uint32_t* const ends = to_.begin.data() + 1;
+        NodeCorner* const corners = to_.corners.data();
+        const std::uint32_t *n = to_.nodes.data(), *places = to_.placesOf(0);
+        const std::uint8_t* const all_flags = to_.flags.data();
+        const CornerTerms* const terms = to_.terms.data();
+        const auto count = static_cast<std::uint32_t>(3 * count_);
+        for (std::uint32_t h = 0; h < count; h += 3, n += 3, places += 3) {
+            const std::uint32_t flags = all_flags[h / 3], facing = flags & kFacing;
+            if ((flags & kDegenerate) != 0) continue;
+            const float(*const rows)[4] = terms[h / kTermCorners].s + h % kTermCorners;
+            if (places[0] != nowhere) corners[ends[places[0]]++] = {rows[0], h, n[1], n[2], facing};
+            if (places[1] != nowhere) corners[ends[places[1]]++] = {rows[1], h + 1, n[2], n[0], facing};
+            if (places[2] != nowhere) corners[ends[places[2]]++] = {rows[2], h + 2, n[0], n[1], facing};
         }
-    }
-
-    static std::uint8_t facingOf(std::uint8_t flags) {
-        const std::uint32_t facing = (flags & kPositive) != 0 ? kFacesUp : kFacesDown;
-        return static_cast<std::uint8_t>((flags & kAny) != 0 ? 0 : facing);
-    }
-    static std::uint32_t orientationOf(std::uint8_t flags) {
-        static_assert(kIsUp == kFacesUp << 16 && kIsDown == kFacesDown << 16);
-        return (flags & kAny) != 0 ? NodeCorner::kAddsNothing : std::uint32_t{facingOf(flags)} << 16;
     }
 
     static std::uint8_t flagsOf(std::uint32_t marks) {
         if ((marks & kDegenerateMark) != 0) return kDegenerate;
         if ((marks & kNoUvArea) != 0) return kAny;
-        return (marks & kMirroredMark) != 0 ? std::uint8_t{0} : std::uint8_t{kPositive};
+        return (marks & kMirroredMark) != 0 ? kFacesDown : kFacesUp;
     }
 
     [[nodiscard]] float uvArea(std::size_t t) const {
@@ -173,8 +143,7 @@ class CornerReader {
 
     [[nodiscard]] std::uint32_t faceOf(std::size_t t) const { return in_.triangles.faces[to_.triangleOf(t)]; }
 
-    /// One orientation for each face. All triangles of a face that does not simply agree have been found; of
-    /// another face, a part may be here.
+    /// One orientation for each face. All triangles of a face that does not simply agree have been found.
     void uniteFaces() {
         for (std::size_t t = 1; t < count_;) {
             if (to_.flags[t] == to_.flags[t - 1] || faceOf(t) != faceOf(t - 1)) {
@@ -184,33 +153,24 @@ class CornerReader {
             std::size_t first = t - 1;
             while (first > 0 && faceOf(first - 1) == faceOf(t)) --first;
             while (t < count_ && faceOf(t) == faceOf(first)) ++t;
-            if (isWhole(first, t)) uniteFace(first, t);
+            uniteFace(first, t);
         }
-    }
-
-    [[nodiscard]] bool isWhole(std::size_t first, std::size_t end) const {
-        const std::size_t before = to_.triangleOf(first), after = std::size_t{to_.triangleOf(end - 1)} + 1;
-        const std::uint32_t face = in_.triangles.faces[before];
-        return (before == 0 || in_.triangles.faces[before - 1] != face) &&
-               (after == in_.triangles.count || in_.triangles.faces[after] != face);
     }
 
     /// Degenerate triangles have no say.
     void uniteFace(std::size_t first, std::size_t end) {
         good_.drop(good_.size());
-        bool up = false, down = false;
+        std::uint32_t facing = 0;
         for (std::size_t t = first; t < end; ++t) {
-            const std::uint32_t flags = to_.flags[t];
-            if ((flags & kDegenerate) != 0) continue;
+            if ((to_.flags[t] & kDegenerate) != 0) continue;
             good_.push(static_cast<std::uint32_t>(t));
-            up |= flags == kPositive;
-            down |= flags == 0;
+            facing |= to_.flags[t] & kFacing;
         }
-        const bool degenerate_uv_may_choose = good_.size() == 2 && isAny(0) && (up || down);
-        if (!(up && down) && !degenerate_uv_may_choose) return;
-        const std::uint32_t orientation = uvArea(orientingTriangle()) > 0 ? kPositive : 0;
+        const bool degenerate_uv_may_choose = good_.size() == 2 && isAny(0) && facing != 0;
+        if (facing != kFacing && !degenerate_uv_may_choose) return;
+        const std::uint8_t orientation = uvArea(orientingTriangle()) > 0 ? kFacesUp : kFacesDown;
         for (const std::uint32_t t : good_) {
-            to_.flags[t] = static_cast<std::uint8_t>((to_.flags[t] & ~unsigned{kPositive}) | orientation);
+            if ((to_.flags[t] & kAny) == 0) to_.flags[t] = orientation;
         }
     }
 
@@ -252,7 +212,7 @@ class CornerReader {
                     from = copiedInFace(t, k, done);
                 }
                 const std::span<const NodeCorner> around = to_.around(to_.placesOf(t)[k]);
-                if (from == kNone && !around.empty()) from = around[0].slot;
+                if (from == kNone && !around.empty()) from = in_.triangles.corner(to_.halfEdgeOf(around[0].half_edge));
                 to_.copies.push({to, from});
             }
         }
@@ -274,7 +234,7 @@ class CornerReader {
 
     const VertexPath& path_;
     const NodeSetting& in_;
-    const CornerSource& source_;
+    CornerSource source_;
     CornerTermsFunction terms_;
     const Allocator* allocator_;
     MeshTriangles by_node_;
@@ -286,8 +246,6 @@ class CornerReader {
 
 }  // namespace
 
-VertexCorners readCorners(const VertexPath& path, const CornerSource& source) {
-    return CornerReader(path, source).run();
-}
+VertexCorners readCorners(const VertexPath& path) { return CornerReader(path).run(); }
 
 }  // namespace tspace::mikk
