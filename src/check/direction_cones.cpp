@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/angle.h"
-#include "core/basis.h"
 #include "core/unit.h"
 #include "surface/equal_vertices.h"
 

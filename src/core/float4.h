@@ -54,21 +54,8 @@ inline unsigned laneBits(Mask4 mask) {
 inline Float4 select4(Mask4 mask, Float4 a, Float4 b) {
     return std::bit_cast<Float4>((mask & std::bit_cast<Mask4>(a)) | (~mask & std::bit_cast<Mask4>(b)));
 }
-/// a < b ? a : b and a > b ? a : b.
-inline Float4 min4(Float4 a, Float4 b) {
-#ifdef __SSE2__
-    return std::bit_cast<Float4>(_mm_min_ps(std::bit_cast<__m128>(a), std::bit_cast<__m128>(b)));
-#else
-    return select4(a < b, a, b);
-#endif
-}
-inline Float4 max4(Float4 a, Float4 b) {
-#ifdef __SSE2__
-    return std::bit_cast<Float4>(_mm_max_ps(std::bit_cast<__m128>(a), std::bit_cast<__m128>(b)));
-#else
-    return select4(a > b, a, b);
-#endif
-}
+inline Float4 min4(Float4 a, Float4 b) { return a < b ? a : b; }
+inline Float4 max4(Float4 a, Float4 b) { return a > b ? a : b; }
 
 inline Float4 sqrt4(Float4 v) {
 #ifdef __SSE2__
@@ -138,6 +125,21 @@ inline void transpose4(Float4& a, Float4& b, Float4& c, Float4& d) {
     b = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
     c = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
     d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+}
+
+// The additions that all sums are made of.
+
+/// to[0..3] += row[0..3]; both aligned to 16 bytes.
+inline void addRow(float* to, const float* row) {
+    using Row __attribute__((may_alias)) = Float4;
+    *reinterpret_cast<Row*>(to) += *reinterpret_cast<const Row*>(row);
+}
+
+/// to[0..2] += row[0..2], where `row` has four numbers.
+inline void addVector(float* to, const float* row) {
+    const Float4 sum = __builtin_shufflevector(loadPair(to), Float4{to[2], 0, 0, 0}, 0, 1, 4, 5) + loadFloat4(row);
+    storePair(to, sum);
+    to[2] = sum[2];
 }
 
 }  // namespace tspace

@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "core/border.h"
+#include "core/caches.h"
+#include "core/mesh_loops.h"
 #include "core/parallel.h"
-#include "core/prefetch.h"
-#include "core/typed_indices.h"
 
 namespace tspace {
 

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/basis.h"
+#include "core/unit.h"
 #include "core/vec_math.h"
 
 namespace tspace {
@@ -84,32 +84,31 @@ class Cutter {
           is_tested_(count <= kMaxTestedCorners),
           start_(canonicalStart()),
           scratch_(scratch) {
-        if (scratch.positions.size() < count) grow(count);
-        positions_ = scratch.positions.data();
-        points_ = scratch.points.data();
-        previous_ = scratch.previous.data();
-        next_ = scratch.next.data();
+        if (scratch.vertices.size() < count) {
+            scratch.vertices.resize(count);
+            scratch.reflex.resize(count);
+            scratch.tree.resize(std::size_t{2} * count);
+        }
+        vertices_ = scratch.vertices.data();
         reflex_ = scratch.reflex.data();
-        is_reflex_ = scratch.is_reflex.data();
-        order_ = scratch.order.data();
         tree_ = scratch.tree.data();
     }
 
     void cut(std::uint32_t* triangles) {
-        for (std::uint32_t v = 0; v < count_; ++v) positions_[v] = toDouble(corner_positions_[original(v)]);
+        for (std::uint32_t v = 0; v < count_; ++v) vertices_[v].position = toDouble(corner_positions_[original(v)]);
         projectToPlane();
         link();
         findReflex();
         startTournament();
         std::uint32_t any_left = 0;
         for (std::uint32_t left = count_; left > 3; --left) {
-            const std::uint32_t ear = tree_[1], before = previous_[ear], after = next_[ear];
+            const std::uint32_t ear = tree_[1], before = vertices_[ear].previous, after = vertices_[ear].next;
             *triangles++ = original(before);
             *triangles++ = original(ear);
             *triangles++ = original(after);
-            if (is_reflex_[ear] != 0) dropReflex(ear);
-            next_[before] = after;
-            previous_[after] = before;
+            if (vertices_[ear].is_reflex != 0) dropReflex(ear);
+            vertices_[before].next = after;
+            vertices_[after].previous = before;
             any_left = std::min(before, after);
             if (left == 4) break;
             noteReflex(before);
@@ -119,24 +118,13 @@ class Cutter {
             renew(after, orderOf(after));
         }
         // Of the three vertices left, the first in canonical order.
-        const std::uint32_t last = std::min({any_left, previous_[any_left], next_[any_left]});
-        *triangles++ = original(previous_[last]);
+        const std::uint32_t last = std::min({any_left, vertices_[any_left].previous, vertices_[any_left].next});
+        *triangles++ = original(vertices_[last].previous);
         *triangles++ = original(last);
-        *triangles++ = original(next_[last]);
+        *triangles++ = original(vertices_[last].next);
     }
 
   private:
-    void grow(std::uint32_t count) {
-        scratch_.positions.resize(count);
-        scratch_.points.resize(count);
-        scratch_.previous.resize(count);
-        scratch_.next.resize(count);
-        scratch_.reflex.resize(count);
-        scratch_.is_reflex.resize(count);
-        scratch_.order.resize(count);
-        scratch_.tree.resize(std::size_t{2} * count);
-    }
-
     [[nodiscard]] std::uint32_t original(std::uint32_t v) const {
         return v < count_ - start_ ? v + start_ : v - (count_ - start_);
     }
@@ -182,11 +170,11 @@ class Cutter {
 
     /// Newell's normal, unit; zero or not finite when the polygon has no plane.
     [[nodiscard]] DVec3 unitNormal() const {
-        const DVec3 origin = positions_[0];
+        const DVec3 origin = vertices_[0].position;
         DVec3 sum;
-        DVec3 last = positions_[count_ - 1] - origin;
+        DVec3 last = vertices_[count_ - 1].position - origin;
         for (std::uint32_t v = 0; v < count_; ++v) {
-            const DVec3 here = positions_[v] - origin;
+            const DVec3 here = vertices_[v].position - origin;
             sum = sum + cross(last, here);
             last = here;
         }
@@ -199,42 +187,42 @@ class Cutter {
     void projectToPlane() {
         const DVec3 n = unitNormal();
         const auto [x_axis, y_axis] = dot(n, n) > 0 ? planeAxes(n) : PlaneAxes{};
-        const DVec3 origin = positions_[0];
+        const DVec3 origin = vertices_[0].position;
         double extent = 0;
         for (std::uint32_t v = 0; v < count_; ++v) {
-            const DVec3 p = positions_[v] - origin;
-            points_[v] = {dot(x_axis, p), dot(y_axis, p)};
-            extent = std::max({extent, std::abs(points_[v].x), std::abs(points_[v].y)});
+            const DVec3 p = vertices_[v].position - origin;
+            vertices_[v].point = {dot(x_axis, p), dot(y_axis, p)};
+            extent = std::max({extent, std::abs(vertices_[v].point.x), std::abs(vertices_[v].point.y)});
         }
         on_line_ = kOnLine * extent;
     }
 
     void link() {
         for (std::uint32_t v = 0; v < count_; ++v) {
-            previous_[v] = v - 1;
-            next_[v] = v + 1;
+            vertices_[v].previous = v - 1;
+            vertices_[v].next = v + 1;
         }
-        previous_[0] = count_ - 1;
-        next_[count_ - 1] = 0;
+        vertices_[0].previous = count_ - 1;
+        vertices_[count_ - 1].next = 0;
     }
 
     void findReflex() {
         for (std::uint32_t v = 0; v < count_; ++v) {
-            is_reflex_[v] = isConvex(v) ? 0 : 1;
-            if (is_tested_ && is_reflex_[v] != 0) reflex_[reflex_count_++] = v;
+            vertices_[v].is_reflex = isConvex(v) ? 0 : 1;
+            if (is_tested_ && vertices_[v].is_reflex != 0) reflex_[reflex_count_++] = v;
         }
     }
 
     [[nodiscard]] bool isConvex(std::uint32_t v) const {
-        const LeftSide side(points_[next_[v]], points_[previous_[v]]);
-        return side.isFar(side.across(points_[v]), on_line_);
+        const LeftSide side(vertices_[vertices_[v].next].point, vertices_[vertices_[v].previous].point);
+        return side.isFar(side.across(vertices_[v].point), on_line_);
     }
 
     void noteReflex(std::uint32_t v) {
         const bool reflex = !isConvex(v);
-        if (is_tested_ && reflex && is_reflex_[v] == 0) reflex_[reflex_count_++] = v;
-        if (!reflex && is_reflex_[v] != 0) dropReflex(v);
-        is_reflex_[v] = reflex ? 1 : 0;
+        if (is_tested_ && reflex && vertices_[v].is_reflex == 0) reflex_[reflex_count_++] = v;
+        if (!reflex && vertices_[v].is_reflex != 0) dropReflex(v);
+        vertices_[v].is_reflex = reflex ? 1 : 0;
     }
 
     void dropReflex(std::uint32_t v) {
@@ -248,13 +236,13 @@ class Cutter {
     /// (bridges to holes).
     [[nodiscard]] bool isOccupied(std::uint32_t v) const {
         if (reflex_count_ == 0) return false;
-        const std::uint32_t before = previous_[v], after = next_[v];
-        const PlanePoint a = points_[before], b = points_[v], c = points_[after];
+        const std::uint32_t before = vertices_[v].previous, after = vertices_[v].next;
+        const PlanePoint a = vertices_[before].point, b = vertices_[v].point, c = vertices_[after].point;
         const LeftSide ab(a, b), bc(b, c), ca(c, a);
         const auto isAt = [](PlanePoint p, PlanePoint q) { return p.x == q.x && p.y == q.y; };
         return std::any_of(reflex_, reflex_ + reflex_count_, [&](std::uint32_t r) {
             if (r == before || r == after) return false;
-            const PlanePoint p = points_[r];
+            const PlanePoint p = vertices_[r].point;
             return ab.isNear(p, on_line_) && bc.isNear(p, on_line_) && ca.isNear(p, on_line_) && !isAt(p, a) &&
                    !isAt(p, b) && !isAt(p, c);
         });
@@ -263,14 +251,14 @@ class Cutter {
     /// Of the diagonal that cuts a vertex off, squared.
     [[nodiscard]] double lengthInUv(std::uint32_t v) const {
         if (corner_uvs_ == nullptr) return 0;
-        const Vec2 from = corner_uvs_[original(previous_[v])], to = corner_uvs_[original(next_[v])];
+        const Vec2 from = corner_uvs_[original(vertices_[v].previous)], to = corner_uvs_[original(vertices_[v].next)];
         const double du = double{to.x} - double{from.x}, dv = double{to.y} - double{from.y};
         return orderedLength(du * du + dv * dv);
     }
 
     [[nodiscard]] bool isBefore(std::uint32_t v, std::uint32_t w) const {
-        if (order_[v] != order_[w]) return order_[v] < order_[w];
-        return order_[v] == kTaken ? v < w : isBeforeOfSameOrder(v, w);
+        if (vertices_[v].order != vertices_[w].order) return vertices_[v].order < vertices_[w].order;
+        return vertices_[v].order == kTaken ? v < w : isBeforeOfSameOrder(v, w);
     }
 
     [[nodiscard, gnu::noinline]] bool isBeforeOfSameOrder(std::uint32_t v, std::uint32_t w) const {
@@ -283,7 +271,7 @@ class Cutter {
             return compareCorners(original(a), original(b));
         };
         const auto endsOf = [&](std::uint32_t ear) {
-            const std::uint32_t a = previous_[ear], b = next_[ear];
+            const std::uint32_t a = vertices_[ear].previous, b = vertices_[ear].next;
             return compareAt(a, b) <= 0 ? Ends{a, b} : Ends{b, a};
         };
         const Ends of_v = endsOf(v), of_w = endsOf(w);
@@ -298,14 +286,14 @@ class Cutter {
     /// When a vertex is cut off: by the squared length of the diagonal in space, as the bits of a double, which sort as
     /// lengths do. The highest bit: no ear, cut only when no ear is left.
     [[nodiscard]] std::uint64_t orderOf(std::uint32_t v) const {
-        const DVec3 diagonal = positions_[next_[v]] - positions_[previous_[v]];
-        const bool is_blocked = is_reflex_[v] != 0 || isOccupied(v);
+        const DVec3 diagonal = vertices_[vertices_[v].next].position - vertices_[vertices_[v].previous].position;
+        const bool is_blocked = vertices_[v].is_reflex != 0 || isOccupied(v);
         return std::bit_cast<std::uint64_t>(orderedLength(dot(diagonal, diagonal))) | std::uint64_t{is_blocked} << 63;
     }
 
     void startTournament() {
         for (std::uint32_t v = 0; v < count_; ++v) {
-            order_[v] = orderOf(v);
+            vertices_[v].order = orderOf(v);
             tree_[count_ + v] = v;
         }
         for (std::uint32_t node = count_ - 1; node > 0; --node) play(node);
@@ -315,7 +303,7 @@ class Cutter {
         tree_[node] = isBefore(v, w) ? v : w;
     }
     void renew(std::uint32_t v, std::uint64_t order) {
-        order_[v] = order;
+        vertices_[v].order = order;
         for (std::uint32_t node = (count_ + v) / 2; node > 0; node /= 2) play(node);
     }
 
@@ -328,11 +316,8 @@ class Cutter {
     double on_line_ = 0;  // from there on a point is not on a line
     std::uint32_t reflex_count_ = 0;
     // The lists of scratch_.
-    DVec3* positions_;
-    PlanePoint* points_;
-    std::uint32_t *previous_, *next_, *reflex_, *tree_;
-    std::uint64_t* order_;
-    std::uint8_t* is_reflex_;
+    PolygonVertex* vertices_;
+    std::uint32_t *reflex_, *tree_;
 };
 
 }  // namespace

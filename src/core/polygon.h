@@ -40,16 +40,20 @@ struct PlanePoint {
     double x, y;
 };
 
-/// Memory that cutPolygon reuses from call to call: lists that only grow. Vertices in it are numbered in
-/// canonical order: from a start that geometry alone decides.
+/// A vertex of a polygon while it is cut. Numbered in canonical order: from a start that geometry alone decides.
+struct PolygonVertex {
+    DVec3 position;
+    PlanePoint point;
+    std::uint64_t order;  ///< when it is cut off
+    std::uint32_t previous, next;
+    bool is_reflex;
+};
+
+/// Memory that cutPolygon reuses from call to call: lists that only grow.
 struct PolygonScratch {
-    std::vector<DVec3> positions;
-    std::vector<PlanePoint> points;
-    std::vector<std::uint32_t> previous, next;
+    std::vector<PolygonVertex> vertices;
     std::vector<std::uint32_t> reflex;  ///< vertices that may lie in an ear: those that are not convex
-    std::vector<std::uint8_t> is_reflex;
-    std::vector<std::uint64_t> order;  ///< in which vertices are cut off
-    std::vector<std::uint32_t> tree;   ///< a tournament of them
+    std::vector<std::uint32_t> tree;    ///< a tournament of them
 };
 
 /// Cuts a polygon of `count` >= 3 vertices into count - 2 triangles: writes 3 * (count - 2) local vertex

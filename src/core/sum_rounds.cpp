@@ -5,7 +5,7 @@
 #include <bit>
 #include <iterator>
 
-#include "core/add_row.h"
+#include "core/float4.h"
 
 namespace tspace {
 

@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "core/basis.h"
 #include "core/unit.h"
 #include "core/uv_frame.h"
 #include "core/vec_math.h"

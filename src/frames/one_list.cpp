@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/typed_indices.h"
+#include "core/mesh_loops.h"
 
 namespace tspace {
 

@@ -11,14 +11,12 @@
 #include <cmath>
 #include <utility>
 
-#include "core/basis.h"
 #include "core/border.h"
-#include "core/face_walk.h"
 #include "core/float4.h"
 #include "core/memory.h"
+#include "core/mesh_loops.h"
 #include "core/parallel.h"
-#include "core/sum_ranges.h"
-#include "core/typed_indices.h"
+#include "core/unit.h"
 #include "core/vec_math.h"
 #include "core/weld.h"
 #include "frames/one_list.h"

@@ -13,8 +13,8 @@
 
 #include "core/border.h"
 #include "core/memory.h"
+#include "core/mesh_loops.h"
 #include "core/parallel.h"
-#include "core/typed_indices.h"
 #include "frames/variants.h"
 
 namespace tspace {

@@ -3,7 +3,7 @@
 #include "tspace/triangulate.h"
 
 #include "core/border.h"
-#include "core/face_walk.h"
+#include "core/mesh_loops.h"
 #include "core/polygon.h"
 #include "frames/one_list.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/basis.h"
+#include "core/unit.h"
 #include "core/vec_math.h"
 
 namespace tspace {

@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/face_walk.h"
-#include "core/prefetch.h"
-#include "core/typed_indices.h"
+#include "core/caches.h"
+#include "core/mesh_loops.h"
 
 namespace tspace {
 

@@ -11,10 +11,10 @@
 #include <cstring>
 
 #include "core/angle.h"
+#include "core/caches.h"
 #include "core/float4.h"
-#include "core/prefetch.h"
+#include "core/mesh_loops.h"
 #include "core/range_lists.h"
-#include "core/typed_indices.h"
 #include "core/vec_math.h"
 #include "normals/best_rounds.h"
 

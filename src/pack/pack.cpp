@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 
-#include "core/basis.h"
 #include "core/border.h"
 #include "core/unit.h"
 #include "pack/formats.h"

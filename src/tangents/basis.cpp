@@ -3,8 +3,7 @@
 // Based on: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
 #include <algorithm>
 
-#include "core/basis.h"
-#include "core/sum_ranges.h"
+#include "core/parallel.h"
 #include "core/unit.h"
 #include "tangents/indexed_methods.h"
 

@@ -3,7 +3,7 @@
 //
 // For a polygon they are the mean over its UV area, sum(t2 E1 - t1 E2) / sum(determinant) over any fan of
 // triangles: by Green's theorem a value of the border alone, which no choice of diagonals changes.
-#include "core/sum_ranges.h"
+#include "core/parallel.h"
 #include "core/uv_frame.h"
 #include "tangents/indexed_methods.h"
 

@@ -6,8 +6,8 @@
 #include <atomic>
 #include <limits>
 
-#include "core/face_walk.h"
-#include "core/sum_ranges.h"
+#include "core/mesh_loops.h"
+#include "core/parallel.h"
 #include "core/unit.h"
 #include "core/uv_frame.h"
 #include "tangents/indexed_methods.h"

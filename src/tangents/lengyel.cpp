@@ -6,11 +6,11 @@
 #include <bit>
 #include <cstddef>
 
+#include "core/caches.h"
 #include "core/float4.h"
-#include "core/prefetch.h"
+#include "core/mesh_loops.h"
+#include "core/parallel.h"
 #include "core/range_lists.h"
-#include "core/sum_ranges.h"
-#include "core/typed_indices.h"
 #include "core/uv_frame.h"
 #include "tangents/derivative_terms.h"
 #include "tangents/indexed_methods.h"

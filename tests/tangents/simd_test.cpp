@@ -309,7 +309,7 @@ TEST(OnePass, GivesTheSameTangentsWithoutTheOtherOutputs) {
 }
 
 TEST(OnePass, WritesLargeOutputsAsItWritesOthers) {
-    const Shape shape = gridOf(720000);  // 34 MB of tangents (core/streamed_rows.h)
+    const Shape shape = gridOf(720000);  // 34 MB of tangents (core/caches.h)
     struct Padded {
         Vec4 tangent;
         float other = 7;

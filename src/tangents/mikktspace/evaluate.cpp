@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "core/add_row.h"
+#include "core/float4.h"
 #include "tangents/method_kind.h"
 #include "tangents/mikktspace/results.h"
 

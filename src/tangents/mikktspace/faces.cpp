@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <span>
 
-#include "core/face_walk.h"
+#include "core/mesh_loops.h"
 #include "core/polygon.h"
-#include "core/typed_indices.h"
 #include "tangents/mikktspace/words.h"
 
 namespace tspace::mikk {

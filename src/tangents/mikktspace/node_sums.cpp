@@ -10,9 +10,9 @@
 #include <cstddef>
 #include <cstdlib>
 
-#include "core/add_row.h"
+#include "core/float4.h"
+#include "core/mesh_loops.h"
 #include "core/range_lists.h"
-#include "core/typed_indices.h"
 
 namespace tspace::mikk {
 

@@ -9,9 +9,9 @@
 #include <span>
 #include <utility>
 
+#include "core/caches.h"
 #include "core/float4.h"
-#include "core/streamed_rows.h"
-#include "core/typed_indices.h"
+#include "core/mesh_loops.h"
 #include "tangents/method_kind.h"
 #include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/node_sums.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writing rows of four floats past the caches. A large output leaves them anyway before somebody reads it; written in
-// the usual way, each line is read first.
+// Cache lines are asked for before they are needed, and large outputs are written past the caches: they leave these anyway
+// before somebody reads them, and written in the usual way, each line is read first.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +12,16 @@
 #endif
 
 namespace tspace {
+
+/// Asks for the lines of `bytes` bytes that lie `ahead` bytes after `place`, where they will be read or written.
+/// Processors do this by themselves, but not across pages. There need not be any memory: then this asks for nothing.
+template <bool kToWrite = false>
+inline void prefetchLines(const void* place, std::size_t bytes, std::size_t ahead = 4096) {
+    constexpr std::size_t kLine = 64;
+    const auto first = reinterpret_cast<std::uintptr_t>(place) + ahead;
+    for (std::size_t i = 0; i < bytes; i += kLine)
+        __builtin_prefetch(reinterpret_cast<const void*>(first + i), kToWrite ? 1 : 0);
+}
 
 /// Whether rows at `to`, so many bytes in all, should be streamed. They must lie one behind the other.
 inline bool areStreamed([[maybe_unused]] const void* to, [[maybe_unused]] std::size_t bytes) {

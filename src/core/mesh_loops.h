@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Indices in loops over all corners: their type is asked for once, not for each corner.
+// Loops over all faces, with the number of their first corner, and over all indices: their type is asked for once, not for
+// each corner.
 #pragma once
 
 #include <cstddef>
@@ -29,6 +30,26 @@ inline const std::uint32_t* readIndices(const IndexView& view, std::size_t first
                                         std::uint32_t* buffer) {
     if (view.type == IndexType::u32) return static_cast<const std::uint32_t*>(view.data) + first;
     return widenIndices(view, first, count, buffer);
+}
+
+inline std::uint32_t faceSize(const MeshView& mesh, std::size_t face) {
+    return mesh.face_sizes.empty() ? mesh.face_size : mesh.face_sizes[face];
+}
+
+/// body(face, first_corner, corner_count) for each face in order.
+template <class Body>
+void forEachFace(const MeshView& mesh, Body&& body) {
+    const std::size_t faces = mesh.faceCount();
+    // In variables of their own, which no store of the body can change.
+    const std::uint32_t* const sizes = mesh.face_sizes.data();
+    const bool one_size = mesh.face_sizes.empty();
+    const std::uint32_t same_size = mesh.face_size;
+    std::size_t corner = 0;
+    for (std::size_t face = 0; face < faces; ++face) {
+        const std::uint32_t size = one_size ? same_size : sizes[face];
+        body(face, corner, size);
+        corner += size;
+    }
 }
 
 }  // namespace tspace
