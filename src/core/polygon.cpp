@@ -82,8 +82,7 @@ class Cutter {
           corner_uvs_(uvs),
           count_(count),
           is_tested_(count <= kMaxTestedCorners),
-          start_(canonicalStart()),
-          scratch_(scratch) {
+          start_(canonicalStart()) {
         if (scratch.vertices.size() < count) {
             scratch.vertices.resize(count);
             scratch.reflex.resize(count);
@@ -106,7 +105,7 @@ class Cutter {
             *triangles++ = original(before);
             *triangles++ = original(ear);
             *triangles++ = original(after);
-            if (vertices_[ear].is_reflex != 0) dropReflex(ear);
+            if (vertices_[ear].is_reflex) dropReflex(ear);
             vertices_[before].next = after;
             vertices_[after].previous = before;
             any_left = std::min(before, after);
@@ -208,8 +207,8 @@ class Cutter {
 
     void findReflex() {
         for (std::uint32_t v = 0; v < count_; ++v) {
-            vertices_[v].is_reflex = isConvex(v) ? 0 : 1;
-            if (is_tested_ && vertices_[v].is_reflex != 0) reflex_[reflex_count_++] = v;
+            vertices_[v].is_reflex = !isConvex(v);
+            if (is_tested_ && vertices_[v].is_reflex) reflex_[reflex_count_++] = v;
         }
     }
 
@@ -220,9 +219,9 @@ class Cutter {
 
     void noteReflex(std::uint32_t v) {
         const bool reflex = !isConvex(v);
-        if (is_tested_ && reflex && vertices_[v].is_reflex == 0) reflex_[reflex_count_++] = v;
-        if (!reflex && vertices_[v].is_reflex != 0) dropReflex(v);
-        vertices_[v].is_reflex = reflex ? 1 : 0;
+        if (is_tested_ && reflex && !vertices_[v].is_reflex) reflex_[reflex_count_++] = v;
+        if (!reflex && vertices_[v].is_reflex) dropReflex(v);
+        vertices_[v].is_reflex = reflex;
     }
 
     void dropReflex(std::uint32_t v) {
@@ -287,7 +286,7 @@ class Cutter {
     /// lengths do. The highest bit: no ear, cut only when no ear is left.
     [[nodiscard]] std::uint64_t orderOf(std::uint32_t v) const {
         const DVec3 diagonal = vertices_[vertices_[v].next].position - vertices_[vertices_[v].previous].position;
-        const bool is_blocked = vertices_[v].is_reflex != 0 || isOccupied(v);
+        const bool is_blocked = vertices_[v].is_reflex || isOccupied(v);
         return std::bit_cast<std::uint64_t>(orderedLength(dot(diagonal, diagonal))) | std::uint64_t{is_blocked} << 63;
     }
 
@@ -312,8 +311,7 @@ class Cutter {
     std::uint32_t count_;
     bool is_tested_;       // ears are tested for emptiness
     std::uint32_t start_;  // the caller's number of the first vertex
-    PolygonScratch& scratch_;
-    double on_line_ = 0;  // from there on a point is not on a line
+    double on_line_ = 0;   // from there on a point is not on a line
     std::uint32_t reflex_count_ = 0;
     // The lists of scratch_.
     PolygonVertex* vertices_;

@@ -36,7 +36,6 @@ constexpr double kOrthogonalTolerance = 5e-7;
 /// Triangles that the scan looks at together. More would draw more sound faces into the slow work.
 constexpr std::size_t kFacesPerBlock = 4;
 constexpr std::size_t kScanGrain = 1024;
-constexpr std::uint32_t kNotAsked = 0xffffffffu;
 
 /// What is counted: what is wrong with tangents, what they are mended with, and more.
 enum class Counted : std::uint8_t {
@@ -144,8 +143,6 @@ struct SurelySound {
     }
 };
 
-bool equalsItself(const Vec3& v) { return v == v; }
-
 class Sanitizer {
   public:
     Sanitizer(const MeshView& mesh, StridedSpan<Vec4> tangents, const SanitizeOptions& options)
@@ -157,7 +154,6 @@ class Sanitizer {
         if (!scan()) return {};
         const Allocator* allocator = options_.execution.allocator;
         causes_ = Buffer<Cause>(allocator, mesh_.cornerCount(), Cause::sound);
-        seeks_ = Buffer<std::uint8_t>(allocator, mesh_.cornerCount(), std::uint8_t{0});
         forEachSuspect([this](std::size_t first, std::uint32_t size, Counts& counts) { detect(first, size, counts); });
         if (countOf(Counted::seeker) != 0) lookAtPositions();
         forEachSuspect([this](std::size_t first, std::uint32_t size, Counts& counts) { mend(first, size, counts); });
@@ -274,7 +270,6 @@ class Sanitizer {
     }
 
     [[nodiscard]] DVec3 normalAt(std::size_t corner) const { return unitNormal(mesh_.normals[mesh_.indices[corner]]); }
-    [[nodiscard]] const Vec3& positionAt(std::size_t corner) const { return mesh_.positions[mesh_.indices[corner]]; }
 
     /// The face's first sound corner, or `first + size`.
     [[nodiscard]] std::size_t firstSound(std::size_t first, std::uint32_t size) const {
@@ -304,43 +299,35 @@ class Sanitizer {
                 if (isUsable(xyz(tangents_[c]), n) || (sound < first + size && isUsable(xyz(tangents_[sound]), n)))
                     continue;
             }
-            if (!equalsItself(positionAt(c))) continue;
-            seeks_[c] = 1;
             counts.count(Counted::seeker);
         }
     }
 
-    /// Finds the first sound tangent at each position where a corner seeks one.
+    /// Finds the first sound tangent at each position.
     void lookAtPositions() {
         const Allocator* allocator = options_.execution.allocator;
         points_ = weldPositions(mesh_, allocator, parallel_);
-        asked_ = Buffer<std::uint32_t>(allocator, mesh_.vertexCount(), kNotAsked);
-        found_ = Buffer<Vec4>(allocator, countOf(Counted::seeker), Vec4{});
-        std::uint32_t asked_count = 0;
-        for (std::size_t c = 0; c < mesh_.cornerCount(); ++c) {
-            std::uint32_t& asked = asked_[pointAt(c)];
-            if (seeks_[c] != 0 && asked == kNotAsked) asked = asked_count++;
-        }
+        found_ = Buffer<Vec4>(allocator, mesh_.vertexCount(), Vec4{});
         withIndices(mesh_.indices, [&](auto vertexOf) {
             forEachFace(mesh_, [&](std::size_t, std::size_t first, std::uint32_t size) {
                 for (std::size_t c = first; size >= 3 && c < first + size; ++c) {
-                    const std::uint32_t vertex = vertexOf(c), point = points_.empty() ? vertex : points_[vertex];
-                    if (asked_[point] == kNotAsked || causes_[c] != Cause::sound) continue;
-                    Vec4& found = found_[asked_[point]];
+                    if (causes_[c] != Cause::sound) continue;
+                    Vec4& found = found_[pointOf(vertexOf(c))];
                     if (found.w == 0) found = tangents_[c];
                 }
             });
         });
     }
 
-    [[nodiscard]] std::uint32_t pointAt(std::size_t corner) const {
-        const std::uint32_t vertex = mesh_.indices[corner];
+    [[nodiscard]] std::uint32_t pointOf(std::uint32_t vertex) const {
         return points_.empty() ? vertex : points_[vertex];
     }
-    /// What a corner found at its position; null: it seeks nothing, or there is nothing.
+    /// The first sound tangent at a corner's position; null: there is none, or a corner like this one seeks none.
     [[nodiscard]] const Vec4* foundBy(std::size_t corner) const {
-        if (seeks_[corner] == 0) return nullptr;
-        const Vec4& found = found_[asked_[pointAt(corner)]];
+        const std::uint32_t vertex = mesh_.indices[corner];
+        const Vec3& p = mesh_.positions[vertex];
+        if (found_.empty() || !(p == p)) return nullptr;
+        const Vec4& found = found_[pointOf(vertex)];
         return found.w != 0 ? &found : nullptr;
     }
 
@@ -409,10 +396,9 @@ class Sanitizer {
     Buffer<std::uint8_t> candidates_;      ///< one per block
     Buffer<std::uint32_t> block_corners_;  ///< each block's first corner; empty when all faces have one size
     Buffer<Cause> causes_;
-    Buffer<std::uint8_t> seeks_;
-    // Where corners seek: the point of each vertex (empty: its own), the number of each point that is asked, and the first
-    // sound tangent there; its sign is 0 where there is none.
-    Buffer<std::uint32_t> points_, asked_;
+    // Where corners seek: the point of each vertex (empty: its own), and the first sound tangent there; its sign is 0 where
+    // there is none.
+    Buffer<std::uint32_t> points_;
     Buffer<Vec4> found_;
     /// Of all tasks together: sums of whole numbers do not depend on their order.
     std::array<std::atomic<std::uint64_t>, kCountedCount> counts_{};
