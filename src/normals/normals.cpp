@@ -37,7 +37,10 @@ Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& pose
     if (Error e = checkSpan(posed.positions, mesh.vertexCount(), "positions"); e.code != ErrorCode::ok) return e;
     if (Error e = checkOptions(mesh, options, out); e.code != ErrorCode::ok) return e;
     const NormalsCall call(mesh, posed, options, out, parallel);
-    return canSmoothTriangles(mesh, options) ? smoothTriangles(call) : smoothFaces(call);
+    const bool is_usual = call.are_triangles && mesh.vertexCount() != 0 && options.crease_angle_deg >= 180 &&
+                          options.smoothing_groups.empty() && options.weighting != NormalWeighting::flat &&
+                          options.weighting != NormalWeighting::max;
+    return is_usual ? smoothTriangles(call) : smoothFaces(call);
 }
 
 }  // namespace

@@ -56,10 +56,7 @@ struct NormalsCall {
     bool by_area, by_angle;
 };
 
-/// Whether smoothTriangles does this: a mesh of triangles, all weightings but flat and max, no crease, no groups.
-bool canSmoothTriangles(const MeshView& mesh, const NormalOptions& options);
-
-/// The common case by a shorter way: a point has one normal. Scratch memory: 4 bytes per vertex, core/range_lists.h and
+/// The common case by a shorter way: triangles, all weightings but flat and max, and a point has one normal. Scratch memory: 4 bytes per vertex, core/range_lists.h and
 /// 512 KB, or up to 2 MB for each of several threads; where triangles that follow one another are far apart 36 bytes per
 /// vertex; for `best` 60, and core/sum_rounds.h. While vertices are welded 10 to 24. Throws OutOfMemory.
 NormalReport smoothTriangles(const NormalsCall& call);

@@ -98,16 +98,7 @@ double maxWeight(const DVec3& e1, const DVec3& e2) {
 
 /// What all ranges have in common.
 struct Setting {
-    explicit Setting(const NormalsCall& c) : call(c), rule(c.options) {}
-
-    /// Whether what is hard is decided by other positions.
-    [[nodiscard]] bool hasPose() const {
-        return needsComponents() && call.mesh.positions.data != call.posed.positions.data;
-    }
-    /// Without hard edges a point has one component, and `flat` has none.
-    [[nodiscard]] bool needsComponents() const {
-        return call.weighting != NormalWeighting::flat && !rule.connectsAll();
-    }
+    explicit Setting(const NormalsCall& c) : call(c), rule(c) {}
 
     /// What a face's row is multiplied with at a corner, in double. A face that visits a point with several corners in
     /// a row (a collapsed edge) counts once, at the first of them: the others weigh 0.
@@ -159,14 +150,14 @@ class RangeWork {
     /// Writes means, or what stands for them; returns how many corners got a substitute.
     std::uint64_t average() {
         std::uint64_t substitutes = 0;
-        const Surroundings around{call_.mesh, call_.faces, setting_.rule, room_.deciding};
-        const bool is_one = !setting_.needsComponents();
         for (std::uint32_t p = 0; p < count_; ++p) {
             const std::uint32_t begin = room_.begins[p], count = room_.begins[p + 1] - begin;
             if (count == 0) continue;
             const PointCorners at{first_ + p, count, room_.entries + begin, room_.triangles};
             const Link* const links =
-                is_one ? oneComponent(count, room_.links) : findComponents(around, at, room_.links, room_.parents);
+                call_.weighting == NormalWeighting::flat
+                    ? oneComponent(count, room_.links)
+                    : findComponents(setting_.rule, room_.deciding, at, room_.links, room_.parents);
             for (std::uint32_t first = 0, past = 0; first < count; first = past) {
                 while (past < count && links[past].key == links[first].key) ++past;
                 substitutes += write(at, links + first, past - first);
@@ -329,39 +320,6 @@ class RangeWork {
     FaceTerms terms_;
 };
 
-/// The room of each task.
-class Rooms {
-  public:
-    Rooms(const Setting& setting, const RangeLists& lists, std::size_t tasks)
-        : items_(lists.mostTriangles(setting.call.items.count)),
-          corners_(setting.call.are_triangles ? 3 * items_ : items_),
-          numbers_each_(2 * corners_ + lists.range(0).size() + 3),
-          rows_(setting.call.allocator, tasks * items_),
-          deciding_(setting.call.allocator, setting.hasPose() ? tasks * items_ : 0),
-          triangles_(setting.call.allocator, tasks * items_),
-          links_(setting.call.allocator, tasks * 2 * corners_),
-          numbers_(setting.call.allocator, tasks * numbers_each_) {}
-
-    Room of(std::size_t task) {
-        std::uint32_t* const numbers = numbers_.data() + task * numbers_each_;
-        FaceRow* const rows = rows_.data() + task * items_;
-        return {rows,
-                deciding_.empty() ? rows : deciding_.data() + task * items_,
-                triangles_.data() + task * items_,
-                links_.data() + task * 2 * corners_,
-                numbers,
-                numbers + corners_,
-                numbers + 2 * corners_};
-    }
-
-  private:
-    std::size_t items_, corners_, numbers_each_;
-    Buffer<FaceRow> rows_, deciding_;
-    Buffer<LocalTriangle> triangles_;
-    Buffer<Link> links_;
-    Buffer<std::uint32_t> numbers_;
-};
-
 }  // namespace
 
 NormalReport smoothFaces(const NormalsCall& call) {
@@ -381,7 +339,25 @@ NormalReport smoothFaces(const NormalsCall& call) {
         std::clamp(std::bit_floor(point_count / (kRanges * most_tasks)), kLeastRange, kMostRange);
     const RangeLists lists(call.items, kTermTriangles, point_count, range_points, call.allocator, parallel);
     const std::size_t tasks = std::min(lists.count(), most_tasks);
-    Rooms rooms(setting, lists, tasks);
+    // Without hard edges a point has one component, and `flat` has none.
+    const bool has_pose = call.weighting != NormalWeighting::flat && !setting.rule.connectsAll() &&
+                          call.mesh.positions.data != call.posed.positions.data;
+    const std::size_t items = lists.mostTriangles(call.items.count), corners = (call.are_triangles ? 3 : 1) * items;
+    const std::size_t numbers_each = 2 * corners + lists.range(0).size() + 3;
+    Buffer<FaceRow> rows(call.allocator, tasks * items), deciding(call.allocator, has_pose ? tasks * items : 0);
+    Buffer<LocalTriangle> triangles(call.allocator, tasks * items);
+    Buffer<Link> links(call.allocator, tasks * 2 * corners);
+    Buffer<std::uint32_t> numbers(call.allocator, tasks * numbers_each);
+    const auto roomOf = [&](std::size_t task) -> Room {
+        std::uint32_t* const mine = numbers.data() + task * numbers_each;
+        return {rows.data() + task * items,
+                (has_pose ? deciding : rows).data() + task * items,
+                triangles.data() + task * items,
+                links.data() + task * 2 * corners,
+                mine,
+                mine + corners,
+                mine + 2 * corners};
+    };
     Buffer<Vec3> sharp;
     Buffer<std::uint32_t> components;
     if (call.is_best) {
@@ -393,7 +369,7 @@ NormalReport smoothFaces(const NormalsCall& call) {
     }
     std::atomic<std::uint64_t> degenerate{0}, substitutes{0};
     parallel.forTasks(tasks, [&](std::size_t task) {
-        RangeWork work(setting, rooms.of(task));
+        RangeWork work(setting, roomOf(task));
         for (std::size_t r = lists.count() * task / tasks; r < lists.count() * (task + 1) / tasks; ++r) {
             degenerate += work.read(lists.range(r), {call.items, lists, r});
             substitutes += work.average();

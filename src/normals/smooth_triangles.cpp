@@ -251,12 +251,6 @@ class TriangleSmoother {
 
 }  // namespace
 
-bool canSmoothTriangles(const MeshView& mesh, const NormalOptions& options) {
-    return PointItems::areTriangles(mesh) && mesh.vertexCount() != 0 && options.crease_angle_deg >= 180 &&
-           options.smoothing_groups.empty() && options.weighting != NormalWeighting::flat &&
-           options.weighting != NormalWeighting::max;
-}
-
 NormalReport smoothTriangles(const NormalsCall& call) { return TriangleSmoother(call).run(); }
 
 }  // namespace tspace

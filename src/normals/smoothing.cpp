@@ -59,9 +59,11 @@ inline bool isSmooth(const SmoothingRule& rule, const FaceRow& a, const FaceRow&
 /// The corners around one point.
 class PointComponents {
   public:
-    PointComponents(const Surroundings& around, const PointCorners& at, Link* links, std::uint32_t* parents)
-        : around_(around),
-          rule_(around.rule),
+    PointComponents(const SmoothingRule& rule, const FaceRow* rows, const PointCorners& at, Link* links,
+                    std::uint32_t* parents)
+        : rule_(rule),
+          faces_(rule.call.faces),
+          rows_(rows),
           at_(at),
           count_(at.count),
           components_(at.count),
@@ -70,7 +72,7 @@ class PointComponents {
 
     const Link* find() {
         for (std::uint32_t slot = 0; slot < count_; ++slot) parents_[slot] = slot;
-        if (rule_.any_angle)
+        if (rule_.anyAngle())
             joinByGroup();
         else
             joinOverEdges();
@@ -82,9 +84,9 @@ class PointComponents {
 
   private:
     [[nodiscard]] std::uint32_t corner(std::uint32_t slot) const { return at_.corner(slot); }
-    [[nodiscard]] const FaceRow& row(std::uint32_t slot) const { return around_.rows[at_.triangle(slot)]; }
+    [[nodiscard]] const FaceRow& row(std::uint32_t slot) const { return rows_[at_.triangle(slot)]; }
     [[nodiscard]] std::uint32_t group(std::uint32_t slot) const {
-        return rule_.groups.empty() ? 1 : rule_.groups[around_.faces.of(corner(slot))];
+        return rule_.groups.empty() ? 1 : rule_.groups[faces_.of(corner(slot))];
     }
 
     std::uint32_t root(std::uint32_t slot) {
@@ -104,7 +106,7 @@ class PointComponents {
             parents_[a] = b;
     }
     void joinIfSmooth(std::uint32_t a, std::uint32_t b) {
-        if (rule_.any_angle || isSmooth(rule_, row(a), row(b))) join(a, b);
+        if (rule_.anyAngle() || isSmooth(rule_, row(a), row(b))) join(a, b);
     }
 
     static void sortLinks(Link* begin, Link* end) {
@@ -137,7 +139,7 @@ class PointComponents {
     /// itself.
     Link* addEdges(std::uint32_t slot, Link* end) {
         const std::uint32_t next = at_.next(slot), previous = at_.previous(slot);
-        if (previous == at_.point) join(slot, slotOf(around_.faces.previous(corner(slot)), slot));
+        if (previous == at_.point) join(slot, slotOf(faces_.previous(corner(slot)), slot));
         if (row(slot).isDegenerate() || group(slot) == 0) return end;
         if (next != at_.point) *end++ = {next, slot};
         if (previous != at_.point) *end++ = {previous, slot};
@@ -192,10 +194,9 @@ class PointComponents {
 
     void sortAboutEdge(Link* run, Link* past) {
         const std::uint32_t here = corner(run->slot);
-        const std::uint32_t there =
-            at_.next(run->slot) == run->key ? around_.faces.next(here) : around_.faces.previous(here);
-        const Turn turn(toDouble(around_.mesh.positions[around_.mesh.indices[there]]) -
-                        toDouble(around_.mesh.positions[around_.mesh.indices[here]]));
+        const std::uint32_t there = at_.next(run->slot) == run->key ? faces_.next(here) : faces_.previous(here);
+        const MeshView& mesh = rule_.call.mesh;
+        const Turn turn(toDouble(mesh.positions[mesh.indices[there]]) - toDouble(mesh.positions[mesh.indices[here]]));
         sortList(run, past, [&](const Link& a, const Link& b) {
             const std::uint32_t group_a = rule_.groups_are_masks ? 0 : group(a.slot);
             const std::uint32_t group_b = rule_.groups_are_masks ? 0 : group(b.slot);
@@ -206,8 +207,9 @@ class PointComponents {
         });
     }
 
-    const Surroundings& around_;
     const SmoothingRule& rule_;
+    const Faces& faces_;
+    const FaceRow* rows_;
     const PointCorners& at_;
     std::uint32_t count_, components_;
     Link* links_;
@@ -216,15 +218,16 @@ class PointComponents {
 
 }  // namespace
 
-SmoothingRule::SmoothingRule(const NormalOptions& options)
-    : any_angle(options.crease_angle_deg >= 180),
-      crease_rad(double{options.crease_angle_deg} * (kPi / 180) + kCreaseSlackRad),
+SmoothingRule::SmoothingRule(const NormalsCall& c)
+    : call(c),
+      crease_rad(double{c.options.crease_angle_deg} * (kPi / 180) + kCreaseSlackRad),
       crease_cosine(sineCosine(crease_rad < kPi ? crease_rad : kPi).cosine),
-      groups(options.smoothing_groups),
-      groups_are_masks(options.smoothing_groups_are_masks) {}
+      groups(c.options.smoothing_groups),
+      groups_are_masks(c.options.smoothing_groups_are_masks) {}
 
-const Link* findComponents(const Surroundings& around, const PointCorners& at, Link* links, std::uint32_t* parents) {
-    return PointComponents(around, at, links, parents).find();
+const Link* findComponents(const SmoothingRule& rule, const FaceRow* rows, const PointCorners& at, Link* links,
+                           std::uint32_t* parents) {
+    return rule.connectsAll() ? oneComponent(at.count, links) : PointComponents(rule, rows, at, links, parents).find();
 }
 
 const Link* oneComponent(std::uint32_t count, Link* links) {

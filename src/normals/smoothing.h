@@ -5,9 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/vec_math.h"
-#include "normals/faces.h"
-#include "tspace/normals.h"
+#include "normals/normals_call.h"
 
 namespace tspace {
 
@@ -33,29 +31,23 @@ struct PointCorners {
     [[nodiscard]] double weight(std::uint32_t slot) const { return at(slot).weights[entries[slot] & 3]; }
 };
 
-/// What keeps faces from being smoothed together.
+/// What keeps faces from being smoothed together: creases and groups.
 struct SmoothingRule {
-    explicit SmoothingRule(const NormalOptions& options);
+    explicit SmoothingRule(const NormalsCall& c);
 
-    bool any_angle;                              ///< no crease: every pair of faces at a point may be connected
-    double crease_rad, crease_cosine;            ///< else only over edges that turn by no more than this
-    std::span<const std::uint32_t> groups = {};  ///< one per face, or empty
-    bool groups_are_masks = false;
+    /// No crease: every pair of faces at a point may be connected.
+    [[nodiscard]] bool anyAngle() const { return call.options.crease_angle_deg >= 180; }
+    [[nodiscard]] bool connectsAll() const { return anyAngle() && groups.empty(); }
 
-    [[nodiscard]] bool connectsAll() const { return any_angle && groups.empty(); }
+    const NormalsCall& call;
+    double crease_rad, crease_cosine;  ///< with creases faces are connected over edges that turn by no more than this
+    std::span<const std::uint32_t> groups;  ///< one per face, or empty
+    bool groups_are_masks;
 };
 
 /// A corner around a point, by its place there, and the component that it is in.
 struct Link {
     std::uint32_t key, slot;
-};
-
-/// What decides about the corners around points.
-struct Surroundings {
-    const MeshView& mesh;
-    const Faces& faces;
-    const SmoothingRule& rule;
-    const FaceRow* rows;  ///< of the triangles at hand, by the mesh, not a pose
 };
 
 /// Finds the components of the corners at a point: returns all of them, sorted by component, then by slot. `links` has
@@ -64,7 +56,10 @@ struct Surroundings {
 /// Below 180 degrees two faces are connected over a shared edge. Where more than two faces meet in an edge,
 /// each is held against the next one of its smoothing group as they turn about it, which for flat faces
 /// connects the same faces as holding each against each.
-const Link* findComponents(const Surroundings& around, const PointCorners& at, Link* links, std::uint32_t* parents);
+///
+/// rows   of the triangles at hand, by the mesh, not a pose
+const Link* findComponents(const SmoothingRule& rule, const FaceRow* rows, const PointCorners& at, Link* links,
+                           std::uint32_t* parents);
 
 /// All corners as one component.
 const Link* oneComponent(std::uint32_t count, Link* links);
