@@ -8,6 +8,7 @@
 // fast, best: the estimators' results (estimators/) take the place of sums.
 #include <algorithm>
 #include <atomic>
+#include <bit>
 
 #include "core/float4.h"
 #include "tangents/method_kind.h"
@@ -41,8 +42,9 @@ class GroupSummer {
         if (wants_all_) {
             for (std::size_t t = 0; t < plan_.triangle_count; t += kTermTriangles) {
                 const std::size_t count = std::min(kTermTriangles, plan_.triangle_count - t);
-                const std::uint32_t *v = plan_.vertices.data() + 3 * t, *g = plan_.groups.data() + 3 * t;
-                add(g, count, plan_.terms.empty() ? termsOf(v, count) : plan_.terms[t / kTermTriangles]);
+                const bool is_known = !plan_.terms.empty();
+                add(plan_.groups.data() + 3 * t, count,
+                    is_known ? plan_.terms[t / kTermTriangles] : termsOf(plan_.vertices.data() + 3 * t, count));
             }
             return;
         }
@@ -245,7 +247,6 @@ class Evaluation {
     /// Room for one group in which each member has a subset of its own (angular threshold).
     struct SplitRoom {
         TangentSum* terms;
-        Tangents* results;
         std::uint32_t vertices[kTermCorners] = {};
         CornerTerms block = {};
     };
@@ -259,9 +260,8 @@ class Evaluation {
         const std::size_t tasks =
             std::min<std::size_t>(count / 64 + 1, parallel_.width() == 1 ? 1 : 4 * parallel_.width());
         Buffer<TangentSum> terms(allocator_, tasks * most);
-        Buffer<Tangents> results(allocator_, tasks * most);
         parallel_.forTasks(tasks, [&](std::size_t task) {
-            SplitRoom room{terms.data() + task * most, results.data() + task * most};
+            SplitRoom room{terms.data() + task * most};
             for (std::size_t i = count * task / tasks; i < count * (task + 1) / tasks; ++i)
                 evaluateSplit(plan_.splits[i], room);
         });
@@ -270,21 +270,22 @@ class Evaluation {
     void evaluateSplit(const EvaluatedSplit& split, SplitRoom& room) {
         computeTerms(split, room);
         const std::size_t words = (std::size_t{split.count} + 63) / 64;
-        for (std::uint32_t a = 0; a < split.count; ++a) {
-            const std::uint32_t leader = plan_.split_leaders[split.leaders + a];
-            if (leader == a) {
-                const std::uint64_t* row = plan_.split_rows.data() + split.rows + a * words;
+        const std::uint64_t* row = plan_.split_rows.data() + split.rows;
+        Tangents result;
+        for (std::uint32_t a = 0; a < split.count; ++a, row += words) {
+            if (a == 0 || !std::equal(row, row + words, row - words)) {
                 TangentSum sums;
-                for (std::uint32_t b = 0; b < split.count; ++b) {
-                    if ((row[b / 64] >> (b % 64) & 1) != 0) sums.add(room.terms[b]);
+                for (std::size_t word = 0; word < words; ++word) {
+                    for (std::uint64_t bits = row[word]; bits != 0; bits &= bits - 1)
+                        sums.add(room.terms[64 * word + static_cast<unsigned>(std::countr_zero(bits))]);
                 }
-                room.results[a] = sums.mean(split.positive);
+                result = sums.mean(split.positive);
             }
             const std::uint32_t slot = plan_.slotOf(plan_.members[split.begin + a]);
             if ((slot & kMark) != 0) {
-                members_[split.begin + a] = room.results[leader];
+                members_[split.begin + a] = result;
             } else {
-                sink_.write(slot, room.results[leader]);
+                sink_.write(slot, result);
             }
         }
     }

@@ -15,7 +15,6 @@ namespace tspace::mikk {
 struct EvaluatedSplit {
     std::uint32_t begin = 0, count = 0;  ///< its range in EvaluationPlan::members
     std::size_t rows = 0;                ///< first word in split_rows: `count` rows of (count + 63) / 64 words
-    std::size_t leaders = 0;             ///< first entry in split_leaders
     bool positive = false;
 };
 
@@ -51,9 +50,8 @@ struct EvaluationPlan {
     Buffer<CornerTerms> terms;            ///< of that one: what its triangles add
 
     Buffer<EvaluatedSplit> splits;
-    Buffer<std::uint32_t> members;        ///< half-edges of these groups
-    Buffer<std::uint64_t> split_rows;     ///< bit b of row a: member b counts for member a
-    Buffer<std::uint32_t> split_leaders;  ///< the first member with the same row
+    Buffer<std::uint32_t> members;     ///< half-edges of these groups
+    Buffer<std::uint64_t> split_rows;  ///< bit b of row a: member b counts for member a
     std::uint32_t largest_split = 0;
 
     Buffer<Conflict> conflicts;             ///< by corner, then in the order in which the reference writes them

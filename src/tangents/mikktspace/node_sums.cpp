@@ -188,10 +188,9 @@ const std::uint32_t* MeshTriangles::inPlace(std::size_t first, std::size_t) cons
 }
 
 void MeshTriangles::read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const {
-    finish(readTriangles(in_.mesh, in_.triangles, first, size, groups), size, vertices, groups);
-    for (std::size_t t = 0; kinds_ != nullptr && t < size; ++t) {
-        if ((kinds_[first + t] & kDegenerateUv) != 0) std::fill_n(groups + 3 * t, 3, kNone);
-    }
+    finish(
+        readTriangles(in_.mesh, in_.triangles, first, size, groups), size, [=](std::size_t t) { return first + t; },
+        vertices, groups);
 }
 
 void MeshTriangles::readSome(const std::uint32_t* numbers, std::size_t size, std::uint32_t* vertices,
@@ -202,19 +201,21 @@ void MeshTriangles::readSome(const std::uint32_t* numbers, std::size_t size, std
             for (std::size_t k = 0; k < 3; ++k) groups[3 * t + k] = vertexOf(in_.triangles.corner(first + k));
         }
     });
-    finish(groups, size, vertices, groups);
-    for (std::size_t t = 0; kinds_ != nullptr && t < size; ++t) {
-        if ((kinds_[numbers[t]] & kDegenerateUv) != 0) std::fill_n(groups + 3 * t, 3, kNone);
-    }
+    finish(
+        groups, size, [=](std::size_t t) { return numbers[t]; }, vertices, groups);
 }
 
-void MeshTriangles::finish(const std::uint32_t* found, std::size_t size, std::uint32_t* vertices,
-                           std::uint32_t* groups) const {
+template <class NumberOf>
+void MeshTriangles::finish(const std::uint32_t* found, std::size_t size, const NumberOf& numberOf,
+                           std::uint32_t* vertices, std::uint32_t* groups) const {
     if (vertices != nullptr) std::copy_n(found, 3 * size, vertices);
     const std::uint32_t* const nodes = in_.nodes.ofVertices(found, 3 * size, groups);
     if (nodes != groups) std::copy_n(nodes, 3 * size, groups);
     for (std::size_t i = 0; vertices != nullptr && in_.nodes.mixed && i < 3 * size; ++i)
         vertices[i] = in_.nodes.vertex(groups[i]);
+    for (std::size_t t = 0; kinds_ != nullptr && t < size; ++t) {
+        if ((kinds_[numberOf(t)] & kDegenerateUv) != 0) std::fill_n(groups + 3 * t, 3, kNone);
+    }
 }
 
 void finishInRanges(std::size_t count, const FinishNodes& finish, Parallel& parallel) {

@@ -73,7 +73,9 @@ class MeshTriangles final : public TriangleGroups {
 
   private:
     /// From the vertices that were found.
-    void finish(const std::uint32_t* found, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const;
+    template <class NumberOf>
+    void finish(const std::uint32_t* found, std::size_t size, const NumberOf& numberOf, std::uint32_t* vertices,
+                std::uint32_t* groups) const;
 
     const WeldedMesh& in_;
     const TriangleKind* kinds_;

@@ -3,6 +3,7 @@
 #include "tangents/mikktspace/vertex_path.h"
 
 #include <algorithm>
+#include <compare>
 #include <cstring>
 #include <functional>
 #include <utility>
@@ -66,7 +67,6 @@ class Planner {
         to_.splits = split_groups_.exact();
         to_.members = split_members_.exact();
         to_.split_rows = splits_.rows.exact();
-        to_.split_leaders = splits_.leaders.exact();
         to_.conflicts = conflicts_.exact();
         to_.default_corners = default_corners_.exact();
         to_.copies = copies_.exact();
@@ -144,11 +144,11 @@ class Planner {
 
     bool splitGroup(std::size_t place, Members members) {
         if (areTogether(members, threshold_cosine_)) return false;
-        const std::size_t rows = splits_.rows.size(), leaders = splits_.leaders.size();
+        const std::size_t rows = splits_.rows.size();
         if (!splits_.splits(members, mesh_.normals[in_.nodes.vertex(path_.chosen[place])])) return false;
         const auto begin = static_cast<std::uint32_t>(split_members_.size());
         const auto count = static_cast<std::uint32_t>(members.size());
-        split_groups_.push({begin, count, rows, leaders, positive_[to_.groups[members[0].half_edge]] != 0});
+        split_groups_.push({begin, count, rows, positive_[to_.groups[members[0].half_edge]] != 0});
         to_.largest_split = std::max(to_.largest_split, count);
         for (const NodeCorner& corner : members) {
             to_.groups[corner.half_edge] = kMark | static_cast<std::uint32_t>(split_members_.size());
@@ -160,11 +160,7 @@ class Planner {
     /// One corner of the mesh of a node, with one of its half-edges.
     struct Repeat {
         std::uint32_t slot, group, index;
-        bool operator<(const Repeat& other) const {
-            return slot != other.slot     ? slot < other.slot
-                   : group != other.group ? group < other.group
-                                          : index < other.index;
-        }
+        auto operator<=>(const Repeat&) const = default;
     };
 
     /// Half-edges of a polygon's triangles that have one corner of the mesh. Returns false, and does nothing, where there
@@ -240,8 +236,8 @@ EvaluationPlan planChosen(const VertexPath& path) { return Planner(path).run(); 
 std::size_t EvaluationPlan::memoryBytes() const {
     const auto bytes = [](const auto& buffer) { return buffer.size() * sizeof(*buffer.data()); };
     return sizeof(*this) + bytes(vertices) + bytes(groups) + bytes(slots) + bytes(group_positive) + bytes(uvs) +
-           bytes(splits) + bytes(members) + bytes(split_rows) + bytes(split_leaders) + bytes(conflicts) +
-           bytes(default_corners) + bytes(skipped_corners) + bytes(copies) + bytes(triangles);
+           bytes(splits) + bytes(members) + bytes(split_rows) + bytes(conflicts) + bytes(default_corners) +
+           bytes(skipped_corners) + bytes(copies) + bytes(triangles);
 }
 
 }  // namespace tspace::mikk

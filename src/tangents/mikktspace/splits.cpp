@@ -117,12 +117,7 @@ bool areTogether(Members members, float threshold_cosine) {
 
 SplitFinder::SplitFinder(const WeldedMesh& welded, const VertexCorners& corners, float threshold_cosine,
                          const Allocator* allocator)
-    : rows(allocator),
-      leaders(allocator),
-      in_(welded),
-      corners_(corners),
-      cosine_(threshold_cosine),
-      allocator_(allocator) {}
+    : rows(allocator), in_(welded), corners_(corners), cosine_(threshold_cosine), allocator_(allocator) {}
 
 SplitFinder::Direction SplitFinder::directionOf(const NodeCorner& corner, const Vec3& normal) const {
     Vec3 p[3];
@@ -182,26 +177,8 @@ bool SplitFinder::splits(Members members, const Vec3& normal) {
             whole &= together;
         }
     }
-    if (whole) {
-        rows.drop(words * count);
-    } else {
-        findLeaders(first_row, count, words);
-    }
+    if (whole) rows.drop(words * count);
     return !whole;
-}
-
-void SplitFinder::findLeaders(const std::uint64_t* first_row, std::uint32_t count, std::size_t words) {
-    std::uint32_t* const leader = leaders.extend(count);
-    const auto row = [&](std::uint32_t member) { return first_row + member * words; };
-    for (std::uint32_t a = 0; a < count; ++a) {
-        leader[a] = a;
-        for (std::uint32_t b = 0; b < a; ++b) {
-            if (leader[b] == b && std::equal(row(a), row(a) + words, row(b))) {
-                leader[a] = b;
-                break;
-            }
-        }
-    }
 }
 
 }  // namespace tspace::mikk

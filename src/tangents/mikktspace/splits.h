@@ -28,13 +28,12 @@ class SplitFinder {
     SplitFinder(const WeldedMesh& welded, const VertexCorners& corners, float threshold_cosine,
                 const Allocator* allocator);
 
-    /// Returns whether the group splits; then rows and leaders of its members have been added. Groups of more than
-    /// kLargestSplitGroup members that might split stay whole.
+    /// Returns whether the group splits; then rows of its members have been added. Groups of more than kLargestSplitGroup
+    /// members that might split stay whole.
     bool splits(Members members, const Vec3& normal);
 
-    Growing<std::uint64_t> rows;     ///< bit b of row a: member b counts for member a
-    Growing<std::uint32_t> leaders;  ///< the first member with the same row
-    bool abandoned = false;          ///< some large group might split
+    Growing<std::uint64_t> rows;  ///< bit b of row a: member b counts for member a
+    bool abandoned = false;       ///< some large group might split
 
   private:
     struct Direction {
@@ -42,7 +41,6 @@ class SplitFinder {
     };
     [[nodiscard]] Direction directionOf(const NodeCorner& corner, const Vec3& normal) const;
     [[nodiscard]] bool isNarrow(Members members) const;
-    void findLeaders(const std::uint64_t* first_row, std::uint32_t count, std::size_t words);
 
     const WeldedMesh& in_;
     const VertexCorners& corners_;
