@@ -61,12 +61,8 @@ void refine(const NormalsCall& call, const TriangleGroups& triangles, std::size_
     forGroups([&](std::size_t i) { robust[i] = normals[i]; });
 
     const BestKernels kernels = bestKernelsFor(call.options.execution.simd);
-    BestSource source;
-    source.positions = reinterpret_cast<const std::byte*>(call.posed.positions.data);
-    source.stride = call.posed.positions.stride_bytes;
-    source.last_vertex = static_cast<std::uint32_t>(call.posed.positions.count - 1);
-    source.scale = inputScale(call.items, call.posed.positions, {}).positions;
-    source.factor = static_cast<float>(call.factor);
+    BestSource source{.faces = call.source(call.posed, false, false),
+                      .scale = inputScale(call.items, call.posed.positions, {}).positions};
     source.robust = robust.data();
     source.sharp = sharp.data();
     SumRounds rounds(triangles, adding_corners, count, kFitRows, call.allocator, call.parallel);

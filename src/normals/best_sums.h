@@ -4,21 +4,15 @@
 // NormalOptions::refine. Written once (best_sums_kernel.h), compiled for several CPUs, same bits from all of them.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-
-#include "simd/dispatch.h"
+#include "normals/face_terms.h"
 #include "tspace/vec.h"
 
 namespace tspace::smooth {
 
 /// Points have a normal of each kind, or zero.
 struct BestSource {
-    const std::byte* positions = nullptr;
-    std::size_t stride = 0;
-    std::uint32_t last_vertex = 0;  ///< right after its position nothing may be read
-    float scale = 1;                ///< of positions: a power of four that brings them near 1
-    float factor = 1;               ///< normalFactor(convention)
+    FaceSource faces;  ///< without weights
+    float scale = 1;   ///< of positions: a power of four that brings them near 1
     /// Means by angle * area, and by `max`; four bytes behind each are read too. A step reads the normals of the round before
     /// as `robust`; those that are zero stay so, and edges to them do not count.
     const Vec3 *robust = nullptr, *sharp = nullptr;

@@ -57,11 +57,11 @@ struct Edges {
     Vectors turn;  ///< twice the area times the normal
 
     Edges(const BestSource& source, const std::uint32_t* vertices) {
-        const bool exact = namesLast(vertices, source.last_vertex);
+        const bool exact = namesLast(vertices, source.faces.last_vertex);
         const Floats scale = broadcast(source.scale);
         Vectors p[3];
         for (std::size_t k = 0; k < 3; ++k)
-            p[k] = scale * gatherVectors(source.positions, source.stride, vertices + k, exact);
+            p[k] = scale * gatherVectors(source.faces.positions, source.faces.stride, vertices + k, exact);
         for (std::size_t k = 0; k < 3; ++k) edge[k] = p[(k + 1) % 3] - p[k];
         turn = cross(edge[0], p[2] - p[0]);
         const Floats area = dot(turn, turn);
@@ -82,7 +82,7 @@ struct Edges {
 
 void addSharp(const BestSource& source, const std::uint32_t* vertices, const std::uint32_t*, std::size_t count,
               float* rows) {
-    const Floats factor = broadcast(source.factor), one = broadcast(1.0f);
+    const Floats factor = broadcast(static_cast<float>(source.faces.factor)), one = broadcast(1.0f);
     for (std::size_t t = 0; t < count; t += kWidth) {
         const Edges e(source, vertices + 3 * t);
         const Vectors turn = factor * e.turn;

@@ -24,22 +24,15 @@ class Faces {
         return size_ != 0 ? face * size_ : first_corners_[face];
     }
     [[nodiscard]] std::uint32_t past(std::uint32_t face) const { return first(face + 1); }
-    /// The corner after and before a corner on the border of its face.
-    [[nodiscard]] std::uint32_t next(std::uint32_t corner) const {
-        const std::uint32_t face = of(corner);
-        return corner + 1 == past(face) ? first(face) : corner + 1;
-    }
-    [[nodiscard]] std::uint32_t previous(std::uint32_t corner) const {
-        const std::uint32_t face = of(corner);
-        return (corner == first(face) ? past(face) : corner) - 1;
-    }
     struct Around {
-        std::uint32_t corners[3];  ///< a corner, the one after it and the one before
+        std::uint32_t corners[3];  ///< a corner, the one after it on the border of its face and the one before
     };
     [[nodiscard]] Around around(std::uint32_t corner) const {
         const std::uint32_t face = of(corner), begin = first(face), end = past(face);
         return {{corner, corner + 1 == end ? begin : corner + 1, (corner == begin ? end : corner) - 1}};
     }
+    [[nodiscard]] std::uint32_t next(std::uint32_t corner) const { return around(corner).corners[1]; }
+    [[nodiscard]] std::uint32_t previous(std::uint32_t corner) const { return around(corner).corners[2]; }
     /// Faces of fewer than 3 corners are ignored everywhere.
     [[nodiscard]] bool isUsed(std::uint32_t face) const { return past(face) - first(face) >= 3; }
     [[nodiscard]] std::uint64_t usedCount() const { return used_count_; }
