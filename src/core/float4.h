@@ -82,12 +82,11 @@ inline void storePair(float* p, Float4 v) {
 inline Float4 joinPairs(const float* low, const float* high) {
     return std::bit_cast<Float4>(Double2{pairBits(low), pairBits(high)});
 }
-inline Float4 upperPair(Float4 v) { return __builtin_shufflevector(v, v, 2, 3, 2, 3); }
 
 /// The first three lanes.
 inline void storeVec3(Vec3& to, Float4 v) {
     storePair(&to.x, v);
-    to.z = upperPair(v)[0];
+    to.z = v[2];
 }
 
 /// One array per component, four vectors.
@@ -103,18 +102,6 @@ inline Vec3x4 cross(const Vec3x4& a, const Vec3x4& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// From four vectors in memory. Two loads for each, which stay inside its 12 bytes: x y and y z.
-inline Vec3x4 gatherVec3(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    const Float4 va = joinPairs(&a.x, &a.y), vb = joinPairs(&b.x, &b.y);
-    const Float4 vc = joinPairs(&c.x, &c.y), vd = joinPairs(&d.x, &d.y);
-    const Float4 ab = __builtin_shufflevector(va, vb, 0, 4, 1, 5);
-    const Float4 cd = __builtin_shufflevector(vc, vd, 0, 4, 1, 5);
-    const Float4 ab_z = __builtin_shufflevector(va, vb, 2, 6, 3, 7);
-    const Float4 cd_z = __builtin_shufflevector(vc, vd, 2, 6, 3, 7);
-    return {__builtin_shufflevector(ab, cd, 0, 1, 4, 5), __builtin_shufflevector(ab, cd, 2, 3, 6, 7),
-            __builtin_shufflevector(ab_z, cd_z, 2, 3, 6, 7)};
-}
-
 /// Rows become columns.
 inline void transpose4(Float4& a, Float4& b, Float4& c, Float4& d) {
     const Float4 ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
@@ -125,6 +112,14 @@ inline void transpose4(Float4& a, Float4& b, Float4& c, Float4& d) {
     b = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
     c = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
     d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+}
+
+/// From four vectors in memory. Two loads for each, which stay inside its 12 bytes: x y and y z.
+inline Vec3x4 gatherVec3(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    Float4 x = joinPairs(&a.x, &a.y), y = joinPairs(&b.x, &b.y), y_again = joinPairs(&c.x, &c.y),
+           z = joinPairs(&d.x, &d.y);
+    transpose4(x, y, y_again, z);
+    return {x, y, z};
 }
 
 // The additions that all sums are made of.

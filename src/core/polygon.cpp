@@ -49,29 +49,26 @@ double orderedLength(double length2) { return length2 < std::numeric_limits<doub
 /// What lies to the left of the line a -> b, or no further from it than a distance to the right of it.
 class LeftSide {
   public:
-    LeftSide(PlanePoint a, PlanePoint b) : a_(a), x_(b.x - a.x), y_(b.y - a.y), longest_(std::abs(x_) + std::abs(y_)) {}
+    LeftSide(PlanePoint a, PlanePoint b) : a_(a), x_(b.x - a.x), y_(b.y - a.y) {}
 
-    /// Distance of c from the line, times `length()`; positive to its left. Twice the area of the triangle.
-    [[nodiscard]] double across(PlanePoint c) const { return x_ * (c.y - a_.y) - y_ * (c.x - a_.x); }
-
-    /// Whether c is more than `slack` away from the line, to its left. `distance`: across(c).
-    [[nodiscard]] bool isFar(double distance, double slack) const {
-        // The length between the two points is not above `longest_`: a square root tells only what is near.
-        if (!(distance > 0)) return false;
-        return distance > 2 * (slack * longest_) || distance - slack * length() > 0;
+    /// Whether c is more than `slack` away from the line, to its left.
+    [[nodiscard]] bool isFar(PlanePoint c, double slack) const {
+        const double distance = across(c);
+        return distance > 0 && distance - slack * length() > 0;
     }
     /// Whether c is to the left, or not more than `slack` away.
     [[nodiscard]] bool isNear(PlanePoint c, double slack) const {
         const double distance = across(c);
-        if (distance >= 0) return true;
-        return !(distance < -2 * (slack * longest_)) && distance + slack * length() >= 0;
+        return distance >= 0 || distance + slack * length() >= 0;
     }
 
   private:
+    /// Distance of c from the line, times `length()`; positive to its left. Twice the area of the triangle.
+    [[nodiscard]] double across(PlanePoint c) const { return x_ * (c.y - a_.y) - y_ * (c.x - a_.x); }
     [[nodiscard]] double length() const { return std::sqrt(x_ * x_ + y_ * y_); }
 
     PlanePoint a_;
-    double x_, y_, longest_;
+    double x_, y_;
 };
 
 /// Vertices are numbered in canonical order here.
@@ -214,7 +211,7 @@ class Cutter {
 
     [[nodiscard]] bool isConvex(std::uint32_t v) const {
         const LeftSide side(vertices_[vertices_[v].next].point, vertices_[vertices_[v].previous].point);
-        return side.isFar(side.across(vertices_[v].point), on_line_);
+        return side.isFar(vertices_[v].point, on_line_);
     }
 
     void noteReflex(std::uint32_t v) {
