@@ -87,6 +87,7 @@ class FileMeasuring {
         for (std::size_t i = 0; i < errors.size(); ++i) report_.readings[i].error = errors[i];
         // The first is what was asked for.
         report_.error = errors.front();
+        shows_several_ = models.low.images.size() > 1 && options_.material.empty();
         judge(report_.readings.front());
         if (!options_.heat.empty()) writeHeat(view, part, models.high);
         return std::move(report_);
@@ -181,7 +182,8 @@ class FileMeasuring {
             report_.fits = false;
             report_.verdict = "No way to read the map explains it: the best is wrong by " + degreesWord(better) +
                               " degrees in the mean, so it is probably of another model, of other UVs, or its high "
-                              "poly is elsewhere.";
+                              "poly is elsewhere" +
+                              (shows_several_ ? "; or of one material, which --material names." : ".");
         } else if (report_.fits) {
             report_.verdict =
                 "The map fits the model as it is: it is wrong by " + degreesWord(mean) + " degrees in the mean.";
@@ -235,6 +237,7 @@ class FileMeasuring {
     FloatImage image_ = {};
     std::vector<TriedFrames> frames_ = {};
     std::vector<MapCandidate> candidates_ = {};
+    bool shows_several_ = false;  ///< materials
     MapErrorFileReport report_ = {};
 };
 

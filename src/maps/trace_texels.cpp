@@ -113,7 +113,7 @@ class Tracing {
         for (std::size_t i = 0; i < votes_.size(); ++i) {
             if (votes_[i] == 0) continue;
             const float size = length(traced_.wanted[i]);
-            if (size < kAgreeing * static_cast<float>(votes_[i])) ++traced_.conflict_count;
+            if (triangles_.overlaps[i] && size < kAgreeing * static_cast<float>(votes_[i])) ++traced_.conflict_count;
             DVec3 mean = toDouble(traced_.wanted[i]);
             traced_.wanted[i] = normalize(mean) ? toFloat(mean) : Vec3{};
         }

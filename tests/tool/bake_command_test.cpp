@@ -14,8 +14,9 @@
 namespace tspace::test {
 namespace {
 
-/// A sheet of cells x cells quads over the unit square, lifted by bumps; with UVs or without.
-std::string sheet(int cells, double bump, bool with_uvs, const std::string& name = "sheet", double z = 0) {
+/// A sheet of cells x cells quads over the unit square, lifted by bumps; with UVs or without. `before`: vertices of sheets before it.
+std::string sheet(int cells, double bump, bool with_uvs, const std::string& name = "sheet", double z = 0,
+                  int before = 0) {
     std::string text = "o " + name + "\n";
     const auto at = [&](int i) { return static_cast<double>(i) / cells; };
     for (int y = 0; y <= cells; ++y) {
@@ -28,7 +29,7 @@ std::string sheet(int cells, double bump, bool with_uvs, const std::string& name
     text += "s 1\n";
     for (int y = 0; y < cells; ++y) {
         for (int x = 0; x < cells; ++x) {
-            const int a = y * (cells + 1) + x + 1;
+            const int a = before + y * (cells + 1) + x + 1;
             text += "f";
             for (const int vertex : {a, a + 1, a + cells + 2, a + cells + 1}) {
                 text += " " + std::to_string(vertex);
@@ -364,6 +365,35 @@ TEST_F(BakeCommand, EachMaterialOfTheWrittenModelHasItsMap) {
             folder, std::string("map-error n.") + name + ".png two.gltf --high high.obj --json --material " + name);
         EXPECT_LT(meanOf(measured.out, false), 0.5) << measured.err;
     }
+}
+
+/// Two sheets, far from each other, with the same UVs: one shows bumps, the other none.
+void writeTwoSheets(const TempFolder& folder) {
+    folder.write("two.obj", "mtllib two.mtl\nusemtl first\n" + sheet(4, 0, true, "a_low") + "usemtl second\n" +
+                                sheet(4, 0, true, "b_low", 3, 25));
+    folder.write("two.mtl", "newmtl first\nnewmtl second\n");
+    folder.write("one.obj", sheet(4, 0, true, "a_low") + sheet(4, 0, true, "b_low", 3, 25));
+    folder.write("detail.obj", sheet(40, 0.05, false, "a_high") + sheet(40, 0, false, "b_high", 3, 41 * 41));
+}
+
+TEST_F(BakeCommand, AMapOfOneMaterialIsNotCalledThatOfAnotherModel) {
+    writeTwoSheets(folder);
+    const ToolRun run = runTool(folder, "bake two.obj --high detail.obj -o n.png --size 32");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const ToolRun all = runTool(folder, "map-error n.second.png two.obj --high detail.obj");
+    EXPECT_NE(all.out.find("--material"), std::string::npos) << all.out;
+    const ToolRun one = runTool(folder, "map-error n.second.png two.obj --high detail.obj --material second");
+    EXPECT_NE(one.out.find("fits"), std::string::npos) << one.out;
+}
+
+TEST_F(BakeCommand, NoMoreTexelsDisagreeThanSeveralTrianglesShow) {
+    // Some centres lie on diagonals, inside of no triangle.
+    writeTwoSheets(folder);
+    const ToolRun run = runTool(folder, "bake one.obj --high detail.obj -o n.png --size 32 --json");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto texels = nlohmann::json::parse(run.out)["files"][0]["texels"];
+    EXPECT_GT(texels["conflicting"], 0);
+    EXPECT_LE(texels["conflicting"], texels["overlapping"]);
 }
 
 /// Every n-th of the bad models, in the order of their names.
