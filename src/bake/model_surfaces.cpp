@@ -251,7 +251,8 @@ HighModel highModel(const DrawnScene& drawn, const MeshNames* names, const std::
         const ScenePrimitive& primitive = drawn.scene.primitives[placement.primitive];
         const Affine& place = placement.to_world;
         if (primitive.corners.empty()) continue;
-        if (!primitive.normals.empty()) {
+        // Those of STL say where the triangles look, and not how they are shaded.
+        if (!primitive.normals.empty() && extension != ".stl") {
             addSmooth(primitive, primitive.normals.span(), place, model);
         } else {
             ++made;

@@ -396,6 +396,29 @@ TEST_F(BakeCommand, NoMoreTexelsDisagreeThanSeveralTrianglesShow) {
     EXPECT_LE(texels["conflicting"], texels["overlapping"]);
 }
 
+TEST_F(BakeCommand, TrianglesOfStlAreSmooth) {
+    std::string stl = "solid sheet\n";
+    constexpr int kCells = 40;
+    const auto corner = [](int x, int y) {
+        const double u = static_cast<double>(x) / kCells, v = static_cast<double>(y) / kCells;
+        return "vertex " + std::to_string(u) + " " + std::to_string(v) + " " +
+               std::to_string(0.02 * std::sin(12 * u) * std::sin(9 * v)) + "\n";
+    };
+    for (int y = 0; y < kCells; ++y) {
+        for (int x = 0; x < kCells; ++x) {
+            for (const int side : {0, 1}) {
+                stl += "facet normal 0 0 1\nouter loop\n" + corner(x, y) + corner(x + 1, y + side) +
+                       corner(x + 1 - side, y + 1) + "endloop\nendfacet\n";
+            }
+        }
+    }
+    folder.write("high.stl", stl + "endsolid sheet\n");
+    if (runTool(folder, "inspect high.stl").exit_code != 0) GTEST_SKIP() << "there is no tspace-import";
+    ASSERT_EQ(runTool(folder, "bake low.obj --high high.stl -o n.png --size 64").exit_code, 0);
+    // The normals in the file all point up, and do not count.
+    EXPECT_LT(meanOf(runTool(folder, "map-error n.png low.obj --high high.obj --json").out, false), 0.5);
+}
+
 /// Every n-th of the bad models, in the order of their names.
 std::vector<std::string> badModels(std::size_t wanted) {
     std::vector<std::string> all, some;
