@@ -183,7 +183,7 @@ class Evaluation {
         parallel_.forRanges(plan_.group_count, kGroupGrain, [&](std::size_t begin, std::size_t end) {
             bool any_zero = false, all_finite = true;
             for (std::size_t g = begin; g < end; ++g) {
-                Tangents r = meanOf(g);
+                Tangents r = finished(g);
                 // The reference leaves a sum that vanishes zero, and so does mikktspace; others get a
                 // default.
                 if (replaces && !notZero(r.s) && r.s.x == r.s.x) {
@@ -200,10 +200,10 @@ class Evaluation {
         });
     }
 
-    [[nodiscard]] Tangents meanOf(std::size_t g) const {
+    [[nodiscard]] Tangents finished(std::size_t g) const {
         if (isEstimated(plan_.method)) return resultOf(g);
         if (sums_.rest.empty()) return {.s = unit(sums_.groups[g])};
-        return sumOf(sums_.groups[g], sums_.rest[g], sums_.rest[g].weight).mean(false);
+        return meanOf(sums_.groups[g], sums_.rest[g], sums_.rest[g].weight, false);
     }
 
     [[nodiscard]] Tangents resultOf(std::size_t g) const {
@@ -246,22 +246,21 @@ class Evaluation {
 
     /// Room for one group in which each member has a subset of its own (angular threshold).
     struct SplitRoom {
-        TangentSum* terms;
+        CornerTerms* blocks;
         std::uint32_t vertices[kTermCorners] = {};
-        CornerTerms block = {};
     };
 
     /// Writes the results of all members but those whose corner has several, which are kept. Quadratic in the size of a
     /// group, which is limited when plans are made.
     void evaluateSplits() {
-        const std::size_t count = plan_.splits.size(), most = plan_.largest_split;
+        const std::size_t count = plan_.splits.size(), blocks = plan_.largest_split / kTermTriangles + 1;
         if (count == 0) return;
         if (!plan_.conflicts.empty()) members_ = Buffer<Tangents>(allocator_, plan_.members.size());
         const std::size_t tasks =
             std::min<std::size_t>(count / 64 + 1, parallel_.width() == 1 ? 1 : 4 * parallel_.width());
-        Buffer<TangentSum> terms(allocator_, tasks * most);
+        Buffer<CornerTerms> terms(allocator_, plan_.terms.empty() ? tasks * blocks : 0);
         parallel_.forTasks(tasks, [&](std::size_t task) {
-            SplitRoom room{terms.data() + task * most};
+            SplitRoom room{terms.empty() ? nullptr : terms.data() + task * blocks};
             for (std::size_t i = count * task / tasks; i < count * (task + 1) / tasks; ++i)
                 evaluateSplit(plan_.splits[i], room);
         });
@@ -274,12 +273,13 @@ class Evaluation {
         Tangents result;
         for (std::uint32_t a = 0; a < split.count; ++a, row += words) {
             if (a == 0 || !std::equal(row, row + words, row - words)) {
-                TangentSum sums;
+                Vec3 sum;
+                GroupRest rest;
                 for (std::size_t word = 0; word < words; ++word) {
                     for (std::uint64_t bits = row[word]; bits != 0; bits &= bits - 1)
-                        sums.add(room.terms[64 * word + static_cast<unsigned>(std::countr_zero(bits))]);
+                        add(split, 64 * word + static_cast<unsigned>(std::countr_zero(bits)), room, sum, rest);
                 }
-                result = sums.mean(split.positive);
+                result = meanOf(sum, rest, rest.weight, split.positive);
             }
             const std::uint32_t slot = plan_.slotOf(plan_.members[split.begin + a]);
             if ((slot & kMark) != 0) {
@@ -290,26 +290,25 @@ class Evaluation {
         }
     }
 
-    static TangentSum termOf(const CornerTerms& terms, std::size_t row) {
-        const float *s = terms.s[row], *t = terms.t[row];
-        return {vectorOf(s), vectorOf(t), t[3], terms.lengths_t[row % 3][row / 3], s[3]};
+    void add(const EvaluatedSplit& split, std::size_t member, const SplitRoom& room, Vec3& sum, GroupRest& rest) const {
+        const std::uint32_t half_edge = plan_.members[split.begin + member];
+        const bool is_known = !plan_.terms.empty();
+        const CornerTerms& terms =
+            is_known ? plan_.terms[half_edge / kTermCorners] : room.blocks[member / kTermTriangles];
+        const std::size_t t = is_known ? half_edge / 3 % kTermTriangles : member % kTermTriangles, k = half_edge % 3;
+        sum = sum + vectorOf(terms.s[3 * t + k]);
+        rest.weight += terms.s[3 * t + k][3];
+        if (!source_.tangents_only) addRest(rest, terms, t, k);
     }
 
     void computeTerms(const EvaluatedSplit& split, SplitRoom& room) const {
-        for (std::uint32_t i = 0; !plan_.terms.empty() && i < split.count; ++i) {
-            const std::uint32_t half_edge = plan_.members[split.begin + i];
-            room.terms[i] = termOf(plan_.terms[half_edge / kTermCorners], half_edge % kTermCorners);
-        }
-        if (!plan_.terms.empty()) return;
-        for (std::uint32_t begin = 0; begin < split.count; begin += kTermTriangles) {
+        for (std::uint32_t begin = 0; plan_.terms.empty() && begin < split.count; begin += kTermTriangles) {
             const std::uint32_t count = std::min<std::uint32_t>(kTermTriangles, split.count - begin);
             for (std::uint32_t i = 0; i < count; ++i) {
                 const std::uint32_t first = plan_.members[split.begin + begin + i] / 3 * 3;
                 std::copy_n(plan_.vertices.data() + first, 3, room.vertices + 3 * i);
             }
-            terms_(source_, room.vertices, count, room.block);
-            for (std::uint32_t i = 0; i < count; ++i)
-                room.terms[begin + i] = termOf(room.block, 3 * i + plan_.members[split.begin + begin + i] % 3);
+            terms_(source_, room.vertices, count, room.blocks[begin / kTermTriangles]);
         }
     }
 

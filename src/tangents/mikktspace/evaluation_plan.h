@@ -60,12 +60,9 @@ struct EvaluationPlan {
     Buffer<Copy> copies;                    ///< corners of degenerate triangles
     TangentReport report;                   ///< what can be counted without a pose
 
-    [[nodiscard]] std::uint32_t triangleOf(std::size_t t) const {
-        return triangles.empty() ? static_cast<std::uint32_t>(t) : triangles[t];
-    }
-    [[nodiscard]] std::uint32_t slotOf(std::size_t half_edge) const {
+    [[nodiscard]] std::uint32_t slotOf(std::uint32_t half_edge) const {
         if (!slots.empty()) return slots[half_edge];
-        return 3 * triangleOf(half_edge / 3) + static_cast<std::uint32_t>(half_edge % 3);
+        return triangles.empty() ? half_edge : 3 * triangles[half_edge / 3] + half_edge % 3;
     }
     [[nodiscard]] std::size_t memoryBytes() const;
 };

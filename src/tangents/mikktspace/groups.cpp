@@ -76,27 +76,24 @@ void linkLarge(std::span<const NodeCorner> around, const CornerLinks& links, std
     }
 }
 
-GroupRoom::GroupRoom(const Allocator* allocator, std::uint32_t most) {
-    if (most <= kSmallNode) return;
-    large_ = Buffer<std::uint32_t>(allocator, 3 * std::size_t{most});
-    half_edges_ = Buffer<std::uint64_t>(allocator, 2 * std::size_t{most});
-}
-
 Grouping::Grouping(const VertexPath& path, VertexCorners& corners)
     : chosen_(path.chosen),
       bucket_(path.setting.bucket),
       corners_(corners),
       contested_(path.setting.options.execution.allocator) {
     const Allocator* allocator = path.setting.options.execution.allocator;
+    std::size_t largest = 0;
     for (std::size_t place = 0; place < chosen_.size(); ++place)
-        largest_ = std::max(largest_, static_cast<std::uint32_t>(corners.around(place).size()));
+        largest = std::max(largest, corners.around(place).size());
+    room_ = Buffer<std::uint32_t>(allocator, 3 * largest);
+    if (largest > kSmallNode) half_edges_ = Buffer<std::uint64_t>(allocator, 2 * largest);
     if (corners.report.degenerate_uv_count == 0) return;
     findContested(allocator);
     if (!contested_.empty()) spreadContested(allocator);
 }
 
 /// Groups of a node without contested triangles: those without UV area join any.
-NodeGroups Grouping::groupsOf(std::size_t place, GroupRoom& room) const {
+NodeGroups Grouping::groupsOf(std::size_t place) {
     const std::span<const NodeCorner> around = corners_.around(place);
     if (!contested_of_.empty() && contested_of_[place] != kNone) {
         const Contested& contested = contested_[contested_of_[place]];
@@ -108,9 +105,9 @@ NodeGroups Grouping::groupsOf(std::size_t place, GroupRoom& room) const {
         if (!bucket_.concerns(chosen_[place]) && areOneFan(around)) return {around, nullptr, 1};
     }
     const auto count = static_cast<std::uint32_t>(around.size());
-    std::uint32_t* const group = count <= kSmallNode ? room.small_ : room.large_.data();
+    std::uint32_t* const group = room_.data();
     const CornerLinks links{group + count, group + 2 * std::size_t{count}};
-    link(place, links, room.half_edges_.data());
+    link(place, links);
     std::fill_n(group, count, kNone);
     std::uint32_t groups = 0;
     for (std::uint32_t seed = 0; seed < count; ++seed) {
@@ -122,9 +119,9 @@ NodeGroups Grouping::groupsOf(std::size_t place, GroupRoom& room) const {
     return {around, group, groups};
 }
 
-void Grouping::link(std::size_t place, const CornerLinks& links, std::uint64_t* half_edges) const {
+void Grouping::link(std::size_t place, const CornerLinks& links) {
     const std::span<const NodeCorner> around = corners_.around(place);
-    around.size() <= kSmallNode ? linkSmall(around, links) : linkLarge(around, links, half_edges);
+    around.size() <= kSmallNode ? linkSmall(around, links) : linkLarge(around, links, half_edges_.data());
     if (bucket_.concerns(chosen_[place])) applyBucket(around, links);
 }
 
@@ -179,9 +176,7 @@ void Grouping::spreadContested(const Allocator* allocator) {
     }
     contested_groups_ = Buffer<std::uint32_t>(allocator, size, kNone);
     Buffer<std::uint32_t> left(allocator, size), right(allocator, size);
-    Buffer<std::uint64_t> half_edges(allocator, 2 * std::size_t{largest_});
-    for (const Contested& node : contested_)
-        link(node.place, {left.data() + node.begin, right.data() + node.begin}, half_edges.data());
+    for (const Contested& node : contested_) link(node.place, {left.data() + node.begin, right.data() + node.begin});
     const auto spreadFrom = [&](Contested& node, std::uint32_t flags) {
         const std::uint32_t seed = node.cursor++;
         std::uint32_t* const group = contested_groups_.data() + node.begin;

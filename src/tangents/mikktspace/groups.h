@@ -46,24 +46,10 @@ void linkLarge(std::span<const NodeCorner> around, const CornerLinks& links, std
 /// The corners of one node and their groups, which are numbered in the order in which the reference opens them.
 struct NodeGroups {
     std::span<const NodeCorner> corners;
-    const std::uint32_t* group =
-        nullptr;              ///< one per corner, kNone where it has none; null: all are in one, if there is one
-    std::uint32_t count = 0;  ///< of groups
+    const std::uint32_t* group = nullptr;  ///< one per corner, or kNone; null: all are in one, if there is one
+    std::uint32_t count = 0;               ///< of groups
 
     [[nodiscard]] std::uint32_t of(std::size_t i) const { return group != nullptr ? group[i] : count == 0 ? kNone : 0; }
-};
-
-/// Room for the links and groups of one node.
-class GroupRoom {
-  public:
-    GroupRoom() = default;  ///< for small nodes
-    GroupRoom(const Allocator* allocator, std::uint32_t most);
-
-  private:
-    friend class Grouping;
-    std::uint32_t small_[3 * kSmallNode];
-    Buffer<std::uint32_t> large_;
-    Buffer<std::uint64_t> half_edges_;
 };
 
 class Grouping {
@@ -71,10 +57,8 @@ class Grouping {
     /// Settles the contested triangles' orientation, in corners.flags. All must outlive this object.
     Grouping(const VertexPath& path, VertexCorners& corners);
 
-    /// `room` must be large enough, and holds the result.
-    NodeGroups groupsOf(std::size_t place, GroupRoom& room) const;
-    /// How many corners the largest node has, kSmallNode at least.
-    [[nodiscard]] std::uint32_t largest() const { return largest_; }
+    /// The result is valid until the next call.
+    NodeGroups groupsOf(std::size_t place);
 
   private:
     struct Contested {
@@ -85,13 +69,14 @@ class Grouping {
     void findContested(const Allocator* allocator);
     void spreadContested(const Allocator* allocator);
     bool joinsContested(std::uint32_t triangle, std::uint32_t facing);
-    void link(std::size_t place, const CornerLinks& links, std::uint64_t* half_edges) const;
+    void link(std::size_t place, const CornerLinks& links);
     void applyBucket(std::span<const NodeCorner> around, const CornerLinks& links) const;
 
     std::span<const std::uint32_t> chosen_;
     const LastBucket& bucket_;
     VertexCorners& corners_;
-    std::uint32_t largest_ = kSmallNode;
+    Buffer<std::uint32_t> room_;          // for the links and groups of one node
+    Buffer<std::uint64_t> half_edges_;    // of one that is not small
     Buffer<std::uint32_t> contested_of_;  // one per chosen node, and one more: its number in contested_, or kNone;
                                           // empty when there are none
     Growing<Contested> contested_;

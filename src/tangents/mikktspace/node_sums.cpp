@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <cstdlib>
 
 #include "core/float4.h"
 #include "core/mesh_loops.h"
@@ -144,38 +143,15 @@ class Summer {
     GroupRange range_;
     CornerTerms terms_;
 };
-/// Of the triangles of a sample, how many test(t) says yes to, of 1024.
-template <class Test>
-std::size_t outOf1024(std::size_t count, const Test& test) {
-    std::size_t found = 0;
-    for (std::size_t i = 0; i < 1024; ++i) found += test(count * i / 1024);
-    return found;
-}
 
-/// Whether consecutive triangles lie far apart.
-bool isScattered(const Sweep& sweep) {
-    constexpr std::int64_t kFar = 2048;                                                  // vertices
-    if (sweep.triangles.count < 2 || sweep.mesh.vertexCount() < 4 * kFar) return false;  // nothing is far
-    return outOf1024(sweep.triangles.count - 1, [&](std::size_t t) -> std::size_t {
-               const std::int64_t a = sweep.vertexAt(3 * t), b = sweep.vertexAt(3 * t + 3);
-               return std::abs(a - b) > kFar ? 1 : 0;
-           }) > 256;
-}
-
-/// Whether triangles mostly have their nodes in one range.
-bool areWorthRanges(const Sweep& sweep, unsigned shift) {
-    return outOf1024(sweep.triangles.count, [&](std::size_t t) -> std::size_t {
-               const auto range = [&](std::size_t k) { return sweep.nodeAt(3 * t + k) >> shift; };
-               const std::uint32_t a = range(0), b = range(1), c = range(2);
-               return (b != a ? 1 : 0) + (c != a && c != b ? 1 : 0);
-           }) <= 256;
-}
-
-unsigned rangeShift(const Sweep& sweep, unsigned width) {
-    if (sweep.sums.scattered && areWorthRanges(sweep, kScatteredShift)) return kScatteredShift;
+/// Where triangles are in no order but have their nodes in one range, ranges pay.
+unsigned rangeShift(const Sweep& sweep, const MeshTriangles& by_node, unsigned width) {
+    constexpr std::size_t kRange = std::size_t{1} << kScatteredShift;
+    const std::size_t nodes = sweep.nodes.count;
+    if (sweep.sums.scattered && RangeLists::areCompact(by_node, 1, nodes, kRange)) return kScatteredShift;
     const std::size_t wanted = width == 1 ? 1 : sweep.sums.scattered ? width : kTasksPerThread * width;
     unsigned shift = kTaskShift;
-    while (((sweep.nodes.count - 1) >> shift) >= wanted) ++shift;
+    while (((nodes - 1) >> shift) >= wanted) ++shift;
     return shift;
 }
 
@@ -235,10 +211,11 @@ void sumNodes(const WeldedMesh& welded, const CornerSource& source, CornerTermsF
     sums.kinds = Buffer<TriangleKind>(transient.allocator(), welded.triangles.count);
     if (node_count == 0) return;
     Sweep sweep{welded, source, terms, sums};
-    sums.scattered = isScattered(sweep);
-    const unsigned shift = range_shift != 0 ? range_shift : rangeShift(sweep, parallel.width());
-    sweep.asks = sums.scattered && shift > kScatteredShift;
     const MeshTriangles by_node(welded, nullptr);
+    constexpr std::size_t kRange = std::size_t{1} << kScatteredShift;
+    sums.scattered = node_count > kRange && !RangeLists::areCompact(by_node, kTermTriangles, node_count, kRange);
+    const unsigned shift = range_shift != 0 ? range_shift : rangeShift(sweep, by_node, parallel.width());
+    sweep.asks = sums.scattered && shift > kScatteredShift;
     const RangeLists lists(by_node, kTermTriangles, node_count, std::size_t{1} << shift, transient.allocator(),
                            parallel);
     const std::size_t ranges = lists.count(), tasks = std::min<std::size_t>(ranges, parallel.width());

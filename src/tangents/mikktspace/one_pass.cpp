@@ -289,8 +289,10 @@ class OnePass {
             // The other methods replace a sum that vanishes; the vertex path sees to that.
             simple &= (square > splat(0)) & (square < splat(__builtin_huge_valf()));
         }
-        for (std::size_t i = 0; !sums_.rest.empty() && i < std::min<std::size_t>(left, 4); ++i)
-            finishRest(sums_.rest[at[i]], empty[i] != 0, nodes[at[i]].s[3]);
+        for (std::size_t i = 0; !sums_.rest.empty() && i < std::min<std::size_t>(left, 4); ++i) {
+            GroupRest& rest = sums_.rest[at[i]];
+            rest = restOf(empty[i] != 0 ? Tangents{} : meanOf({}, rest, nodes[at[i]].s[3], false));
+        }
         const Float4 inverse = splat(1) / sqrt4(square);
         const Mask4 negative = ~(marks & ~empty) << 31;  // the bit of kFacesUp becomes that of the sign
         const Float4 sign = std::bit_cast<Float4>(std::bit_cast<Mask4>(splat(sink_.sign(true))) ^ negative);
@@ -304,10 +306,6 @@ class OnePass {
         storeFloat4(nodes[at[2]].s, z);
         storeFloat4(nodes[at[3]].s, w);
         return {laneBits(~(simple | empty)) & ~missing, laneBits(empty) & ~missing};
-    }
-
-    static void finishRest(GroupRest& rest, bool is_default, float weight) {
-        rest = restOf(is_default ? Tangents{} : sumOf({}, rest, weight).mean(false));
     }
 
     /// Those of complex nodes get what nobody needs.

@@ -37,7 +37,6 @@ class Planner {
           threshold_cosine_(in_.maySplit() ? thresholdCosine(in_.options.angular_threshold_deg) : -1.0f),
           corners_(readCorners(path)),
           grouping_(path, corners_),
-          room_(allocator_, grouping_.largest()),
           splits_(in_, corners_, threshold_cosine_, allocator_),
           ends_(allocator_),
           members_(allocator_),
@@ -97,7 +96,7 @@ class Planner {
 
     /// Until a node is done, to_.groups has the sources of its half-edges, as in Conflict; kNone without.
     void addNode(std::size_t place) {
-        const NodeGroups groups = grouping_.groupsOf(place, room_);
+        const NodeGroups groups = grouping_.groupsOf(place);
         const auto first = static_cast<std::uint32_t>(positive_.size());
         std::uint8_t* const positive = positive_.extend(groups.count);
         std::uint32_t* const sources = to_.groups.data();
@@ -212,9 +211,8 @@ class Planner {
     const Allocator* allocator_;
     float threshold_cosine_;
     VertexCorners corners_;
-    const Grouping grouping_;
+    Grouping grouping_;
     EvaluationPlan to_;
-    GroupRoom room_;
     SplitFinder splits_;
     // Of one node.
     Growing<std::uint32_t> ends_;  // of groups in members_

@@ -70,30 +70,14 @@ struct Tangents {
 /// All but the tangent and the orientation, in the place of its sum.
 inline GroupRest restOf(const Tangents& r) { return {{r.t.x, r.t.y, r.t.z, r.mag_s}, r.mag_t}; }
 
-/// What the members of a group add up to: rows as in corner_terms.h.
-struct TangentSum {
-    Vec3 s, t;
-    float mag_s = 0, mag_t = 0, weight = 0;
-
-    void add(const TangentSum& term) {
-        s = s + term.s;
-        t = t + term.t;
-        mag_s = mag_s + term.mag_s;
-        mag_t = mag_t + term.mag_t;
-        weight = weight + term.weight;
+/// Of a group whose members add up to s and `rest`: rows as in corner_terms.h.
+inline Tangents meanOf(const Vec3& s, const GroupRest& rest, float weight, bool positive) {
+    Tangents r{unit(s), unit(vectorOf(rest.t)), rest.t[3], rest.length_t, positive};
+    if (weight > 0) {
+        r.mag_s /= weight;
+        r.mag_t /= weight;
     }
-    [[nodiscard]] Tangents mean(bool positive) const {
-        Tangents r{unit(s), unit(t), mag_s, mag_t, positive};
-        if (weight > 0) {
-            r.mag_s /= weight;
-            r.mag_t /= weight;
-        }
-        return r;
-    }
-};
-
-inline TangentSum sumOf(const Vec3& s, const GroupRest& rest, float weight) {
-    return {s, vectorOf(rest.t), rest.t[3], rest.length_t, weight};
+    return r;
 }
 
 inline bool sameResult(const Tangents& a, const Tangents& b) {
