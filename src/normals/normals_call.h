@@ -56,9 +56,10 @@ struct NormalsCall {
     bool by_area, by_angle;
 };
 
-/// The common case by a shorter way: triangles, all weightings but flat and max, and a point has one normal. Scratch memory: 4 bytes per vertex, core/range_lists.h and
-/// 512 KB, or up to 2 MB for each of several threads; where triangles that follow one another are far apart 36 bytes per
-/// vertex; for `best` 60, and core/sum_rounds.h. While vertices are welded 10 to 24. Throws OutOfMemory.
+/// The common case by a shorter way: triangles, all weightings but flat and max, and a point has one normal. Scratch
+/// memory: 4 bytes per vertex, core/range_lists.h and 1 MB, or up to 4 MB for each of several threads; where triangles
+/// that follow one another are far apart 36 bytes per vertex; for `best` 60, and core/sum_rounds.h. While vertices are
+/// welded 10 to 24. Throws OutOfMemory.
 NormalReport smoothTriangles(const NormalsCall& call);
 
 /// Any mesh: faces of any size, hard edges, all weightings. Range by range of points, with a list of the corners around

@@ -26,7 +26,7 @@ using smooth::FaceTerms, smooth::FaceSource, smooth::kTermGroup, smooth::kTermTr
     smooth::kVanished;
 
 static_assert(kTermTriangles == TriangleBatch::kMost && kTermTriangles % kTermGroup == 0);
-constexpr std::size_t kNearPoints = 16384;   ///< their sums fit into a second cache
+constexpr std::size_t kNearPoints = 32768;   ///< their sums, 1 MB, fit into many a second cache
 constexpr std::size_t kRangesPerThread = 4;  ///< at least
 
 /// The weighted sum of the unit normals at a point. Later its place holds four floats: the normal, and a mark
