@@ -13,8 +13,8 @@ namespace tspace::smooth {
 struct BestSource {
     FaceSource faces;  ///< without weights
     float scale = 1;   ///< of positions: a power of four that brings them near 1
-    /// Means by angle * area, and by `max`; four bytes behind each are read too. A step reads the normals of the round before
-    /// as `robust`; those that are zero stay so, and edges to them do not count.
+    /// Means by angle * area, and by `max`; four bytes behind each are read too. A step reads the normals of the round
+    /// before as `robust`; those that are zero stay so, and edges to them do not count.
     const Vec3 *robust = nullptr, *sharp = nullptr;
 };
 
@@ -26,16 +26,18 @@ inline constexpr std::size_t kStepRows = 2;        ///< of four floats
 /// One round, for one CPU.
 struct BestKernel {
     std::size_t row_count;  ///< of four floats, per corner and point
-    /// `vertices` and `points`: three per triangle, and valid ones up to the end of the last group. Corner k of triangle t
-    /// writes to rows + 4 * row_count * (3 * t + k). Triangles without area, or with values that are not finite, write zeros.
+    /// `vertices` and `points`: three per triangle, and valid ones up to the end of the last group. Corner k of
+    /// triangle t writes to rows + 4 * row_count * (3 * t + k). Triangles without area, or with values that are not
+    /// finite, write zeros.
     void (*add)(const BestSource& source, const std::uint32_t* vertices, const std::uint32_t* points, std::size_t count,
                 float* rows);
-    /// Makes the first row of each point its unit normal, or zero. robust, sharp: four floats per point, of the source. A
-    /// multiple of kBestGroup.
+    /// Makes the first row of each point its unit normal, or zero. robust, sharp: four floats per point, of the source.
+    /// A multiple of kBestGroup.
     void (*finish)(float* sums, const float* robust, const float* sharp, std::size_t count);
 };
 
-/// `sharp` gives the means by `max`, `fit` what both means say together, `step` moves that. Each reads what is before it.
+/// `sharp` gives the means by `max`, `fit` what both means say together, `step` moves that. Each reads what is before
+/// it.
 struct BestKernels {
     BestKernel sharp, fit, step;
 };

@@ -56,8 +56,8 @@ class PointItems final : public TriangleGroups {
         const std::uint32_t vertex = mesh_.indices[corner];
         return points_.empty() ? vertex : points_[vertex];
     }
-    /// A corner comes with the next and the previous one, and its own point three times; those of faces with fewer than 3
-    /// corners have none.
+    /// A corner comes with the next and the previous one, and its own point three times; those of faces with fewer than
+    /// 3 corners have none.
     void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* points) const override;
     void readSome(const std::uint32_t* numbers, std::size_t size, std::uint32_t* vertices,
                   std::uint32_t* points) const override;
@@ -73,8 +73,8 @@ class PointItems final : public TriangleGroups {
     const Faces& faces_;
     const Buffer<std::uint32_t>& points_;
     const std::uint32_t* in_place_;  ///< the indices; null where they are not triangles of 32-bit numbers
-    /// Of blocks, when somebody has asked. Nearly all are `own` where triangles lie close together, and comparing once is
-    /// cheaper than looking points up in each pass.
+    /// Of blocks, when somebody has asked. Nearly all are `own` where triangles lie close together, and comparing once
+    /// is cheaper than looking points up in each pass.
     mutable Buffer<std::uint8_t> blocks_;
 };
 
@@ -86,8 +86,8 @@ struct FaceRow {
     [[nodiscard]] DVec3 unit() const { return (1 / size) * DVec3{x, y, z}; }
 };
 
-/// By Newell's sum over the corners from `first` to before `past`. size: its length, twice the area, if that is a weight,
-/// else 1. `factor` is normalFactor(convention).
+/// By Newell's sum over the corners from `first` to before `past`. size: its length, twice the area, if that is a
+/// weight, else 1. `factor` is normalFactor(convention).
 FaceRow faceRow(const MeshView& mesh, std::uint32_t first, std::uint32_t past, double factor, bool by_area);
 
 }  // namespace tspace

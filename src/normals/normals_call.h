@@ -63,9 +63,9 @@ struct NormalsCall {
 NormalReport smoothTriangles(const NormalsCall& call);
 
 /// Any mesh: faces of any size, hard edges, all weightings. Range by range of points, with a list of the corners around
-/// each. Scratch memory: 4 bytes per vertex, core/range_lists.h, faces.h where faces differ in size, and for each task 150
-/// bytes per triangle of a range, which are an eighth of a small mesh and about 8000 of a large one; for `best` also 28
-/// bytes per corner. While vertices are welded 10 to 24 bytes per vertex. Throws OutOfMemory.
+/// each. Scratch memory: 4 bytes per vertex, core/range_lists.h, faces.h where faces differ in size, and for each task
+/// 150 bytes per triangle of a range, which are an eighth of a small mesh and about 8000 of a large one; for `best`
+/// also 28 bytes per corner. While vertices are welded 10 to 24 bytes per vertex. Throws OutOfMemory.
 NormalReport smoothFaces(const NormalsCall& call);
 
 }  // namespace tspace

@@ -68,8 +68,8 @@ class TriangleSmoother {
     explicit TriangleSmoother(const NormalsCall& call) : call_(call), lists_(makeLists()) {}
 
     /// Each range is written when it is summed, with memory for the sums of one per task, which stays in the cache. But
-    /// where nothing is near, and for `best`, which goes over all sums in between, vertices get the sums of their points, so
-    /// that no corner has to look its point up, and all are written at last.
+    /// where nothing is near, and for `best`, which goes over all sums in between, vertices get the sums of their
+    /// points, so that no corner has to look its point up, and all are written at last.
     NormalReport run() {
         const bool is_near = is_near_ && !call_.is_best;
         const std::size_t ranges = lists_.count(), size = lists_.range(0).size() + kTermGroup;
@@ -104,8 +104,8 @@ class TriangleSmoother {
     }
 
   private:
-    /// Ranges are near where blocks of triangles lie close together. Otherwise they would only be read more often: there is
-    /// one for each thread.
+    /// Ranges are near where blocks of triangles lie close together. Otherwise they would only be read more often:
+    /// there is one for each thread.
     [[nodiscard]] RangeLists makeLists() {
         const std::size_t points = call_.mesh.vertexCount();
         const std::size_t width = call_.items.count < Parallel::kGrain ? 1 : call_.parallel.width();
