@@ -351,15 +351,7 @@ class Sanitizer {
         return 1.0f;
     }
 
-    [[nodiscard]] bool isSound(std::size_t first, std::uint32_t size) const {
-        for (std::size_t c = first; c < first + size; ++c) {
-            if (causes_[c] != Cause::sound || tangents_[c].w != tangents_[first].w) return false;
-        }
-        return true;
-    }
-
     void mend(std::size_t first, std::uint32_t size, Counts& counts) {
-        if (!options_.orthogonalize_all && isSound(first, size)) return;
         const float sign = signOf(first, size);
         const std::size_t sound = firstSound(first, size);
         const Vec4 neighbor = sound < first + size ? tangents_[sound] : Vec4{};
