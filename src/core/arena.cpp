@@ -143,7 +143,7 @@ class FreeRanges {
 
 class Region {
   public:
-    /// Room for `least_bytes` or more; isValid() tells whether there was any.
+    /// Room for `least_bytes` or more; for nothing when the system has none.
     explicit Region(std::size_t least_bytes)
         : space_bytes_(roundUp(least_bytes, kStep)), space_(reserveSpace(space_bytes_)) {
         // Huge pages lie at multiples of their size.
@@ -155,14 +155,13 @@ class Region {
         if (space_ != nullptr) endSpace(space_, space_bytes_);
     }
 
-    [[nodiscard]] bool isValid() const { return space_ != nullptr; }
     [[nodiscard]] bool contains(const void* memory) const { return memory >= begin_ && memory < begin_ + space_bytes_; }
     [[nodiscard]] std::size_t heldBytes() const { return held_; }
 
     /// Null when the region is full, or the system out of memory.
     void* allocate(std::size_t bytes) {
         const FreeRanges::Place place = ranges_.find(bytes);
-        if (bytes > space_bytes_ || place.begin > space_bytes_ - bytes) return nullptr;
+        if (space_ == nullptr || bytes > space_bytes_ || place.begin > space_bytes_ - bytes) return nullptr;
         const std::size_t needed = roundUp(place.begin + bytes, kStep);
         if (needed > held_) {
             if (!putMemoryBehind(begin_ + held_, needed - held_)) return nullptr;
@@ -201,8 +200,7 @@ class Arena::Impl {
             for (Region& region : regions_) {
                 if (void* memory = region.allocate(bytes)) return use(memory, bytes);
             }
-            Region& added = regions_.emplace_back(bytes);
-            void* memory = added.isValid() ? added.allocate(bytes) : nullptr;
+            void* memory = regions_.emplace_back(bytes).allocate(bytes);
             if (memory == nullptr) {
                 regions_.pop_back();
                 return nullptr;

@@ -35,10 +35,6 @@ std::uint32_t sortable(float value) {
 }
 
 int compare(float a, float b) {
-    if (a < b) return -1;
-    if (a > b) return 1;
-    if (a == b) [[likely]]
-        return 0;
     const std::uint32_t x = sortable(a), y = sortable(b);
     return x < y ? -1 : (x > y ? 1 : 0);
 }

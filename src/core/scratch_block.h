@@ -28,9 +28,7 @@ class ScratchBlock {
 
     [[nodiscard]] const Allocator* allocator() const { return &allocator_; }
     /// Whether so many bytes would come from the block.
-    [[nodiscard]] bool has(std::size_t bytes) const { return bytes <= left(); }
-    /// Bytes that one more buffer could have.
-    [[nodiscard]] std::size_t left() const { return size_ - used_; }
+    [[nodiscard]] bool has(std::size_t bytes) const { return bytes <= size_ - used_; }
 
   private:
     static std::size_t rounded(std::size_t bytes) {

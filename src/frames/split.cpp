@@ -27,23 +27,6 @@ constexpr std::size_t kTasksForThreads = 16;
 /// Corners that are compared before those that differ are put behind each other.
 constexpr std::size_t kCompared = 64;
 
-template <class Word>
-Word differingBits(const std::byte* a, const std::byte* b) {
-    Word x, y;
-    std::memcpy(&x, a, sizeof x);
-    std::memcpy(&y, b, sizeof y);
-    return x ^ y;
-}
-
-/// Whether the bits of `Count` floats are the same, without a branch.
-template <std::uint32_t Count>
-bool sameBits(const std::byte* a, const std::byte* b) {
-    std::uint64_t differing = 0;
-    for (std::size_t k = 0; k + 2 <= Count; k += 2) differing |= differingBits<std::uint64_t>(a + 4 * k, b + 4 * k);
-    if (Count % 2 != 0) differing |= differingBits<std::uint32_t>(a + 4 * (Count - 1), b + 4 * (Count - 1));
-    return differing == 0;
-}
-
 using AttributeSpan = std::span<const CornerAttribute>;
 
 /// Corners one behind the other, and what is known of their vertices.
@@ -78,7 +61,7 @@ std::size_t listDifferent(AttributeSpan attributes, const CornerBlock& block, st
             differs = equalCorners(attributes, here, first) ? 0u : 1u;
         } else {
             std::size_t i = 0;
-            ((differs |= sameBits<Counts>(at(i, here), at(i, first)) ? 0u : 1u, ++i), ...);
+            ((differs |= std::memcmp(at(i, here), at(i, first), 4 * Counts) == 0 ? 0u : 1u, ++i), ...);
         }
         different_count += differs;
     }
