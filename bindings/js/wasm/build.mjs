@@ -37,13 +37,13 @@ const copiesLess = ["-mllvm", "-enable-pre=false", "-mllvm", "-jump-threading-th
 const smallFlags = ["-fno-slp-vectorize", ...copiesLess, ...inlined(-15)];
 const fastFlags = ["-O2", "-DTSPACE_FAST_KERNELS", ...inlined(600)];
 const passFlags = ["-Os", "-DTSPACE_FAST_KERNELS", ...inlined(300)];
-const loops = /mikktspace\/weld\.cpp|core\/(sum_rounds|weld|range_lists)\.cpp|frames\/(split|sanitize)\.cpp/;
+const loops = /mikktspace\/(grid_order|weld)\.cpp|core\/(sum_rounds|weld|range_lists)\.cpp|frames\/(split|sanitize)\.cpp/;
 const hot = /mikktspace\/(corner_terms_kernel|one_pass\.cpp|node_sums\.cpp)|^pack\/\w+_kernel/;
 
 const modules = {
   core: { sources: ["memory.cpp", "common.cpp", "core.cpp"], isFast: true, defines: [], rooms, kernels: ["normals", "tangents"] },
   mikktspace: {
-    sources: ["memory.cpp", "common.cpp", "mikktspace.cpp"], isFast: false, defines: ["TSPACE_MIKKTSPACE_ONLY"], rooms, kernels: ["tangents"],
+    sources: ["memory.cpp", "common.cpp", "mikktspace.cpp"], isFast: true, defines: ["TSPACE_MIKKTSPACE_ONLY"], rooms, kernels: ["tangents"],
   },
   pack: { sources: ["memory.cpp", "pack.cpp"], isFast: true, defines: [], rooms: ["core", "pack"], kernels: ["pack"] },
   gltf: {
@@ -151,6 +151,22 @@ async function inParallel(jobs) {
   return results;
 }
 
+/// LLVM writes 0 0 0 0 for a lane of a shuffle that nobody reads, which is no lane of 32 bits: engines then move single bytes, by
+/// masks that V8 makes each time. Such lanes become those of a shuffle that engines have one instruction for: any, where all lanes
+/// are of one vector. What moves bytes in earnest would be spoilt.
+const halves = [[0, 4, 1, 5], [2, 6, 3, 7], [0, 1, 4, 5], [2, 3, 6, 7], [0, 2, 4, 6], [1, 3, 5, 7]];
+function completeShuffles(wasm) {
+  const bytes = readFileSync(wasm), shuffle = Buffer.of(0xfd, 0x0d);
+  for (let at = -1; (at = bytes.indexOf(shuffle, at + 1)) !== -1 && at + 18 <= bytes.length; ) {
+    const words = [2, 6, 10, 14].map((i) => bytes.readUInt32LE(at + i)), isRead = (i) => words[i] !== 0;
+    const lanes = words.map((word) => (word - 0x03020100) / 0x04040404), read = lanes.filter((_, i) => isRead(i));
+    if (read.length === 0 || !read.every((lane) => Number.isInteger(lane) && lane >= 0 && lane < 8)) continue;
+    const whole = halves.find((half) => half.every((lane, i) => !isRead(i) || lane === lanes[i])) ?? (read.every((lane) => lane < 4) && [0, 0, 0, 0]);
+    for (let i = 0; whole && i < 4; ++i) if (!isRead(i)) bytes.writeUInt32LE(0x03020100 + 0x04040404 * whole[i], at + 2 + 4 * i);
+  }
+  writeFileSync(wasm, bytes);
+}
+
 async function link(name, module, objects) {
   const libraries = (await run("em-config", ["CACHE"]).catch(() => ({ stdout: "" }))).stdout.trim() || "/usr/share/emscripten/cache";
   const folder = join(libraries, "sysroot/lib/wasm32-emscripten");
@@ -162,7 +178,8 @@ async function link(name, module, objects) {
   const wasm = join(out, `${name}_plain.wasm`);
   // Low memory: the first KB is the end of the stack, where no offset below 1024 can lead by going round 2^32.
   await run("wasm-opt", ["--enable-simd", "--enable-bulk-memory", "--enable-sign-ext", "--enable-mutable-globals",
-    "--enable-nontrapping-float-to-int", "-Oz", "--converge", "--low-memory-unused", "-ocimfs=30", raw, "-o", wasm]);
+    "--enable-nontrapping-float-to-int", module.isFast ? "-O3" : "-Oz", "--converge", "--low-memory-unused", "-ocimfs=30", raw, "-o", wasm]);
+  if (module.isFast) completeShuffles(wasm);
   const imports = WebAssembly.Module.imports(new WebAssembly.Module(readFileSync(wasm))).map((i) => i.name);
   const unknown = imports.filter((i) => !(module.imports ?? ["endCall"]).includes(i));
   if (unknown.length !== 0) throw new Error(`${name}.wasm imports ${unknown.join(", ")}`);
