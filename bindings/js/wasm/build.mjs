@@ -31,12 +31,11 @@ const notHere = new Set([
 ]);
 /// Functions that are called once stay functions: inlined, they make large ones with hundreds of locals, which take more
 /// bytes and compress worse. What is smaller than its call is inlined. Loops are compiled without that limit, and the hottest
-/// ones for speed, of which kernels gain by -O2: the linker inlines next to nothing, so that theirs are inlined before.
+/// ones for speed: the linker inlines next to nothing, so that theirs are inlined before.
 const inlined = (threshold) => ["-mllvm", `-inline-threshold=${threshold}`];
 const copiesLess = ["-mllvm", "-enable-pre=false", "-mllvm", "-jump-threading-threshold=0"];
 const smallFlags = ["-fno-slp-vectorize", ...copiesLess, ...inlined(-15)];
 const fastFlags = ["-O2", "-DTSPACE_FAST_KERNELS", ...inlined(600)];
-const passFlags = ["-Os", "-DTSPACE_FAST_KERNELS", ...inlined(300)];
 const loops = /mikktspace\/(grid_order|weld)\.cpp|core\/(sum_rounds|weld|range_lists)\.cpp|frames\/(split|sanitize)\.cpp/;
 const hot = /mikktspace\/(corner_terms_kernel|one_pass\.cpp|node_sums\.cpp)|^pack\/\w+_kernel/;
 
@@ -96,7 +95,7 @@ function inBatches(name, rooms, isFast, more = []) {
     .filter((file) => file.endsWith(".cpp") && !notHere.has(file)).concat(more);
   const isAlone = (file) => hot.test(file) || loops.test(file);
   const files = all.filter((file) => !isAlone(file));
-  const batches = all.filter(isAlone).map((file) => ({ path: join(root, "src", file), flags: isFast && hot.test(file) ? passFlags : [] }));
+  const batches = all.filter(isAlone).map((file) => ({ path: join(root, "src", file), flags: isFast && hot.test(file) ? fastFlags : [] }));
   for (let i = 0; i < files.length; i += 12)
     batches.push({ path: write(join(out, `${name}_${i / 12}.cpp`), files.slice(i, i + 12).map((file) => `#include "${file}"\n`).join("")) });
   return batches;
