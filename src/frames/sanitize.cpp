@@ -154,9 +154,10 @@ class Sanitizer {
         if (!scan()) return {};
         const Allocator* allocator = options_.execution.allocator;
         causes_ = Buffer<Cause>(allocator, mesh_.cornerCount(), Cause::sound);
-        forEachSuspect([this](std::size_t first, std::uint32_t size, Counts& counts) { detect(first, size, counts); });
+        forEachCandidate(
+            [this](std::size_t first, std::uint32_t size, Counts& counts) { detect(first, size, counts); });
         if (countOf(Counted::seeker) != 0) lookAtPositions();
-        forEachSuspect([this](std::size_t first, std::uint32_t size, Counts& counts) { mend(first, size, counts); });
+        forEachCandidate([this](std::size_t first, std::uint32_t size, Counts& counts) { mend(first, size, counts); });
         return report();
     }
 
@@ -258,7 +259,7 @@ class Sanitizer {
 
     /// body(first_corner, corner_count, counts) for each face that scan() did not clear; faces are independent.
     template <class Body>
-    void forEachSuspect(Body&& body) {
+    void forEachCandidate(Body&& body) {
         parallel_.forRanges(candidates_.size(), kScanGrain, [&](std::size_t begin, std::size_t end) {
             Counts counts;
             for (std::size_t block = begin; block < end; ++block) {

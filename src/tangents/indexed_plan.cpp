@@ -67,10 +67,8 @@ std::uint64_t countDegenerate(const IndexedPlan& plan, const Pose& pose, Paralle
     return sumRanges(parallel, plan.triangleCount(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
         std::uint64_t count = 0;
         for (std::size_t i = 3 * begin; i < 3 * end; i += 3) {
-            const Vec3& a = pose.positions[plan.triangle_vertices[i]];
-            const Vec3& b = pose.positions[plan.triangle_vertices[i + 1]];
-            const Vec3& c = pose.positions[plan.triangle_vertices[i + 2]];
-            if (a == b || b == c || c == a) ++count;
+            const auto p = [&](std::size_t k) { return pose.positions[plan.triangle_vertices[i + k]]; };
+            if (p(0) == p(1) || p(1) == p(2) || p(2) == p(0)) ++count;
         }
         return count;
     });
@@ -121,12 +119,10 @@ TangentReport evaluateIndexed(const IndexedPlan& plan, const Pose& pose, const T
                               const Execution& execution, Parallel& parallel) {
     clearUnusedCorners(plan, out);
     TangentReport report = plan.report;
-    if (plan.method == Method::lengyel) {
+    if (plan.method != Method::lengyel) report.degenerate_triangle_count = countDegenerate(plan, pose, parallel);
+    if (plan.method == Method::lengyel)
         evaluateLengyel(plan, pose, out, execution, parallel, report);
-        return report;
-    }
-    report.degenerate_triangle_count = countDegenerate(plan, pose, parallel);
-    if (plan.method == Method::basis)
+    else if (plan.method == Method::basis)
         evaluateBasis(plan, pose, out, execution.allocator, parallel, report);
     else
         evaluateFlat(plan, pose, out, parallel, report);

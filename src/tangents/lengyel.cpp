@@ -292,17 +292,16 @@ struct VertexExtras {
     Buffer<Vec3> bitangents;
     Buffer<float> magnitudes_s, magnitudes_t;
 
-    VertexExtras(const TangentOutput& out, std::size_t vertex_count, const Allocator* allocator) {
-        if (!out.bitangents.empty()) bitangents = Buffer<Vec3>(allocator, vertex_count);
-        if (!out.magnitudes_s.empty()) magnitudes_s = Buffer<float>(allocator, vertex_count);
-        if (!out.magnitudes_t.empty()) magnitudes_t = Buffer<float>(allocator, vertex_count);
-    }
-    TangentOutput output() {
-        TangentOutput out;
-        out.bitangents = {bitangents.data(), bitangents.size()};
-        out.magnitudes_s = {magnitudes_s.data(), magnitudes_s.size()};
-        out.magnitudes_t = {magnitudes_t.data(), magnitudes_t.size()};
-        return out;
+    TangentOutput out;
+
+    VertexExtras(const TangentOutput& wanted, std::size_t vertex_count, const Allocator* allocator) {
+        const auto make = [&]<class T>(const StridedSpan<T>& like, Buffer<T>& buffer, StridedSpan<T>& span) {
+            if (!like.empty()) buffer = Buffer<T>(allocator, vertex_count);
+            span = {buffer.data(), buffer.size()};
+        };
+        make(wanted.bitangents, bitangents, out.bitangents);
+        make(wanted.magnitudes_s, magnitudes_s, out.magnitudes_s);
+        make(wanted.magnitudes_t, magnitudes_t, out.magnitudes_t);
     }
 };
 
@@ -316,30 +315,23 @@ void copyToCorners(const IndexedPlan& plan, const T* from, const StridedSpan<T>&
 }
 
 /// Copies the tangents of used corners; returns how many of them are defaults, of which `is_default` knows,
-/// one per vertex; null: none. vertexOf(c): the vertex of a corner.
-template <class VertexOf>
-std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std::uint8_t* is_default,
-                           const StridedSpan<Vec4>& out, std::size_t begin, std::size_t end, const VertexOf& vertexOf) {
-    const std::uint8_t* const used = plan.corner_used.data();
-    const std::size_t stride = out.stride_bytes;
-    constexpr std::size_t kAhead = 2048;  // bytes
-    auto* to = reinterpret_cast<std::byte*>(&out[begin]);
-    std::uint64_t defaults = 0;
-    for (std::size_t c = begin; c < end; ++c, to += stride) {
-        // Writing waits for the lines that it will replace, unless they were asked for before.
-        prefetchLines<true>(to, 1, kAhead);
-        if (used != nullptr && used[c] == 0) continue;
-        const std::size_t vertex = vertexOf(c);
-        storeFloat4(&reinterpret_cast<Vec4*>(to)->x, loadFloat4(from + 4 * vertex));
-        if (is_default != nullptr) defaults += is_default[vertex];
-    }
-    return defaults;
-}
-
+/// one per vertex; null: none.
 std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std::uint8_t* is_default,
                            const StridedSpan<Vec4>& out, std::size_t begin, std::size_t end) {
+    const std::uint8_t* const used = plan.corner_used.data();
+    constexpr std::size_t kAhead = 2048;  // bytes
     return withIndices(plan.corner_vertices, [&](const auto& vertexOf) {
-        return copyTangents(plan, from, is_default, out, begin, end, vertexOf);
+        auto* to = reinterpret_cast<std::byte*>(&out[begin]);
+        std::uint64_t defaults = 0;
+        for (std::size_t c = begin; c < end; ++c, to += out.stride_bytes) {
+            // Writing waits for the lines that it will replace, unless they were asked for before.
+            prefetchLines<true>(to, 1, kAhead);
+            if (used != nullptr && used[c] == 0) continue;
+            const std::size_t vertex = vertexOf(c);
+            storeFloat4(&reinterpret_cast<Vec4*>(to)->x, loadFloat4(from + 4 * vertex));
+            if (is_default != nullptr) defaults += is_default[vertex];
+        }
+        return defaults;
     });
 }
 
@@ -354,10 +346,8 @@ struct SumPlaces {
         const bool is_tight = tangents.stride_bytes == sizeof(Vec4);
         if (is_tight && !per_corner) sums.heads = &tangents.data->x;
         if (is_tight && per_corner && 2 * tangents.count >= vertex_count) sums.tails = &tangents.data->x;
-        if (sums.heads == nullptr) head_buffer = Buffer<float>(allocator, 4 * vertex_count);
-        if (sums.tails == nullptr) tail_buffer = Buffer<float>(allocator, 2 * vertex_count);
-        if (sums.heads == nullptr) sums.heads = head_buffer.data();
-        if (sums.tails == nullptr) sums.tails = tail_buffer.data();
+        if (sums.heads == nullptr) sums.heads = (head_buffer = Buffer<float>(allocator, 4 * vertex_count)).data();
+        if (sums.tails == nullptr) sums.tails = (tail_buffer = Buffer<float>(allocator, 2 * vertex_count)).data();
     }
 };
 
@@ -373,14 +363,14 @@ void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOut
     const SumPlaces places(out.tangents, plan.vertex_count, per_corner, allocator);
     const VertexSums& sums = places.sums;
     Buffer<float> visits(allocator, has_magnitudes ? plan.vertex_count : 0);
-    VertexExtras extras(per_corner ? out : TangentOutput{}, plan.vertex_count, allocator);
+    const VertexExtras extras(per_corner ? out : TangentOutput{}, plan.vertex_count, allocator);
     Buffer<std::uint8_t> is_default(allocator, per_corner ? plan.vertex_count : 0, 0);
 
     constexpr unsigned kMostRanges = 64;
     const unsigned wanted = plan.triangleCount() >= Parallel::kGrain ? std::min(parallel.width(), kMostRanges) : 1;
     const FaceSums faces(plan, pose.positions, kernel, sums, visits.data(), wanted, allocator, parallel);
     const VertexFrames frames(kernel, sums, visits.data(), pose.normals, plan.sign_factor,
-                              per_corner ? extras.output() : out, is_default.data());
+                              per_corner ? extras.out : out, is_default.data());
     std::array<RangeCounts, kMostRanges> counts;  // zeros where there are fewer
     parallel.forTasks(faces.ranges().count(), [&](std::size_t range) {
         counts[range] = faces.sum(range);

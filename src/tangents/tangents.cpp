@@ -81,10 +81,7 @@ Error checkOptions(const TangentOptions& options) {
 }
 
 /// For Parallel: estimators take several times as long as sums.
-std::uint64_t work(Method method, std::uint64_t corners) {
-    constexpr std::uint64_t kSlow = 4;
-    return (isEstimated(method) ? kSlow : 1) * corners;
-}
+std::uint64_t work(Method method, std::uint64_t corners) { return (isEstimated(method) ? 4 : 1) * corners; }
 
 Error checkInput(const MeshView& mesh, const TangentOptions& options, Parallel& parallel) {
     if (Error e = checkOptions(options); e.code != ErrorCode::ok) return e;
@@ -144,6 +141,41 @@ Error checkDomain(const TangentOptions& options) {
     return {ErrorCode::invalidOption, "results per vertex need a mesh with one index list"};
 }
 
+Result<std::unique_ptr<TangentPlan::State>> makePlan(const MeshView& mesh, const TangentOptions& options) {
+    Parallel parallel(options.execution, work(options.method, mesh.cornerCount()));
+    if (Error e = checkInput(mesh, options, parallel); e.code != ErrorCode::ok) return e;
+    auto state = std::make_unique<TangentPlan::State>();
+    state->method = options.method;
+    state->vertex_count = state->normal_count = mesh.vertexCount();
+    state->corner_count = mesh.cornerCount();
+    state->output_count = outputCount(mesh, options);
+    if (isGrouped(options.method))
+        state->plan = mikk::planGrouped(mesh, options, parallel);
+    else
+        state->plan = planIndexed(mesh, options, parallel);
+    state->is_symmetric = options.frame == FrameShape::symmetric;
+    if (state->is_symmetric && options.domain == OutputDomain::corner) {
+        state->corner_vertices = Buffer<std::uint32_t>(options.execution.allocator, mesh.cornerCount());
+        for (std::size_t c = 0; c < mesh.cornerCount(); ++c) state->corner_vertices[c] = mesh.indices[c];
+    }
+    return state;
+}
+
+/// The plan of a mesh with several index lists: that of the mesh with one, and where its vertices come from.
+Result<std::unique_ptr<TangentPlan::State>> planLists(const MeshView& mesh, const TangentOptions& options) {
+    if (Error e = checkDomain(options); e.code != ErrorCode::ok) return e;
+    if (Result<Done> valid = validate(mesh); !valid) return std::move(valid).error();
+    OneListMesh made;
+    if (Result<Done> done = useOneList(mesh, options.execution, made); !done) return std::move(done).error();
+    Result<std::unique_ptr<TangentPlan::State>> state = makePlan(made.view, options);
+    if (!state) return state;
+    (*state)->vertex_count = mesh.vertexCount();
+    (*state)->normal_count = mesh.normals.count;
+    (*state)->source_vertices = std::move(made.source_vertices);
+    (*state)->source_normals = std::move(made.source_normals);
+    return state;
+}
+
 }  // namespace
 
 TangentPlan::TangentPlan(State* state) : state_(state) {}
@@ -186,46 +218,6 @@ Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOption
         return report;
     });
 }
-
-namespace {
-
-Result<std::unique_ptr<TangentPlan::State>> makePlan(const MeshView& mesh, const TangentOptions& options) {
-    Parallel parallel(options.execution, work(options.method, mesh.cornerCount()));
-    if (Error e = checkInput(mesh, options, parallel); e.code != ErrorCode::ok) return e;
-    auto state = std::make_unique<TangentPlan::State>();
-    state->method = options.method;
-    state->vertex_count = state->normal_count = mesh.vertexCount();
-    state->corner_count = mesh.cornerCount();
-    state->output_count = outputCount(mesh, options);
-    if (isGrouped(options.method)) {
-        state->plan = mikk::planGrouped(mesh, options, parallel);
-    } else {
-        state->plan = planIndexed(mesh, options, parallel);
-    }
-    state->is_symmetric = options.frame == FrameShape::symmetric;
-    if (state->is_symmetric && options.domain == OutputDomain::corner) {
-        state->corner_vertices = Buffer<std::uint32_t>(options.execution.allocator, mesh.cornerCount());
-        for (std::size_t c = 0; c < mesh.cornerCount(); ++c) state->corner_vertices[c] = mesh.indices[c];
-    }
-    return state;
-}
-
-/// The plan of a mesh with several index lists: that of the mesh with one, and where its vertices come from.
-Result<std::unique_ptr<TangentPlan::State>> planLists(const MeshView& mesh, const TangentOptions& options) {
-    if (Error e = checkDomain(options); e.code != ErrorCode::ok) return e;
-    if (Result<Done> valid = validate(mesh); !valid) return std::move(valid).error();
-    OneListMesh made;
-    if (Result<Done> done = useOneList(mesh, options.execution, made); !done) return std::move(done).error();
-    Result<std::unique_ptr<TangentPlan::State>> state = makePlan(made.view, options);
-    if (!state) return state;
-    (*state)->vertex_count = mesh.vertexCount();
-    (*state)->normal_count = mesh.normals.count;
-    (*state)->source_vertices = std::move(made.source_vertices);
-    (*state)->source_normals = std::move(made.source_normals);
-    return state;
-}
-
-}  // namespace
 
 Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& options) {
     return atBorder([&]() -> Result<TangentPlan> {

@@ -56,7 +56,7 @@ class GroupSummer {
     }
 
   private:
-    /// False for kNone and for groups with kMark, too: those are not below any count.
+    /// False for kNone and for groups with kTopBit, too: those are not below any count.
     [[nodiscard]] bool owns(std::uint32_t group) const { return group - first_group_ < group_count_; }
 
     /// Copies a triangle to a place of the block; returns 1 when it is to stay there.
@@ -113,7 +113,7 @@ GroupSums sumGroups(const EvaluationPlan& plan, const CornerSource& source, Corn
 
 // -- a plan --
 
-/// A plan's triangles, as estimators read them. Groups with kMark, to which a triangle adds nothing, are no groups
+/// A plan's triangles, as estimators read them. Groups with kTopBit, to which a triangle adds nothing, are no groups
 /// there.
 class PlanTriangles final : public TriangleGroups {
   public:
@@ -233,7 +233,7 @@ class Evaluation {
                 for (std::size_t h = 3 * t; h < 3 * t + 3; ++h) {
                     const std::uint32_t g = groups[h] & kValue;
                     const std::size_t c = slots == nullptr ? first + h - 3 * t : slots[h];
-                    if (g >= count || (c & kMark) != 0) continue;
+                    if (g >= count || (c & kTopBit) != 0) continue;
                     if (tangents_only) {
                         tangents[c] = {sums[g].x, sums[g].y, sums[g].z, signs[positive[g]]};
                     } else {
@@ -282,7 +282,7 @@ class Evaluation {
                 result = meanOf(sum, rest, rest.weight, split.positive);
             }
             const std::uint32_t slot = plan_.slotOf(plan_.members[split.begin + a]);
-            if ((slot & kMark) != 0) {
+            if ((slot & kTopBit) != 0) {
                 members_[split.begin + a] = result;
             } else {
                 sink_.write(slot, result);
@@ -316,7 +316,7 @@ class Evaluation {
     /// n-gons have, are merged one by one.
     void mergeConflicts() {
         const auto result = [&](const Conflict& c) {
-            return (c.source & kMark) != 0 ? members_[c.source & kValue] : resultOf(c.source);
+            return (c.source & kTopBit) != 0 ? members_[c.source & kValue] : resultOf(c.source);
         };
         const Buffer<Conflict>& conflicts = plan_.conflicts;
         parallel_.forRanges(conflicts.size(), kWriteGrain, [&](std::size_t begin, std::size_t end) {

@@ -21,7 +21,7 @@ struct EvaluatedSplit {
 /// One of several results for a corner of the mesh, which are averaged where they differ.
 struct Conflict {
     std::uint32_t corner = 0;
-    std::uint32_t source = 0;  ///< a group, or kMark | a place in EvaluationPlan::members
+    std::uint32_t source = 0;  ///< a group, or kTopBit | a place in EvaluationPlan::members
 };
 
 struct GroupSums;
@@ -39,10 +39,10 @@ struct EvaluationPlan {
     /// because vertices that are equal on the mesh may come apart in a pose. Followed by the numbers of some more valid
     /// vertices, so that kernels can read whole blocks.
     Buffer<std::uint32_t> vertices;
-    /// One per half-edge: the group it belongs to, with kMark if it adds nothing to it; kNone without one,
+    /// One per half-edge: the group it belongs to, with kTopBit if it adds nothing to it; kNone without one,
     /// and for members of groups that split.
     Buffer<std::uint32_t> groups;
-    /// One per half-edge: its corner of the mesh, with kMark where that is among the conflicts. Empty: half-edges are corners.
+    /// One per half-edge: its corner of the mesh, with kTopBit where that is among the conflicts. Empty: half-edges are corners.
     Buffer<std::uint32_t> slots;
     Buffer<std::uint32_t> triangles;      ///< of some nodes' plan: their numbers in the mesh, ascending
     Buffer<std::uint8_t> group_positive;  ///< one per group: its orientation

@@ -59,7 +59,7 @@ class Fan {
     /// Adds the triangle whose corner here goes on to `next` and comes from `previous`. Without branches: where triangles
     /// come in any order, a processor cannot foresee what each does.
     void add(std::uint32_t next, std::uint32_t previous, FanRoom& room) {
-        const Four own = Four{next, previous, next, previous} | kMark;
+        const Four own = Four{next, previous, next, previous} | kTopBit;
         const Four extended = std::bit_cast<Four>(ends_ == __builtin_shufflevector(own, own, 1, 0, 3, 2));
         const Four kept = __builtin_shufflevector(extended, extended, 1, 0, 3, 2);  // the other ends of these paths
         const Four other = ends_ & ~(extended | kept);
@@ -116,7 +116,7 @@ class Fan {
     }
 
     /// Path i leaves towards ends_[2 * i], where a triangle on its other side may follow, and arrives from ends_[2 * i + 1]:
-    /// nodes with kMark; 0: no path. Of many paths: 1, 0, their place, their number; of a complex fan: kComplex.
+    /// nodes with kTopBit; 0: no path. Of many paths: 1, 0, their place, their number; of a complex fan: kComplex.
     Four ends_{};
 };
 

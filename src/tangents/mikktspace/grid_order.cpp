@@ -31,7 +31,7 @@ constexpr std::uint32_t kWanted = kNone - 1;  // as a representative: not known 
 /// An entry of the corner list, in one cell of the reference's grid.
 struct alignas(16) CellElement {
     Vec3 position;
-    std::uint32_t entry;  ///< kMark: its node's representative is wanted
+    std::uint32_t entry;  ///< kTopBit: its node's representative is wanted
 };
 
 float component(const Vec3& v, int axis) { return (&v.x)[axis]; }
@@ -103,7 +103,7 @@ class Cell {
             box.add(at(i));
             any |= elements_[i].entry;
         }
-        if ((any & kMark) == 0) return false;
+        if ((any & kTopBit) == 0) return false;
         const int axis = box.longestAxis();
         const float low = box.low[axis], high = box.high[axis], middle = 0.5f * (high + low);
         if (middle >= high || middle <= low) {
@@ -241,7 +241,7 @@ class GridOrder {
         Buffer<CellElement> elements(allocator_, begin[cells + 1]);
         forEachEntry([&](std::uint32_t vertex, std::uint32_t entry, std::size_t number) {
             const bool is_wanted = representatives_[in_.nodes.ofVertex(vertex)] == kWanted;
-            elements[begin[number]++] = {in_.mesh.positions[vertex], is_wanted ? entry | kMark : entry};
+            elements[begin[number]++] = {in_.mesh.positions[vertex], is_wanted ? entry | kTopBit : entry};
         });
         const auto name = [&](std::uint32_t entry) {
             representatives_[in_.nodeAt(entry)] = in_.triangles.corner(entry);

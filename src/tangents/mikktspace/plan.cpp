@@ -115,8 +115,8 @@ class Planner {
             const NodeCorner& corner = groups.corners[i];
             std::uint32_t& source = sources[corner.half_edge];
             if (source == kNone && !has_repeats) default_corners_.push(slotOf(corner.half_edge));
-            if ((source & kMark) != 0) source = kNone;
-            if (corner.facing == 0) source |= kMark;
+            if ((source & kTopBit) != 0) source = kNone;
+            if (corner.facing == 0) source |= kTopBit;
         }
     }
 
@@ -150,7 +150,7 @@ class Planner {
         split_groups_.push({begin, count, rows, positive_[to_.groups[members[0].half_edge]] != 0});
         to_.largest_split = std::max(to_.largest_split, count);
         for (const NodeCorner& corner : members) {
-            to_.groups[corner.half_edge] = kMark | static_cast<std::uint32_t>(split_members_.size());
+            to_.groups[corner.half_edge] = kTopBit | static_cast<std::uint32_t>(split_members_.size());
             split_members_.push(corner.half_edge);
         }
         return true;
@@ -187,7 +187,7 @@ class Planner {
         for (const Repeat* r = first; end - first > 1 && r != end; ++r) {
             const std::uint32_t half_edge = groups.corners[r->index].half_edge;
             conflicts_.push({r->slot, to_.groups[half_edge]});
-            to_.slots[half_edge] |= kMark;
+            to_.slots[half_edge] |= kTopBit;
         }
     }
 

@@ -17,9 +17,9 @@ namespace tspace::mikk {
 
 inline constexpr std::uint32_t kNone = 0xffffffffu;
 /// A bit that no number of a half-edge, a corner or a group has.
-inline constexpr std::uint32_t kMark = 0x80000000u;
+inline constexpr std::uint32_t kTopBit = 0x80000000u;
 inline constexpr std::uint32_t kValue = 0x7fffffffu;
-/// Most half-edges a mesh may have: they share 32 bits with a mark.
+/// Most half-edges a mesh may have: they share 32 bits with kTopBit.
 inline constexpr std::uint64_t kMaxHalfEdges = kValue;
 
 struct Copy {
