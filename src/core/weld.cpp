@@ -23,8 +23,8 @@ constexpr std::size_t kAskAhead = 32;  // lookups; all that they touch has to st
 
 constexpr std::size_t kGrain = 16384;  // vertices per task: below, starting threads costs more than it saves
 
-/// Finds the few vertices that can be equal to others, without a look at most of them: how often each value of the hashes' upper bits occurs, never, once, or more often. Two bits a place: bit 0
-/// says at least once, bit 1 more often.
+/// Finds the few vertices that can be equal to others, without a look at most of them: how often each value of the
+/// hashes' upper bits occurs, never, once, or more often. Two bits a place: bit 0 says at least once, bit 1 more often.
 class RepeatedHashes {
   public:
     static constexpr unsigned kMostRanges = 4;  ///< of vertices, counted at the same time, each in a table of its own

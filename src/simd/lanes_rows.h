@@ -22,6 +22,19 @@ inline void transpose(FloatVector (&r)[4]) {
     r[2] = lowPairs(ab_high, cd_high);
     r[3] = highPairs(ab_high, cd_high);
 }
+/// The columns of the rows at(0), at(1), ...
+template <class At>
+inline void columnsAt(const At& at, FloatVector (&r)[4]) {
+    for (std::size_t i = 0; i < 4; ++i) r[i] = quadsAt(at, i, kQuads);
+    transpose(r);
+}
+/// The first and the second floats of pairs, of which each of at(0), at(2), ... has two.
+template <class At>
+inline void splitPairsAt(const At& at, Floats& x, Floats& y) {
+    const FloatVector ab = quadsAt(at, 0, kQuads), cd = quadsAt(at, 2, kQuads);
+    x = {inFours<0, 2, 4, 6>(ab, cd)};
+    y = {inFours<1, 3, 5, 7>(ab, cd)};
+}
 template <std::size_t kStep, std::size_t... kQuad>
 inline void storeQuads(float* rows, const FloatVector (&r)[4], Quads<kQuad...>) {
     const auto store = [&](float* to, Quad a, Quad b, Quad c, Quad d) {
@@ -48,8 +61,7 @@ TSPACE_ROWS inline void gather3(const std::byte* base, std::size_t stride, const
                                 Floats& x, Floats& y, Floats& z) {
     const auto at = [&](std::size_t i) { return loadVector(base + stride * index[3 * i], exact); };
     FloatVector r[4];
-    for (std::size_t i = 0; i < 4; ++i) r[i] = quadsAt(at, i, kQuads);
-    transpose(r);
+    columnsAt(at, r);
     x = {r[0]};
     y = {r[1]};
     z = {r[2]};
@@ -59,16 +71,11 @@ TSPACE_ROWS inline void gather2(const std::byte* base, std::size_t stride, const
     const auto two = [&](std::size_t i) {
         return twoPairs(base + stride * index[3 * i], base + stride * index[3 * i + 3]);
     };
-    const FloatVector ab = quadsAt(two, 0, kQuads), cd = quadsAt(two, 2, kQuads);
-    x = {inFours<0, 2, 4, 6>(ab, cd)};
-    y = {inFours<1, 3, 5, 7>(ab, cd)};
+    splitPairsAt(two, x, y);
 }
 /// Reads kWidth pairs of floats that lie side by side.
 TSPACE_ROWS inline void loadPairs(const float* pairs, Floats& x, Floats& y) {
-    const auto two = [&](std::size_t i) { return loadQuad(pairs + 2 * i); };
-    const FloatVector ab = quadsAt(two, 0, kQuads), cd = quadsAt(two, 2, kQuads);
-    x = {inFours<0, 2, 4, 6>(ab, cd)};
-    y = {inFours<1, 3, 5, 7>(ab, cd)};
+    splitPairsAt([&](std::size_t i) { return loadQuad(pairs + 2 * i); }, x, y);
 }
 /// Writes lane i's four values to rows[kStep * i ...], by default row 3 * i of an array of rows of four floats. At any
 /// address that floats may have. Rows are written one after the other: with a step of 3, all but the last row hold three
@@ -84,8 +91,7 @@ template <std::size_t kStep>
 TSPACE_ROWS inline void loadRows(const float* rows, Floats& x, Floats& y, Floats& z, Floats& w) {
     const auto at = [&](std::size_t i) { return loadQuad(rows + kStep * i); };
     FloatVector r[4];
-    for (std::size_t i = 0; i < 4; ++i) r[i] = quadsAt(at, i, kQuads);
-    transpose(r);
+    columnsAt(at, r);
     x = {r[0]};
     y = {r[1]};
     z = {r[2]};
