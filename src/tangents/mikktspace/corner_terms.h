@@ -31,32 +31,25 @@ struct CornerSource : VertexArrays {
 inline constexpr std::size_t kTermTriangles = 64;  ///< of one block; its arrays stay in the first cache
 inline constexpr std::size_t kTermCorners = 3 * kTermTriangles;
 
-/// Marks of a corner. If all corners of a node have enough of them in common, its group cannot split under
-/// the threshold of 180 degrees, which separates only opposite tangents or bitangents. With unit tangents s
-/// in the plane across the normal, W the sum of all weights, w the smallest and S the sum of all weighted
-/// tangents:
-///
-/// 1. Were two tangents a right angle or more apart, |S| <= W - (2 - sqrt(2)) w. So |S| > W - 0.4 w
-///    (see node_sums.h) shows that all are less than a right angle apart; by that margin, less than 74 degrees.
-/// 2. A bitangent that turns left (right) lies on that side of its tangent, 45 to 135 degrees from it. If all
-///    turn to one side, then no two are further apart than 74 + 90 degrees.
-///
-/// Normals need a length near 1 for this (node_sums.h), and tangents must not be so close to the normal that
-/// what is left of them is mostly error: kSmallestSquare. A NaN sets no mark.
+/// Marks of a corner. The angular test under the threshold of 180 degrees separates only opposite tangents or bitangents:
+/// those whose cosine rounds to -1. If all of a node have a component above kSideMargin on one axis, or all have one below
+/// -kSideMargin, then every two of them have a cosine of 2 * kSideMargin^2 - 1 at least, far more than what rounding takes
+/// away. So where all corners of a node have one such mark of tangents in common, and one of bitangents, its group cannot
+/// split. A NaN sets no mark.
 inline constexpr std::uint32_t kFacesUp = 0x01;    ///< positive UV area
 inline constexpr std::uint32_t kFacesDown = 0x02;  ///< the opposite
 inline constexpr std::uint32_t kFacing = kFacesUp | kFacesDown;
-inline constexpr std::uint32_t kTurnsLeft = 0x04;
-inline constexpr std::uint32_t kTurnsRight = 0x08;
-inline constexpr std::uint32_t kNotLight = 0x10;   ///< its weight is above kLightWeight
-inline constexpr std::uint32_t kNotMiddle = 0x20;  ///< above kMiddleWeight
-inline constexpr std::uint32_t kHeavy = 0x40;      ///< above kHeavyWeight
-inline constexpr std::uint32_t kAllMarks = 0x7f;
-inline constexpr std::uint32_t kNoUvArea = 0x100;        ///< the triangle has no usable UV area
-inline constexpr std::uint32_t kDegenerateMark = 0x200;  ///< two corners at one position: nothing else means anything
-inline constexpr std::uint32_t kMirroredMark = 0x400;    ///< no positive UV area
-inline constexpr float kLightWeight = 1.0f / 128, kMiddleWeight = 1.0f / 16, kHeavyWeight = 1.0f / 4;
-inline constexpr float kSmallestSquare = 0.04f, kTurnMargin = 0.15f;
+/// The projected tangent: above on x, below on x, and so on; and the same of the projected bitangent.
+inline constexpr std::uint32_t kTangentSides = 0x3f << 2, kBitangentSides = 0x3f << 8;
+inline constexpr std::uint32_t kAllMarks = kFacing | kTangentSides | kBitangentSides;
+inline constexpr unsigned kFlagShift = 16;
+inline constexpr std::uint32_t kNoUvArea = 1u << kFlagShift;  ///< the triangle has no usable UV area
+/// Two corners at one position: nothing else means anything.
+inline constexpr std::uint32_t kDegenerateMark = 2u << kFlagShift;
+inline constexpr std::uint32_t kMirroredMark = 4u << kFlagShift;  ///< no positive UV area
+/// Vectors of a smaller square may have no unit length after all. Bitangents are marked before they are brought to it, and
+/// have a square below kLargestSquare.
+inline constexpr float kSideMargin = 1.0f / 128, kSmallestSquare = 1e-30f, kLargestSquare = 4;
 
 /// Rows of four: row 3 * t + k belongs to corner k of triangle t.
 struct CornerTerms {

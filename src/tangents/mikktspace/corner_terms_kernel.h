@@ -84,18 +84,20 @@ struct Shape {
     }
 };
 
-/// Marks of a corner about the way from its tangent to its bitangent (corner_terms.h).
-inline Bits markTurn(Bits marks, Vectors normal, Vectors s, Floats projected_square, Vectors t) {
-    const Floats along = absolute(dot(t, s)) + broadcast(kTurnMargin), across = dot(t, cross(normal, s));
-    const Mask steady = projected_square > broadcast(kSmallestSquare);
-    marks = orWhere(marks, steady & (across > along), kTurnsLeft);
-    return orWhere(marks, steady & (broadcast(-0.0f) - across > along), kTurnsRight);
+/// `first`: the mark for a component x above the margin. One for x below it follows, then those for y and z.
+inline Bits markSides(Bits marks, Vectors v, std::uint32_t first) {
+    const Floats above = broadcast(kSideMargin), below = broadcast(-kSideMargin);
+    marks = orWhere(orWhere(marks, v.x > above, first), v.x < below, first << 1);
+    marks = orWhere(orWhere(marks, v.y > above, first << 2), v.y < below, first << 3);
+    return orWhere(orWhere(marks, v.z > above, first << 4), v.z < below, first << 5);
 }
 
-inline Bits markWeight(Bits marks, Floats weight) {
-    marks = orWhere(marks, weight > broadcast(kLightWeight), kNotLight);
-    marks = orWhere(marks, weight > broadcast(kMiddleWeight), kNotMiddle);
-    return orWhere(marks, weight > broadcast(kHeavyWeight), kHeavy);
+/// Marks of a corner about its unit tangent, whose square was `square`, and its bitangent, both projected (corner_terms.h).
+inline Bits sidesOf(Vectors s, Floats square, Vectors t) {
+    const Bits tangent_sides = markSides(broadcastBits(0), s, kTangentSides & -kTangentSides);
+    const Bits sides = markSides(tangent_sides, t, kBitangentSides & -kBitangentSides);
+    const Mask are_sure = (square > broadcast(kSmallestSquare)) & (dot(t, t) < broadcast(kLargestSquare));
+    return sides & orWhere(broadcastBits(0), are_sure, kAllMarks);
 }
 
 /// The weight of a corner, or for the two weightings that are angles, its cosine.
@@ -136,12 +138,13 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
         const Vectors projected = alongPlane(normal, shape.s);
         const Floats square = dot(projected, projected);
         s[k] = unitByRules(projected, square);
-        if (!source.tangents_only) t[k] = flatten(normal, shape.t);
+        const Vectors projected_t = alongPlane(normal, shape.t);
+        if (!source.tangents_only) t[k] = unitByRules(projected_t);
         const Vectors here = group.position[k];
         weights[k] = weightOrCosine(source.weighting, normal, group.position[(k + 2) % 3] - here,
                                     group.position[(k + 1) % 3] - here);
         marks[k] = facing;
-        if (is_mikktspace) marks[k] = markTurn(facing, normal, s[k], square, shape.t);
+        if (is_mikktspace) marks[k] = facing | sidesOf(s[k], square, projected_t);
     }
     if (is_mikktspace || source.weighting == Weighting::angle) {
         const Floats cosines[3] = {weights[0], weights[1], weights[2]};
@@ -149,7 +152,6 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
     }
     for (std::size_t k = 0; k < 3; ++k) {
         const Floats weight = weights[k];
-        if (is_mikktspace) marks[k] = markWeight(marks[k], weight);
         const Bits kept = orWhere(broadcastBits(0), usable & (weight == weight), kAllMarks);
         store(terms.marks[k] + first, (marks[k] & kept) | flags);
         const std::size_t row = 3 * first + k;

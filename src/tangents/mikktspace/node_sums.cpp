@@ -77,7 +77,7 @@ class Summer {
 
     void compute(const TriangleBatch& batch) {
         sweep_.terms(sweep_.source, batch.vertices, batch.count, terms_);
-        const auto kindOf = [&](std::size_t t) { return static_cast<TriangleKind>(terms_.marks[0][t] >> 8); };
+        const auto kindOf = [&](std::size_t t) { return static_cast<TriangleKind>(terms_.marks[0][t] >> kFlagShift); };
         TriangleKind* const kinds = sums_.kinds.data();
         const std::size_t first = batch.numbers[0], whole_count = batch.is_whole ? batch.count : 0;
         for (std::size_t t = 0; t < whole_count; ++t) kinds[first + t] = kindOf(t);

@@ -23,9 +23,9 @@ struct alignas(32) NodeSum {
 
 /// Of a triangle, in NodeSums::kinds: marks of corner_terms.h.
 enum TriangleKind : std::uint8_t {
-    kDegenerateUv = kNoUvArea >> 8,  ///< it adds nothing, and marks nothing, but links what lies on both sides
-    kDegenerateTriangle = kDegenerateMark >> 8,
-    kMirrored = kMirroredMark >> 8,
+    kDegenerateUv = kNoUvArea >> kFlagShift,  ///< it adds nothing, and marks nothing, but links what lies on both sides
+    kDegenerateTriangle = kDegenerateMark >> kFlagShift,
+    kMirrored = kMirroredMark >> kFlagShift,
 };
 
 struct NodeSums {
@@ -46,19 +46,6 @@ struct NodeSums {
         return (marks[node] & (kFacesUp | kFacesDown)) == (kFacesUp | kFacesDown);
     }
 };
-
-/// Whether sums of several tangents and their weights (corner_terms.h), and the marks that they have in common, show that
-/// the angular test separates none of them. Of four nodes, per lane: of the square of the sum's tangent, its weight, marks that have kNotLight and a turn,
-/// and the normal.
-inline Mask4 cannotSplit(Float4 square, Float4 weight, Mask4 marks, const Vec3x4& normal) {
-    const auto has = [&](std::uint32_t mark) { return (marks & static_cast<std::int32_t>(mark)) != 0; };
-    const Float4 lightest =
-        select4(has(kHeavy), splat(kHeavyWeight), select4(has(kNotMiddle), splat(kMiddleWeight), splat(kLightWeight)));
-    const Float4 least = weight - splat(0.4f) * lightest, normal_square = dot(normal, normal);
-    // With a weight sum of at most 1024 times the lightest, the rounding errors of the sums stay below 0.1 of it.
-    return (square > least * least) & (weight < splat(1024) * lightest) & (normal_square > splat(0.98f)) &
-           (normal_square < splat(1.02f));
-}
 
 /// The mesh's triangles, as lists and estimators read them: each node is a group. `kinds`: null, or as in NodeSums; then
 /// triangles without UV area add nothing.

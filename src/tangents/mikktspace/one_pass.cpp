@@ -281,14 +281,9 @@ class OnePass {
                w = loadFloat4(nodes[at[3]].s);
         transpose4(x, y, z, w);
         const Float4 square = dot(Vec3x4{x, y, z}, Vec3x4{x, y, z});
-        if (isMikktspace(in_.options.method)) {
-            const auto normal = [&](std::size_t i) -> const Vec3& { return in_.mesh.normals[in_.nodes.vertex(at[i])]; };
-            simple &= has(kTurnsLeft | kTurnsRight) & has(kNotLight) &
-                      cannotSplit(square, w, marks, gatherVec3(normal(0), normal(1), normal(2), normal(3)));
-        } else {
-            // The other methods replace a sum that vanishes; the vertex path sees to that.
-            simple &= (square > splat(0)) & (square < splat(__builtin_huge_valf()));
-        }
+        // A sum that vanishes is left to the vertex path.
+        simple &= (square > splat(0)) & (square < splat(__builtin_huge_valf()));
+        if (in_.maySplit()) simple &= has(kTangentSides) & has(kBitangentSides);
         for (std::size_t i = 0; !sums_.rest.empty() && i < std::min<std::size_t>(left, 4); ++i) {
             GroupRest& rest = sums_.rest[at[i]];
             rest = restOf(empty[i] != 0 ? Tangents{} : meanOf({}, rest, nodes[at[i]].s[3], false));
