@@ -4,8 +4,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -32,12 +30,8 @@ class Parallel::Pool {
     explicit Pool(bool looks_out) : look_out_(looks_out ? kLookOut : kLookOut.zero()) {}
 
     ~Pool() {
-        {
-            const std::lock_guard lock(mutex_);
-            stopping_ = true;
-            calls_.fetch_add(1, std::memory_order_release);
-        }
-        wake_.notify_all();
+        is_ending_ = true;
+        callHelpers();
         for (std::thread& helper : helpers_) helper.join();
     }
 
@@ -51,77 +45,63 @@ class Parallel::Pool {
     }
 
     void run(std::size_t count, void (*task)(void*, std::size_t), void* context) {
-        bool anyone_sleeps;
-        {
-            const std::lock_guard lock(mutex_);
-            task_ = task;
-            context_ = context;
-            count_ = count;
-            next_.store(0, std::memory_order_relaxed);
-            is_open_ = true;
-            calls_.fetch_add(1, std::memory_order_release);
-            anyone_sleeps = sleeping_ > 0;
-        }
-        if (anyone_sleeps) wake_.notify_all();
+        task_ = task;
+        context_ = context;
+        count_ = count;
+        next_.store(0, std::memory_order_relaxed);
+        inside_.fetch_sub(kClosed, std::memory_order_release);
+        callHelpers();
         work();
-        std::unique_lock lock(mutex_);
-        is_open_ = false;
-        if (working_.load(std::memory_order_relaxed) == 0) return;
-        lock.unlock();
-        lookOut([this] { return working_.load(std::memory_order_acquire) == 0; });
-        lock.lock();
-        idle_.wait(lock, [this] { return working_.load(std::memory_order_relaxed) == 0; });
+        inside_.fetch_add(kClosed, std::memory_order_relaxed);
+        waitWhile(inside_, [](std::uint32_t inside) { return inside != kClosed; });
     }
 
   private:
+    static constexpr std::uint32_t kClosed = 0x80000000u;
+
     void work() {
         for (std::size_t i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count_;) task_(context_, i);
     }
 
-    template <class Condition>
-    void lookOut(Condition&& condition) const {
-        const auto end = std::chrono::steady_clock::now() + look_out_;
-        while (!condition() && std::chrono::steady_clock::now() < end) {
-            for (int i = 0; i < 16; ++i) pauseBriefly();
-        }
+    void callHelpers() {
+        calls_.fetch_add(1, std::memory_order_release);
+        calls_.notify_all();
     }
 
     void serve() {
-        std::size_t seen = 0;
-        std::unique_lock lock(mutex_);
+        std::uint32_t seen = 0;
         while (true) {
-            lock.unlock();
-            lookOut([&] { return calls_.load(std::memory_order_acquire) != seen; });
-            lock.lock();
-            ++sleeping_;
-            wake_.wait(lock, [&] { return calls_.load(std::memory_order_relaxed) != seen; });
-            --sleeping_;
-            seen = calls_.load(std::memory_order_relaxed);
-            if (stopping_) return;
-            if (!is_open_) continue;
-            working_.fetch_add(1, std::memory_order_relaxed);
-            lock.unlock();
-            work();
-            lock.lock();
-            if (working_.fetch_sub(1, std::memory_order_release) == 1) idle_.notify_one();
+            seen = waitWhile(calls_, [seen](std::uint32_t calls) { return calls == seen; });
+            if (is_ending_) return;
+            if (inside_.fetch_add(1, std::memory_order_acquire) < kClosed) work();
+            if (inside_.fetch_sub(1, std::memory_order_release) == kClosed + 1) inside_.notify_one();
         }
+    }
+
+    /// Returns the first value that does not mean to wait.
+    template <class Condition>
+    std::uint32_t waitWhile(const std::atomic<std::uint32_t>& number, Condition&& condition) const {
+        const auto end = std::chrono::steady_clock::now() + look_out_;
+        std::uint32_t value;
+        while (condition(value = number.load(std::memory_order_acquire))) {
+            if (std::chrono::steady_clock::now() >= end) {
+                number.wait(value, std::memory_order_acquire);
+            } else {
+                for (int i = 0; i < 16; ++i) pauseBriefly();
+            }
+        }
+        return value;
     }
 
     const std::chrono::microseconds look_out_;
     std::vector<std::thread> helpers_;
-    std::mutex mutex_;
-    std::condition_variable wake_;
-    std::condition_variable idle_;
-    // Changed under the mutex only, and never while a helper works.
+    // Written while the loop is closed.
     void (*task_)(void*, std::size_t) = nullptr;
     void* context_ = nullptr;
     std::size_t count_ = 0;
-    bool is_open_ = false;
-    bool stopping_ = false;
-    std::size_t sleeping_ = 0;
-    // Also changed under the mutex, but looked at without it.
-    std::atomic<std::size_t> calls_{0};
-    std::atomic<std::size_t> working_{0};
+    std::atomic<bool> is_ending_{false};
+    std::atomic<std::uint32_t> calls_{0};         ///< how often helpers were called
+    std::atomic<std::uint32_t> inside_{kClosed};  ///< how many helpers look at the loop, and whether it is closed
     std::atomic<std::size_t> next_{0};
 };
 

@@ -7,9 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <new>
 #include <vector>
+
+#ifdef __linux__
+#include <sys/resource.h>
+#endif
 
 #include "tspace/normals.h"
 #include "tspace/sanitize.h"
@@ -120,6 +125,25 @@ TEST(Arena, SaysNoToWhatNoSystemHas) {
     EXPECT_EQ(arena.usedBytes(), 0u);
     giveBack(arena, take(arena, 100, 1));
 }
+
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(Arena, LeavesAddressesToOthersWhereTheyAreLimited) {
+    const auto use = [] {
+        const rlimit limit{std::size_t{1} << 30, std::size_t{1} << 30};
+        if (setrlimit(RLIMIT_AS, &limit) != 0) return false;
+        Arena arena;
+        const std::vector<std::byte> others(std::size_t{256} << 20);
+        std::vector<Block> blocks;
+        for (std::uint8_t mark = 1; mark <= 10; ++mark) blocks.push_back(take(arena, std::size_t{30} << 20, mark));
+        const bool is_sound =
+            arena.heldBytes() >= std::size_t{300} << 20 && std::all_of(blocks.begin(), blocks.end(), isIntact);
+        for (const Block& block : blocks) giveBack(arena, block);
+        arena.trim();
+        return is_sound && arena.heldBytes() == 0 && arena.usedBytes() == 0;
+    };
+    EXPECT_EXIT(std::exit(use() ? 0 : 1), testing::ExitedWithCode(0), "");
+}
+#endif
 
 /// A torus of two triangles per cell, its seams shared.
 struct Torus {
