@@ -161,8 +161,7 @@ class Evaluation {
         for (const std::uint32_t corner : plan_.skipped_corners) sink_.clear(corner);
         for (const Copy& copy : plan_.copies) sink_.copy(copy);
         report.default_corner_count += zero_ ? countZero() : 0;
-        const bool all_finite = finite_ && plan_.splits.empty() && plan_.conflicts.empty();
-        report.not_finite_count = all_finite ? 0 : countNotFinite();
+        report.not_finite_count = finite_ ? 0 : countNotFinite();
         return report;
     }
 
@@ -280,6 +279,7 @@ class Evaluation {
                         add(split, 64 * word + static_cast<unsigned>(std::countr_zero(bits)), room, sum, rest);
                 }
                 result = meanOf(sum, rest, rest.weight, split.positive);
+                if (!isFinite(result.s)) finite_ = false;
             }
             const std::uint32_t slot = plan_.slotOf(plan_.members[split.begin + a]);
             if ((slot & kTopBit) != 0) {
@@ -326,6 +326,7 @@ class Evaluation {
                 Tangents merged = result(conflicts[i]);
                 for (++i; i < conflicts.size() && conflicts[i].corner == corner; ++i)
                     merge(merged, result(conflicts[i]));
+                if (!isFinite(merged.s)) finite_ = false;
                 if (is_first) sink_.write(corner, merged);  // else another thread does
             }
         });

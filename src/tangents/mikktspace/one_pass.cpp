@@ -140,19 +140,19 @@ class OnePass {
         if (sums_.report.degenerate_uv_count == 0) return;
         Marks counted;  // several triangles of a polygon may have one corner of the mesh
         if (!in_.triangles.faces.empty()) counted = noMarks(allocator_, in_.mesh.cornerCount());
-        forEachDegenerateUv([&](std::size_t triangle) {
+        forEachDegenerateUv([&](std::size_t triangle, const std::uint32_t* nodes) {
             std::uint32_t facing = 0;
-            for (std::size_t i = 3 * triangle; i < 3 * triangle + 3; ++i) {
-                const std::uint32_t here = sums_.marks[in_.nodeAt(i)] & kFacing;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t here = sums_.marks[nodes[k]] & kFacing;
                 // A node that is left aside may have any.
                 facing |= here == 0 ? kFacing : here == kFacing ? 0 : here;
+                const std::size_t i = 3 * triangle + k;
                 const bool counts = here == kFacing && (counted.empty() || counted[in_.triangles.corner(i)] == 0);
                 default_corner_count_ += counts ? 1 : 0;
                 if (!counted.empty()) counted[in_.triangles.corner(i)] |= counts ? 1 : 0;
             }
             for (std::size_t k = 0; facing == kFacing && k < 3; ++k) {
-                const std::uint32_t node = in_.nodeAt(3 * triangle + k);
-                if (!sums_.isEmpty(node)) leaveNode(node);
+                if (!sums_.isEmpty(nodes[k])) leaveNode(nodes[k]);
             }
         });
     }
@@ -167,7 +167,7 @@ class OnePass {
         if (!sums_.isEmpty(node)) --group_count_;
     }
 
-    /// body(triangle) for those without UV area, which are few in most meshes.
+    /// body(triangle, its nodes) for those without UV area, which are few in most meshes.
     template <class Body>
     void forEachDegenerateUv(const Body& body) const {
         constexpr std::uint64_t kDegenerateUvs = 0x0101010101010101u * kDegenerateUv;
@@ -176,8 +176,12 @@ class OnePass {
             const std::size_t count = std::min(sizeof(std::uint64_t), kinds.size() - begin);
             std::uint64_t any = 0;
             std::memcpy(&any, kinds.data() + begin, count);
-            for (std::size_t t = begin; (any & kDegenerateUvs) != 0 && t < begin + count; ++t) {
-                if ((kinds[t] & (kDegenerateUv | kDegenerateTriangle)) == kDegenerateUv) body(t);
+            if ((any & kDegenerateUvs) == 0) continue;
+            std::uint32_t nodes[3 * sizeof any];
+            MeshTriangles(in_, nullptr).read(begin, count, nullptr, nodes);
+            for (std::size_t t = 0; t < count; ++t) {
+                if ((kinds[begin + t] & (kDegenerateUv | kDegenerateTriangle)) == kDegenerateUv)
+                    body(begin + t, nodes + 3 * t);
             }
         }
     }
