@@ -9,7 +9,7 @@
 
 #include "asset/scene.h"
 #include "asset/texture_reading.h"
-#include "core/affine.h"
+#include "surface/affine.h"
 
 namespace tspace {
 

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "core/affine.h"
 #include "maps/shading.h"
 #include "picture/picture_texture.h"
+#include "surface/affine.h"
 #include "tspace/render.h"
 #include "tspace/vec.h"
 

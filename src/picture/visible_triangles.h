@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "core/affine.h"
 #include "picture/camera.h"
+#include "surface/affine.h"
 #include "tspace/vec.h"
 
 namespace tspace {
