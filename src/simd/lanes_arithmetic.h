@@ -141,6 +141,22 @@ inline void addDoubleRow(double* to, double k, const DoubleRow& row) {
     *reinterpret_cast<DoubleRowInMemory*>(to) += k * row.v;
 }
 
-/// Numbers of the quads in a vector.
-template <std::size_t... kNumbers>
-struct Quads {};
+// A vector of lanes is 1, 2 or 4 quads.
+
+inline constexpr std::make_index_sequence<kWidth / 4> kQuads;
+template <std::size_t kWhich>
+inline Quad quad(FloatVector v) {
+    return reinterpret_cast<const AlignedQuad*>(&v)[kWhich];
+}
+inline Quad joinQuads(Quad a) { return a; }
+
+/// Of each quad of x (0 to 3) and the same of y (4 to 7) four floats.
+template <std::size_t... kFrom, std::size_t... kLane>
+inline FloatVector inFours(FloatVector x, FloatVector y, std::index_sequence<kFrom...>, std::index_sequence<kLane...>) {
+    constexpr std::size_t kPlaces[] = {(kFrom < 4 ? kFrom : kFrom - 4 + kWidth)...};
+    return __builtin_shufflevector(x, y, (kPlaces[kLane % 4] + kLane / 4 * 4)...);
+}
+template <std::size_t... kFrom>
+inline FloatVector inFours(FloatVector x, FloatVector y) {
+    return inFours(x, y, std::index_sequence<kFrom...>{}, std::make_index_sequence<kWidth>{});
+}

@@ -7,8 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-
-#define TSPACE_ROWS
+#include <utility>
 
 namespace tspace::simd::avx2 {
 
@@ -45,19 +44,7 @@ inline Floats join(const Doubles* parts) {
     return {_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(parts[0].v)), _mm256_cvtpd_ps(parts[1].v), 1)};
 }
 
-template <int kA, int kB, int kC, int kD>
-inline FloatVector inFours(FloatVector x, FloatVector y) {
-    constexpr int a = kA + kA / 4 * 4, b = kB + kB / 4 * 4, c = kC + kC / 4 * 4, d = kD + kD / 4 * 4;
-    return __builtin_shufflevector(x, y, a, b, c, d, a + 4, b + 4, c + 4, d + 4);
-}
-inline constexpr Quads<0, 1> kQuads;
 inline FloatVector joinQuads(Quad a, Quad b) { return _mm256_insertf128_ps(_mm256_castps128_ps256(a), b, 1); }
-template <std::size_t kWhich>
-inline Quad quad(FloatVector v) {
-    return _mm256_extractf128_ps(v, kWhich);
-}
 #include "simd/lanes_rows.h"
 
 }  // namespace tspace::simd::avx2
-
-#undef TSPACE_ROWS

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #define TSPACE_ROWS [[gnu::always_inline]]
 
@@ -40,24 +41,11 @@ inline Floats join(const Doubles* parts) {
     return {_mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(parts[0].v)), _mm512_cvtpd_ps(parts[1].v), 1)};
 }
 
-template <int kA, int kB, int kC, int kD>
-inline FloatVector inFours(FloatVector x, FloatVector y) {
-    constexpr int a = kA + kA / 4 * 12, b = kB + kB / 4 * 12, c = kC + kC / 4 * 12, d = kD + kD / 4 * 12;
-    return __builtin_shufflevector(x, y, a, b, c, d, a + 4, b + 4, c + 4, d + 4, a + 8, b + 8, c + 8, d + 8, a + 12,
-                                   b + 12, c + 12, d + 12);
-}
-inline constexpr Quads<0, 1, 2, 3> kQuads;
 inline FloatVector joinQuads(Quad a, Quad b, Quad c, Quad d) {
     const __m256 ab = _mm256_insertf128_ps(_mm256_castps128_ps256(a), b, 1);
     const __m256 cd = _mm256_insertf128_ps(_mm256_castps128_ps256(c), d, 1);
     return _mm512_insertf32x8(_mm512_castps256_ps512(ab), cd, 1);
 }
-template <std::size_t kWhich>
-inline Quad quad(FloatVector v) {
-    return _mm512_extractf32x4_ps(v, kWhich);
-}
 #include "simd/lanes_rows.h"
 
 }  // namespace tspace::simd::avx512
-
-#undef TSPACE_ROWS

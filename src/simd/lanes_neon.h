@@ -11,15 +11,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-
-#define TSPACE_ROWS
+#include <utility>
 
 namespace tspace::simd::neon {
 
 inline constexpr std::size_t kWidth = 4;
 
 #include "simd/lanes_arithmetic.h"
-#include "simd/lanes_of_four.h"
 #include "simd/lanes_rows.h"
 
 inline unsigned bitsOf(Mask m) {
@@ -56,5 +54,3 @@ inline Floats join(const Doubles* parts) {
 }
 
 }  // namespace tspace::simd::neon
-
-#undef TSPACE_ROWS

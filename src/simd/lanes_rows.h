@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Rows of four numbers to and from lanes. Included as lanes_arithmetic.h, behind all but what begins with "operator".
-// TSPACE_ROWS: what the compiler is told about these functions. A vector of lanes is 1, 2 or 4 quads; quad q has the rows
-// from 4 * q on.
+// TSPACE_ROWS: what the compiler is told about these functions. Quad q has the rows from 4 * q on.
+
+#ifndef TSPACE_ROWS
+#define TSPACE_ROWS
+#endif
 
 /// The vectors with the quads at(i), at(4 + i), ...: row i of each quad.
 template <class At, std::size_t... kQuad>
-inline FloatVector quadsAt(const At& at, std::size_t i, Quads<kQuad...>) {
+inline FloatVector quadsAt(const At& at, std::size_t i, std::index_sequence<kQuad...>) {
     return joinQuads(at(4 * kQuad + i)...);
 }
 inline FloatVector lowPairs(FloatVector a, FloatVector b) { return inFours<0, 1, 4, 5>(a, b); }
@@ -36,7 +39,7 @@ inline void splitPairsAt(const At& at, Floats& x, Floats& y) {
     y = {inFours<1, 3, 5, 7>(ab, cd)};
 }
 template <std::size_t kStep, std::size_t... kQuad>
-inline void storeQuads(float* rows, const FloatVector (&r)[4], Quads<kQuad...>) {
+inline void storeQuads(float* rows, const FloatVector (&r)[4], std::index_sequence<kQuad...>) {
     const auto store = [&](float* to, Quad a, Quad b, Quad c, Quad d) {
         storeQuad(to, a);
         storeQuad(to + kStep, b);
@@ -46,7 +49,7 @@ inline void storeQuads(float* rows, const FloatVector (&r)[4], Quads<kQuad...>) 
     (store(rows + 4 * kStep * kQuad, quad<kQuad>(r[0]), quad<kQuad>(r[1]), quad<kQuad>(r[2]), quad<kQuad>(r[3])), ...);
 }
 template <std::size_t kStep, std::size_t... kQuad>
-inline void storeQuadPairs(float* rows, FloatVector low, FloatVector high, Quads<kQuad...>) {
+inline void storeQuadPairs(float* rows, FloatVector low, FloatVector high, std::index_sequence<kQuad...>) {
     const auto store = [](float* to, Quad pairs) {
         storeTwo(to, reinterpret_cast<TwoDoubles>(pairs)[0]);
         storeTwo(to + kStep, reinterpret_cast<TwoDoubles>(pairs)[1]);
@@ -119,3 +122,5 @@ inline void loadDoubleRows(const double* rows, Doubles& x, Doubles& y, Doubles& 
     z = {reinterpret_cast<DoubleVector>(lowPairs(r[1], r[3]))};
     w = {reinterpret_cast<DoubleVector>(highPairs(r[1], r[3]))};
 }
+
+#undef TSPACE_ROWS

@@ -13,15 +13,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-
-#define TSPACE_ROWS
+#include <utility>
 
 namespace tspace::simd::scalar {
 
 inline constexpr std::size_t kWidth = 4;
 
 #include "simd/lanes_arithmetic.h"
-#include "simd/lanes_of_four.h"
 #include "simd/lanes_rows.h"
 
 inline unsigned bitsOf(Mask m) {
@@ -59,5 +57,3 @@ inline Floats join(const Doubles* parts) {
 }
 
 }  // namespace tspace::simd::scalar
-
-#undef TSPACE_ROWS

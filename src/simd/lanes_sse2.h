@@ -7,15 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-
-#define TSPACE_ROWS
+#include <utility>
 
 namespace tspace::simd::sse2 {
 
 inline constexpr std::size_t kWidth = 4;
 
 #include "simd/lanes_arithmetic.h"
-#include "simd/lanes_of_four.h"
 #include "simd/lanes_rows.h"
 
 inline unsigned bitsOf(Mask m) { return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(m.v))); }
@@ -44,5 +42,3 @@ inline Doubles part(Floats a, std::size_t which) { return {_mm_cvtps_pd(which ==
 inline Floats join(const Doubles* parts) { return {_mm_movelh_ps(_mm_cvtpd_ps(parts[0].v), _mm_cvtpd_ps(parts[1].v))}; }
 
 }  // namespace tspace::simd::sse2
-
-#undef TSPACE_ROWS

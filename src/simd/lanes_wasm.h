@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 // Programs are compiled for size, and then Clang calls functions of one instruction. What moves rows has many long ones:
 // it is called, but for the kernels that are compiled for speed.
@@ -26,7 +27,6 @@ inline constexpr std::size_t kWidth = 4;
 
 #pragma clang attribute push(__attribute__((always_inline)), apply_to = function)
 #include "simd/lanes_arithmetic.h"
-#include "simd/lanes_of_four.h"
 
 inline v128_t wasmOf(Floats a) { return reinterpret_cast<v128_t>(a.v); }
 inline v128_t wasmOf(Doubles a) { return reinterpret_cast<v128_t>(a.v); }
@@ -67,5 +67,3 @@ inline Floats join(const Doubles* parts) {
 #include "simd/lanes_rows.h"
 
 }  // namespace tspace::simd::wasm
-
-#undef TSPACE_ROWS
