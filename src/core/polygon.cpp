@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/unit.h"
 #include "core/vec_math.h"
@@ -42,29 +43,22 @@ int compare(float a, float b) {
 /// A NaN or infinite length is longer than any other.
 double orderedLength(double length2) { return length2 < std::numeric_limits<double>::infinity() ? length2 : HUGE_VAL; }
 
-/// What lies to the left of the line a -> b, or no further from it than a distance to the right of it.
+/// What lies to the left of the line a -> b, but for points no further than `slack` from it.
 class LeftSide {
   public:
-    LeftSide(PlanePoint a, PlanePoint b) : a_(a), x_(b.x - a.x), y_(b.y - a.y) {}
+    LeftSide(PlanePoint a, PlanePoint b, double slack)
+        : a_(a), x_(b.x - a.x), y_(b.y - a.y), margin_(slack * std::sqrt(x_ * x_ + y_ * y_)) {}
 
-    /// Whether c is more than `slack` away from the line, to its left.
-    [[nodiscard]] bool isFar(PlanePoint c, double slack) const {
-        const double distance = across(c);
-        return distance > 0 && distance - slack * length() > 0;
-    }
-    /// Whether c is to the left, or not more than `slack` away.
-    [[nodiscard]] bool isNear(PlanePoint c, double slack) const {
-        const double distance = across(c);
-        return distance >= 0 || distance + slack * length() >= 0;
-    }
+    [[nodiscard]] bool has(PlanePoint c) const { return across(c) > margin_; }
+    /// The same, with the points near the line.
+    [[nodiscard]] bool hasOrTouches(PlanePoint c) const { return across(c) >= -margin_; }
 
   private:
-    /// Distance of c from the line, times `length()`; positive to its left. Twice the area of the triangle.
+    /// Distance of c from the line, times the length of a -> b; positive to its left.
     [[nodiscard]] double across(PlanePoint c) const { return x_ * (c.y - a_.y) - y_ * (c.x - a_.x); }
-    [[nodiscard]] double length() const { return std::sqrt(x_ * x_ + y_ * y_); }
 
     PlanePoint a_;
-    double x_, y_;
+    double x_, y_, margin_;
 };
 
 /// Vertices are numbered in canonical order here.
@@ -90,7 +84,7 @@ class Cutter {
         for (std::uint32_t v = 0; v < count_; ++v) vertices_[v].position = toDouble(corner_positions_[original(v)]);
         projectToPlane();
         link();
-        findReflex();
+        for (std::uint32_t v = 0; v < count_; ++v) noteReflex(v);
         startTournament();
         std::uint32_t any_left = 0;
         for (std::uint32_t left = count_; left > 3; --left) {
@@ -193,21 +187,15 @@ class Cutter {
         for (std::uint32_t v = 0; v < count_; ++v) {
             vertices_[v].previous = v - 1;
             vertices_[v].next = v + 1;
+            vertices_[v].is_reflex = false;
         }
         vertices_[0].previous = count_ - 1;
         vertices_[count_ - 1].next = 0;
     }
 
-    void findReflex() {
-        for (std::uint32_t v = 0; v < count_; ++v) {
-            vertices_[v].is_reflex = !isConvex(v);
-            if (is_tested_ && vertices_[v].is_reflex) reflex_[reflex_count_++] = v;
-        }
-    }
-
     [[nodiscard]] bool isConvex(std::uint32_t v) const {
-        const LeftSide side(vertices_[vertices_[v].next].point, vertices_[vertices_[v].previous].point);
-        return side.isFar(vertices_[v].point, on_line_);
+        const PlanePoint after = vertices_[vertices_[v].next].point, before = vertices_[vertices_[v].previous].point;
+        return LeftSide(after, before, on_line_).has(vertices_[v].point);
     }
 
     void noteReflex(std::uint32_t v) {
@@ -230,13 +218,13 @@ class Cutter {
         if (reflex_count_ == 0) return false;
         const std::uint32_t before = vertices_[v].previous, after = vertices_[v].next;
         const PlanePoint a = vertices_[before].point, b = vertices_[v].point, c = vertices_[after].point;
-        const LeftSide ab(a, b), bc(b, c), ca(c, a);
+        const LeftSide ab(a, b, on_line_), bc(b, c, on_line_), ca(c, a, on_line_);
         const auto isAt = [](PlanePoint p, PlanePoint q) { return p.x == q.x && p.y == q.y; };
         return std::any_of(reflex_, reflex_ + reflex_count_, [&](std::uint32_t r) {
             if (r == before || r == after) return false;
             const PlanePoint p = vertices_[r].point;
-            return ab.isNear(p, on_line_) && bc.isNear(p, on_line_) && ca.isNear(p, on_line_) && !isAt(p, a) &&
-                   !isAt(p, b) && !isAt(p, c);
+            return ab.hasOrTouches(p) && bc.hasOrTouches(p) && ca.hasOrTouches(p) && !isAt(p, a) && !isAt(p, b) &&
+                   !isAt(p, c);
         });
     }
 
@@ -256,19 +244,14 @@ class Cutter {
     [[nodiscard, gnu::noinline]] bool isBeforeOfSameOrder(std::uint32_t v, std::uint32_t w) const {
         const double uv_v = lengthInUv(v), uv_w = lengthInUv(w);
         if (uv_v != uv_w) return uv_v < uv_w;
-        struct Ends {
-            std::uint32_t lesser, greater;
-        };
-        const auto compareAt = [&](std::uint32_t a, std::uint32_t b) {
-            return compareCorners(original(a), original(b));
-        };
         const auto endsOf = [&](std::uint32_t ear) {
-            const std::uint32_t a = vertices_[ear].previous, b = vertices_[ear].next;
-            return compareAt(a, b) <= 0 ? Ends{a, b} : Ends{b, a};
+            const std::uint32_t a = original(vertices_[ear].previous), b = original(vertices_[ear].next);
+            return compareCorners(a, b) <= 0 ? std::pair(a, b) : std::pair(b, a);
         };
-        const Ends of_v = endsOf(v), of_w = endsOf(w);
-        if (int c = compareAt(of_v.lesser, of_w.lesser); c != 0) return c < 0;
-        if (int c = compareAt(of_v.greater, of_w.greater); c != 0) return c < 0;
+        const auto [lesser_v, greater_v] = endsOf(v);
+        const auto [lesser_w, greater_w] = endsOf(w);
+        if (int c = compareCorners(lesser_v, lesser_w); c != 0) return c < 0;
+        if (int c = compareCorners(greater_v, greater_w); c != 0) return c < 0;
         return v < w;
     }
 
@@ -313,29 +296,22 @@ class Cutter {
 
 }  // namespace
 
-void cutPolygon(const Vec3* positions, const Vec2* uvs, std::uint32_t count, std::uint32_t* triangles,
-                [[maybe_unused]] PolygonScratch& scratch) {
-    if (count < 3) return;
-    if (count == 3) {
-        for (std::uint32_t k = 0; k < 3; ++k) triangles[k] = k;
+void FaceCutter::cutOther(std::size_t first, std::uint32_t size, std::uint32_t* corners) {
+    if (size == 3) {
+        for (std::size_t k = 0; k < 3; ++k) corners[k] = static_cast<std::uint32_t>(first + k);
         return;
     }
-    if (count == 4) return cutQuad(positions, uvs, 0, triangles);
 #ifndef TSPACE_MIKKTSPACE_ONLY  // which skips n-gons
-    Cutter(positions, uvs, count, scratch).cut(triangles);
-#endif
-}
-
-void FaceCutter::cutOther(std::size_t first, std::uint32_t size, std::uint32_t* corners) {
     positions_.clear();
     uvs_.clear();
-    for (std::size_t c = first; size > 3 && c < first + size; ++c) {
+    for (std::size_t c = first; c < first + size; ++c) {
         const std::uint32_t vertex = mesh_.indices[c];
         positions_.push_back(mesh_.positions[vertex]);
         if (!mesh_.uvs.empty()) uvs_.push_back(mesh_.uvs[vertex]);
     }
-    cutPolygon(positions_.data(), uvs_.empty() ? nullptr : uvs_.data(), size, corners, scratch_);
+    Cutter(positions_.data(), uvs_.empty() ? nullptr : uvs_.data(), size, scratch_).cut(corners);
     for (std::size_t i = 0; i < 3 * (std::size_t{size} - 2); ++i) corners[i] += static_cast<std::uint32_t>(first);
+#endif
 }
 
 }  // namespace tspace

@@ -49,23 +49,18 @@ struct PolygonVertex {
     bool is_reflex;
 };
 
-/// Memory that cutPolygon reuses from call to call: lists that only grow.
+/// Memory that is used again from face to face: lists that only grow.
 struct PolygonScratch {
     std::vector<PolygonVertex> vertices;
     std::vector<std::uint32_t> reflex;  ///< vertices that may lie in an ear: those that are not convex
     std::vector<std::uint32_t> tree;    ///< a tournament of them
 };
 
-/// Cuts a polygon of `count` >= 3 vertices into count - 2 triangles: writes 3 * (count - 2) local vertex
-/// numbers, winding kept. `uvs` may be null.
-void cutPolygon(const Vec3* positions, const Vec2* uvs, std::uint32_t count, std::uint32_t* triangles,
-                PolygonScratch& scratch);
-
 /// Cuts the faces of a mesh, one after the other, with the same memory.
 class FaceCutter {
   public:
     explicit FaceCutter(const MeshView& mesh) : mesh_(mesh) {}
-    /// The face of `size` >= 3 corners from `first` on: writes 3 * (size - 2) corners of the mesh.
+    /// The face of `size` >= 3 corners from `first` on: writes 3 * (size - 2) corners of the mesh, winding kept.
     void cut(std::size_t first, std::uint32_t size, std::uint32_t* corners) {
         if (size != 4) return cutOther(first, size, corners);
         Vec3 positions[4];

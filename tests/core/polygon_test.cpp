@@ -18,10 +18,11 @@ namespace {
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 Triangles cut(const std::vector<Vec3>& positions, const std::vector<Vec2>& uvs = {}) {
-    PolygonScratch scratch;
+    MeshView mesh;
+    mesh.positions = positions;
+    mesh.uvs = uvs;
     Triangles triangles(positions.size() - 2);
-    cutPolygon(positions.data(), uvs.empty() ? nullptr : uvs.data(), static_cast<std::uint32_t>(positions.size()),
-               triangles.front().data(), scratch);
+    FaceCutter(mesh).cut(0, static_cast<std::uint32_t>(positions.size()), triangles.front().data());
     return triangles;
 }
 
