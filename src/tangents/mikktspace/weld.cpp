@@ -148,14 +148,15 @@ class CornerData final : public Weldable {
     std::atomic<bool> all_finite_{true}, mixed_{false};
 };
 
-/// Numbers the nodes by their first vertices.
+/// Numbers the nodes by their first vertices. Without branches: which vertex is the first is in no order.
 void numberNodes(Buffer<std::uint32_t> root_of, Nodes& nodes) {
     std::uint32_t next = 0;
     for (std::size_t v = 0; v < root_of.size(); ++v) {
         const std::uint32_t root = root_of[v];
         const std::uint32_t node = root_of[root];  // a node already, but for the first vertex itself
-        root_of[v] = root == v ? next : node;
-        next += root == v ? 1 : 0;
+        const std::uint32_t is_first = root == v ? 1 : 0;
+        root_of[v] = node + is_first * (next - node);
+        next += is_first;
     }
     if (next == root_of.size()) return;
     nodes.count = next;
@@ -207,8 +208,10 @@ void listVertices(Nodes& nodes, const Allocator* allocator) {
     if (nodes.of_vertex.empty() || !nodes.vertices.empty()) return;
     nodes.vertices = Buffer<std::uint32_t>(allocator, nodes.count);
     std::uint32_t next = 0;
-    for (std::size_t v = 0; v < nodes.of_vertex.size(); ++v) {
-        if (nodes.of_vertex[v] == next) nodes.vertices[next++] = static_cast<std::uint32_t>(v);
+    std::uint32_t* const vertices = nodes.vertices.data();
+    for (std::size_t v = 0; next < nodes.count; ++v) {
+        vertices[next] = static_cast<std::uint32_t>(v);  // until the first one of the node stands there
+        next += nodes.of_vertex[v] == next ? 1 : 0;
     }
 }
 
