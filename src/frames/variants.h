@@ -59,22 +59,24 @@ inline std::uint64_t cellOf(float value, float tolerance) {
     return static_cast<std::uint64_t>(towards_zero - (static_cast<double>(towards_zero) > cells ? 1 : 0));
 }
 
+[[gnu::noinline]] inline void resizeAtOnce(std::vector<std::uint32_t>& values, std::size_t count, std::size_t capacity,
+                                           std::uint32_t value) {
+    values.reserve(capacity);
+    askForPages(values.data(), count * sizeof(std::uint32_t));
+    values.resize(count, value);
+}
+
 class Variants {
   public:
-    /// `result` needs the first corner of each vertex in source_corners before prepare(). It gets the copies; its
+    /// `result` needs a first corner in source_corners for each vertex that is asked for. It gets the copies; its
     /// source_vertices serve as links between variants and are to be written when all corners are done.
     Variants(std::span<const CornerAttribute> attributes, SplitResult& result)
         : attributes_(attributes), corners_(result.source_corners), next_(result.source_vertices) {}
 
-    void prepare() {
-        next_.reserve(corners_.capacity());
-        askForPages(next_.data(), corners_.size() * sizeof(std::uint32_t));
-        next_.assign(corners_.size(), kNoVariant);
-    }
-
     /// The new vertex for a corner of `vertex` that differs from its first corner: its earliest variant that equals
     /// the corner, made if there is none.
     std::uint32_t variantOf(std::uint32_t corner, std::uint32_t vertex) {
+        if (next_.empty()) resizeAtOnce(next_, corners_.size(), corners_.capacity(), kNoVariant);
         std::uint32_t variant = vertex;
         for (std::uint32_t scanned = 1; scanned < kScannedVariants; ++scanned) {
             if (next_[variant] == kNoVariant) {
