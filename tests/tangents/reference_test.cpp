@@ -107,7 +107,7 @@ Faces addSoup(Dice& dice, Shape& shape, int position_kind, int normal_kind, int 
 Shape randomShape(Dice& dice, bool strange) {
     Shape shape;
     const int position_kind = strange ? 4 : dice.below(4);
-    const int normal_kind = strange ? 2 + 2 * dice.below(2) : dice.below(3);
+    const int normal_kind = strange ? 2 + 2 * dice.below(2) : dice.below(4);
     const int uv_kind = strange ? 1 + 3 * dice.below(2) : dice.below(4);
     Faces faces = dice.below(4) == 0 ? addSheet(dice, shape, normal_kind)
                                      : addSoup(dice, shape, position_kind, normal_kind, uv_kind);
