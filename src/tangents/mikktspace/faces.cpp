@@ -85,9 +85,8 @@ TriangleList cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* alloca
     return list;
 }
 
-const std::uint32_t* readTriangles(const MeshView& mesh, const TriangleList& triangles, std::size_t first,
-                                   std::size_t count, std::uint32_t* buffer) {
-    if (triangles.corners.empty()) return readIndices(mesh.indices, 3 * first, 3 * count, buffer);
+const std::uint32_t* readCutTriangles(const MeshView& mesh, const TriangleList& triangles, std::size_t first,
+                                      std::size_t count, std::uint32_t* buffer) {
     const std::uint32_t* corners = triangles.corners.data() + 3 * first;
     withIndices(mesh.indices, [&](auto vertexOf) {
         for (std::size_t i = 0; i < 3 * count; ++i) buffer[i] = vertexOf(corners[i]);

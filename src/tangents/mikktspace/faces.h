@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/memory.h"
+#include "core/mesh_loops.h"
 #include "tspace/tangents.h"
 
 namespace tspace::mikk {
@@ -25,8 +26,15 @@ struct TriangleList {
 
 TriangleList cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator);
 
+/// Where faces were cut.
+const std::uint32_t* readCutTriangles(const MeshView& mesh, const TriangleList& triangles, std::size_t first,
+                                      std::size_t count, std::uint32_t* buffer);
+
 /// The vertices of the triangles [first, first + count), three each: where they lie, or in `buffer`.
-const std::uint32_t* readTriangles(const MeshView& mesh, const TriangleList& triangles, std::size_t first,
-                                   std::size_t count, std::uint32_t* buffer);
+inline const std::uint32_t* readTriangles(const MeshView& mesh, const TriangleList& triangles, std::size_t first,
+                                          std::size_t count, std::uint32_t* buffer) {
+    if (triangles.corners.empty()) return readIndices(mesh.indices, 3 * first, 3 * count, buffer);
+    return readCutTriangles(mesh, triangles, first, count, buffer);
+}
 
 }  // namespace tspace::mikk

@@ -135,49 +135,44 @@ class Cell {
     const Found& found_;
 };
 
-class GridOrder {
-  public:
-    GridOrder(const WeldedMesh& welded, std::span<const std::uint32_t> vertices, std::uint32_t* representatives,
-              const Allocator* allocator, Parallel& parallel)
-        : in_(welded),
-          vertices_(vertices),
-          representatives_(representatives),
-          allocator_(allocator),
-          parallel_(parallel) {}
+struct GridOrder {
+    const WeldedMesh& in;
+    std::span<const std::uint32_t> wanted;
+    std::uint32_t* representatives;
+    const Allocator* allocator;
+    Parallel& parallel;
 
     Buffer<std::uint32_t> find() {
         Buffer<std::uint32_t> found;
-        if (in_.triangles.count == 0) return found;
-        for (const std::uint32_t v : vertices_) representatives_[in_.nodes.ofVertex(v)] = kWanted;
+        if (in.triangles.count == 0) return found;
+        for (const std::uint32_t v : wanted) representatives[in.nodes.ofVertex(v)] = kWanted;
         // The box of all vertices is made much faster than that of the list, and does for us when vertices on both ends
         // of its longest axis are in the list: that of the list may be shorter on other axes only, and so has the same
         // longest one.
-        if (in_.triangles.corner(0) != 0 || !findIn(boxOfVertices(), true, found)) findIn(boxOfList(), false, found);
-        for (const std::uint32_t v : vertices_) {
-            std::uint32_t& representative = representatives_[in_.nodes.ofVertex(v)];
+        if (in.triangles.corner(0) != 0 || !findIn(boxOfVertices(), true, found)) findIn(boxOfList(), false, found);
+        for (const std::uint32_t v : wanted) {
+            std::uint32_t& representative = representatives[in.nodes.ofVertex(v)];
             if (representative == kWanted) representative = kNone;  // without corners
         }
         return found;
     }
 
-  private:
     /// What the reference computes: the box of the corner list but for its first entry, starting from corner 0 of the
     /// mesh.
     [[nodiscard]] Box boxOfList() const {
-        Box box(loadVec3(in_.mesh.positions[in_.mesh.indices[0]]));
-        for (std::size_t i = 1; i < 3 * in_.triangles.count; ++i)
-            box.add(loadVec3(in_.mesh.positions[in_.vertexAt(i)]));
+        Box box(loadVec3(in.mesh.positions[in.mesh.indices[0]]));
+        for (std::size_t i = 1; i < 3 * in.triangles.count; ++i) box.add(loadVec3(in.mesh.positions[in.vertexAt(i)]));
         return box;
     }
 
     [[nodiscard]] Box boxOfVertices() const {
-        const std::size_t count = in_.mesh.vertexCount(), parts = (count + kVertexGrain - 1) / kVertexGrain;
-        Box whole(loadVec3(in_.mesh.positions[in_.mesh.indices[0]]));
-        Buffer<Box> boxes(allocator_, parts, whole);
-        parallel_.forTasks(parts, [&](std::size_t part) {
+        const std::size_t count = in.mesh.vertexCount(), parts = (count + kVertexGrain - 1) / kVertexGrain;
+        Box whole(loadVec3(in.mesh.positions[in.mesh.indices[0]]));
+        Buffer<Box> boxes(allocator, parts, whole);
+        parallel.forTasks(parts, [&](std::size_t part) {
             Box box = whole;
             const std::size_t end = std::min((part + 1) * kVertexGrain, count);
-            for (std::size_t v = part * kVertexGrain; v < end; ++v) box.add(loadVec3(in_.mesh.positions[v]));
+            for (std::size_t v = part * kVertexGrain; v < end; ++v) box.add(loadVec3(in.mesh.positions[v]));
             boxes[part] = box;
         });
         for (const Box& box : boxes) whole.add(box);
@@ -196,14 +191,14 @@ class GridOrder {
         };
         std::array<std::uint16_t, kCells> numbers = {};
         std::uint16_t cell_count = 0;
-        for (const std::uint32_t v : vertices_) {
-            const Mask4 cell = cellsOf(splat(component(in_.mesh.positions[v], axis)));
+        for (const std::uint32_t v : wanted) {
+            const Mask4 cell = cellsOf(splat(component(in.mesh.positions[v], axis)));
             std::uint16_t& number = numbers[static_cast<std::size_t>(cell[0])];
             if (number == 0) number = ++cell_count;
         }
-        Buffer<std::uint16_t> marks(allocator_, in_.mesh.vertexCount());
-        parallel_.forRanges(marks.size(), kVertexGrain, [&](std::size_t begin, std::size_t end) {
-            const auto at = [=, positions = in_.mesh.positions](std::size_t v) {
+        Buffer<std::uint16_t> marks(allocator, in.mesh.vertexCount());
+        parallel.forRanges(marks.size(), kVertexGrain, [&](std::size_t begin, std::size_t end) {
+            const auto at = [=, positions = in.mesh.positions](std::size_t v) {
                 return component(positions[std::min(v, end - 1)], axis);
             };
             for (std::size_t v = begin; v < end; v += 4) {
@@ -215,8 +210,8 @@ class GridOrder {
         });
         std::atomic<std::uint32_t> any{0};
         found = collectTriangles(
-            in_.mesh, in_.triangles, [mark = marks.data()](std::uint32_t vertex) { return mark[vertex]; }, kNumber,
-            allocator_, parallel_, &any);
+            in.mesh, in.triangles, [mark = marks.data()](std::uint32_t vertex) { return mark[vertex]; }, kNumber,
+            allocator, parallel, &any);
         if (if_listed && ((any & kAtLow) == 0 || (any & kAtHigh) == 0)) return false;
         followCells(found, marks.data(), cell_count);
         return true;
@@ -224,43 +219,36 @@ class GridOrder {
 
     /// Cells share nothing: a node lies in one of them.
     void followCells(const Buffer<std::uint32_t>& found, const std::uint16_t* marks, std::size_t cells) {
-        const auto forEachEntry = [&](const auto& body) {
-            for (const std::uint32_t t : found) {
-                std::uint32_t buffer[3];
-                const std::uint32_t* vertices = readTriangles(in_.mesh, in_.triangles, t, 1, buffer);
-                for (std::uint32_t k = 0; k < 3; ++k) {
-                    const std::size_t number = marks[vertices[k]] & kNumber;
-                    if (number != 0) body(vertices[k], 3 * t + k, number);
-                }
-            }
-        };
-        std::array<std::uint32_t, kCells + 2> begin;  // one up, first how many each has
+        // The first entry of each one up, first how many each has. Number 0 is none.
+        std::array<std::uint32_t, kCells + 2> begin;
         std::fill_n(begin.data(), cells + 2, 0u);
-        forEachEntry([&](std::uint32_t, std::uint32_t, std::size_t number) { ++begin[number + 1]; });
+        std::uint32_t buffer[3];
+        for (const std::uint32_t t : found) {
+            const std::uint32_t* vertices = readTriangles(in.mesh, in.triangles, t, 1, buffer);
+            for (std::size_t k = 0; k < 3; ++k) ++begin[(marks[vertices[k]] & kNumber) + 1];
+        }
+        begin[1] = 0;
         for (std::size_t number = 1; number <= cells; ++number) begin[number + 1] += begin[number];
-        Buffer<CellElement> elements(allocator_, begin[cells + 1]);
-        forEachEntry([&](std::uint32_t vertex, std::uint32_t entry, std::size_t number) {
-            const bool is_wanted = representatives_[in_.nodes.ofVertex(vertex)] == kWanted;
-            elements[begin[number]++] = {in_.mesh.positions[vertex], is_wanted ? entry | kTopBit : entry};
-        });
-        const auto name = [&](std::uint32_t entry) {
-            representatives_[in_.nodeAt(entry)] = in_.triangles.corner(entry);
-        };
+        Buffer<CellElement> elements(allocator, begin[cells + 1]);
+        for (const std::uint32_t t : found) {
+            const std::uint32_t* vertices = readTriangles(in.mesh, in.triangles, t, 1, buffer);
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const std::uint32_t number = marks[vertices[k]] & kNumber, entry = 3 * t + k;
+                if (number == 0) continue;
+                const bool is_wanted = representatives[in.nodes.ofVertex(vertices[k])] == kWanted;
+                elements[begin[number]++] = {in.mesh.positions[vertices[k]], is_wanted ? entry | kTopBit : entry};
+            }
+        }
+        const auto name = [&](std::uint32_t entry) { representatives[in.nodeAt(entry)] = in.triangles.corner(entry); };
         constexpr std::size_t kElements = 4096;  // for a thread: fewer are done sooner than one is started
         const std::size_t grain = 1 + cells * kElements / (elements.size() + 1);
-        parallel_.forRanges(cells, grain, [&](std::size_t first, std::size_t last) {
+        parallel.forRanges(cells, grain, [&](std::size_t first, std::size_t last) {
             for (std::size_t cell = first; cell < last; ++cell) {
                 const std::size_t size = begin[cell + 1] - begin[cell];
                 if (size != 0) Cell({elements.data() + begin[cell], size}, name).run();
             }
         });
     }
-
-    const WeldedMesh& in_;
-    std::span<const std::uint32_t> vertices_;
-    std::uint32_t* representatives_;
-    const Allocator* allocator_;
-    Parallel& parallel_;
 };
 
 }  // namespace
@@ -268,7 +256,7 @@ class GridOrder {
 Buffer<std::uint32_t> findRepresentatives(const WeldedMesh& welded, std::span<const std::uint32_t> vertices,
                                           std::uint32_t* representatives, const Allocator* allocator,
                                           Parallel& parallel) {
-    return GridOrder(welded, vertices, representatives, allocator, parallel).find();
+    return GridOrder{welded, vertices, representatives, allocator, parallel}.find();
 }
 
 }  // namespace tspace::mikk

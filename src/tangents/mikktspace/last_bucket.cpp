@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <functional>
 #include <span>
 #include <utility>
@@ -44,54 +43,38 @@ struct Record {
 
 /// Replays the quicksort as far as it moves records with the largest key. Returns false when the budget is
 /// spent.
-class EdgeSort {
-  public:
-    EdgeSort(std::span<Record> records, std::uint32_t largest) : records_(records), largest_(largest) {}
-
-    [[gnu::cold]] bool run(const Allocator* allocator) {
-        struct Range {
-            std::int64_t begin, last;
-            std::uint32_t seed;
-        };
-        Growing<Range> waiting(allocator);
-        waiting.push({0, static_cast<std::int64_t>(records_.size()) - 1, kSeed});
-        std::uint64_t steps = kStepsPerElement * records_.size() + 1024;
-        while (!waiting.empty()) {
-            const auto [begin, last, old_seed] = waiting[waiting.size() - 1];
-            waiting.drop(1);
-            if (last <= begin) continue;
-            const auto size = static_cast<std::uint64_t>(last - begin + 1);
-            if (size > steps) return false;
-            steps -= size;
-            if (size == 2) {
-                if (key(begin) > key(last)) std::swap(record(begin), record(last));
-                continue;
-            }
-            const std::uint32_t seed = old_seed + std::rotl(old_seed, static_cast<int>(old_seed & 31)) + 3;
-            std::int64_t i = begin, j = last;
-            const std::uint32_t pivot = key(begin + static_cast<std::int64_t>(seed % size));
-            partition(i, j, pivot);
-            if (pivot == largest_) waiting.push({begin, j, seed});
-            waiting.push({i, last, seed});
+[[gnu::cold]] bool sortRecords(Record* records, std::size_t count, std::uint32_t largest, const Allocator* allocator) {
+    struct Range {
+        std::int64_t begin, last;
+        std::uint32_t seed;
+    };
+    Growing<Range> waiting(allocator);
+    waiting.push({0, static_cast<std::int64_t>(count) - 1, kSeed});
+    std::uint64_t steps = kStepsPerElement * count + 1024;
+    while (!waiting.empty()) {
+        auto [i, j, seed] = waiting[waiting.size() - 1];
+        waiting.drop(1);
+        if (j <= i) continue;
+        const auto begin = i, last = j;
+        const auto size = static_cast<std::uint64_t>(last - begin + 1);
+        if (size > steps) return false;
+        steps -= size;
+        if (size == 2) {
+            if (records[begin].key > records[last].key) std::swap(records[begin], records[last]);
+            continue;
         }
-        return true;
-    }
-
-  private:
-    Record& record(std::int64_t i) { return records_[static_cast<std::size_t>(i)]; }
-    std::uint32_t key(std::int64_t i) { return record(i).key; }
-
-    void partition(std::int64_t& i, std::int64_t& j, std::uint32_t pivot) {
+        seed += std::rotl(seed, static_cast<int>(seed & 31)) + 3;
+        const std::uint32_t pivot = records[begin + static_cast<std::int64_t>(seed % size)].key;
         do {
-            while (key(i) < pivot) ++i;
-            while (key(j) > pivot) --j;
-            if (i <= j) std::swap(record(i++), record(j--));
+            while (records[i].key < pivot) ++i;
+            while (records[j].key > pivot) --j;
+            if (i <= j) std::swap(records[i++], records[j--]);
         } while (i <= j);
+        if (pivot == largest) waiting.push({begin, j, seed});
+        waiting.push({i, last, seed});
     }
-
-    std::span<Record> records_;
-    std::uint32_t largest_;
-};
+    return true;
+}
 
 /// One half-edge of the last bucket.
 struct BucketEdge {
@@ -109,21 +92,23 @@ struct BucketEdge {
     });
 }
 
+std::uint32_t middle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
 class BucketFinder {
   public:
     BucketFinder(const WeldedMesh& welded, const Allocator* allocator, Parallel& parallel)
         : in_(welded),
           allocator_(allocator),
           parallel_(parallel),
-          representatives_(allocator, welded.nodes.count),
-          bucket_(allocator) {
-        std::memset(representatives_.data(), 0xff, welded.nodes.count * sizeof(std::uint32_t));
-    }
+          representatives_(allocator, welded.nodes.count, kNone),
+          bucket_(allocator) {}
 
     /// `kept`: for the result.
     LastBucket run(const Allocator* kept) {
         LastBucket result;
-        if (!hasNodeOfThree()) return result;
+        if (!mayMatter()) return result;
         findBucket();
         if (!orderMatters()) return result;
         pairUp(&BucketEdge::usual);
@@ -141,10 +126,7 @@ class BucketFinder {
         std::uint32_t vertices[3], nodes[3];
         std::uint32_t corners[3];  // representatives one up, and 0 where they are not known
         /// The largest key of its edges.
-        [[nodiscard]] std::uint32_t key() const {
-            const auto [a, b, c] = corners;
-            return std::max(std::min(a, b), std::min(std::max(a, b), c));
-        }
+        [[nodiscard]] std::uint32_t key() const { return middle(corners[0], corners[1], corners[2]); }
     };
 
     [[nodiscard]] Triangle triangle(std::size_t t) const {
@@ -164,18 +146,43 @@ class BucketFinder {
         return !(at(0) == at(1) || at(1) == at(2) || at(2) == at(0));
     }
 
-    /// Whether some node has three corners. All edges of the bucket meet at one node, and a triangle has at most one of
-    /// them: between the higher ends of two would be an edge with a larger key. Of two edges the order does not matter.
-    [[nodiscard]] bool hasNodeOfThree() const {
-        Marks counts = noMarks(allocator_, in_.nodes.count);
-        std::uint32_t buffer[kBlockCorners], most = 0;
-        for (std::size_t first = 0; most < 3 && first < in_.triangles.count; first += kCollectBlock) {
-            const std::size_t count = std::min(kCollectBlock, in_.triangles.count - first);
-            const std::uint32_t* vertices = readTriangles(in_.mesh, in_.triangles, first, count, buffer);
-            for (std::size_t i = 0; most < 3 && i < 3 * count; ++i)
-                most = std::max<std::uint32_t>(most, ++counts[in_.nodes.ofVertex(vertices[i])]);
+    /// Whether three edges of the bucket may be at one node. All meet at one, and a triangle has at most one of them: between
+    /// the higher ends of two would be an edge with a larger key. Of two edges the order does not matter.
+    [[nodiscard]] bool mayMatter() const {
+        const std::size_t count = in_.triangles.count;
+        Marks edges = noMarks(allocator_, in_.nodes.count);
+        std::uint32_t room[kBlockCorners], last[kBlockCorners] = {}, known = 0;
+        for (std::size_t first = 0; first < count; first += kCollectBlock) {
+            const std::size_t size = 3 * std::min(kCollectBlock, count - first);
+            const std::uint32_t* nodes = readTriangles(in_.mesh, in_.triangles, first, size / 3, room);
+            nodes = in_.nodes.ofVertices(nodes, size, room);
+            if (count <= kCollectBlock && in_.nodes.count <= kBlockCorners) known = leastKey(nodes, last);
+            for (std::size_t i = 0; i < size; ++i) {
+                const bool may = known == 0 || (last[nodes[i]] >= known && keyOf(last, nodes + i / 3 * 3) >= known);
+                if (may && ++edges[nodes[i]] == 3) return true;
+            }
         }
-        return most == 3;
+        return false;
+    }
+
+    /// The largest key when nodes have these representatives.
+    static std::uint32_t keyOf(const std::uint32_t* corners, const std::uint32_t* nodes) {
+        return middle(corners[nodes[0]], corners[nodes[1]], corners[nodes[2]]);
+    }
+
+    /// Of a small mesh: V is not below it. Representatives are between the first and the `last` corners of nodes.
+    std::uint32_t leastKey(const std::uint32_t* nodes, std::uint32_t* last) const {
+        std::uint32_t first[kBlockCorners], least = 0;
+        std::fill_n(first, in_.nodes.count, kNone);
+        for (std::size_t i = 0; i < 3 * in_.triangles.count; ++i) {
+            first[nodes[i]] = std::min(first[nodes[i]], in_.triangles.corner(i));
+            last[nodes[i]] = std::max(last[nodes[i]], in_.triangles.corner(i));
+        }
+        for (std::size_t t = in_.triangles.count; t-- > 0;) {
+            const std::uint32_t key = keyOf(first, nodes + 3 * t);
+            if (key > least && isGood(triangle(t))) least = key;
+        }
+        return least;
     }
 
     /// Where the last `length` triangles begin, or a few more: a face is not cut in two.
@@ -185,14 +192,9 @@ class BucketFinder {
         return begin;
     }
 
-    Buffer<std::uint32_t> findRepresentatives(const Buffer<std::uint32_t>& vertices) {
-        return mikk::findRepresentatives(in_, {vertices.data(), vertices.size()}, representatives_.data(), allocator_,
-                                         parallel_);
-    }
-
     /// V, and its edges.
     void findBucket() {
-        constexpr std::size_t kSmallMesh = 4096, kLastOfSmall = 8, kLast = 24;  // triangles
+        constexpr std::size_t kSmallMesh = 4096, kLastOfSmall = 6, kLast = 12;  // triangles
         constexpr std::size_t kLonger = 4;                                      // times, when that was not enough
         std::size_t length = in_.triangles.count < kSmallMesh ? kLastOfSmall : kLast;
         std::uint32_t first_corner = kNone;
@@ -204,7 +206,8 @@ class BucketFinder {
                 first_corner = std::min(first_corner, corner);
                 vertices[i] = in_.mesh.indices[corner];
             }
-            const Buffer<std::uint32_t> around = findRepresentatives(vertices);
+            const Buffer<std::uint32_t> around =
+                findRepresentatives(in_, vertices, representatives_.data(), allocator_, parallel_);
             key_ = 1;
             // Backwards, as keys mostly ascend.
             for (std::size_t i = around.size(); i-- > 0;) addEdges(around[i], triangle(around[i]));
@@ -238,7 +241,8 @@ class BucketFinder {
 
     /// Leaves the bucket in the order in which the reference meets its edges.
     [[gnu::cold]] bool sortAsReference() {
-        findRepresentatives(numbersBelow(in_.mesh.vertexCount(), allocator_));
+        findRepresentatives(in_, numbersBelow(in_.mesh.vertexCount(), allocator_), representatives_.data(), allocator_,
+                            parallel_);
         Growing<Record> records(allocator_);
         records.reserve(3 * in_.triangles.count);
         for (std::uint32_t t = 0; t < in_.triangles.count; ++t) {
@@ -250,7 +254,7 @@ class BucketFinder {
             to[1] = {std::min(b, c), 3 * t + 1};
             to[2] = {std::min(c, a), 3 * t + 2};
         }
-        if (!EdgeSort({records.begin(), records.size()}, key_).run(allocator_)) return false;
+        if (!sortRecords(records.begin(), records.size(), key_, allocator_)) return false;
         sortEdges(bucket_.begin(), bucket_.end(), false);
         Growing<BucketEdge> ordered(allocator_);
         for (std::size_t i = records.size() - bucket_.size(); i < records.size(); ++i) {
