@@ -198,15 +198,15 @@ struct GridOrder {
         }
         Buffer<std::uint16_t> marks(allocator, in.mesh.vertexCount());
         parallel.forRanges(marks.size(), kVertexGrain, [&](std::size_t begin, std::size_t end) {
-            const auto at = [=, positions = in.mesh.positions](std::size_t v) {
-                return component(positions[std::min(v, end - 1)], axis);
-            };
-            for (std::size_t v = begin; v < end; v += 4) {
-                const Float4 x{at(v), at(v + 1), at(v + 2), at(v + 3)};
+            const auto markSome = [&, positions = in.mesh.positions](std::size_t v, std::size_t count) {
+                const auto at = [&](std::size_t i) { return component(positions[v + std::min(i, count - 1)], axis); };
+                const Float4 x{at(0), at(1), at(2), at(3)};
                 const Mask4 cells = cellsOf(x), ends = ((x == low) & kAtLow) | ((x == high) & kAtHigh);
-                for (std::size_t i = 0; i < std::min<std::size_t>(4, end - v); ++i)
+                for (std::size_t i = 0; i < count; ++i)
                     marks[v + i] = static_cast<std::uint16_t>(numbers[static_cast<std::size_t>(cells[i])] | ends[i]);
-            }
+            };
+            for (; begin + 4 <= end; begin += 4) markSome(begin, 4);
+            if (begin < end) markSome(begin, end - begin);
         });
         std::atomic<std::uint32_t> any{0};
         found = collectTriangles(

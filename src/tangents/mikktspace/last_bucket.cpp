@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <functional>
 #include <span>
 #include <utility>
@@ -92,7 +93,9 @@ struct BucketEdge {
     });
 }
 
-std::uint32_t middle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+/// The largest key of a triangle's edges when nodes have these representatives.
+std::uint32_t keyOf(const std::uint32_t* nodes, const std::uint32_t* representatives) {
+    const std::uint32_t a = representatives[nodes[0]], b = representatives[nodes[1]], c = representatives[nodes[2]];
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
 
@@ -102,7 +105,7 @@ class BucketFinder {
         : in_(welded),
           allocator_(allocator),
           parallel_(parallel),
-          representatives_(allocator, welded.nodes.count, kNone),
+          representatives_(allocator, welded.nodes.count),
           bucket_(allocator) {}
 
     /// `kept`: for the result.
@@ -112,10 +115,8 @@ class BucketFinder {
         findBucket();
         if (!orderMatters()) return result;
         pairUp(&BucketEdge::usual);
-        if (!sortAsReference()) {
-            result.abandoned = true;
-            return result;
-        }
+        result.abandoned = !sortAsReference();
+        if (result.abandoned) return result;
         pairUp(&BucketEdge::partner);
         listChanges(result, kept);
         return result;
@@ -124,9 +125,6 @@ class BucketFinder {
   private:
     struct Triangle {
         std::uint32_t vertices[3], nodes[3];
-        std::uint32_t corners[3];  // representatives one up, and 0 where they are not known
-        /// The largest key of its edges.
-        [[nodiscard]] std::uint32_t key() const { return middle(corners[0], corners[1], corners[2]); }
     };
 
     [[nodiscard]] Triangle triangle(std::size_t t) const {
@@ -136,7 +134,6 @@ class BucketFinder {
         for (std::size_t k = 0; k < 3; ++k) {
             triangle.vertices[k] = vertices[k];
             triangle.nodes[k] = in_.nodes.ofVertex(vertices[k]);
-            triangle.corners[k] = representatives_[triangle.nodes[k]] + 1;
         }
         return triangle;
     }
@@ -148,9 +145,10 @@ class BucketFinder {
 
     /// Whether three edges of the bucket may be at one node. All meet at one, and a triangle has at most one of them: between
     /// the higher ends of two would be an edge with a larger key. Of two edges the order does not matter.
-    [[nodiscard]] bool mayMatter() const {
+    [[nodiscard]] bool mayMatter() {
         const std::size_t count = in_.triangles.count;
-        Marks edges = noMarks(allocator_, in_.nodes.count);
+        std::uint32_t* const edges = representatives_.data();  // how many each node may have
+        forgetAll();
         std::uint32_t room[kBlockCorners], last[kBlockCorners] = {}, known = 0;
         for (std::size_t first = 0; first < count; first += kCollectBlock) {
             const std::size_t size = 3 * std::min(kCollectBlock, count - first);
@@ -158,28 +156,26 @@ class BucketFinder {
             nodes = in_.nodes.ofVertices(nodes, size, room);
             if (count <= kCollectBlock && in_.nodes.count <= kBlockCorners) known = leastKey(nodes, last);
             for (std::size_t i = 0; i < size; ++i) {
-                const bool may = known == 0 || (last[nodes[i]] >= known && keyOf(last, nodes + i / 3 * 3) >= known);
-                if (may && ++edges[nodes[i]] == 3) return true;
+                if (known != 0 && (last[nodes[i]] < known || keyOf(nodes + i / 3 * 3, last) < known)) continue;
+                if (++edges[nodes[i]] == 3) return forgetAll(), true;
             }
         }
         return false;
     }
 
-    /// The largest key when nodes have these representatives.
-    static std::uint32_t keyOf(const std::uint32_t* corners, const std::uint32_t* nodes) {
-        return middle(corners[nodes[0]], corners[nodes[1]], corners[nodes[2]]);
-    }
+    void forgetAll() { std::memset(representatives_.data(), 0, in_.nodes.count * sizeof(std::uint32_t)); }
 
     /// Of a small mesh: V is not below it. Representatives are between the first and the `last` corners of nodes.
     std::uint32_t leastKey(const std::uint32_t* nodes, std::uint32_t* last) const {
         std::uint32_t first[kBlockCorners], least = 0;
         std::fill_n(first, in_.nodes.count, kNone);
         for (std::size_t i = 0; i < 3 * in_.triangles.count; ++i) {
-            first[nodes[i]] = std::min(first[nodes[i]], in_.triangles.corner(i));
-            last[nodes[i]] = std::max(last[nodes[i]], in_.triangles.corner(i));
+            const std::uint32_t corner = in_.triangles.corner(i), node = nodes[i];
+            first[node] = std::min(first[node], corner);
+            last[node] = std::max(last[node], corner);
         }
         for (std::size_t t = in_.triangles.count; t-- > 0;) {
-            const std::uint32_t key = keyOf(first, nodes + 3 * t);
+            const std::uint32_t key = keyOf(nodes + 3 * t, first);
             if (key > least && isGood(triangle(t))) least = key;
         }
         return least;
@@ -195,36 +191,39 @@ class BucketFinder {
     /// V, and its edges.
     void findBucket() {
         constexpr std::size_t kSmallMesh = 4096, kLastOfSmall = 6, kLast = 12;  // triangles
-        constexpr std::size_t kLonger = 4;                                      // times, when that was not enough
+        constexpr std::size_t kLonger = 8;                                      // times, when that was not enough
         std::size_t length = in_.triangles.count < kSmallMesh ? kLastOfSmall : kLast;
         std::uint32_t first_corner = kNone;
-        for (std::size_t begin = in_.triangles.count; begin != 0 && key_ <= first_corner; length *= kLonger) {
+        for (std::size_t begin = in_.triangles.count; begin != 0 && key_ < first_corner;) {
             begin = beginOfLast(length);
             Buffer<std::uint32_t> vertices(allocator_, 3 * (in_.triangles.count - begin));
             for (std::size_t i = 0; i < vertices.size(); ++i) {
-                const std::uint32_t corner = in_.triangles.corner(3 * begin + i);
-                first_corner = std::min(first_corner, corner);
-                vertices[i] = in_.mesh.indices[corner];
+                first_corner = std::min(first_corner, in_.triangles.corner(3 * begin + i));
+                vertices[i] = in_.vertexAt(3 * begin + i);
             }
             const Buffer<std::uint32_t> around =
                 findRepresentatives(in_, vertices, representatives_.data(), allocator_, parallel_);
-            key_ = 1;
+            key_ = 0;
             // Backwards, as keys mostly ascend.
             for (std::size_t i = around.size(); i-- > 0;) addEdges(around[i], triangle(around[i]));
+            // From the corner of the largest key on is enough; but faces that are skipped count there too.
+            length = std::max(2 * length, std::min(kLonger * length, in_.triangles.count - key_ / 3));
         }
     }
 
     void addEdges(std::uint32_t t, const Triangle& triangle) {
-        const std::uint32_t key = triangle.key();
-        if (key < key_ || !isGood(triangle)) return;
+        const std::uint32_t* const representatives = representatives_.data();
+        const std::uint32_t key = keyOf(triangle.nodes, representatives);
+        if (key == 0 || key < key_ || !isGood(triangle)) return;
         if (key > key_) bucket_.drop(bucket_.size());
         key_ = key;
         for (std::uint32_t k = 0; k < 3; ++k) {
-            const std::uint32_t next = (k + 1) % 3, from = triangle.corners[k], to = triangle.corners[next];
+            const std::uint32_t next = (k + 1) % 3, from = representatives[triangle.nodes[k]],
+                                to = representatives[triangle.nodes[next]];
             if (std::min(from, to) != key) continue;
             const std::uint32_t low = from < to ? k : next, high = k + next - low;
             low_node_ = triangle.nodes[low];
-            bucket_.push({triangle.corners[high], triangle.nodes[high], 3 * t + k, kNone, kNone, from < to});
+            bucket_.push({std::max(from, to), triangle.nodes[high], 3 * t + k, kNone, kNone, from < to});
         }
     }
 
@@ -248,7 +247,9 @@ class BucketFinder {
         for (std::uint32_t t = 0; t < in_.triangles.count; ++t) {
             const Triangle here = triangle(t);
             if (!isGood(here)) continue;
-            const auto [a, b, c] = here.corners;
+            const std::uint32_t* const nodes = here.nodes;
+            const std::uint32_t a = representatives_[nodes[0]], b = representatives_[nodes[1]],
+                                c = representatives_[nodes[2]];
             Record* to = records.extend(3);
             to[0] = {std::min(a, b), 3 * t};
             to[1] = {std::min(b, c), 3 * t + 1};
@@ -311,8 +312,8 @@ class BucketFinder {
     const WeldedMesh& in_;
     const Allocator* allocator_;
     Parallel& parallel_;
-    Buffer<std::uint32_t> representatives_;  // one per node; kNone where it is not known
-    std::uint32_t key_ = 0;                  // V, one up
+    Buffer<std::uint32_t> representatives_;  // one per node; 0 where it is not known
+    std::uint32_t key_ = 0;                  // V; never 0
     std::uint32_t low_node_ = 0;             // whose representative it is
     Growing<BucketEdge> bucket_;
 };
