@@ -154,7 +154,8 @@ class BucketFinder {
             const std::size_t size = 3 * std::min(kCollectBlock, count - first);
             const std::uint32_t* nodes = readTriangles(in_.mesh, in_.triangles, first, size / 3, room);
             nodes = in_.nodes.ofVertices(nodes, size, room);
-            if (count <= kCollectBlock && in_.nodes.count <= kBlockCorners) known = leastKey(nodes, last);
+            if (count <= kCollectBlock && in_.nodes.count <= kBlockCorners && in_.triangles.corners.empty())
+                known = leastKey(nodes, last);
             for (std::size_t i = 0; i < size; ++i) {
                 if (known != 0 && (last[nodes[i]] < known || keyOf(nodes + i / 3 * 3, last) < known)) continue;
                 if (++edges[nodes[i]] == 3) return forgetAll(), true;
@@ -165,18 +166,16 @@ class BucketFinder {
 
     void forgetAll() { std::memset(representatives_.data(), 0, in_.nodes.count * sizeof(std::uint32_t)); }
 
-    /// Of a small mesh: V is not below it. Representatives are between the first and the `last` corners of nodes.
+    /// Of a small mesh of triangles: V is not below it. Representatives are between the first and the `last` corners of
+    /// nodes.
     std::uint32_t leastKey(const std::uint32_t* nodes, std::uint32_t* last) const {
         std::uint32_t first[kBlockCorners], least = 0;
-        std::fill_n(first, in_.nodes.count, kNone);
-        for (std::size_t i = 0; i < 3 * in_.triangles.count; ++i) {
-            const std::uint32_t corner = in_.triangles.corner(i), node = nodes[i];
-            first[node] = std::min(first[node], corner);
-            last[node] = std::max(last[node], corner);
-        }
-        for (std::size_t t = in_.triangles.count; t-- > 0;) {
-            const std::uint32_t key = keyOf(nodes + 3 * t, first);
-            if (key > least && isGood(triangle(t))) least = key;
+        const auto count = static_cast<std::uint32_t>(3 * in_.triangles.count);
+        for (std::uint32_t i = 0; i < count; ++i) last[nodes[i]] = i;
+        for (std::uint32_t i = count; i-- > 0;) first[nodes[i]] = i;
+        for (std::uint32_t i = count; i > least; i -= 3) {  // no key is above its triangle's last corner
+            const std::uint32_t key = keyOf(nodes + i - 3, first);
+            if (key > least && isGood(triangle(i / 3 - 1))) least = key;
         }
         return least;
     }
