@@ -37,7 +37,8 @@ constexpr double kOrthogonalTolerance = 5e-7;
 constexpr std::size_t kFacesPerBlock = 4;
 constexpr std::size_t kScanGrain = 1024;
 
-/// What is counted: what is wrong with tangents, what they are mended with, and more.
+/// What is counted: what is wrong with tangents, from `placeholder` on with a usable direction; what they are mended with;
+/// and more.
 enum class Counted : std::uint8_t {
     sound,
     notFinite,
@@ -96,12 +97,6 @@ Cause causeOf(const Vec4& tangent, const DVec3& n) {
     if (!isUsable(xyz(tangent), n)) return Cause::parallel;
     if (isPlaceholder(tangent, n)) return Cause::placeholder;
     return isSign(tangent.w) ? Cause::sound : Cause::badSign;
-}
-
-/// Whether a cause leaves a direction that isUsable: causeOf has looked.
-bool hasUsable(Cause cause) {
-    return cause == Cause::sound || cause == Cause::placeholder || cause == Cause::badSign ||
-           cause == Cause::mixedSign || cause == Cause::notOrthogonal;
 }
 
 /// The usable direction made unit and orthogonal to n. Orthogonalised twice: near n the first pass cancels
@@ -207,17 +202,12 @@ class Sanitizer {
 
     /// Marks the blocks in which something may have to be counted or changed; false when there is none.
     bool scan() {
-        const std::uint64_t found =
-            sumRanges(parallel_, candidates_.size(), kScanGrain, [this](std::size_t begin, std::size_t end) {
-                std::uint64_t count = 0;
-                for (std::size_t block = begin; block < end; ++block) {
-                    const bool fine = !options_.orthogonalize_all && isFine(block);
-                    candidates_[block] = fine ? 0 : 1;
-                    count += fine ? 0 : 1;
-                }
-                return count;
-            });
-        return found != 0;
+        return sumRanges(parallel_, candidates_.size(), kScanGrain, [this](std::size_t begin, std::size_t end) {
+                   std::uint64_t count = 0;
+                   for (std::size_t block = begin; block < end; ++block)
+                       count += candidates_[block] = options_.orthogonalize_all || !isFine(block) ? 1 : 0;
+                   return count;
+               }) != 0;
     }
 
     [[nodiscard]] bool isFine(std::size_t block) const {
@@ -272,6 +262,12 @@ class Sanitizer {
 
     [[nodiscard]] DVec3 normalAt(std::size_t corner) const { return unitNormal(mesh_.normals[mesh_.indices[corner]]); }
 
+    /// Whether a tangent can be made from the corner's own; of most causes causeOf has looked.
+    [[nodiscard]] bool hasUsableOwn(std::size_t corner, Cause cause, const DVec3& n) const {
+        const bool was_looked_at = cause == Cause::sound || cause >= Cause::placeholder;
+        return was_looked_at || isUsable(xyz(tangents_[corner]), n);
+    }
+
     /// The face's first sound corner, or `first + size`.
     [[nodiscard]] std::size_t firstSound(std::size_t first, std::uint32_t size) const {
         std::size_t c = first;
@@ -291,16 +287,13 @@ class Sanitizer {
         }
         if (all_sound) return;
         const std::size_t sound = firstSound(first, size);
+        const bool has_sound = sound < first + size;
         for (std::size_t c = first; c < first + size; ++c) {
             if (causes_[c] == Cause::sound) continue;
-            const bool needs_sign = sound == first + size && !isSign(tangents_[c].w);
-            if (!needs_sign) {
-                if (hasUsable(causes_[c])) continue;
-                const DVec3 n = normalAt(c);
-                if (isUsable(xyz(tangents_[c]), n) || (sound < first + size && isUsable(xyz(tangents_[sound]), n)))
-                    continue;
-            }
-            counts.count(Counted::seeker);
+            const DVec3 n = normalAt(c);
+            const bool has_sign = has_sound || isSign(tangents_[c].w);
+            if (!has_sign || !(hasUsableOwn(c, causes_[c], n) || (has_sound && isUsable(xyz(tangents_[sound]), n))))
+                counts.count(Counted::seeker);
         }
     }
 
@@ -361,10 +354,8 @@ class Sanitizer {
             if (cause == Cause::sound && tangents_[c].w != sign) cause = Cause::mixedSign;
             if (cause == Cause::sound && !options_.orthogonalize_all) continue;
             const DVec3 n = normalAt(c);
-            if (cause == Cause::sound) {
-                if (isOrthonormal(xyz(tangents_[c]), n)) continue;
-                cause = Cause::notOrthogonal;
-            }
+            if (cause == Cause::sound && isOrthonormal(xyz(tangents_[c]), n)) continue;
+            if (cause == Cause::sound) cause = Cause::notOrthogonal;
             const auto [tangent, cure] = mended(c, cause, n, neighbor);
             tangents_[c] = {tangent.x, tangent.y, tangent.z, sign};
             counts.count(cause);
@@ -374,8 +365,7 @@ class Sanitizer {
 
     [[nodiscard]] std::pair<Vec3, Cure> mended(std::size_t corner, Cause cause, const DVec3& n,
                                                const Vec4& neighbor) const {
-        if (hasUsable(cause) || isUsable(xyz(tangents_[corner]), n))
-            return {orthonormal(xyz(tangents_[corner]), n), Cure::fromOwn};
+        if (hasUsableOwn(corner, cause, n)) return {orthonormal(xyz(tangents_[corner]), n), Cure::fromOwn};
         if (isUsable(xyz(neighbor), n)) return {orthonormal(xyz(neighbor), n), Cure::fromNeighbor};
         const Vec4* sound = foundBy(corner);
         if (sound != nullptr && isUsable(xyz(*sound), n)) return {orthonormal(xyz(*sound), n), Cure::fromNeighbor};
