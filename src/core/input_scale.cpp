@@ -10,35 +10,26 @@ namespace tspace {
 namespace {
 
 constexpr std::size_t kMostSamples = 1024;
-constexpr int kLeastExponent = -149, kMostExponent = 127;
 
 float largestOf(const Vec3& p) { return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
 float largestOf(const Vec2& p) { return std::max(std::fabs(p.x), std::fabs(p.y)); }
 
-/// Sizes of some numbers, by their exponents.
-class Exponents {
+/// The mean size of some numbers, by their exponents: so one wild vertex hardly moves it.
+class MeanSize {
   public:
     void count(float size) {
         if (!(size > 0) || !(size <= FLT_MAX)) return;
-        ++seen_[std::ilogb(size) - kLeastExponent];
-        ++total_;
+        exponents_ += std::ilogb(size);
+        ++count_;
     }
 
-    /// 2^-e, where e is the median of the exponents: one wild vertex does not move it. Even, so that a square
-    /// root of such a factor is a power of two as well.
+    /// What brings that size near 1. The exponent is even, so that a square root of it is a power of two as well.
     [[nodiscard]] float scale() const {
-        if (total_ == 0) return 1.0f;
-        int exponent = kLeastExponent;
-        for (std::uint32_t below = 0;; ++exponent) {
-            below += seen_[exponent - kLeastExponent];
-            if (2 * below >= total_) break;
-        }
-        return std::ldexp(1.0f, std::clamp(-exponent, -126, 126) / 2 * 2);
+        return count_ == 0 ? 1.0f : std::ldexp(1.0f, std::clamp(-exponents_ / count_, -126, 126) / 2 * 2);
     }
 
   private:
-    std::uint32_t seen_[kMostExponent - kLeastExponent + 1] = {};
-    std::uint32_t total_ = 0;
+    int exponents_ = 0, count_ = 0;
 };
 
 }  // namespace
@@ -49,7 +40,7 @@ float InputScale::lengthFactor() const {
 
 InputScale inputScale(const TriangleGroups& triangles, const StridedSpan<const Vec3>& positions,
                       const StridedSpan<const Vec2>& uvs) {
-    Exponents of_positions, of_uvs;
+    MeanSize of_positions, of_uvs;
     const std::size_t samples = std::min(triangles.count, kMostSamples);
     for (std::size_t i = 0; i < samples; ++i) {
         std::uint32_t vertices[3], groups[3];

@@ -34,18 +34,16 @@ class RepeatedHashes {
         return std::clamp<std::size_t>(vertex_count / kGrain, 1, std::min(parallel.width(), kMostRanges));
     }
 
-    /// With n places per vertex 1 vertex of n + 1 is found although it is like no other, or fewer. `places_per_vertex`
-    /// decides between that and a table that stays in the cache: a place takes 2 bits, up to twice rounded up.
-    RepeatedHashes(std::size_t places_per_vertex, const Allocator* allocator, std::size_t vertex_count,
-                   std::size_t ranges)
-        : log2_(std::clamp<unsigned>(std::bit_width(places_per_vertex * vertex_count), 6, 32)),
-          bytes_(std::size_t{1} << (log2_ - 2)),
-          table_(allocator, bytes_ * ranges) {}
+    RepeatedHashes(const Allocator* allocator, std::size_t vertex_count, std::size_t ranges)
+        : log2_(std::clamp<unsigned>(std::bit_width(kPlacesPerVertex * vertex_count), 6, 32)),
+          words_((std::size_t{1} << log2_) / kPlacesPerWord),
+          ranges_(ranges),
+          table_(allocator, words_ * ranges) {}
 
-    void clear(std::size_t range) { std::fill_n(table_.data() + range * bytes_, bytes_, std::uint8_t{0}); }
+    void clear(std::size_t range) { std::fill_n(table_.data() + range * words_, words_, std::uint64_t{0}); }
 
     void add(std::size_t range, const std::uint32_t* hashes, std::size_t count) {
-        std::uint8_t* table = table_.data() + range * bytes_;
+        auto* table = reinterpret_cast<std::uint8_t*>(table_.data() + range * words_);
         const unsigned shift = 32 - log2_;  // a copy: bytes that are written might be the member's
         for (std::size_t i = 0; i < count; ++i) {
             const std::uint32_t place = hashes[i] >> shift;
@@ -56,74 +54,62 @@ class RepeatedHashes {
     }
 
     /// Adds all ranges up in the first one. Returns how many places are taken.
-    std::size_t sum(std::size_t ranges, Parallel& parallel) {
-        std::atomic<std::size_t> taken{0};
-        parallel.forRanges(bytes_ / sizeof(std::uint64_t), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::size_t sum(Parallel& parallel) {
+        return sumRanges(parallel, words_, kGrain, [&](std::size_t begin, std::size_t end) {
             constexpr std::uint64_t kOnce = 0x5555555555555555u;
-            std::size_t mine = 0;
+            std::uint64_t taken = 0;
             for (std::size_t i = begin; i < end; ++i) {
-                std::uint64_t total = word(0, i);
-                for (std::size_t r = 1; r < ranges; ++r) {
-                    const std::uint64_t other = word(r, i);
-                    total |= other | (total & other & kOnce) << 1;
-                }
-                if (ranges > 1) std::memcpy(table_.data() + i * sizeof total, &total, sizeof total);
-                mine += pairsSet(total & kOnce);
+                std::uint64_t total = table_[i];
+                for (std::size_t other = i + words_; other < table_.size(); other += words_)
+                    total |= table_[other] | (total & table_[other] & kOnce) << 1;
+                table_[i] = total;
+                taken += pairsSet(total & kOnce);
             }
-            taken += mine;
+            return taken;
         });
-        return taken;
     }
 
     /// Writes the vertices of [0, count) whose hash another one may have to `list`, ascending, and returns how many
-    /// they are. `list` has room for all and may be `hashes` itself.
-    std::size_t collect(const std::uint32_t* hashes, std::size_t count, std::size_t ranges, std::uint32_t* list,
-                        Parallel& parallel) const {
+    /// they are. `list` has room for all.
+    std::size_t collect(const std::uint32_t* hashes, std::size_t count, std::uint32_t* list, Parallel& parallel) const {
+        const auto* table = reinterpret_cast<const std::uint8_t*>(table_.data());
         std::size_t found[kMostRanges] = {};
-        parallel.forTasks(ranges, [&](std::size_t range) {
-            const std::size_t begin = count * range / ranges, end = count * (range + 1) / ranges;
-            found[range] = repeated(hashes, begin, end, list + begin);
+        parallel.forTasks(ranges_, [&](std::size_t range) {
+            const std::size_t begin = count * range / ranges_, end = count * (range + 1) / ranges_;
+            const unsigned shift = 32 - log2_;
+            std::uint32_t* const mine = list + begin;
+            std::size_t n = 0;  // mine[n] is written in any case, and stays when the next one is written behind it
+            for (std::size_t v = begin; v < end; ++v) {
+                const std::uint32_t place = hashes[v] >> shift;
+                mine[n] = static_cast<std::uint32_t>(v);
+                n += table[place / kPlacesPerByte] >> (2 * (place % kPlacesPerByte) + 1) & 1u;
+            }
+            found[range] = n;
         });
         std::size_t total = found[0];
-        for (std::size_t range = 1; range < ranges; ++range) {
-            std::copy_n(list + count * range / ranges, found[range], list + total);
+        for (std::size_t range = 1; range < ranges_; ++range) {
+            std::copy_n(list + count * range / ranges_, found[range], list + total);
             total += found[range];
         }
         return total;
     }
 
   private:
-    /// Writes those of the vertices [begin, end) to `list` whose hash another vertex may have. Returns how
-    /// many.
-    std::size_t repeated(const std::uint32_t* hashes, std::size_t begin, std::size_t end, std::uint32_t* list) const {
-        const std::uint8_t* table = table_.data();
-        const unsigned shift = 32 - log2_;
-        std::size_t count = 0;  // list[count] is written in any case, and stays when the next one is written behind it
-        for (std::size_t v = begin; v < end; ++v) {
-            const std::uint32_t place = hashes[v] >> shift;
-            list[count] = static_cast<std::uint32_t>(v);
-            count += table[place / kPlacesPerByte] >> (2 * (place % kPlacesPerByte) + 1) & 1u;
-        }
-        return count;
-    }
-
-    static constexpr std::size_t kPlacesPerByte = 4;
+    /// With n places per vertex 1 vertex of n + 1 is found although it is like no other, or fewer. Four leave 1 of 5 to be
+    /// looked up, in a table that stays in the cache.
+    static constexpr std::size_t kPlacesPerVertex = 4;
+    static constexpr std::size_t kPlacesPerByte = 4, kPlacesPerWord = 32;
 
     /// How many of the bits 0, 2, 4, ... are set. (std::popcount is a call where the target is plain x86-64.)
-    static std::size_t pairsSet(std::uint64_t x) {
+    static std::uint64_t pairsSet(std::uint64_t x) {
         x = (x & 0x3333333333333333u) + (x >> 2 & 0x3333333333333333u);
         x = (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0fu;
-        return static_cast<std::size_t>((x * 0x0101010101010101u) >> 56);
-    }
-    [[nodiscard]] std::uint64_t word(std::size_t range, std::size_t i) const {
-        std::uint64_t value = 0;
-        std::memcpy(&value, table_.data() + range * bytes_ + i * sizeof value, sizeof value);
-        return value;
+        return (x * 0x0101010101010101u) >> 56;
     }
 
     unsigned log2_;
-    std::size_t bytes_;
-    Buffer<std::uint8_t> table_;
+    std::size_t words_, ranges_;  ///< of one range
+    Buffer<std::uint64_t> table_;
 };
 
 class Welder {
@@ -147,23 +133,21 @@ class Welder {
         }
         entry_count_ = list_.empty() ? count_ : distinct;
         roots_ = Buffer<std::uint32_t>(list_.empty() ? allocator_ : transient_, entry_count_);
-        const bool matched = count_ < kFew ? matchFew() : matchHashes(distinct);
-        if (!matched) std::fill_n(roots_.data(), entry_count_, Weldable::kNoRoot);
-        std::atomic<bool> different{!matched};
-        if (matched) {
-            parallel_.forRanges(entry_count_, kGrain, [&](std::size_t begin, std::size_t end) {
-                if (vertices_.compare(list_.data(), begin, end, roots_.data()))
-                    different.store(true, std::memory_order_relaxed);
+        std::uint64_t different = 1;
+        if (count_ < kFew ? matchFew() : matchHashes(distinct)) {
+            different = sumRanges(parallel_, entry_count_, kGrain, [&](std::size_t begin, std::size_t end) {
+                return vertices_.compare(list_.data(), begin, end, roots_.data()) ? 1u : 0u;
             });
+        } else {
+            std::fill_n(roots_.data(), entry_count_, Weldable::kNoRoot);
         }
-        if (different) matchBySorting();
+        if (different != 0) matchBySorting();
         return list_.empty() ? std::move(roots_) : rootOfEach();
     }
 
   private:
-    static constexpr std::size_t kFew = 4096;           // vertices; so few are all looked up
-    static constexpr std::size_t kPlacesPerVertex = 4;  // of a counting table: leaves 1 vertex of 5 to be looked up
-    static constexpr std::size_t kBlock = 256;          // vertices; their hashes stay in the first cache
+    static constexpr std::size_t kFew = 4096;   // vertices; so few are all looked up
+    static constexpr std::size_t kBlock = 256;  // vertices; their hashes stay in the first cache
 
     struct Slot {
         std::uint32_t hash = 0, vertex = Weldable::kNoRoot;
@@ -193,23 +177,23 @@ class Welder {
     /// about how many different ones there are.
     std::size_t listCandidates() {
         const std::size_t ranges = RepeatedHashes::rangesFor(count_, parallel_);
-        RepeatedHashes counting(kPlacesPerVertex, transient_, count_, ranges);
+        RepeatedHashes counting(transient_, count_, ranges);
         hashAll(&counting, ranges);
-        const std::size_t distinct = counting.sum(ranges, parallel_);
+        const std::size_t distinct = counting.sum(parallel_);
         if (distinct < count_ - count_ / 4) return distinct;
         list_ = Buffer<std::uint32_t>(transient_, count_);
-        return counting.collect(hashes_.data(), count_, ranges, list_.data(), parallel_);
+        return counting.collect(hashes_.data(), count_, list_.data(), parallel_);
     }
 
     /// Counts a sample of the hashes, chosen by their value, so that equal vertices are in it together or not at all.
     std::size_t guessDistinct() {
         constexpr std::uint32_t kShare = 32;
-        RepeatedHashes counting(kPlacesPerVertex, transient_, count_ / kShare, 1);
+        RepeatedHashes counting(transient_, count_ / kShare, 1);
         counting.clear(0);
         for (std::size_t v = 0; v < count_; ++v) {
             if (hashes_[v] % kShare == 0) counting.add(0, hashes_.data() + v, 1);
         }
-        return std::min(count_, kShare * counting.sum(1, parallel_));
+        return std::min(count_, kShare * counting.sum(parallel_));
     }
 
     /// All of few vertices, by hashes alone: what is read and written stays in the first cache.
@@ -316,9 +300,7 @@ class Welder {
     const Allocator *allocator_, *transient_;
     Parallel& parallel_;
     Buffer<std::uint32_t> hashes_;
-    Buffer<std::uint32_t>
-        list_;  // vertices that may have a root below them, ascending, in the first entry_count_ places;
-                // empty: all
+    Buffer<std::uint32_t> list_;   // those vertices, ascending; empty: all
     Buffer<std::uint32_t> roots_;  // of those
 };
 
