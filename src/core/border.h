@@ -49,10 +49,6 @@ Error checkSpan(const StridedSpan<T>& span, std::size_t expected_count, const ch
 /// What validate() checks. With `parallel`, indices are looked at by all threads.
 Error checkMesh(const MeshView& mesh, Parallel* parallel = nullptr);
 
-/// What validate() does, but for whether each index is below the number of vertices: for code that finds out while it
-/// reads them for the first time. Error as checkSpan.
-Error checkAllButIndices(const MeshView& mesh);
-
 /// Checks that there are indices and that each is below `vertex_count`, with `parallel` by all threads. Error as
 /// checkSpan.
 Error checkIndices(const IndexView& indices, std::size_t vertex_count, Parallel* parallel = nullptr);

@@ -172,7 +172,7 @@ Error checkIndices(const IndexView& indices, std::size_t vertex_count, Parallel*
     return checkBelow(indices, vertex_count, parallel, "index", "vertices");
 }
 
-Error checkAllButIndices(const MeshView& mesh) {
+Error checkMesh(const MeshView& mesh, Parallel* parallel) {
     if (mesh.positions.count > kMaxCorners || mesh.indices.count > kMaxCorners) {
         return {ErrorCode::tooLarge, "more than 2^31-1 vertices or corners"};
     }
@@ -183,11 +183,7 @@ Error checkAllButIndices(const MeshView& mesh) {
         return e;
     if (Error e = checkAttribute(mesh.uvs, mesh.uv_indices, mesh, "uvs", "uv_indices"); e.code != ErrorCode::ok)
         return e;
-    return checkFaces(mesh);
-}
-
-Error checkMesh(const MeshView& mesh, Parallel* parallel) {
-    if (Error e = checkAllButIndices(mesh); e.code != ErrorCode::ok) return e;
+    if (Error e = checkFaces(mesh); e.code != ErrorCode::ok) return e;
     return checkBelow(mesh.indices, mesh.positions.count, parallel, "index", "vertices");
 }
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "pack/angle_lanes.h"
-#include "pack/quotient_lanes.h"
+#include "pack/frame_lanes.h"
 
 namespace tspace::pack::TSPACE_LANES {
 

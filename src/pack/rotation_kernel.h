@@ -3,7 +3,7 @@
 // one frame.
 #pragma once
 
-#include "pack/quotient_lanes.h"
+#include "pack/frame_lanes.h"
 #include "pack/rotation_lanes.h"
 
 namespace tspace::pack::TSPACE_LANES {

@@ -47,6 +47,11 @@ inline Bits smaller(Bits a, Bits b) {
 }
 /// The lower half of the product.
 inline Bits product(Bits a, std::uint32_t k) { return {a.v * k}; }
+/// Of numbers below 2^31. Compilers multiply; of what is even they know that the factor fits into 32 bits.
+template <std::uint32_t kBy>
+inline Bits quotient(Bits a) {
+    return {(a.v << 1) / (2 * kBy)};
+}
 /// Numbers below 2^31, rounded to the nearest float.
 inline Floats toFloats(Bits a) { return {__builtin_convertvector(reinterpret_cast<WholeVector>(a.v), FloatVector)}; }
 inline Floats asFloats(Bits b) { return {reinterpret_cast<FloatVector>(b.v)}; }

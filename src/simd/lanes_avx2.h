@@ -19,14 +19,6 @@ inline unsigned bitsOf(Mask m) { return static_cast<unsigned>(_mm256_movemask_ps
 inline Floats smaller(Floats a, Floats b) { return {_mm256_min_ps(a.v, b.v)}; }
 inline Floats larger(Floats a, Floats b) { return {_mm256_max_ps(a.v, b.v)}; }
 inline Floats squareRoot(Floats a) { return {_mm256_sqrt_ps(a.v)}; }
-inline __m256i toWhole(Bits a) { return reinterpret_cast<__m256i>(a.v); }
-inline Bits fromWhole(__m256i a) { return {reinterpret_cast<WordVector>(a)}; }
-inline Bits highProduct(Bits a, std::uint32_t k) {
-    const __m256i factor = toWhole(broadcastBits(k));
-    const __m256i even = _mm256_mul_epu32(toWhole(a), factor);
-    const __m256i odd = _mm256_mul_epu32(_mm256_srli_epi64(toWhole(a), 32), factor);
-    return fromWhole(_mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xaa));
-}
 
 inline DoubleMask operator>(Doubles a, Doubles b) {
     return {reinterpret_cast<LongVector>(_mm256_cmp_pd(a.v, b.v, _CMP_GT_OQ))};

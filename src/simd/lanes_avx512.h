@@ -21,13 +21,6 @@ inline unsigned bitsOf(Mask m) { return _mm512_movepi32_mask(reinterpret_cast<__
 inline Floats smaller(Floats a, Floats b) { return {_mm512_min_ps(a.v, b.v)}; }
 inline Floats larger(Floats a, Floats b) { return {_mm512_max_ps(a.v, b.v)}; }
 inline Floats squareRoot(Floats a) { return {_mm512_sqrt_ps(a.v)}; }
-inline __m512i toWhole(Bits a) { return reinterpret_cast<__m512i>(a.v); }
-inline Bits fromWhole(__m512i a) { return {reinterpret_cast<WordVector>(a)}; }
-inline Bits highProduct(Bits a, std::uint32_t k) {
-    const __m512i factor = toWhole(broadcastBits(k)), even = _mm512_mul_epu32(toWhole(a), factor);
-    const __m512i odd = _mm512_mul_epu32(_mm512_srli_epi64(toWhole(a), 32), factor);
-    return fromWhole(_mm512_mask_blend_epi32(0xaaaa, _mm512_srli_epi64(even, 32), odd));
-}
 
 inline DoubleMask operator>(Doubles a, Doubles b) { return {a.v > b.v}; }
 inline unsigned bitsOf(DoubleMask m) { return _mm512_movepi64_mask(reinterpret_cast<__m512i>(m.v)); }

@@ -29,11 +29,6 @@ inline Floats larger(Floats a, Floats b) { return {a.v > b.v ? a.v : b.v}; }
 inline Floats squareRoot(Floats a) {
     return {reinterpret_cast<FloatVector>(vsqrtq_f32(reinterpret_cast<float32x4_t>(a.v)))};
 }
-inline Bits highProduct(Bits a, std::uint32_t k) {
-    const auto words = reinterpret_cast<uint32x4_t>(a.v);
-    const uint64x2_t low = vmull_u32(vget_low_u32(words), vdup_n_u32(k)), high = vmull_high_u32(words, vdupq_n_u32(k));
-    return {reinterpret_cast<WordVector>(vuzp2q_u32(vreinterpretq_u32_u64(low), vreinterpretq_u32_u64(high)))};
-}
 
 inline float64x2_t neonOf(Doubles a) { return reinterpret_cast<float64x2_t>(a.v); }
 inline Doubles fromNeon(float64x2_t v) { return {reinterpret_cast<DoubleVector>(v)}; }

@@ -34,11 +34,6 @@ inline Floats squareRoot(Floats a) {
     for (std::size_t i = 0; i < kWidth; ++i) a.v[i] = std::sqrt(a.v[i]);
     return a;
 }
-/// The upper half of the product.
-inline Bits highProduct(Bits a, std::uint32_t k) {
-    for (std::size_t i = 0; i < kWidth; ++i) a.v[i] = static_cast<std::uint32_t>(std::uint64_t{a.v[i]} * k >> 32);
-    return a;
-}
 
 /// Comparisons with NaN are false.
 inline DoubleMask operator>(Doubles a, Doubles b) { return {a.v > b.v}; }

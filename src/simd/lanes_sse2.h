@@ -21,12 +21,6 @@ inline unsigned bitsOf(Mask m) { return static_cast<unsigned>(_mm_movemask_ps(re
 inline Floats smaller(Floats a, Floats b) { return {_mm_min_ps(a.v, b.v)}; }
 inline Floats larger(Floats a, Floats b) { return {_mm_max_ps(a.v, b.v)}; }
 inline Floats squareRoot(Floats a) { return {_mm_sqrt_ps(a.v)}; }
-inline Bits highProduct(Bits a, std::uint32_t k) {
-    const __m128i factor = _mm_set1_epi32(static_cast<int>(k)), whole = reinterpret_cast<__m128i>(a.v);
-    const __m128i even = _mm_mul_epu32(whole, factor), odd = _mm_mul_epu32(_mm_srli_epi64(whole, 32), factor);
-    return {
-        reinterpret_cast<WordVector>(_mm_unpacklo_epi32(_mm_shuffle_epi32(even, 0x0d), _mm_shuffle_epi32(odd, 0x0d)))};
-}
 
 /// Not by the operator: GCC makes branches of it.
 inline DoubleMask operator>(Doubles a, Doubles b) { return {reinterpret_cast<LongVector>(_mm_cmpgt_pd(a.v, b.v))}; }

@@ -37,11 +37,6 @@ inline unsigned bitsOf(Mask m) { return static_cast<unsigned>(wasm_i32x4_bitmask
 inline Floats smaller(Floats a, Floats b) { return floatsOf(wasm_f32x4_pmin(wasmOf(b), wasmOf(a))); }
 inline Floats larger(Floats a, Floats b) { return floatsOf(wasm_f32x4_pmax(wasmOf(b), wasmOf(a))); }
 inline Floats squareRoot(Floats a) { return floatsOf(wasm_f32x4_sqrt(wasmOf(a))); }
-inline Bits highProduct(Bits a, std::uint32_t k) {
-    const auto words = reinterpret_cast<v128_t>(a.v), factor = wasm_i32x4_splat(static_cast<std::int32_t>(k));
-    const v128_t low = wasm_u64x2_extmul_low_u32x4(words, factor), high = wasm_u64x2_extmul_high_u32x4(words, factor);
-    return asBits(floatsOf(wasm_i32x4_shuffle(low, high, 1, 3, 5, 7)));
-}
 
 inline DoubleMask operator>(Doubles a, Doubles b) { return {a.v > b.v}; }
 inline unsigned bitsOf(DoubleMask m) {
