@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kBlocksPerTask = 256;
 constexpr std::uint32_t kNoRange = 0xffffffffu, kSeveral = 0xfffffffeu;
 
+/// Reads blocks, and says what they are listed as.
 class Walk {
   public:
     Walk(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count, std::size_t range_size)
@@ -20,20 +21,28 @@ class Walk {
           shift_(std::countr_zero(range_size)),
           range_count_(static_cast<std::uint32_t>((group_count + range_size - 1) >> shift_)) {}
 
-    /// The range of a block, or kNoRange, or kSeveral.
-    std::uint32_t rangeOfBlock(std::size_t block) {
-        const std::size_t size = 3 * read(block);
-        const std::uint32_t* const groups = groups_;
+    void read(std::size_t block) {
+        first_ = block * block_size_;
+        size_ = std::min(block_size_, triangles_.count - first_);
+        groups_ = triangles_.inPlace(first_, size_);
+        if (groups_ != nullptr) return;
+        triangles_.read(first_, size_, nullptr, own_groups_);
+        groups_ = own_groups_;
+    }
+
+    /// The range of the block that was read, or kNoRange, or kSeveral.
+    [[nodiscard]] std::uint32_t range() const {
+        const std::uint32_t *const groups = groups_, *const end = groups + 3 * size_;
         std::uint32_t any = 0, all = ~std::uint32_t{0};
-        for (std::size_t i = 0; i < size; ++i) {
-            any |= groups[i];
-            all &= groups[i];
+        for (const std::uint32_t* group = groups; group != end; ++group) {
+            any |= *group;
+            all &= *group;
         }
         if ((any ^ all) >> shift_ == 0) return rangeOf(groups[0]);
         if (rangeOf(any) != kNoRange) return kSeveral;
         std::uint32_t only = kNoRange;
-        for (std::size_t i = 0; i < size; ++i) {
-            const std::uint32_t range = rangeOf(groups[i]);
+        for (const std::uint32_t* group = groups; group != end; ++group) {
+            const std::uint32_t range = rangeOf(*group);
             if (range == kNoRange) continue;
             if (only != kNoRange && range != only) return kSeveral;
             only = range;
@@ -41,51 +50,31 @@ class Walk {
         return only;
     }
 
-    /// enter(range, entry) for what rangeOfBlock said of a block.
+    /// enter(range, triangle) for each range of each triangle of that block.
     template <class Enter>
-    void enterBlock(std::size_t block, std::uint32_t range, const Enter& enter) {
-        if (range == kSeveral) {
-            const std::size_t size = read(block);
-            for (std::size_t t = 0; t < size; ++t) {
-                enterTriangle(static_cast<std::uint32_t>(block * block_size_ + t), groups_ + 3 * t, enter);
-            }
-        } else if (range != kNoRange) {
-            enter(range, RangeLists::kBlock | static_cast<std::uint32_t>(block));
+    void forTriangles(const Enter& enter) const {
+        for (std::size_t t = 0; t < size_; ++t) {
+            const auto triangle = static_cast<std::uint32_t>(first_ + t);
+            const std::uint32_t* const groups = groups_ + 3 * t;
+            const std::uint32_t a = rangeOf(groups[0]);
+            if (a != kNoRange) enter(a, triangle);
+            if (((groups[0] ^ groups[1]) | (groups[0] ^ groups[2])) >> shift_ == 0) continue;
+            const std::uint32_t b = rangeOf(groups[1]), c = rangeOf(groups[2]);
+            if (b != kNoRange && b != a) enter(b, triangle);
+            if (c != kNoRange && c != a && c != b) enter(c, triangle);
         }
     }
 
   private:
-    /// Into groups_, where the last one that was read stays.
-    std::size_t read(std::size_t block) {
-        const std::size_t first = block * block_size_;
-        const std::size_t size = std::min(block_size_, triangles_.count - first);
-        if (block == std::exchange(held_, block)) return size;
-        groups_ = triangles_.inPlace(first, size);
-        if (groups_ != nullptr) return size;
-        triangles_.read(first, size, nullptr, own_groups_);
-        groups_ = own_groups_;
-        return size;
-    }
-
     [[nodiscard]] std::uint32_t rangeOf(std::uint32_t group) const {
         return group >> shift_ < range_count_ ? group >> shift_ : kNoRange;
-    }
-
-    template <class Enter>
-    void enterTriangle(std::uint32_t triangle, const std::uint32_t* groups, const Enter& enter) const {
-        const std::uint32_t a = rangeOf(groups[0]);
-        if (a != kNoRange) enter(a, triangle);
-        if (((groups[0] ^ groups[1]) | (groups[0] ^ groups[2])) >> shift_ == 0) return;
-        const std::uint32_t b = rangeOf(groups[1]), c = rangeOf(groups[2]);
-        if (b != kNoRange && b != a) enter(b, triangle);
-        if (c != kNoRange && c != a && c != b) enter(c, triangle);
     }
 
     const TriangleGroups& triangles_;
     std::size_t block_size_;
     int shift_;
     std::uint32_t range_count_;
-    std::size_t held_ = ~std::size_t{0};
+    std::size_t first_ = 0, size_ = 0;
     const std::uint32_t* groups_ = nullptr;
     std::uint32_t own_groups_[3 * TriangleBatch::kMost] = {};
 };
@@ -102,17 +91,23 @@ RangeLists::RangeLists(const TriangleGroups& triangles, std::size_t block_size, 
     // range.
     Buffer<std::size_t> places(allocator, tasks * count_, std::size_t{0});
     Buffer<std::uint32_t> range_of(allocator, blocks);
-    const auto forBlocks = [&](std::size_t task, const auto& body) {
-        Walk walk(triangles, block_size, group_count, range_size);
-        for (std::size_t b = blocks * task / tasks; b < blocks * (task + 1) / tasks; ++b)
-            body(walk, b, places.data() + task * count_);
-    };
-    parallel.forTasks(tasks, [&](std::size_t task) {
-        forBlocks(task, [&](Walk& walk, std::size_t block, std::size_t* mine) {
-            range_of[block] = walk.rangeOfBlock(block);
-            walk.enterBlock(block, range_of[block], [mine](std::uint32_t range, std::uint32_t) { ++mine[range]; });
+    const auto forEntries = [&](bool is_known, const auto& body) {
+        parallel.forTasks(tasks, [&](std::size_t task) {
+            Walk walk(triangles, block_size, group_count, range_size);
+            std::size_t* const mine = places.data() + task * count_;
+            const auto enter = [&](std::uint32_t range, std::uint32_t entry) { body(mine[range]++, entry); };
+            for (std::size_t b = blocks * task / tasks; b < blocks * (task + 1) / tasks; ++b) {
+                if (!is_known || range_of[b] == kSeveral) walk.read(b);
+                if (!is_known) range_of[b] = walk.range();
+                if (range_of[b] == kSeveral) {
+                    walk.forTriangles(enter);
+                } else if (range_of[b] != kNoRange) {
+                    enter(range_of[b], kBlock | static_cast<std::uint32_t>(b));
+                }
+            }
         });
-    });
+    };
+    forEntries(false, [](std::size_t, std::uint32_t) {});
     begin_ = Buffer<std::size_t>(allocator, count_ + 1);
     std::size_t total = 0;
     for (std::size_t range = 0; range < count_; ++range) {
@@ -121,12 +116,7 @@ RangeLists::RangeLists(const TriangleGroups& triangles, std::size_t block_size, 
     }
     begin_[count_] = total;
     entries_ = Buffer<std::uint32_t>(allocator, total);
-    parallel.forTasks(tasks, [&](std::size_t task) {
-        forBlocks(task, [&](Walk& walk, std::size_t block, std::size_t* mine) {
-            walk.enterBlock(block, range_of[block],
-                            [&](std::uint32_t range, std::uint32_t entry) { entries_[mine[range]++] = entry; });
-        });
-    });
+    forEntries(true, [&](std::size_t place, std::uint32_t entry) { entries_[place] = entry; });
 }
 
 bool RangeLists::areCompact(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count,
@@ -135,8 +125,10 @@ bool RangeLists::areCompact(const TriangleGroups& triangles, std::size_t block_s
     const std::size_t blocks = (triangles.count + block_size - 1) / block_size, samples = std::min(blocks, kSamples);
     Walk walk(triangles, block_size, group_count, range_size);
     std::size_t several = 0;
-    for (std::size_t i = 0; i < samples; ++i)
-        several += walk.rangeOfBlock((2 * i + 1) * blocks / (2 * samples)) == kSeveral ? 1 : 0;
+    for (std::size_t i = 0; i < samples; ++i) {
+        walk.read((2 * i + 1) * blocks / (2 * samples));
+        several += walk.range() == kSeveral ? 1 : 0;
+    }
     return 2 * several <= samples;
 }
 

@@ -28,11 +28,6 @@ DFrame toDouble(const Frame& f) { return {toDouble(f.tangent), toDouble(f.bitang
 
 double determinant(const DFrame& f) { return dot(cross(f.tangent, f.bitangent), f.normal); }
 
-DFrame basis(const DVec3& n) {
-    const PlaneAxes axes = planeAxes(n);
-    return {axes.x, axes.y, n};
-}
-
 /// v without its part along `unit`; false when what is left is too short to be a direction.
 bool reject(DVec3& v, const DVec3& unit) {
     const double before = length(v);
@@ -46,7 +41,7 @@ bool reject(DVec3& v, const DVec3& unit) {
 DFrame orthonormal(const Frame& frame) {
     DFrame f = toDouble(frame);
     if (!normalize(f.normal)) f.normal = {0, 0, 1};
-    if (!reject(f.tangent, f.normal)) f.tangent = basis(f.normal).tangent;
+    if (!reject(f.tangent, f.normal)) f.tangent = planeAxes(f.normal).x;
     // In three dimensions only one direction is orthogonal to both; B decides which way along it.
     const DVec3 side = cross(f.normal, f.tangent);
     const double along = dot(f.bitangent, side);
@@ -104,8 +99,8 @@ Vec4 packTangent(const Frame& frame) {
 }
 
 Frame basisFromNormal(const Vec3& unit_normal) {
-    const DFrame f = basis(toDouble(unit_normal));
-    return {toFloat(f.tangent), toFloat(f.bitangent), unit_normal};
+    const auto [tangent, bitangent] = planeAxes(toDouble(unit_normal));
+    return {toFloat(tangent), toFloat(bitangent), unit_normal};
 }
 
 Mat3 tangentToObject(const Frame& f) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What compilers make of their own vector types as well as intrinsics say it: arithmetic, bits, masks. Included inside the
 // namespace of each lanes_*.h of more than one lane, behind its kWidth, so that each CPU has functions of its own: see
-// the rules in lanes_scalar.h. Without a guard, for the same reason.
+// the rules in lanes.h. Without a guard, for the same reason.
 
 using FloatVector = float __attribute__((vector_size(4 * kWidth)));
 using WordVector = std::uint32_t __attribute__((vector_size(4 * kWidth)));

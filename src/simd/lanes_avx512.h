@@ -4,10 +4,7 @@
 
 #include <immintrin.h>
 
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <utility>
+#include "simd/lanes.h"
 
 #define TSPACE_ROWS [[gnu::always_inline]]
 

@@ -8,10 +8,7 @@
 
 #include <arm_neon.h>
 
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <utility>
+#include "simd/lanes.h"
 
 namespace tspace::simd::neon {
 

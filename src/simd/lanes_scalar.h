@@ -3,17 +3,11 @@
 // For every CPU without a file of its own here. All lanes_*.h define the same names, each in a namespace of its own, and
 // every operation is the IEEE one, rounded once; so a kernel gives the same bits on all of them. What each function means
 // stands here and in the files that are included here.
-//
-// Rules for code that is compiled for one CPU: it includes nothing but these files and its own kernel,
-// because an inline function of a shared header might be emitted with instructions that other CPUs do not
-// have, and the linker keeps one copy of it for everybody.
 #pragma once
 
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <utility>
+
+#include "simd/lanes.h"
 
 namespace tspace::simd::scalar {
 

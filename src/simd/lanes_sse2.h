@@ -4,10 +4,7 @@
 
 #include <emmintrin.h>
 
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <utility>
+#include "simd/lanes.h"
 
 namespace tspace::simd::sse2 {
 

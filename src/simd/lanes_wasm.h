@@ -8,10 +8,7 @@
 
 #include <wasm_simd128.h>
 
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <utility>
+#include "simd/lanes.h"
 
 // Programs are compiled for size, and then Clang calls functions of one instruction. What moves rows has many long ones:
 // it is called, but for the kernels that are compiled for speed.
