@@ -189,20 +189,18 @@ class BucketFinder {
 
     /// V, and its edges.
     void findBucket() {
-        constexpr std::size_t kSmallMesh = 4096, kLastOfSmall = 6, kLast = 12;  // triangles
-        constexpr std::size_t kLonger = 8;                                      // times, when that was not enough
+        constexpr std::size_t kSmallMesh = 4096, kLastOfSmall = 5, kLast = 10, kLonger = 4;  // triangles, and times
         std::size_t length = in_.triangles.count < kSmallMesh ? kLastOfSmall : kLast;
         std::uint32_t first_corner = kNone;
         for (std::size_t begin = in_.triangles.count; begin != 0 && key_ < first_corner;) {
-            begin = beginOfLast(length);
-            Buffer<std::uint32_t> vertices(allocator_, 3 * (in_.triangles.count - begin));
-            for (std::size_t i = 0; i < vertices.size(); ++i) {
-                first_corner = std::min(first_corner, in_.triangles.corner(3 * begin + i));
-                vertices[i] = in_.vertexAt(3 * begin + i);
+            const std::size_t end = std::exchange(begin, beginOfLast(length));
+            Growing<std::uint32_t> vertices(allocator_);
+            for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
+                first_corner = std::min(first_corner, in_.triangles.corner(i));
+                if (representatives_[in_.nodeAt(i)] == 0) vertices.push(in_.vertexAt(i));
             }
-            const Buffer<std::uint32_t> around =
-                findRepresentatives(in_, vertices, representatives_.data(), allocator_, parallel_);
-            key_ = 0;
+            const Buffer<std::uint32_t> around = findRepresentatives(in_, {vertices.begin(), vertices.size()},
+                                                                     representatives_.data(), allocator_, parallel_);
             // Backwards, as keys mostly ascend.
             for (std::size_t i = around.size(); i-- > 0;) addEdges(around[i], triangle(around[i]));
             // From the corner of the largest key on is enough; but faces that are skipped count there too.
@@ -227,10 +225,13 @@ class BucketFinder {
     }
 
     /// Only where there are more than two half-edges, and an edge in both directions. Leaves the bucket sorted by
-    /// higher ends, then half-edges.
+    /// higher ends, then half-edges, and each but once.
     [[nodiscard]] bool orderMatters() {
-        if (bucket_.size() <= 2) return false;
         sortEdges(bucket_.begin(), bucket_.end(), true);
+        const auto areOne = [](const BucketEdge& a, const BucketEdge& b) { return a.half_edge == b.half_edge; };
+        BucketEdge* const end = std::unique(bucket_.begin(), bucket_.end(), areOne);
+        bucket_.drop(static_cast<std::size_t>(bucket_.end() - end));
+        if (bucket_.size() <= 2) return false;
         for (std::size_t i = 1; i < bucket_.size(); ++i) {
             if (bucket_[i].high == bucket_[i - 1].high && bucket_[i].ascending != bucket_[i - 1].ascending) return true;
         }
@@ -246,13 +247,9 @@ class BucketFinder {
         for (std::uint32_t t = 0; t < in_.triangles.count; ++t) {
             const Triangle here = triangle(t);
             if (!isGood(here)) continue;
-            const std::uint32_t* const nodes = here.nodes;
-            const std::uint32_t a = representatives_[nodes[0]], b = representatives_[nodes[1]],
-                                c = representatives_[nodes[2]];
+            const auto cornerOf = [&](std::uint32_t k) { return representatives_[here.nodes[k % 3]]; };
             Record* to = records.extend(3);
-            to[0] = {std::min(a, b), 3 * t};
-            to[1] = {std::min(b, c), 3 * t + 1};
-            to[2] = {std::min(c, a), 3 * t + 2};
+            for (std::uint32_t k = 0; k < 3; ++k) to[k] = {std::min(cornerOf(k), cornerOf(k + 1)), 3 * t + k};
         }
         if (!sortRecords(records.begin(), records.size(), key_, allocator_)) return false;
         sortEdges(bucket_.begin(), bucket_.end(), false);

@@ -35,7 +35,7 @@ struct LastBucket {
     }
 };
 
-/// Nodes must be all finite. Takes about two bytes per vertex, five per node, and what the corners of a few cells of the
+/// Nodes must be all finite. Takes about two bytes per vertex, four per node, and what the corners of a few cells of the
 /// reference's grid need; mostly reads all vertices and indices once. Where the order of the bucket matters, up to 60
 /// bytes per triangle. `transient`: for all but the result.
 LastBucket findLastBucket(const WeldedMesh& welded, const Allocator* transient, const Allocator* allocator,
