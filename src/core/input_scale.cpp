@@ -34,10 +34,6 @@ class MeanSize {
 
 }  // namespace
 
-float InputScale::lengthFactor() const {
-    return static_cast<float>(std::clamp(static_cast<double>(uvs) / positions, double{FLT_MIN}, double{FLT_MAX}));
-}
-
 InputScale inputScale(const TriangleGroups& triangles, const StridedSpan<const Vec3>& positions,
                       const StridedSpan<const Vec2>& uvs) {
     MeanSize of_positions, of_uvs;

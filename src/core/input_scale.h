@@ -4,6 +4,9 @@
 // one is chosen, nor whether all positions, or all UVs, are four times as large.
 #pragma once
 
+#include <algorithm>
+#include <cfloat>
+
 #include "core/range_lists.h"
 #include "tspace/tangents.h"
 
@@ -13,7 +16,9 @@ struct InputScale {
     float positions = 1, uvs = 1;
 
     /// What lengths of dP/du in scaled units are multiplied with.
-    [[nodiscard]] float lengthFactor() const;
+    [[nodiscard]] float lengthFactor() const {
+        return static_cast<float>(std::clamp(static_cast<double>(uvs) / positions, double{FLT_MIN}, double{FLT_MAX}));
+    }
 };
 
 /// From a sample of at most 1024 triangles, so that it does not matter which corners share a vertex, nor what vertices

@@ -27,9 +27,14 @@ inline void transpose(FloatVector (&r)[4]) {
 }
 /// The columns of the rows at(0), at(1), ...
 template <class At>
-inline void columnsAt(const At& at, FloatVector (&r)[4]) {
+inline void columnsAt(const At& at, Floats& x, Floats& y, Floats& z, Floats& w) {
+    FloatVector r[4];
     for (std::size_t i = 0; i < 4; ++i) r[i] = quadsAt(at, i, kQuads);
     transpose(r);
+    x = {r[0]};
+    y = {r[1]};
+    z = {r[2]};
+    w = {r[3]};
 }
 /// The first and the second floats of pairs, of which each of at(0), at(2), ... has two.
 template <class At>
@@ -62,12 +67,8 @@ inline void storeQuadPairs(float* rows, FloatVector low, FloatVector high, std::
 /// array of vectors. `exact` reads their 12 bytes and no more; otherwise the 4 bytes after them are read too.
 TSPACE_ROWS inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact,
                                 Floats& x, Floats& y, Floats& z) {
-    const auto at = [&](std::size_t i) { return loadVector(base + stride * index[3 * i], exact); };
-    FloatVector r[4];
-    columnsAt(at, r);
-    x = {r[0]};
-    y = {r[1]};
-    z = {r[2]};
+    Floats none;
+    columnsAt([&](std::size_t i) { return loadVector(base + stride * index[3 * i], exact); }, x, y, z, none);
 }
 TSPACE_ROWS inline void gather2(const std::byte* base, std::size_t stride, const std::uint32_t* index, Floats& x,
                                 Floats& y) {
@@ -92,13 +93,7 @@ TSPACE_ROWS inline void storeRows(float* rows, Floats x, Floats y, Floats z, Flo
 /// The opposite of storeRows.
 template <std::size_t kStep>
 TSPACE_ROWS inline void loadRows(const float* rows, Floats& x, Floats& y, Floats& z, Floats& w) {
-    const auto at = [&](std::size_t i) { return loadQuad(rows + kStep * i); };
-    FloatVector r[4];
-    columnsAt(at, r);
-    x = {r[0]};
-    y = {r[1]};
-    z = {r[2]};
-    w = {r[3]};
+    columnsAt([&](std::size_t i) { return loadQuad(rows + kStep * i); }, x, y, z, w);
 }
 /// As storeRows, for two values.
 template <std::size_t kStep>

@@ -24,16 +24,13 @@ inline Flat operator-(Flat a, Flat b) { return {a.x - b.x, a.y - b.y}; }
 inline Flat operator*(Floats k, Flat a) { return {k * a.x, k * a.y}; }
 inline Floats dot(Flat a, Flat b) { return a.x * b.x + a.y * b.y; }
 
+inline Flat keep(Mask m, Flat a) { return {keep(m, a.x), keep(m, a.y)}; }
+
 /// Zero where a vector has no direction.
-inline Flat unit(Flat v) {
+template <class Vector>
+inline Vector unit(Vector v) {
     const Floats square = dot(v, v), scale = broadcast(1.0f) / squareRoot(square);
-    const Mask sound = (square > zero()) & isFinite(square) & isFinite(scale);
-    return {keep(sound, scale * v.x), keep(sound, scale * v.y)};
-}
-inline Vectors unit(Vectors v) {
-    const Floats square = dot(v, v), scale = broadcast(1.0f) / squareRoot(square);
-    const Mask sound = (square > zero()) & isFinite(square) & isFinite(scale);
-    return keep(sound, scale * v);
+    return keep((square > zero()) & isFinite(square) & isFinite(scale), scale * v);
 }
 
 /// Of length 1, with -0 as +0; the z axis where a normal has no direction.
