@@ -38,9 +38,7 @@ class RepeatedHashes {
         : log2_(std::clamp<unsigned>(std::bit_width(kPlacesPerVertex * vertex_count), 6, 32)),
           words_((std::size_t{1} << log2_) / kPlacesPerWord),
           ranges_(ranges),
-          table_(allocator, words_ * ranges) {}
-
-    void clear(std::size_t range) { std::fill_n(table_.data() + range * words_, words_, std::uint64_t{0}); }
+          table_(allocator, words_ * ranges, std::uint64_t{0}) {}
 
     void add(std::size_t range, const std::uint32_t* hashes, std::size_t count) {
         auto* table = reinterpret_cast<std::uint8_t*>(table_.data() + range * words_);
@@ -125,12 +123,9 @@ class Welder {
 
     Buffer<std::uint32_t> run(bool is_indexed) {
         std::size_t distinct = count_;
-        if (!is_indexed || count_ < kFew) {
-            hashAll(nullptr, std::clamp<std::size_t>(count_ / kGrain, 1, parallel_.width()));
-            if (count_ >= kFew) distinct = guessDistinct();
-        } else {
-            distinct = listCandidates();
-        }
+        parallel_.forRanges(count_, kGrain,
+                            [&](std::size_t begin, std::size_t end) { vertices_.hash(begin, end, hashes_.data()); });
+        if (count_ >= kFew) distinct = is_indexed ? listCandidates() : guessDistinct();
         entry_count_ = list_.empty() ? count_ : distinct;
         roots_ = Buffer<std::uint32_t>(list_.empty() ? allocator_ : transient_, entry_count_);
         std::uint64_t different = 1;
@@ -146,8 +141,7 @@ class Welder {
     }
 
   private:
-    static constexpr std::size_t kFew = 4096;   // vertices; so few are all looked up
-    static constexpr std::size_t kBlock = 256;  // vertices; their hashes stay in the first cache
+    static constexpr std::size_t kFew = 4096;  // vertices; so few are all looked up
 
     struct Slot {
         std::uint32_t hash = 0, vertex = Weldable::kNoRoot;
@@ -161,24 +155,15 @@ class Welder {
         return list_.empty() ? static_cast<std::uint32_t>(i) : list_[i];
     }
 
-    void hashAll(RepeatedHashes* counting, std::size_t ranges) {
-        parallel_.forTasks(ranges, [&](std::size_t range) {
-            if (counting != nullptr) counting->clear(range);
-            const std::size_t end = count_ * (range + 1) / ranges;
-            for (std::size_t v = count_ * range / ranges; v < end; v += kBlock) {
-                const std::size_t stop = std::min(v + kBlock, end);
-                vertices_.hash(v, stop, hashes_.data());
-                if (counting != nullptr) counting->add(range, hashes_.data() + v, stop - v);
-            }
-        });
-    }
-
-    /// Hashes all, and lists those that may be equal to others, unless they are too many. Returns how many are listed, or
-    /// about how many different ones there are.
+    /// Lists those that may be equal to others, unless they are too many. Returns how many are listed, or about how many
+    /// different ones there are.
     std::size_t listCandidates() {
         const std::size_t ranges = RepeatedHashes::rangesFor(count_, parallel_);
         RepeatedHashes counting(transient_, count_, ranges);
-        hashAll(&counting, ranges);
+        parallel_.forTasks(ranges, [&](std::size_t range) {
+            const std::size_t begin = count_ * range / ranges, end = count_ * (range + 1) / ranges;
+            counting.add(range, hashes_.data() + begin, end - begin);
+        });
         const std::size_t distinct = counting.sum(parallel_);
         if (distinct < count_ - count_ / 4) return distinct;
         list_ = Buffer<std::uint32_t>(transient_, count_);
@@ -189,7 +174,6 @@ class Welder {
     std::size_t guessDistinct() {
         constexpr std::uint32_t kShare = 32;
         RepeatedHashes counting(transient_, count_ / kShare, 1);
-        counting.clear(0);
         for (std::size_t v = 0; v < count_; ++v) {
             if (hashes_[v] % kShare == 0) counting.add(0, hashes_.data() + v, 1);
         }
