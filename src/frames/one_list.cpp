@@ -9,41 +9,6 @@ namespace tspace {
 
 namespace {
 
-/// What tells corners apart, for the split.
-class Attributes {
-  public:
-    Attributes(std::size_t corner_count, bool is_welded) : corner_count_(corner_count), is_welded_(is_welded) {}
-
-    template <class T>
-    void add(const StridedSpan<const T>& values, const IndexView& list) {
-        if (values.empty()) return;
-        if (list.type == IndexType::corners || (list.type == IndexType::none && is_welded_)) {
-            all_.push_back({&values.data->x, values.stride_bytes, sizeof(T) / sizeof(float)});
-        } else if (list.type != IndexType::none) {
-            addList(list);
-        }
-    }
-    void add(std::span<const CornerAttribute> further) { all_.insert(all_.end(), further.begin(), further.end()); }
-
-    [[nodiscard]] std::span<const CornerAttribute> all() const { return all_; }
-
-  private:
-    /// Its numbers as floats, which the split tells apart by their bits.
-    void addList(const IndexView& list) {
-        const auto* numbers = static_cast<const std::uint32_t*>(list.data);
-        if (list.type != IndexType::u32) {
-            memory_.emplace_back(corner_count_);
-            numbers = readIndices(list, 0, corner_count_, memory_.back().data());
-        }
-        all_.push_back({reinterpret_cast<const float*>(numbers), sizeof(float), 1});
-    }
-
-    std::size_t corner_count_;
-    bool is_welded_;
-    std::vector<std::vector<std::uint32_t>> memory_;
-    std::vector<CornerAttribute> all_;
-};
-
 /// The entry of an attribute that each vertex has: that of its corner in the attribute's own list, or that of its vertex.
 std::vector<std::uint32_t> sourcesOf(const IndexView& list, const SplitResult& split) {
     if (list.type == IndexType::none) return split.source_vertices;
@@ -67,12 +32,23 @@ std::vector<T> gathered(const StridedSpan<const T>& values, const std::vector<st
 Result<Done> useOneList(const MeshView& mesh, const Execution& execution, OneListMesh& made,
                         std::span<const std::uint32_t> welded, std::span<const CornerAttribute> further) {
     const std::size_t corner_count = mesh.cornerCount();
-    Attributes attributes(corner_count, !welded.empty());
-    attributes.add(mesh.normals, mesh.normal_indices);
-    attributes.add(mesh.uvs, mesh.uv_indices);
-    attributes.add(further);
+    // What tells corners apart: values, or numbers as floats, whose bits the split compares.
+    std::vector<CornerAttribute> attributes(further.begin(), further.end());
+    std::vector<std::uint32_t> numbers[2];
+    const auto add = [&](const auto& values, const IndexView& list, std::vector<std::uint32_t>& memory) {
+        if (values.empty()) return;
+        if (list.type == IndexType::corners || (list.type == IndexType::none && !welded.empty())) {
+            attributes.push_back({&values.data->x, values.stride_bytes, sizeof *values.data / sizeof(float)});
+        } else if (list.type != IndexType::none) {
+            if (list.type != IndexType::u32) memory.resize(corner_count);
+            const std::uint32_t* const found = readIndices(list, 0, corner_count, memory.data());
+            attributes.push_back({reinterpret_cast<const float*>(found), sizeof(float), 1});
+        }
+    };
+    add(mesh.normals, mesh.normal_indices, numbers[0]);
+    add(mesh.uvs, mesh.uv_indices, numbers[1]);
     Result<SplitResult> split = splitVertices(welded.empty() ? mesh.indices : IndexView(welded), mesh.vertexCount(),
-                                              corner_count, attributes.all(), execution);
+                                              corner_count, attributes, execution);
     if (!split) return std::move(split).error();
     if (!welded.empty()) {
         // Without indices a corner is a vertex: the one whose other attributes these are.
