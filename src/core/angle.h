@@ -52,16 +52,9 @@ inline SineCosine sineCosine(double angle) {
     for (int n = 17; n >= 3; n -= 2) sine = 1 - q / (n * (n - 1)) * sine;
     for (int n = 16; n >= 2; n -= 2) cosine = 1 - q / (n * (n - 1)) * cosine;
     sine *= x;
-    switch (static_cast<int>(std::fmod(quarters, 4)) & 3) {
-        case 0:
-            return {sine, cosine};
-        case 1:
-            return {cosine, -sine};
-        case 2:
-            return {-sine, -cosine};
-        default:
-            return {-cosine, sine};
-    }
+    const unsigned quarter = static_cast<unsigned>(static_cast<int>(std::fmod(quarters, 4))) & 3;
+    const SineCosine half = quarter % 2 == 0 ? SineCosine{sine, cosine} : SineCosine{cosine, -sine};
+    return quarter < 2 ? half : SineCosine{-half.sine, -half.cosine};
 }
 
 /// The angle between two vectors, in [0, pi]; accurate also near 0 and pi, where acos of the dot product is
