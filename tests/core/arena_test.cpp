@@ -10,9 +10,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <new>
+#include <thread>
 #include <vector>
 
 #ifdef __linux__
+#include <malloc.h>
 #include <sys/resource.h>
 #endif
 
@@ -212,6 +214,26 @@ void computeAll(const Torus& torus, Method method, const Allocator* allocator) {
     tangents[5] = {};
     ASSERT_TRUE(sanitizeTangents(torus.view(), tangents, {.execution = execution}));
 }
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(Arena, IsKeptByAThreadThatHasNoAllocator) {
+    mallopt(M_MMAP_THRESHOLD, 131072);  // and glibc does not change it any more: each large buffer has fresh pages
+    const Torus torus(100);
+    std::vector<Vec4> tangents(torus.indices.size());
+    std::vector<long> faults;
+    std::thread([&] {
+        for (int call = 0; call < 4; ++call) {
+            rusage before{}, after{};
+            getrusage(RUSAGE_THREAD, &before);
+            EXPECT_TRUE(generateTangents(torus.view(), {.convention = conventions::opengl}, {.tangents = tangents}));
+            getrusage(RUSAGE_THREAD, &after);
+            faults.push_back(after.ru_minflt - before.ru_minflt);
+        }
+    }).join();
+    EXPECT_GT(faults[0], 20);
+    EXPECT_LT(faults[3], 5) << faults[0] << " in the first call";
+}
+#endif
 
 TEST(Arena, ServesASecondCallFromWhatItHolds) {
     const Torus torus(150);
