@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
 #include <limits>
 
 #include "core/border.h"
-#include "core/caches.h"
 #include "core/mesh_loops.h"
 #include "core/parallel.h"
 
@@ -45,38 +43,27 @@ Error checkFaces(const MeshView& mesh) {
     return fine();
 }
 
-/// Without a branch, four at a time. For i < 2^31 and limit <= 2^31, i - limit has its highest bit set exactly when
-/// i < limit.
+/// Without a branch, so that compilers take several at a time. For i < 2^31 and limit <= 2^31, i - limit has its highest bit set
+/// exactly when i < limit.
 bool allBelow(const std::uint32_t* indices, std::size_t count, std::uint32_t limit) {
-    using Four = std::uint32_t __attribute__((vector_size(16)));
-    const auto below = [=](std::size_t c) {
-        Four index;
-        std::memcpy(&index, indices + c, sizeof index);
-        return (index - limit) & ~index;
-    };
-    constexpr std::size_t kLanes = 16;
-    Four all = ~Four{};
-    std::size_t c = 0;
-    for (; c + kLanes <= count; c += kLanes) {
-        prefetchLines(indices + c, kLanes * sizeof *indices);
-        all &= below(c) & below(c + 4) & below(c + 8) & below(c + 12);
-    }
-    std::uint32_t rest = all[0] & all[1] & all[2] & all[3];
-    for (; c < count; ++c) rest &= (indices[c] - limit) & ~indices[c];
-    return rest >> 31 != 0;
+    std::uint32_t all = ~std::uint32_t{0};
+    for (std::size_t c = 0; c < count; ++c) all &= (indices[c] - limit) & ~indices[c];
+    return all >> 31 != 0;
 }
 
-bool allBelow(const IndexView& indices, std::size_t vertex_count, Parallel* parallel) {
-    if (indices.type == IndexType::none) return true;
-    const auto limit = static_cast<std::uint32_t>(std::min<std::size_t>(vertex_count, 0x80000000u));
+/// Checks that each index is below `count`.
+Error checkBelow(const IndexView& indices, std::size_t count, Parallel* parallel, const char* index_name,
+                 const char* name) {
+    if (indices.type == IndexType::none) return fine();
+    const auto limit = static_cast<std::uint32_t>(std::min(count, kMaxCorners + 1));
     std::atomic<bool> all{true};
     const auto check = [&](std::size_t begin, std::size_t end) {
         constexpr std::size_t kPart = 1024;  // that are widened at a time; 32-bit numbers are looked at where they are
         std::uint32_t buffer[kPart];
         const std::size_t step = indices.type == IndexType::u32 ? end - begin : kPart;
         for (; begin < end; begin += step) {
-            const std::size_t count = std::min(step, end - begin);
-            if (!allBelow(readIndices(indices, begin, count, buffer), count, limit))
+            const std::size_t part = std::min(step, end - begin);
+            if (!allBelow(readIndices(indices, begin, part, buffer), part, limit))
                 all.store(false, std::memory_order_relaxed);
         }
     };
@@ -85,14 +72,7 @@ bool allBelow(const IndexView& indices, std::size_t vertex_count, Parallel* para
         check(0, indices.count);
     else
         parallel->forRanges(indices.count, kGrain, check);
-    return all;
-}
-
-/// Checks that each index is below `count`.
-Error checkBelow(const IndexView& indices, std::size_t count, Parallel* parallel, const char* index_name,
-                 const char* name) {
-    if (allBelow(indices, count, parallel)) return fine();
-    std::size_t c = 0;
+    std::size_t c = all ? indices.count : 0;
     while (c < indices.count && indices[c] < count) ++c;
     if (c == indices.count) return fine();
     return makeError(ErrorCode::indexOutOfRange, c, "%s %u of corner %zu is not below the %zu %s", index_name,
@@ -135,13 +115,6 @@ Error checkAttribute(const StridedSpan<const std::byte>& span, std::size_t eleme
     return checkBelow(indices, span.count, nullptr, indices_name, name);
 }
 
-template <class T>
-Error checkAttribute(const StridedSpan<const T>& span, const IndexView& indices, const MeshView& mesh, const char* name,
-                     const char* indices_name) {
-    return checkAttribute({reinterpret_cast<const std::byte*>(span.data), span.count, span.stride_bytes}, sizeof(T),
-                          indices, mesh, name, indices_name);
-}
-
 }  // namespace
 
 Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, std::size_t element_bytes,
@@ -178,23 +151,20 @@ Error checkMesh(const MeshView& mesh, Parallel* parallel) {
     }
     if (Error e = checkSpan(mesh.positions, kAnyCount, "positions"); e.code != ErrorCode::ok) return e;
     if (Error e = checkIndexSpan(mesh.indices, "indices"); e.code != ErrorCode::ok) return e;
-    if (Error e = checkAttribute(mesh.normals, mesh.normal_indices, mesh, "normals", "normal_indices");
-        e.code != ErrorCode::ok)
-        return e;
-    if (Error e = checkAttribute(mesh.uvs, mesh.uv_indices, mesh, "uvs", "uv_indices"); e.code != ErrorCode::ok)
-        return e;
-    if (Error e = checkFaces(mesh); e.code != ErrorCode::ok) return e;
+    const auto check = [&](const auto& span, const IndexView& indices, const char* name, const char* indices_name) {
+        return checkAttribute({reinterpret_cast<const std::byte*>(span.data), span.count, span.stride_bytes},
+                              sizeof *span.data, indices, mesh, name, indices_name);
+    };
+    Error e = check(mesh.normals, mesh.normal_indices, "normals", "normal_indices");
+    if (e.code == ErrorCode::ok) e = check(mesh.uvs, mesh.uv_indices, "uvs", "uv_indices");
+    if (e.code == ErrorCode::ok) e = checkFaces(mesh);
+    if (e.code != ErrorCode::ok) return e;
     return checkBelow(mesh.indices, mesh.positions.count, parallel, "index", "vertices");
 }
 
 const std::uint32_t* widenIndices(const IndexView& view, std::size_t first, std::size_t count, std::uint32_t* buffer) {
-    const auto fill = [&](const auto& indexAt) {
-        constexpr std::size_t kLanes = 16;  // which become SIMD
-        std::size_t i = 0;
-        for (; i + kLanes <= count; i += kLanes) {
-            for (std::size_t k = 0; k < kLanes; ++k) buffer[i + k] = static_cast<std::uint32_t>(indexAt(first + i + k));
-        }
-        for (; i < count; ++i) buffer[i] = static_cast<std::uint32_t>(indexAt(first + i));
+    const auto fill = [=](const auto& indexAt) {
+        for (std::size_t i = 0; i < count; ++i) buffer[i] = static_cast<std::uint32_t>(indexAt(first + i));
     };
     switch (view.type) {
 #ifndef TSPACE_SMALL
@@ -214,8 +184,7 @@ const std::uint32_t* widenIndices(const IndexView& view, std::size_t first, std:
 
 Result<Done> validate(const MeshView& mesh) {
     return atBorder([&]() -> Result<Done> {
-        Error e = checkMesh(mesh);
-        if (e.code != ErrorCode::ok) return e;
+        if (Error e = checkMesh(mesh); e.code != ErrorCode::ok) return e;
         return Done{};
     });
 }
