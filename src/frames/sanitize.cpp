@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cfloat>
 #include <cmath>
 #include <utility>
@@ -37,10 +38,9 @@ constexpr double kOrthogonalTolerance = 5e-7;
 constexpr std::size_t kFacesPerBlock = 4;
 constexpr std::size_t kScanGrain = 1024;
 
-/// What is counted: what is wrong with tangents, from `placeholder` on with a usable direction; what they are mended with;
-/// and more.
+/// What is counted: what is wrong with tangents, what they are mended with, and more. In the order of SanitizeReport, which
+/// is a copy of those from notFinite to badNormal.
 enum class Counted : std::uint8_t {
-    sound,
     notFinite,
     zero,
     notUnit,
@@ -53,14 +53,15 @@ enum class Counted : std::uint8_t {
     fromNeighbor,
     fromBasis,
     badNormal,
-    seeker
+    seeker,
+    sound
 };
 using Cause = Counted;
 using Cure = Counted;
-constexpr std::size_t kCountedCount = 14;
+constexpr auto kReported = static_cast<std::size_t>(Counted::seeker);
 
 struct Counts {
-    std::array<std::uint64_t, kCountedCount> of{};
+    std::array<std::uint64_t, kReported + 1> of{};
     void count(Counted what) { ++of[static_cast<std::size_t>(what)]; }
 };
 
@@ -110,8 +111,6 @@ Vec3 orthonormal(const Vec3& direction, const DVec3& n) {
     return toFloat((1 / length(t)) * t);
 }
 
-Vec3 fromBasis(const DVec3& n) { return toFloat(planeAxes(isZero(n) ? DVec3{0, 0, 1} : n).x); }
-
 bool isOrthonormal(const Vec3& tangent, const DVec3& n) {
     const DVec3 t = toDouble(tangent);
     return std::abs(length(t) - 1) <= kOrthogonalTolerance && std::abs(dot(n, t)) <= kOrthogonalTolerance;
@@ -151,27 +150,16 @@ class Sanitizer {
         causes_ = Buffer<Cause>(allocator, mesh_.cornerCount(), Cause::sound);
         forEachCandidate(
             [this](std::size_t first, std::uint32_t size, Counts& counts) { detect(first, size, counts); });
-        if (countOf(Counted::seeker) != 0) lookAtPositions();
+        if (counts_[kReported] != 0) lookAtPositions();
         forEachCandidate([this](std::size_t first, std::uint32_t size, Counts& counts) { mend(first, size, counts); });
         return report();
     }
 
   private:
-    [[nodiscard]] std::uint64_t countOf(Counted what) const { return counts_[static_cast<std::size_t>(what)]; }
-
     [[nodiscard]] SanitizeReport report() const {
-        return {.not_finite_count = countOf(Cause::notFinite),
-                .zero_count = countOf(Cause::zero),
-                .not_unit_count = countOf(Cause::notUnit),
-                .parallel_count = countOf(Cause::parallel),
-                .placeholder_count = countOf(Cause::placeholder),
-                .bad_sign_count = countOf(Cause::badSign),
-                .mixed_sign_count = countOf(Cause::mixedSign),
-                .orthogonalized_count = countOf(Cause::notOrthogonal),
-                .normalized_count = countOf(Cure::fromOwn),
-                .from_neighbor_count = countOf(Cure::fromNeighbor),
-                .from_basis_count = countOf(Cure::fromBasis),
-                .bad_normal_count = countOf(Counted::badNormal)};
+        std::array<std::uint64_t, kReported> reported;
+        std::copy_n(counts_.begin(), kReported, reported.begin());
+        return std::bit_cast<SanitizeReport>(reported);
     }
 
     void cutIntoBlocks() {
@@ -256,17 +244,11 @@ class Sanitizer {
                 if (candidates_[block] == 0) continue;
                 forEachFaceOf(block, [&](std::size_t first, std::uint32_t size) { body(first, size, counts); });
             }
-            for (std::size_t i = 0; i < kCountedCount; ++i) counts_[i] += counts.of[i];
+            for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += counts.of[i];
         });
     }
 
     [[nodiscard]] DVec3 normalAt(std::size_t corner) const { return unitNormal(mesh_.normals[mesh_.indices[corner]]); }
-
-    /// Whether a tangent can be made from the corner's own; of most causes causeOf has looked.
-    [[nodiscard]] bool hasUsableOwn(std::size_t corner, Cause cause, const DVec3& n) const {
-        const bool was_looked_at = cause == Cause::sound || cause >= Cause::placeholder;
-        return was_looked_at || isUsable(xyz(tangents_[corner]), n);
-    }
 
     /// The face's first sound corner, or `first + size`.
     [[nodiscard]] std::size_t firstSound(std::size_t first, std::uint32_t size) const {
@@ -292,7 +274,7 @@ class Sanitizer {
             if (causes_[c] == Cause::sound) continue;
             const DVec3 n = normalAt(c);
             const bool has_sign = has_sound || isSign(tangents_[c].w);
-            if (!has_sign || !(hasUsableOwn(c, causes_[c], n) || (has_sound && isUsable(xyz(tangents_[sound]), n))))
+            if (!has_sign || !(isUsable(xyz(tangents_[c]), n) || (has_sound && isUsable(xyz(tangents_[sound]), n))))
                 counts.count(Counted::seeker);
         }
     }
@@ -356,20 +338,19 @@ class Sanitizer {
             const DVec3 n = normalAt(c);
             if (cause == Cause::sound && isOrthonormal(xyz(tangents_[c]), n)) continue;
             if (cause == Cause::sound) cause = Cause::notOrthogonal;
-            const auto [tangent, cure] = mended(c, cause, n, neighbor);
+            const auto [tangent, cure] = mended(c, n, neighbor);
             tangents_[c] = {tangent.x, tangent.y, tangent.z, sign};
             counts.count(cause);
             counts.count(cure);
         }
     }
 
-    [[nodiscard]] std::pair<Vec3, Cure> mended(std::size_t corner, Cause cause, const DVec3& n,
-                                               const Vec4& neighbor) const {
-        if (hasUsableOwn(corner, cause, n)) return {orthonormal(xyz(tangents_[corner]), n), Cure::fromOwn};
+    [[nodiscard]] std::pair<Vec3, Cure> mended(std::size_t corner, const DVec3& n, const Vec4& neighbor) const {
+        if (isUsable(xyz(tangents_[corner]), n)) return {orthonormal(xyz(tangents_[corner]), n), Cure::fromOwn};
         if (isUsable(xyz(neighbor), n)) return {orthonormal(xyz(neighbor), n), Cure::fromNeighbor};
         const Vec4* sound = foundBy(corner);
         if (sound != nullptr && isUsable(xyz(*sound), n)) return {orthonormal(xyz(*sound), n), Cure::fromNeighbor};
-        return {fromBasis(n), Cure::fromBasis};
+        return {toFloat(planeAxes(isZero(n) ? DVec3{0, 0, 1} : n).x), Cure::fromBasis};
     }
 
     const MeshView& mesh_;
@@ -384,7 +365,7 @@ class Sanitizer {
     Buffer<std::uint32_t> points_;
     Buffer<Vec4> found_;
     /// Of all tasks together: sums of whole numbers do not depend on their order.
-    std::array<std::atomic<std::uint64_t>, kCountedCount> counts_{};
+    std::array<std::atomic<std::uint64_t>, kReported + 1> counts_{};
 };
 
 Error check(const MeshView& mesh, const StridedSpan<Vec4>& tangents) {
