@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "normals/best_rounds.h"
-
+// NormalWeighting::best: rounds of sums at groups of corners that share a normal.
 #include <cstring>
 #include <utility>
 
 #include "core/input_scale.h"
 #include "core/sum_rounds.h"
 #include "normals/best_sums.h"
+#include "normals/normals_call.h"
 
 namespace tspace::smooth {
 

@@ -37,12 +37,10 @@ struct FaceKernel {
     /// how many triangles are degenerate.
     std::size_t (*compute)(const FaceSource& source, const std::uint32_t* vertices, std::size_t count,
                            FaceTerms& terms);
-    /// Adds angle * normal to rows of four, one row per point, sums[4 * (point - begin)].
+    /// Adds angle * normal to rows of four, one row per point, sums[4 * (point - begin)], for points from `begin` to
+    /// before `end`.
     void (*add)(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
-                std::uint32_t begin);
-    /// The same, but only for points from `begin` to before `end`.
-    void (*add_some)(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
-                     std::uint32_t begin, std::uint32_t end);
+                std::uint32_t begin, std::uint32_t end);
     /// Of `count` rows of sums, a multiple of kTermGroup: writes four floats to the front of each row, the unit normal
     /// and 0; or, where the sum is not above `least` of the weights (the fourth number), three zeros and -0. Returns of
     /// how many rows with weights that is so.

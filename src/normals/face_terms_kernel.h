@@ -119,25 +119,15 @@ std::size_t compute(const FaceSource& source, const std::uint32_t* vertices, std
                           : computeTerms<false>(source, vertices, count, terms);
 }
 
-template <class IsWanted>
-inline void addWanted(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
-                      std::uint32_t begin, IsWanted isWanted) {
+void add(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums, std::uint32_t begin,
+         std::uint32_t end) {
     for (std::size_t t = 0; t < count; ++t, points += 3) {
         const DoubleRow normal = loadDoubleRow(terms.normal[t]);
         for (std::size_t k = 0; k < 3; ++k) {
-            if (isWanted(points[k]))
-                addDoubleRow(sums + std::size_t{4} * (points[k] - begin), terms.angle[k][t], normal);
+            const std::uint32_t place = points[k] - begin;
+            if (place < end - begin) addDoubleRow(sums + std::size_t{4} * place, terms.angle[k][t], normal);
         }
     }
-}
-
-void add(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums, std::uint32_t begin) {
-    addWanted(terms, points, count, sums, begin, [](std::uint32_t) { return true; });
-}
-
-void addSome(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums, std::uint32_t begin,
-             std::uint32_t end) {
-    addWanted(terms, points, count, sums, begin, [=](std::uint32_t point) { return point - begin < end - begin; });
 }
 
 std::uint64_t finish(double* sums, std::size_t count, double least) {
@@ -165,6 +155,6 @@ std::uint64_t finish(double* sums, std::size_t count, double least) {
 
 }  // namespace
 
-FaceKernel faceKernel() { return {compute, add, addSome, finish}; }
+FaceKernel faceKernel() { return {compute, add, finish}; }
 
 }  // namespace tspace::smooth::TSPACE_LANES

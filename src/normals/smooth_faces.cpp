@@ -14,7 +14,6 @@
 
 #include "core/angle.h"
 #include "core/range_lists.h"
-#include "normals/best_rounds.h"
 #include "normals/smoothing.h"
 
 namespace tspace {

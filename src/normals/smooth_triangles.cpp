@@ -16,7 +16,7 @@
 #include "core/mesh_loops.h"
 #include "core/range_lists.h"
 #include "core/vec_math.h"
-#include "normals/best_rounds.h"
+#include "normals/normals_call.h"
 
 namespace tspace {
 
@@ -129,14 +129,9 @@ class TriangleSmoother {
         for (RangeLists::Batches batches(call_.items, lists_, index); batches.next(batch);) {
             const std::uint32_t* const v = fillGroup(batch.vertices, batch.count, kTermGroup, batch.own_vertices);
             const std::size_t without_area = call_.kernel.compute(source, v, batch.count, terms);
-            if (batch.is_whole) {
-                degenerate += without_area;
-                call_.kernel.add(terms, batch.groups, batch.count, sums, range.begin);
-                continue;
-            }
             for (std::size_t t = 0; without_area != 0 && t < batch.count; ++t)
                 degenerate += terms.normal[t][3] == 0.0 && range.has(batch.groups[3 * t]) ? 1 : 0;
-            call_.kernel.add_some(terms, batch.groups, batch.count, sums, range.begin, range.end);
+            call_.kernel.add(terms, batch.groups, batch.count, sums, range.begin, range.end);
         }
         // Sums of products of floats neither overflow nor vanish when squared.
         if (call_.kernel.finish(sums, size, kDoubtful) != 0) [[unlikely]]
