@@ -153,10 +153,7 @@ class RangeWork {
             const std::uint32_t begin = room_.begins[p], count = room_.begins[p + 1] - begin;
             if (count == 0) continue;
             const PointCorners at{first_ + p, count, room_.entries + begin, room_.triangles};
-            const Link* const links =
-                call_.weighting == NormalWeighting::flat
-                    ? oneComponent(count, room_.links)
-                    : findComponents(setting_.rule, room_.deciding, at, room_.links, room_.parents);
+            const Link* const links = findComponents(setting_.rule, room_.deciding, at, room_.links, room_.parents);
             for (std::uint32_t first = 0, past = 0; first < count; first = past) {
                 while (past < count && links[past].key == links[first].key) ++past;
                 substitutes += write(at, links + first, past - first);
@@ -338,9 +335,7 @@ NormalReport smoothFaces(const NormalsCall& call) {
         std::clamp(std::bit_floor(point_count / (kRanges * most_tasks)), kLeastRange, kMostRange);
     const RangeLists lists(call.items, kTermTriangles, point_count, range_points, call.allocator, parallel);
     const std::size_t tasks = std::min(lists.count(), most_tasks);
-    // Without hard edges a point has one component, and `flat` has none.
-    const bool has_pose = call.weighting != NormalWeighting::flat && !setting.rule.connectsAll() &&
-                          call.mesh.positions.data != call.posed.positions.data;
+    const bool has_pose = !setting.rule.connectsAll() && call.mesh.positions.data != call.posed.positions.data;
     const std::size_t items = lists.mostTriangles(call.items.count), corners = (call.are_triangles ? 3 : 1) * items;
     const std::size_t numbers_each = 2 * corners + lists.range(0).size() + 3;
     Buffer<FaceRow> rows(call.allocator, tasks * items), deciding(call.allocator, has_pose ? tasks * items : 0);
