@@ -178,6 +178,14 @@ Result<std::unique_ptr<TangentPlan::State>> planLists(const MeshView& mesh, cons
 
 }  // namespace
 
+const char* methodName(Method method) {
+    static constexpr const char* kNames[] = {"mikktspace", "lengyel", "uniform", "angle", "area",
+                                             "flat",       "basis",   "fast",    "best"};
+    static_assert(std::size(kNames) == static_cast<std::size_t>(Method::best) + 1);
+    const auto number = static_cast<std::size_t>(method);
+    return number < std::size(kNames) ? kNames[number] : "unknown";
+}
+
 TangentPlan::TangentPlan(State* state) : state_(state) {}
 TangentPlan::TangentPlan(TangentPlan&& other) noexcept : state_(std::exchange(other.state_, nullptr)) {}
 TangentPlan& TangentPlan::operator=(TangentPlan&& other) noexcept {

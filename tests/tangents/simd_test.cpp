@@ -12,7 +12,7 @@
 #include "support/thread_team.h"
 #include "tangents/golden_mesh.h"
 #include "tangents/mikktspace/corner_terms.h"
-#include "tangents/mikktspace/one_pass.h"
+#include "tangents/mikktspace/vertex_path.h"
 #include "tangents/shapes.h"
 
 namespace tspace::test {

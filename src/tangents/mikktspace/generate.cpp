@@ -10,7 +10,6 @@
 #include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/faces.h"
 #include "tangents/mikktspace/last_bucket.h"
-#include "tangents/mikktspace/one_pass.h"
 #include "tangents/mikktspace/splits.h"
 #include "tangents/mikktspace/vertex_path.h"
 #include "tangents/mikktspace/weld.h"
@@ -22,10 +21,9 @@ namespace {
 
 /// For meshes of fewer corners the many small allocations would take a fifth of the time. A corner mostly needs so many
 /// bytes, of which no more than a fixed number are asked for: the system takes pages of large blocks back each time. The
-/// vertex path may ask for more.
+/// vertex path may ask for more. A thread keeps no more than kMostKept between calls.
 constexpr std::size_t kSmallMesh = 4096, kBytesPerCorner = 32, kLeastBlock = 4096, kLargestBlock = 98304,
-                      kStackRoom = 8192;
-constexpr std::size_t kMostKept = std::size_t{4} << 20;  // bytes, by each thread
+                      kStackRoom = 8192, kMostKept = std::size_t{4} << 20;
 
 /// Tangents are written last, so until then their memory can serve.
 std::span<std::byte> unwritten(const TangentOutput& out) {
@@ -36,10 +34,14 @@ std::span<std::byte> unwritten(const TangentOutput& out) {
 /// The scratch memory that a thread keeps between its calls, so that pages are taken from the system once: models of more
 /// than 5,000 triangles take a tenth less time. Null in a thread's first call, which would pay 0.3 ms for all of it alone.
 Arena* keptScratch() {
+#ifdef TSPACE_SERIAL
+    return nullptr;  // WebAssembly gives no page back
+#else
     static thread_local bool has_called = false;
     if (!std::exchange(has_called, true)) return nullptr;
     static thread_local Arena kept;
     return &kept;
+#endif
 }
 
 /// Where it is asked for. What is not finite has no order there.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Sum, look at what is simple, write, and give the rest to the vertex path.
-#include "tangents/mikktspace/one_pass.h"
-
+// Grouping and evaluation in one pass over the triangles, for the nodes where that can be done: one fan, one orientation,
+// tangents that the angular test cannot separate. Those are nearly all nodes of nearly all meshes. Sum, look at what is
+// simple, write, and give the rest to the vertex path, which has the same bits for everything.
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -16,6 +16,7 @@
 #include "tangents/mikktspace/collect.h"
 #include "tangents/mikktspace/node_sums.h"
 #include "tangents/mikktspace/results.h"
+#include "tangents/mikktspace/vertex_path.h"
 
 namespace tspace::mikk {
 

@@ -100,4 +100,10 @@ VertexCorners readCorners(const VertexPath& path);
 /// bytes per triangle around these nodes. Throws OutOfMemory.
 EvaluationPlan planChosen(const VertexPath& path);
 
+/// One pass (one_pass.cpp), and the vertex path for what it leaves. Writes tangents of the mesh's own pose, but for an angular
+/// threshold. `transient`: for what is not needed any more when tangents are written: their own memory, unless somebody looks
+/// at it. `range_shift`: log2 of the nodes of a range; 0: what suits the mesh. Throws OutOfMemory.
+TangentReport evaluateInOnePass(const NodeSetting& setting, const TangentOutput& out, ScratchBlock& transient,
+                                Parallel& parallel, unsigned range_shift = 0);
+
 }  // namespace tspace::mikk
