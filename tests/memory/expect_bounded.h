@@ -29,7 +29,8 @@ inline std::uint64_t bytesOf(const std::vector<std::filesystem::path>& files) {
 /// `file_bytes`. Says how many commands refused it.
 inline int expectBounded(const std::filesystem::path& model, std::uint64_t file_bytes,
                          const std::vector<std::string>& more_options = {}) {
-    constexpr double kMostSeconds = 20;
+    // Work that grows with a claim takes hours. Where fresh pages are dear, as on some virtual machines, 40 s were measured.
+    constexpr double kMostSeconds = 100;
     const TempFolder scratch;
     const std::string out = scratch.path(model.extension() == ".gltf" ? "out/out.gltf" : "out/out.glb").string();
     std::filesystem::create_directory(scratch.path("out"));
