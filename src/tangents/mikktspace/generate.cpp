@@ -21,27 +21,14 @@ namespace {
 
 /// For meshes of fewer corners the many small allocations would take a fifth of the time. A corner mostly needs so many
 /// bytes, of which no more than a fixed number are asked for: the system takes pages of large blocks back each time. The
-/// vertex path may ask for more. A thread keeps no more than kMostKept between calls.
+/// vertex path may ask for more.
 constexpr std::size_t kSmallMesh = 4096, kBytesPerCorner = 32, kLeastBlock = 4096, kLargestBlock = 98304,
-                      kStackRoom = 8192, kMostKept = std::size_t{4} << 20;
+                      kStackRoom = 8192;
 
 /// Tangents are written last, so until then their memory can serve.
 std::span<std::byte> unwritten(const TangentOutput& out) {
     if (out.tangents.stride_bytes != sizeof(Vec4)) return {};
     return {reinterpret_cast<std::byte*>(out.tangents.data), out.tangents.count * sizeof(Vec4)};
-}
-
-/// The scratch memory that a thread keeps between its calls, so that pages are taken from the system once: models of more
-/// than 5,000 triangles take a tenth less time. Null in a thread's first call, which would pay 0.3 ms for all of it alone.
-Arena* keptScratch() {
-#ifdef TSPACE_SERIAL
-    return nullptr;  // WebAssembly gives no page back
-#else
-    static thread_local bool has_called = false;
-    if (!std::exchange(has_called, true)) return nullptr;
-    static thread_local Arena kept;
-    return &kept;
-#endif
 }
 
 /// Where it is asked for. What is not finite has no order there.
@@ -71,27 +58,40 @@ TangentReport generateWith(const MeshView& mesh, const TangentOptions& options, 
     return evaluateInOnePass({{mesh, triangles, nodes}, options, bucket}, out, transient, parallel);
 }
 
+/// A thread keeps its scratch memory between such calls, so that pages are taken from the system once: models of more than
+/// 5,000 triangles take a tenth less time. Not in a thread's first call, which would pay 0.3 ms for all of it alone, and not
+/// in WebAssembly, which gives no page back.
+TangentReport generateLarge(const MeshView& mesh, TangentOptions options, const TangentOutput& out,
+                            Parallel& parallel) {
+#ifndef TSPACE_SERIAL
+    constexpr std::size_t kMostKept = std::size_t{4} << 20;  // bytes
+    static thread_local bool has_called = false;
+    if (options.execution.allocator == nullptr && std::exchange(has_called, true)) {
+        static thread_local Arena kept;
+        options.execution.allocator = kept.allocator();
+        const TangentReport report = generateWith(mesh, options, out, parallel);
+        if (kept.heldBytes() > kMostKept) kept.trim();
+        return report;
+    }
+#endif
+    return generateWith(mesh, options, out, parallel);
+}
+
 }  // namespace
 
 TangentReport generateGrouped(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
                               Parallel& parallel) {
     if (!kHasOnePass) return planAndEvaluate(mesh, options, out, parallel);
     const std::size_t corners = mesh.cornerCount();
-    const Allocator* allocator = options.execution.allocator;
-    TangentOptions with_scratch = options;
-    if (corners > kSmallMesh) {
-        Arena* const kept = allocator == nullptr ? keptScratch() : nullptr;
-        if (kept != nullptr) with_scratch.execution.allocator = kept->allocator();
-        const TangentReport report = generateWith(mesh, with_scratch, out, parallel);
-        if (kept != nullptr && kept->heldBytes() > kMostKept) kept->trim();
-        return report;
-    }
+    if (corners > kSmallMesh) return generateLarge(mesh, options, out, parallel);
     const std::size_t bytes = std::min(kLeastBlock + corners * kBytesPerCorner, kLargestBlock);
+    const Allocator* allocator = options.execution.allocator;
     alignas(kMemoryAlignment) std::byte room[kStackRoom];
     ScratchBlock scratch =
         bytes <= kStackRoom ? ScratchBlock(allocator, std::span(room)) : ScratchBlock(allocator, bytes);
-    with_scratch.execution.allocator = scratch.allocator();
-    return generateWith(mesh, with_scratch, out, parallel);
+    TangentOptions small = options;
+    small.execution.allocator = scratch.allocator();
+    return generateWith(mesh, small, out, parallel);
 }
 
 EvaluationPlan planGrouped(const MeshView& mesh, const TangentOptions& options, Parallel& parallel, PlanUse use) {
