@@ -3,9 +3,10 @@
 #include "normals/smoothing.h"
 
 #include <algorithm>
-#include <iterator>
+#include <bit>
 
 #include "core/angle.h"
+#include "core/float4.h"
 #include "core/sort.h"
 
 namespace tspace {
@@ -13,6 +14,7 @@ namespace tspace {
 namespace {
 
 constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
+constexpr std::uint32_t kFew = 8;  ///< corners at a point: enough nearly everywhere
 
 // Positions are floats: an edge of 90 degrees by intent is up to some 1e-7 rad more by its numbers.
 constexpr double kCreaseSlackRad = 1e-6;
@@ -55,6 +57,18 @@ inline bool isSmooth(const SmoothingRule& rule, const FaceRow& a, const FaceRow&
         return true;
     return !(above < -clear) && isSmoothByAngle(rule, a, b);
 }
+
+/// Points of few corners.
+struct FewPoints {
+    Mask4 four[kFew / 4] = {Mask4{} - 1, Mask4{} - 1};
+
+    void set(std::uint32_t slot, std::uint32_t point) { four[slot / 4][slot % 4] = static_cast<std::int32_t>(point); }
+    /// The corners that have a point, by bits.
+    [[nodiscard]] std::uint32_t with(std::uint32_t point) const {
+        const Mask4 wanted = Mask4{} + static_cast<std::int32_t>(point);
+        return laneBits(four[0] == wanted) | laneBits(four[1] == wanted) << 4;
+    }
+};
 
 /// The corners around one point.
 class PointComponents {
@@ -124,6 +138,7 @@ class PointComponents {
     }
 
     void joinOverEdges() {
+        if (count_ <= kFew && joinFans()) return;
         Link* end = links_;
         for (std::uint32_t slot = 0; slot < count_; ++slot) end = addEdges(slot, end);
         sortLinks(links_, end);
@@ -133,6 +148,28 @@ class PointComponents {
             joinOverEdge(run, past);
             run = past;
         }
+    }
+
+    /// For few corners of which no two have the same next point, or the same previous one: no list of edges has to be
+    /// sorted. Returns false for others, and has done nothing.
+    bool joinFans() {
+        FewPoints next, previous;
+        std::uint8_t follower[kFew];
+        for (std::uint32_t slot = 0; slot < count_; ++slot) {
+            if (row(slot).isDegenerate() || group(slot) == 0 || at_.next(slot) == at_.point) return false;
+            next.set(slot, at_.next(slot));
+            previous.set(slot, at_.previous(slot));
+        }
+        for (std::uint32_t slot = 0; slot < count_; ++slot) {
+            const std::uint32_t found = previous.with(at_.next(slot));
+            const std::uint32_t like = next.with(at_.next(slot)), behind = previous.with(at_.previous(slot));
+            if ((like & (like - 1)) != 0 || (behind & (behind - 1)) != 0) return false;
+            follower[slot] = static_cast<std::uint8_t>(found != 0 ? std::countr_zero(found) : slot);
+        }
+        for (std::uint32_t slot = 0; slot < count_; ++slot) {
+            if (follower[slot] != slot) joinTwo(slot, follower[slot]);
+        }
+        return true;
     }
 
     /// Adds the edges from the point to the next and previous one. Edges of length zero connect a face to
@@ -156,13 +193,14 @@ class PointComponents {
 
     void joinOverEdge(Link* run, Link* past) {
         if (past - run < 2) return;
-        if (past - run == 2) {
-            const std::uint32_t g = group(run[0].slot), h = group(run[1].slot);
-            if (rule_.groups_are_masks ? (g & h) != 0 : g == h) joinIfSmooth(run[0].slot, run[1].slot);
-            return;
-        }
+        if (past - run == 2) return joinTwo(run[0].slot, run[1].slot);
         sortAboutEdge(run, past);
         joinGroups(run, past);
+    }
+
+    void joinTwo(std::uint32_t a, std::uint32_t b) {
+        const std::uint32_t g = group(a), h = group(b);
+        if (rule_.groups_are_masks ? (g & h) != 0 : g == h) joinIfSmooth(a, b);
     }
 
     /// Each group for itself. They are sorted by group, unless these are masks.
@@ -231,8 +269,8 @@ const Link* findComponents(const SmoothingRule& rule, const FaceRow* rows, const
 }
 
 const Link* oneComponent(std::uint32_t count, Link* links) {
-    static constexpr Link kFew[8] = {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}, {0, 6}, {0, 7}};
-    if (count <= std::size(kFew)) return kFew;
+    static constexpr Link kInOne[kFew] = {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}, {0, 6}, {0, 7}};
+    if (count <= kFew) return kInOne;
     for (std::uint32_t slot = 0; slot < count; ++slot) links[slot] = {0, slot};
     return links;
 }
