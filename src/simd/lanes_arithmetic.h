@@ -77,6 +77,9 @@ inline bool all(Mask m) { return bitsOf(m) == (1u << kWidth) - 1; }
 inline Floats select(Mask m, Floats yes, Floats no) { return {m.v ? yes.v : no.v}; }
 /// a | bit where the mask is set, else a.
 inline Bits orWhere(Bits a, Mask m, std::uint32_t bit) { return {a.v | (reinterpret_cast<WordVector>(m.v) & bit)}; }
+inline Bits keepWhere(Bits a, Mask m) { return {a.v & reinterpret_cast<WordVector>(m.v)}; }
+/// a shifted left, with the mask as its lowest bit.
+inline Bits appendBit(Bits a, Mask m) { return {a.v + a.v - reinterpret_cast<WordVector>(m.v)}; }
 
 /// Half of the lanes as doubles.
 struct Doubles {

@@ -84,20 +84,20 @@ struct Shape {
     }
 };
 
-/// `first`: the mark for a component x above the margin. One for x below it follows, then those for y and z.
-inline Bits markSides(Bits marks, Vectors v, std::uint32_t first) {
+/// Appends six marks: component x above the margin, below it, and the same for y and z.
+inline Bits appendSides(Bits marks, Vectors v) {
     const Floats above = broadcast(kSideMargin), below = broadcast(-kSideMargin);
-    marks = orWhere(orWhere(marks, v.x > above, first), v.x < below, first << 1);
-    marks = orWhere(orWhere(marks, v.y > above, first << 2), v.y < below, first << 3);
-    return orWhere(orWhere(marks, v.z > above, first << 4), v.z < below, first << 5);
+    for (const Floats component : {v.x, v.y, v.z})
+        marks = appendBit(appendBit(marks, component > above), component < below);
+    return marks;
 }
 
-/// Marks of a corner about its unit tangent, whose square was `square`, and its bitangent, both projected (corner_terms.h).
-inline Bits sidesOf(Vectors s, Floats square, Vectors t) {
-    const Bits tangent_sides = markSides(broadcastBits(0), s, kTangentSides & -kTangentSides);
-    const Bits sides = markSides(tangent_sides, t, kBitangentSides & -kBitangentSides);
+/// Marks of a corner: of its projected bitangent, its unit tangent, whose square was `square`, and `facing`.
+inline Bits sidesOf(Vectors s, Floats square, Vectors t, Bits facing) {
+    static_assert(kFacing == 0x3 && kTangentSides == 0x3f << 2 && kBitangentSides == 0x3f << 8);
+    const Bits sides = appendSides(appendSides(broadcastBits(0), t), s);
     const Mask are_sure = (square > broadcast(kSmallestSquare)) & (dot(t, t) < broadcast(kLargestSquare));
-    return sides & orWhere(broadcastBits(0), are_sure, kAllMarks);
+    return shiftLeft<2>(keepWhere(sides, are_sure)) | facing;
 }
 
 /// The weight of a corner, or for the two weightings that are angles, its cosine.
@@ -121,7 +121,7 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
     Bits flags = orWhere(orWhere(broadcastBits(0), shape.no_area, kNoUvArea), degenerate, kDegenerateMark);
     flags = orWhere(flags, !shape.positive, kMirroredMark);
     if (source.weighting == Weighting::none) {
-        const Bits all_marks = (facing & orWhere(broadcastBits(0), usable, kAllMarks)) | flags;
+        const Bits all_marks = keepWhere(facing, usable) | flags;
         for (std::size_t k = 0; k < 3; ++k) store(terms.marks[k] + first, all_marks);
         return;
     }
@@ -143,8 +143,7 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
         const Vectors here = group.position[k];
         weights[k] = weightOrCosine(source.weighting, normal, group.position[(k + 2) % 3] - here,
                                     group.position[(k + 1) % 3] - here);
-        marks[k] = facing;
-        if (is_mikktspace) marks[k] = facing | sidesOf(s[k], square, projected_t);
+        marks[k] = is_mikktspace ? sidesOf(s[k], square, projected_t, facing) : facing;
     }
     if (is_mikktspace || source.weighting == Weighting::angle) {
         const Floats cosines[3] = {weights[0], weights[1], weights[2]};
@@ -152,8 +151,7 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
     }
     for (std::size_t k = 0; k < 3; ++k) {
         const Floats weight = weights[k];
-        const Bits kept = orWhere(broadcastBits(0), usable & (weight == weight), kAllMarks);
-        store(terms.marks[k] + first, (marks[k] & kept) | flags);
+        store(terms.marks[k] + first, keepWhere(marks[k], usable & (weight == weight)) | flags);
         const std::size_t row = 3 * first + k;
         storeRows(terms.s[row], weight * s[k].x, weight * s[k].y, weight * s[k].z, weight);
         if (!source.tangents_only) {
