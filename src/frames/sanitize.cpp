@@ -38,8 +38,7 @@ constexpr double kOrthogonalTolerance = 5e-7;
 constexpr std::size_t kFacesPerBlock = 4;
 constexpr std::size_t kScanGrain = 1024;
 
-/// What is counted: what is wrong with tangents, what they are mended with, and more. In the order of SanitizeReport, which
-/// is a copy of those from notFinite to badNormal.
+/// What is counted: what is wrong with tangents, what they are mended with, and more.
 enum class Counted : std::uint8_t {
     notFinite,
     zero,
@@ -58,10 +57,10 @@ enum class Counted : std::uint8_t {
 };
 using Cause = Counted;
 using Cure = Counted;
-constexpr auto kReported = static_cast<std::size_t>(Counted::seeker);
+constexpr auto kCounted = static_cast<std::size_t>(Counted::sound);
 
 struct Counts {
-    std::array<std::uint64_t, kReported + 1> of{};
+    std::array<std::uint64_t, kCounted> of{};
     void count(Counted what) { ++of[static_cast<std::size_t>(what)]; }
 };
 
@@ -150,16 +149,27 @@ class Sanitizer {
         causes_ = Buffer<Cause>(allocator, mesh_.cornerCount(), Cause::sound);
         forEachCandidate(
             [this](std::size_t first, std::uint32_t size, Counts& counts) { detect(first, size, counts); });
-        if (counts_[kReported] != 0) lookAtPositions();
+        if (countOf(Counted::seeker) != 0) lookAtPositions();
         forEachCandidate([this](std::size_t first, std::uint32_t size, Counts& counts) { mend(first, size, counts); });
         return report();
     }
 
   private:
+    [[nodiscard]] std::uint64_t countOf(Counted what) const { return counts_[static_cast<std::size_t>(what)]; }
+
     [[nodiscard]] SanitizeReport report() const {
-        std::array<std::uint64_t, kReported> reported;
-        std::copy_n(counts_.begin(), kReported, reported.begin());
-        return std::bit_cast<SanitizeReport>(reported);
+        return {.not_finite_count = countOf(Counted::notFinite),
+                .zero_count = countOf(Counted::zero),
+                .not_unit_count = countOf(Counted::notUnit),
+                .parallel_count = countOf(Counted::parallel),
+                .placeholder_count = countOf(Counted::placeholder),
+                .bad_sign_count = countOf(Counted::badSign),
+                .mixed_sign_count = countOf(Counted::mixedSign),
+                .orthogonalized_count = countOf(Counted::notOrthogonal),
+                .normalized_count = countOf(Counted::fromOwn),
+                .from_neighbor_count = countOf(Counted::fromNeighbor),
+                .from_basis_count = countOf(Counted::fromBasis),
+                .bad_normal_count = countOf(Counted::badNormal)};
     }
 
     void cutIntoBlocks() {
@@ -365,7 +375,7 @@ class Sanitizer {
     Buffer<std::uint32_t> points_;
     Buffer<Vec4> found_;
     /// Of all tasks together: sums of whole numbers do not depend on their order.
-    std::array<std::atomic<std::uint64_t>, kReported + 1> counts_{};
+    std::array<std::atomic<std::uint64_t>, kCounted> counts_{};
 };
 
 Error check(const MeshView& mesh, const StridedSpan<Vec4>& tangents) {
