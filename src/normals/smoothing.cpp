@@ -151,7 +151,8 @@ class PointComponents {
     }
 
     /// For few corners of which no two have the same next point, or the same previous one: no list of edges has to be
-    /// sorted. Returns false for others, and has done nothing.
+    /// sorted. Returns false for others, and has done nothing. (std::has_single_bit is a call where the target is plain
+    /// x86-64.)
     bool joinFans() {
         FewPoints next, previous;
         std::uint8_t follower[kFew];
