@@ -104,17 +104,15 @@ class CornerData final : public Weldable {
     }
     bool compare(const std::uint32_t* list, std::size_t begin, std::size_t end, std::uint32_t* roots) override {
         const auto vertexOf = [=](std::size_t i) { return list == nullptr ? static_cast<std::uint32_t>(i) : list[i]; };
-        const bool all_finite = all_finite_;
         bool mixed = false, different = false;
         for (std::size_t i = begin; i < end; ++i) {
             if (i + kAhead < end && roots[i + kAhead] != vertexOf(i + kAhead)) askFor(roots[i + kAhead]);
             const std::uint32_t vertex = vertexOf(i), root = roots[i];
             if (root == vertex) continue;
-            const bool same = sameBits(mesh_, vertex, root);
-            if (same && all_finite) continue;
+            if (sameBits(mesh_, vertex, root)) continue;
             if (equal(load(mesh_, vertex), load(mesh_, root))) {
-                mixed |= !same;
-            } else {  // NaN too, which equals nothing, not even itself
+                mixed = true;
+            } else {
                 roots[i] = kNoRoot;
                 different = true;
             }

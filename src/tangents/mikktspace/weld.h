@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Welding: vertices with equal position, normal and UV become one node. One with a NaN is equal to none.
+// Welding: vertices with equal position, normal and UV become one node. A NaN equals its
+// own bits, so that it does not matter whether a file stores a vertex once or twice.
 #pragma once
 
 #include "core/memory.h"
