@@ -27,6 +27,28 @@ Error checkOptions(const MeshView& mesh, const NormalOptions& options, const Str
     return checkSpan(out, mesh.cornerCount(), "out");
 }
 
+NormalReport averageNormals(const NormalsCall& call) {
+    const bool is_usual = call.are_triangles && call.mesh.vertexCount() != 0 && call.options.crease_angle_deg >= 180 &&
+                          call.options.smoothing_groups.empty() && call.weighting != NormalWeighting::max;
+    return is_usual ? smoothTriangles(call) : smoothFaces(call);
+}
+
+/// Corners of degenerate faces get the mean of the others there. Where there are none, nothing at points matters.
+NormalReport flatNormals(const MeshView& mesh, const MeshView& posed, const NormalOptions& options,
+                         StridedSpan<Vec3> out, Parallel& parallel) {
+    NormalOptions means = options;
+    means.weighting = NormalWeighting::uniform;
+    means.crease_angle_deg = 180;
+    means.smoothing_groups = {};
+    means.weld_positions = false;
+    const NormalReport report = writeFaceNormals({mesh, posed, means, out, parallel});
+    if (report.degenerate_face_count == 0) return report;
+    means.weld_positions = options.weld_positions;
+    const NormalsCall call(mesh, posed, means, out, parallel);
+    averageNormals(call);
+    return writeFaceNormals(call);
+}
+
 Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& posed, const NormalOptions& options,
                                       StridedSpan<Vec3> out) {
     // Cones and patches of faces are looked for at each point.
@@ -36,11 +58,8 @@ Result<NormalReport> checkAndGenerate(const MeshView& mesh, const MeshView& pose
     if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
     if (Error e = checkSpan(posed.positions, mesh.vertexCount(), "positions"); e.code != ErrorCode::ok) return e;
     if (Error e = checkOptions(mesh, options, out); e.code != ErrorCode::ok) return e;
-    const NormalsCall call(mesh, posed, options, out, parallel);
-    const bool is_usual = call.are_triangles && mesh.vertexCount() != 0 && options.crease_angle_deg >= 180 &&
-                          options.smoothing_groups.empty() && options.weighting != NormalWeighting::flat &&
-                          options.weighting != NormalWeighting::max;
-    return is_usual ? smoothTriangles(call) : smoothFaces(call);
+    if (options.weighting == NormalWeighting::flat) return flatNormals(mesh, posed, options, out, parallel);
+    return averageNormals({mesh, posed, options, out, parallel});
 }
 
 }  // namespace

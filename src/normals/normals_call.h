@@ -56,7 +56,7 @@ struct NormalsCall {
     bool by_area, by_angle;
 };
 
-/// The common case by a shorter way: triangles, all weightings but flat and max, and a point has one normal. Scratch
+/// The common case by a shorter way: triangles, all weightings but max, and a point has one normal. Scratch
 /// memory: 4 bytes per vertex, core/range_lists.h and 1 MB, or up to 4 MB for each of several threads; where triangles
 /// that follow one another are far apart 36 bytes per vertex; for `best` 60, and core/sum_rounds.h. While vertices are
 /// welded 10 to 24. Throws OutOfMemory.
@@ -67,6 +67,10 @@ NormalReport smoothTriangles(const NormalsCall& call);
 /// 150 bytes per triangle of a range, which are an eighth of a small mesh and about 8000 of a large one; for `best`
 /// also 28 bytes per corner. While vertices are welded 10 to 24 bytes per vertex. Throws OutOfMemory.
 NormalReport smoothFaces(const NormalsCall& call);
+
+/// The weighting `flat`, but that corners of degenerate faces keep what they have; these are what it counts as substitutes.
+/// Looks at no points.
+NormalReport writeFaceNormals(const NormalsCall& call);
 
 namespace smooth {
 

@@ -248,8 +248,10 @@ class RangeWork {
 
     std::uint64_t write(const PointCorners& at, const Link* links, std::uint32_t count) {
         Vec3 normal;
-        if (call_.weighting == NormalWeighting::flat || !mean(at, links, count, normal))
-            return writeSubstitutes(at, links, count);
+        if (!mean(at, links, count, normal)) {
+            writeSubstitutes(at, links, count);
+            return count;
+        }
         for (std::uint32_t i = 0; i < count; ++i) call_.out[at.corner(links[i].slot)] = normal;
         if (call_.is_best && exactMean(NormalWeighting::max, at, links, count, normal))
             writeSharp(at, links, count, normal);
@@ -281,10 +283,8 @@ class RangeWork {
         return sum.write(kVanished, normal);
     }
 
-    /// A corner without a mean takes the normal of its face, or of the others at its point; `flat` always does. Returns
-    /// for how many this is a substitute.
-    [[gnu::noinline]] std::uint64_t writeSubstitutes(const PointCorners& at, const Link* links, std::uint32_t count) {
-        std::uint64_t degenerate = 0;
+    /// A corner without a mean takes the normal of its face, or of the others at its point.
+    [[gnu::noinline]] void writeSubstitutes(const PointCorners& at, const Link* links, std::uint32_t count) {
         for (std::uint32_t i = 0; i < count; ++i) {
             const std::uint32_t corner = at.corner(links[i].slot);
             const FaceRow& row = room_.rows[at.triangle(links[i].slot)];
@@ -298,9 +298,7 @@ class RangeWork {
                 if (!mean(at, all, at.count, of_others_)) of_others_ = {0, 0, 1};
             }
             call_.out[corner] = of_others_;
-            ++degenerate;
         }
-        return call_.weighting == NormalWeighting::flat ? degenerate : count;
     }
 
     const Setting& setting_;

@@ -37,10 +37,8 @@ struct SmoothingRule {
 
     /// No crease: every pair of faces at a point may be connected.
     [[nodiscard]] bool anyAngle() const { return call.options.crease_angle_deg >= 180; }
-    /// All corners at a point are one component. For `flat`, which has no means, it does not matter what is one.
-    [[nodiscard]] bool connectsAll() const {
-        return call.weighting == NormalWeighting::flat || (anyAngle() && groups.empty());
-    }
+    /// All corners at a point are one component.
+    [[nodiscard]] bool connectsAll() const { return anyAngle() && groups.empty(); }
 
     const NormalsCall& call;
     double crease_rad, crease_cosine;  ///< with creases faces are connected over edges that turn by no more than this
