@@ -122,6 +122,7 @@ RangeLists::RangeLists(const TriangleGroups& triangles, std::size_t block_size, 
 bool RangeLists::areCompact(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count,
                             std::size_t range_size) {
     constexpr std::size_t kSamples = 64;
+    if (group_count <= range_size) return true;
     const std::size_t blocks = (triangles.count + block_size - 1) / block_size, samples = std::min(blocks, kSamples);
     Walk walk(triangles, block_size, group_count, range_size);
     std::size_t several = 0;

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <span>
 
 #include "core/caches.h"
 #include "core/float4.h"
@@ -150,7 +151,7 @@ class FaceSums {
     }
 
     /// In double. A triangle that has no derivatives adds nothing, but its vertices have been named.
-    void addUnsafe(const std::uint32_t* v, GroupRange range, RangeCounts& counts) const {
+    [[gnu::noinline]] void addUnsafe(const std::uint32_t* v, GroupRange range, RangeCounts& counts) const {
         const Vec3 &p0 = positions_[v[0]], &p1 = positions_[v[1]], &p2 = positions_[v[2]];
         const UvFrame frame = uvFrame(p0, p1, p2, plan_.uvs[v[0]], plan_.uvs[v[1]], plan_.uvs[v[2]]);
         const bool has_area = hasUvArea(frame.determinant);
@@ -235,8 +236,9 @@ class VertexFrames {
         std::copy_n(sums_.head(first), 4 * count, heads);
         std::copy_n(sums_.tail(first), 2 * count, tails);
         for (std::uint32_t i = 0; i < count; ++i) normals[i] = normals_[first + i];
+        const std::uint32_t groups = (count + derivatives::kTermGroup - 1) / derivatives::kTermGroup;
         const std::uint64_t safe = kernel_.finish({heads, tails}, reinterpret_cast<const std::byte*>(normals),
-                                                  sizeof(Vec3), sign_factor_, kMost);
+                                                  sizeof(Vec3), sign_factor_, groups * derivatives::kTermGroup);
         finishOthers(first, count, has_extras_ ? 0 : safe, counts);
         for (std::uint32_t i = 0; i < count; ++i) {
             if ((safe >> i & 1) != 0) storeFloat4(sums_.head(first + i), loadFloat4(heads + 4 * i));
@@ -246,20 +248,17 @@ class VertexFrames {
     /// In double: those that are not `done`, which are counted as well.
     void finishOthers(std::uint32_t first, std::uint32_t count, std::uint64_t done, RangeCounts& counts) const {
         counts.used += static_cast<unsigned>(std::popcount(done & lowBits(count)));
-        for (std::uint64_t rest = ~done & lowBits(count); rest != 0; rest &= rest - 1) {
-            const std::uint32_t v = first + static_cast<std::uint32_t>(std::countr_zero(rest));
-            const CornerFrame frame = frameInDouble(v, counts);
-            writeExtras(out_, v, frame);
-            const Vec4& t = frame.tangent;
-            storeFloat4(sums_.head(v), Float4{t.x, t.y, t.z, t.w});
-        }
+        for (std::uint64_t rest = ~done & lowBits(count); rest != 0; rest &= rest - 1)
+            finishInDouble(first + static_cast<std::uint32_t>(std::countr_zero(rest)), counts);
     }
 
-    /// Counts the vertex, too.
-    [[nodiscard]] CornerFrame frameInDouble(std::uint32_t v, RangeCounts& counts) const {
-        if (!sums_.isTouched(v)) return {};
+    void finishInDouble(std::uint32_t v, RangeCounts& counts) const {
+        float *const head = sums_.head(v), *const tail = sums_.tail(v);
+        if (!sums_.isTouched(v)) {
+            if (has_extras_) writeExtras(out_, v, {});
+            return storeFloat4(head, Float4{});
+        }
         ++counts.used;
-        const float *head = sums_.head(v), *tail = sums_.tail(v);
         const Derivatives d{{head[0], head[1], head[2]}, {head[3], tail[0], tail[1]}};
         CornerFrame frame = makeCornerFrame(d, normals_[v], sign_factor_);
         if (frame.is_default) {
@@ -269,7 +268,9 @@ class VertexFrames {
             frame.magnitude_s = meanLength(d.s, visits_[v]);
             frame.magnitude_t = meanLength(d.t, visits_[v]);
         }
-        return frame;
+        if (has_extras_) writeExtras(out_, v, frame);
+        const Vec4& t = frame.tangent;
+        storeFloat4(head, Float4{t.x, t.y, t.z, t.w});
     }
 
     void copyTangents(GroupRange range) const {
@@ -371,12 +372,12 @@ void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOut
     const FaceSums faces(plan, pose.positions, kernel, sums, visits.data(), wanted, allocator, parallel);
     const VertexFrames frames(kernel, sums, visits.data(), pose.normals, plan.sign_factor,
                               per_corner ? extras.out : out, is_default.data());
-    std::array<RangeCounts, kMostRanges> counts;  // zeros where there are fewer
+    std::array<RangeCounts, kMostRanges> counts;
     parallel.forTasks(faces.ranges().count(), [&](std::size_t range) {
         counts[range] = faces.sum(range);
         frames.write(faces.ranges().range(range), counts[range]);
     });
-    for (const RangeCounts& of_range : counts) {
+    for (const RangeCounts& of_range : std::span(counts).first(faces.ranges().count())) {
         report.degenerate_triangle_count += of_range.degenerate;
         report.degenerate_uv_count += of_range.degenerate_uv;
         report.mirrored_count += of_range.mirrored;
