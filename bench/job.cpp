@@ -155,6 +155,7 @@ std::uint64_t hashOf(const Mesh& mesh) {
 }
 
 Job makeJob(const std::string& name, const Mesh& mesh) {
+    if (name == "normals_flat") return normalsJob(mesh, NormalWeighting::flat);
     if (name == "normals_crease") return normalsJob(mesh, NormalWeighting::angle, 30);
     if (name == "mikktspace_all") return allFieldsJob(mesh);
     if (name == "mikktspace_corrected")
@@ -177,7 +178,7 @@ const std::vector<std::string>& jobNames() {
                                                    "area",         "lengyel",        "lengyel_vertex",
                                                    "flat",         "basis",          "normals",
                                                    "split",        "fast",           "best",
-                                                   "normals_best", "normals_crease"};
+                                                   "normals_best", "normals_crease", "normals_flat"};
     return names;
 }
 

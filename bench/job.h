@@ -37,8 +37,7 @@ struct Job {
 /// `mesh` must outlive the job. "mikktspace", "mikktspace_all" (every output), "mikktspace_corrected",
 /// "evaluate" (on a ready plan), "uniform", "angle", "area", "fast", "best", "lengyel", "lengyel_vertex" (a result per
 /// vertex), "flat", "basis", "normals" (angle-weighted), "normals_crease" (the same with a crease angle),
-/// "split" (by the tangents of mikktspace). A job
-/// without outputs where the library does not have it.
+/// "normals_flat", "split" (by the tangents of mikktspace). A job without outputs where the library does not have it.
 Job makeJob(const std::string& name, const Mesh& mesh);
 const std::vector<std::string>& jobNames();
 
