@@ -38,9 +38,6 @@ struct VertexSums : derivatives::SumArrays {
         fill(head(range.begin), head(range.end), -0.0f);
         fill(tail(range.begin), tail(range.end), -0.0f);
     }
-    [[nodiscard]] bool isTouched(std::size_t vertex) const {
-        return std::bit_cast<std::uint32_t>(*head(vertex)) != 0x80000000u;
-    }
 
   private:
     static void fill(float* begin, float* end, float value) {
@@ -254,7 +251,7 @@ class VertexFrames {
 
     void finishInDouble(std::uint32_t v, RangeCounts& counts) const {
         float *const head = sums_.head(v), *const tail = sums_.tail(v);
-        if (!sums_.isTouched(v)) {
+        if (*head == 0 && std::signbit(*head)) {  // nothing was added
             if (has_extras_) writeExtras(out_, v, {});
             return storeFloat4(head, Float4{});
         }
@@ -269,8 +266,7 @@ class VertexFrames {
             frame.magnitude_t = meanLength(d.t, visits_[v]);
         }
         if (has_extras_) writeExtras(out_, v, frame);
-        const Vec4& t = frame.tangent;
-        storeFloat4(head, Float4{t.x, t.y, t.z, t.w});
+        storeFloat4(head, loadFloat4(&frame.tangent.x));
     }
 
     void copyTangents(GroupRange range) const {

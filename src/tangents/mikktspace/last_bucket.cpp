@@ -93,7 +93,7 @@ struct BucketEdge {
 }
 
 /// The largest key of a triangle's edges when nodes have these representatives.
-std::uint32_t keyOf(const std::uint32_t* nodes, const std::uint32_t* representatives) {
+inline std::uint32_t keyOf(const std::uint32_t* nodes, const std::uint32_t* representatives) {
     const std::uint32_t a = representatives[nodes[0]], b = representatives[nodes[1]], c = representatives[nodes[2]];
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
@@ -137,8 +137,8 @@ class BucketFinder {
         return triangle;
     }
 
-    [[nodiscard]] bool isGood(const Triangle& triangle) const {
-        const auto at = [&](std::size_t k) -> const Vec3& { return in_.mesh.positions[triangle.vertices[k]]; };
+    [[nodiscard]] bool isGood(const std::uint32_t* vertices) const {
+        const auto at = [&](std::size_t k) -> const Vec3& { return in_.mesh.positions[vertices[k]]; };
         return !(at(0) == at(1) || at(1) == at(2) || at(2) == at(0));
     }
 
@@ -148,16 +148,18 @@ class BucketFinder {
         const std::size_t count = in_.triangles.count;
         std::uint32_t* const edges = representatives_.data();  // how many each node may have
         forgetAll();
-        std::uint32_t room[kBlockCorners], last[kBlockCorners] = {}, known = 0;
+        std::uint32_t room[kBlockCorners], last[kBlockCorners], known = 0;
         for (std::size_t first = 0; first < count; first += kCollectBlock) {
             const std::size_t size = 3 * std::min(kCollectBlock, count - first);
             const std::uint32_t* nodes = readTriangles(in_.mesh, in_.triangles, first, size / 3, room);
             nodes = in_.nodes.ofVertices(nodes, size, room);
             if (count <= kCollectBlock && in_.nodes.count <= kBlockCorners && in_.triangles.corners.empty())
                 known = leastKey(nodes, last);
-            for (std::size_t i = 0; i < size; ++i) {
-                if (known != 0 && (last[nodes[i]] < known || keyOf(nodes + i / 3 * 3, last) < known)) continue;
-                if (++edges[nodes[i]] == 3) return forgetAll(), true;
+            for (const std::uint32_t *n = nodes, *const end = nodes + size; n != end; n += 3) {
+                if (known != 0 && keyOf(n, last) < known) continue;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    if ((known == 0 || last[n[k]] >= known) && ++edges[n[k]] == 3) return forgetAll(), true;
+                }
             }
         }
         return false;
@@ -173,7 +175,7 @@ class BucketFinder {
         for (std::uint32_t i = count; i-- > 0;) first[nodes[i]] = i;
         for (std::uint32_t i = count; i > least; i -= 3) {  // no key is above its triangle's last corner
             const std::uint32_t key = keyOf(nodes + i - 3, first);
-            if (key > least && isGood(triangle(i / 3 - 1))) least = key;
+            if (key > least && isGood(triangle(i / 3 - 1).vertices)) least = key;
         }
         return least;
     }
@@ -206,25 +208,27 @@ class BucketFinder {
             const Buffer<std::uint32_t> around = findRepresentatives(in_, {vertices.begin(), vertices.size()},
                                                                      representatives_.data(), allocator_, parallel_);
             // Backwards, as keys mostly ascend.
-            for (std::size_t i = around.size(); i-- > 0;) addEdges(around[i], triangle(around[i]));
+            for (std::size_t i = around.size(); i-- > 0;) addEdges(around[i]);
             // From the corner of the largest key on is enough; but faces that are skipped count there too.
             length = std::max(2 * length, std::min(kLonger * length, in_.triangles.count - key_ / 3));
         }
     }
 
-    void addEdges(std::uint32_t t, const Triangle& triangle) {
+    void addEdges(std::uint32_t t) {
         const std::uint32_t* const representatives = representatives_.data();
-        const std::uint32_t key = keyOf(triangle.nodes, representatives);
-        if (key == 0 || key < key_ || !isGood(triangle)) return;
+        std::uint32_t own_vertices[3], own_nodes[3];
+        const std::uint32_t* const vertices = readTriangles(in_.mesh, in_.triangles, t, 1, own_vertices);
+        const std::uint32_t* const nodes = in_.nodes.ofVertices(vertices, 3, own_nodes);
+        const std::uint32_t key = keyOf(nodes, representatives);
+        if (key == 0 || key < key_ || !isGood(vertices)) return;
         if (key > key_) bucket_.drop(bucket_.size());
         key_ = key;
         for (std::uint32_t k = 0; k < 3; ++k) {
-            const std::uint32_t next = (k + 1) % 3, from = representatives[triangle.nodes[k]],
-                                to = representatives[triangle.nodes[next]];
+            const std::uint32_t next = (k + 1) % 3, from = representatives[nodes[k]], to = representatives[nodes[next]];
             if (std::min(from, to) != key) continue;
             const std::uint32_t low = from < to ? k : next, high = k + next - low;
-            low_node_ = triangle.nodes[low];
-            bucket_.push({std::max(from, to), triangle.nodes[high], 3 * t + k, kNone, kNone, from < to});
+            low_node_ = nodes[low];
+            bucket_.push({std::max(from, to), nodes[high], 3 * t + k, kNone, kNone, from < to});
         }
     }
 
@@ -250,7 +254,7 @@ class BucketFinder {
         records.reserve(3 * in_.triangles.count);
         for (std::uint32_t t = 0; t < in_.triangles.count; ++t) {
             const Triangle here = triangle(t);
-            if (!isGood(here)) continue;
+            if (!isGood(here.vertices)) continue;
             const auto cornerOf = [&](std::uint32_t k) { return representatives_[here.nodes[k % 3]]; };
             Record* to = records.extend(3);
             for (std::uint32_t k = 0; k < 3; ++k) to[k] = {std::min(cornerOf(k), cornerOf(k + 1)), 3 * t + k};
