@@ -42,13 +42,13 @@ struct Group {
     Floats u[3], v[3];
 
     void load(const CornerSource& source, const std::uint32_t* vertices, bool exact) {
+#pragma GCC unroll 3
         for (std::size_t k = 0; k < 3; ++k) {
             position[k] = gatherVectors(source.positions, source.position_stride, vertices + k, exact);
-            if (source.uv_stride == 8) {
+            if (source.uv_stride == 8)
                 gather2(source.uvs, 8, vertices + k, u[k], v[k]);
-            } else {
+            else
                 gather2(source.uvs, source.uv_stride, vertices + k, u[k], v[k]);
-            }
         }
     }
 
