@@ -45,8 +45,7 @@ Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList&
         if (any != nullptr && (some & ~any->load(std::memory_order_relaxed)) != 0)
             any->fetch_or(some, std::memory_order_relaxed);
         std::uint64_t bits = 0;
-        for (std::size_t t = 0; (some & mask) != 0 && t < count; ++t)
-            bits |= std::uint64_t{(marked[t] & mask) != 0 ? 1u : 0u} << t;
+        for (auto t = (some & mask) != 0 ? count : 0; t-- > 0;) bits = 2 * bits + ((marked[t] & mask) != 0 ? 1 : 0);
         return bits;
     };
     constexpr std::size_t kGrain = 256;  // blocks
