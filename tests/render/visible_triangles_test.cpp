@@ -112,9 +112,9 @@ RC_GTEST_PROP(VisibleTriangles, WeightsLeadToTheSample, ()) {
     Effort effort(1 << 20);
     const VisibleTriangles visible(std::span(&mesh, 1), camera, kSize, kSize, effort);
     const SeenTriangle seen = visible.seen({0, 0});
-    // Corners are rounded to 1/256. A sample that lies beside an edge therefore is moved to it along the line to the corner
+    // Corners are rounded to 1/256, by at most sqrt(2) / 512 = 0.0028. A sample that lies beside an edge therefore is moved to it along the line to the corner
     // behind, which is the longer the narrower the triangle is.
-    const double most = 0.02 / leastSine(points, camera);
+    const double most = 0.003 / leastSine(points, camera);
     for (std::uint32_t y = 0; y < kSize; ++y) {
         for (std::uint32_t x = 0; x < kSize; ++x) {
             if (visible.row(y)[x] != 0) continue;
