@@ -7,9 +7,8 @@
 
 namespace tspace {
 
-using smooth::FaceTerms, smooth::kTermGroup, smooth::kTermTriangles;
-
 NormalReport writeFaceNormals(const NormalsCall& call) {
+    using smooth::FaceTerms, smooth::kTermGroup, smooth::kTermTriangles;
     const Faces& faces = call.faces;
     std::atomic<std::uint64_t> degenerate_faces{0}, degenerate_corners{0};
     const auto write = [&](std::uint32_t face, const FaceRow& row, NormalReport& counts) {

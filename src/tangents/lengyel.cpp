@@ -38,6 +38,7 @@ struct VertexSums : derivatives::SumArrays {
         fill(head(range.begin), head(range.end), -0.0f);
         fill(tail(range.begin), tail(range.end), -0.0f);
     }
+    [[nodiscard]] bool isTouched(std::size_t v) const { return *head(v) != 0 || !std::signbit(*head(v)); }
 
   private:
     static void fill(float* begin, float* end, float value) {
@@ -147,7 +148,8 @@ class FaceSums {
         }
     }
 
-    /// In double. A triangle that has no derivatives adds nothing, but its vertices have been named.
+    /// In double. A triangle that has no derivatives adds nothing, but its vertices have been named. Apart: its registers would
+    /// be missing in the loop around it.
     [[gnu::noinline]] void addUnsafe(const std::uint32_t* v, GroupRange range, RangeCounts& counts) const {
         const Vec3 &p0 = positions_[v[0]], &p1 = positions_[v[1]], &p2 = positions_[v[2]];
         const UvFrame frame = uvFrame(p0, p1, p2, plan_.uvs[v[0]], plan_.uvs[v[1]], plan_.uvs[v[2]]);
@@ -251,7 +253,7 @@ class VertexFrames {
 
     void finishInDouble(std::uint32_t v, RangeCounts& counts) const {
         float *const head = sums_.head(v), *const tail = sums_.tail(v);
-        if (*head == 0 && std::signbit(*head)) {  // nothing was added
+        if (!sums_.isTouched(v)) {
             if (has_extras_) writeExtras(out_, v, {});
             return storeFloat4(head, Float4{});
         }

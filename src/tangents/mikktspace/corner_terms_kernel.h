@@ -42,7 +42,7 @@ struct Group {
     Floats u[3], v[3];
 
     void load(const CornerSource& source, const std::uint32_t* vertices, bool exact) {
-#pragma GCC unroll 3
+#pragma GCC unroll 3  // or what the loop indexes lies in memory
         for (std::size_t k = 0; k < 3; ++k) {
             position[k] = gatherVectors(source.positions, source.position_stride, vertices + k, exact);
             if (source.uv_stride == 8)

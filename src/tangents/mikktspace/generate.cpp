@@ -64,12 +64,13 @@ TangentReport generateWith(const MeshView& mesh, const TangentOptions& options, 
 TangentReport generateLarge(const MeshView& mesh, TangentOptions options, const TangentOutput& out,
                             Parallel& parallel) {
 #ifndef TSPACE_SERIAL
+    constexpr std::size_t kMostKept = std::size_t{4} << 20;  // bytes
     static thread_local bool has_called = false;
     if (options.execution.allocator == nullptr && std::exchange(has_called, true)) {
         static thread_local Arena kept;
         const struct AtEnd {  // of a call that runs out of memory, too
             ~AtEnd() {
-                if (kept.heldBytes() > std::size_t{4} << 20) kept.trim();
+                if (kept.heldBytes() > kMostKept) kept.trim();
             }
         } trim_kept;
         options.execution.allocator = kept.allocator();

@@ -122,23 +122,19 @@ class BucketFinder {
     }
 
   private:
+    /// Where its numbers lie, or in itself.
     struct Triangle {
-        std::uint32_t vertices[3], nodes[3];
+        Triangle(const WeldedMesh& in, std::size_t t)
+            : vertices(readTriangles(in.mesh, in.triangles, t, 1, own_vertices)),
+              nodes(in.nodes.ofVertices(vertices, 3, own_nodes)) {}
+        Triangle(const Triangle&) = delete;
+
+        std::uint32_t own_vertices[3], own_nodes[3];
+        const std::uint32_t *vertices, *nodes;
     };
 
-    [[nodiscard]] Triangle triangle(std::size_t t) const {
-        std::uint32_t buffer[3];
-        const std::uint32_t* vertices = readTriangles(in_.mesh, in_.triangles, t, 1, buffer);
-        Triangle triangle;
-        for (std::size_t k = 0; k < 3; ++k) {
-            triangle.vertices[k] = vertices[k];
-            triangle.nodes[k] = in_.nodes.ofVertex(vertices[k]);
-        }
-        return triangle;
-    }
-
-    [[nodiscard]] bool isGood(const std::uint32_t* vertices) const {
-        const auto at = [&](std::size_t k) -> const Vec3& { return in_.mesh.positions[vertices[k]]; };
+    [[nodiscard]] bool isGood(const Triangle& triangle) const {
+        const auto at = [&](std::size_t k) -> const Vec3& { return in_.mesh.positions[triangle.vertices[k]]; };
         return !(at(0) == at(1) || at(1) == at(2) || at(2) == at(0));
     }
 
@@ -175,7 +171,7 @@ class BucketFinder {
         for (std::uint32_t i = count; i-- > 0;) first[nodes[i]] = i;
         for (std::uint32_t i = count; i > least; i -= 3) {  // no key is above its triangle's last corner
             const std::uint32_t key = keyOf(nodes + i - 3, first);
-            if (key > least && isGood(triangle(i / 3 - 1).vertices)) least = key;
+            if (key > least && isGood({in_, i / 3 - 1})) least = key;
         }
         return least;
     }
@@ -194,7 +190,7 @@ class BucketFinder {
         std::size_t length = count < kSmallMesh ? kLastOfSmall : kLastOfRandom;
         // In random order, neighbours in the list have no node in common.
         for (std::size_t t = count / 2; length == kLastOfRandom && t < count / 2 + 10; ++t) {
-            const Triangle a = triangle(t), b = triangle(t + 1);
+            const Triangle a(in_, t), b(in_, t + 1);
             if (std::find_first_of(a.nodes, a.nodes + 3, b.nodes, b.nodes + 3) != a.nodes + 3) length = kLast;
         }
         std::uint32_t first_corner = kNone;
@@ -216,19 +212,18 @@ class BucketFinder {
 
     void addEdges(std::uint32_t t) {
         const std::uint32_t* const representatives = representatives_.data();
-        std::uint32_t own_vertices[3], own_nodes[3];
-        const std::uint32_t* const vertices = readTriangles(in_.mesh, in_.triangles, t, 1, own_vertices);
-        const std::uint32_t* const nodes = in_.nodes.ofVertices(vertices, 3, own_nodes);
-        const std::uint32_t key = keyOf(nodes, representatives);
-        if (key == 0 || key < key_ || !isGood(vertices)) return;
+        const Triangle triangle(in_, t);
+        const std::uint32_t key = keyOf(triangle.nodes, representatives);
+        if (key == 0 || key < key_ || !isGood(triangle)) return;
         if (key > key_) bucket_.drop(bucket_.size());
         key_ = key;
         for (std::uint32_t k = 0; k < 3; ++k) {
-            const std::uint32_t next = (k + 1) % 3, from = representatives[nodes[k]], to = representatives[nodes[next]];
+            const std::uint32_t next = (k + 1) % 3, from = representatives[triangle.nodes[k]],
+                                to = representatives[triangle.nodes[next]];
             if (std::min(from, to) != key) continue;
             const std::uint32_t low = from < to ? k : next, high = k + next - low;
-            low_node_ = nodes[low];
-            bucket_.push({std::max(from, to), nodes[high], 3 * t + k, kNone, kNone, from < to});
+            low_node_ = triangle.nodes[low];
+            bucket_.push({std::max(from, to), triangle.nodes[high], 3 * t + k, kNone, kNone, from < to});
         }
     }
 
@@ -253,8 +248,8 @@ class BucketFinder {
         Growing<Record> records(allocator_);
         records.reserve(3 * in_.triangles.count);
         for (std::uint32_t t = 0; t < in_.triangles.count; ++t) {
-            const Triangle here = triangle(t);
-            if (!isGood(here.vertices)) continue;
+            const Triangle here(in_, t);
+            if (!isGood(here)) continue;
             const auto cornerOf = [&](std::uint32_t k) { return representatives_[here.nodes[k % 3]]; };
             Record* to = records.extend(3);
             for (std::uint32_t k = 0; k < 3; ++k) to[k] = {std::min(cornerOf(k), cornerOf(k + 1)), 3 * t + k};

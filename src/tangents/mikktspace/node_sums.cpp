@@ -21,6 +21,7 @@ constexpr std::size_t kManyShare = 16;  // one fan in so many may have more than
 constexpr unsigned kTaskShift = 12;     // nodes of a task at least: below, another thread costs more than it saves
 /// Measured for triangles in random order: 8192 nodes 97 ns per triangle, 4096 99, 16384 102, 65536 117, 1024 137.
 constexpr unsigned kScatteredShift = 13;
+constexpr std::size_t kScatteredRange = std::size_t{1} << kScatteredShift;
 constexpr std::size_t kTasksPerThread = 4;
 constexpr std::size_t kTermGroup = 16;  // triangles that kernels read at once at most (corner_terms.h)
 /// Where early requests put memory (__builtin_prefetch): there is more of it than a block needs of the first
@@ -146,9 +147,8 @@ class Summer {
 
 /// Where triangles are in no order but have their nodes in one range, ranges pay.
 unsigned rangeShift(const Sweep& sweep, const MeshTriangles& by_node, unsigned width) {
-    constexpr std::size_t kRange = std::size_t{1} << kScatteredShift;
     const std::size_t nodes = sweep.nodes.count;
-    if (sweep.sums.scattered && RangeLists::areCompact(by_node, 1, nodes, kRange)) return kScatteredShift;
+    if (sweep.sums.scattered && RangeLists::areCompact(by_node, 1, nodes, kScatteredRange)) return kScatteredShift;
     const std::size_t wanted = width == 1 ? 1 : sweep.sums.scattered ? width : kTasksPerThread * width;
     unsigned shift = kTaskShift;
     while (((nodes - 1) >> shift) >= wanted) ++shift;
@@ -212,8 +212,7 @@ void sumNodes(const WeldedMesh& welded, const CornerSource& source, CornerTermsF
     if (node_count == 0) return;
     Sweep sweep{welded, source, terms, sums};
     const MeshTriangles by_node(welded, nullptr);
-    constexpr std::size_t kRange = std::size_t{1} << kScatteredShift;
-    sums.scattered = node_count > kRange && !RangeLists::areCompact(by_node, kTermTriangles, node_count, kRange);
+    sums.scattered = !RangeLists::areCompact(by_node, kTermTriangles, node_count, kScatteredRange);
     const unsigned shift = range_shift != 0 ? range_shift : rangeShift(sweep, by_node, parallel.width());
     sweep.asks = sums.scattered && shift > kScatteredShift;
     const RangeLists lists(by_node, kTermTriangles, node_count, std::size_t{1} << shift, transient.allocator(),
