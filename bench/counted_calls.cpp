@@ -31,6 +31,7 @@ constexpr Case kCases[] = {
     {"mikktspace_box_12", "mikktspace", boxMesh},
     {"mikktspace_natural_200", "mikktspace", [] { return torusOf(200); }},
     {"mikktspace_shuffled_20k", "mikktspace", [] { return shuffled(torusOf(20000)); }},
+    {"mikktspace_two_sweep_20k", "mikktspace", [] { return inOrder(torusOf(20000), "two_sweep"); }},
     {"mikktspace_unindexed_10k", "mikktspace", [] { return unindexed(torusOf(10000)); }},
     {"mikktspace_quads_all_10k", "mikktspace_all", [] { return quadsOf(10000); }},
     {"evaluate_20k", "evaluate", [] { return torusOf(20000); }},

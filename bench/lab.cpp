@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Names to meshes, and what is kept between rows.
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
@@ -10,13 +11,10 @@ namespace tspace::bench {
 
 namespace {
 
+/// "20k" or "8M"; else 0.
 std::size_t trianglesOf(const std::string& size) {
-    if (size == "8M") return 8000000;
-    if (size == "1M") return 1000000;
-    if (size == "100k") return 100000;
-    if (size == "20k") return 20000;
-    if (size == "10k") return 10000;
-    return 0;
+    const std::size_t number = std::strtoul(size.c_str(), nullptr, 10);
+    return size.ends_with("k") ? 1000 * number : size.ends_with("M") ? 1000000 * number : 0;
 }
 
 /// Without triangles where the name is not one.
@@ -32,7 +30,7 @@ Mesh generatedMesh(const std::string& name) {
     if (shape == "grid") mesh = gridOf(triangles);
     if (shape == "quads") mesh = quadsOf(triangles);
     if (shape == "folds") mesh = foldsOf(triangles);
-    if (second != std::string::npos && name.substr(second) == "_shuffled") mesh = shuffled(std::move(mesh));
+    if (second != std::string::npos) mesh = inOrder(std::move(mesh), name.substr(second + 1));
     return shape == "soup" ? unindexed(mesh) : mesh;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rows over many meshes at once: real models as they are in their files, tori of all sizes where a rule of the reference may
-// matter, sizes where threads may not pay.
+// matter, triangles in other orders, sizes where threads may not pay.
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -105,6 +105,55 @@ std::vector<Row> lastBucketRows() {
              }}};
 }
 
+const std::vector<std::string> kOrderSizes = {"2k", "5k", "10k", "20k", "100k", "300k"};
+
+std::string torusName(const std::string& size, const std::string& order) {
+    return "torus_" + size + (order == "natural" ? "" : "_" + order);
+}
+
+/// Tori whose triangles come in another order, against natural order. `sizes`: empty for that of the run.
+Row order(const std::string& title, const std::string& name, std::vector<std::string> sizes, double asked) {
+    return {title, [=](Lab& lab) {
+                RowResult row{.title = title};
+                std::vector<Pair> pairs;
+                for (const std::string& size : sizes.empty() ? std::vector{lab.size()} : sizes) {
+                    row.note = lab.error("mikktspace", torusName(size, name));
+                    if (!row.note.empty()) return row.wrong = true, row;
+                    const Mesh& mesh = lab.mesh(torusName(size, name));
+                    const Job other = makeJob("mikktspace", mesh);
+                    const Job natural = makeJob("mikktspace", lab.mesh(torusName(size, "natural")));
+                    const Execution one{.thread_count = 1};
+                    pairs.push_back(race(
+                        mesh, lab.rounds(), Clock::processor, [&] { other.call(one); }, [&] { natural.call(one); }));
+                }
+                return summarize(pairs, asked, row), row;
+            }};
+}
+
+std::vector<Row> orderRows() {
+    std::vector<Row> rows;
+    for (const std::string& name : triangleOrders()) {
+        const std::string words = "triangles in the order `" + name + "` against natural order, tori of ";
+        const bool is_random = name == "shuffled";
+        rows.push_back(order(words + "2k to 300k", name, kOrderSizes, is_random ? 2.2 : 1.6));
+        rows.push_back(order(words + "1M", name, {}, is_random ? 2.7 : 2.0));
+    }
+    const std::string pairings = "`reference` against `corrected` pairing, tori of 2k to 1M in all orders";
+    rows.push_back({pairings, [=](Lab& lab) {
+                        RowResult row{.title = pairings};
+                        std::vector<Pair> pairs;
+                        std::vector<std::string> sizes = kOrderSizes, names = triangleOrders();
+                        sizes.push_back(lab.size());
+                        names.push_back("natural");
+                        for (const std::string& size : sizes) {
+                            for (const std::string& name : names)
+                                pairs.push_back(racePairings(lab.mesh(torusName(size, name)), lab.rounds()));
+                        }
+                        return summarize(pairs, 1.3, row), row;
+                    }});
+    return rows;
+}
+
 /// Tori of some sizes: `threads` (0: as many as there are) against one.
 Row threads(const std::string& title, unsigned thread_count, std::vector<std::size_t> sizes) {
     return {title, [=](Lab& lab) {
@@ -153,6 +202,7 @@ std::vector<Row> manyMeshRows() {
         threads("all threads against one, 100 to 500 triangles", 0, {100, 200, 300, 400, 500}),
         smallCall("a call for a box of 12 triangles")};
     std::ranges::move(lastBucketRows(), std::back_inserter(rows));
+    std::ranges::move(orderRows(), std::back_inserter(rows));
     return rows;
 }
 

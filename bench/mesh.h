@@ -50,6 +50,11 @@ Mesh quadsOf(std::size_t triangles);
 Mesh unindexed(const Mesh& mesh);
 /// Faces in random order; vertices keep theirs.
 Mesh shuffled(Mesh mesh);
+/// Triangles of an indexed mesh in one of triangleOrders(); vertices keep theirs.
+Mesh inOrder(Mesh mesh, const std::string& order);
+/// "reversed"; "two_sweep": each second triangle, then the others, as array code cuts quads; "vertex_cache": as tools order
+/// triangles for the vertex cache of a GPU; "spatial": along a Morton curve; "shuffled", which takes any faces.
+const std::vector<std::string>& triangleOrders();
 
 /// One of the meshes that make careless implementations slow: a name of hardMeshNames().
 Mesh hardMesh(const std::string& name, std::size_t triangles);

@@ -53,8 +53,8 @@ class Lab {
     /// A file of the shared test data.
     [[nodiscard]] std::string shared(const std::string& path) const { return shared_ + "/" + path; }
 
-    /// SHAPE_SIZE[_shuffled]: torus, sphere, grid, quads, soup (the torus with unindexed corners) or folds (a
-    /// torus that is mirrored every tenth column), and 10k, 100k, 1M or 8M; or the path of a model.
+    /// SHAPE_SIZE[_ORDER]: torus, sphere, grid, quads, soup (the torus with unindexed corners) or folds (a torus that is
+    /// mirrored every tenth column), 10k, 8M or the like, and one of triangleOrders(); or the path of a model.
     const Mesh& mesh(const std::string& name);
     /// The indexed triangles that the plain loop takes for it.
     const Mesh& plainMesh(const std::string& name);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstring>
 #include <functional>
 
 #include "tangents/golden_mesh.h"
@@ -369,6 +370,28 @@ TEST(TangentMemory, UnindexedCornersTakeAtMost32BytesPerTriangle) {
                                      {.tangents = tangents}));
         EXPECT_LE(counting.peak_bytes, 32 * (tangents.size() / 3)) << threads << " threads";
     }
+}
+
+/// Nodes that the vertex path takes need memory, and one pass settles those of a grid in this order too.
+TEST(TangentMemory, SecondTrianglesOfQuadsMayFollowAllFirstOnes) {
+    const Shape natural = gridOf(20000);
+    Shape sweeps = natural;
+    sweeps.indices.clear();
+    for (const std::size_t first : {0u, 1u}) {
+        for (std::size_t t = first; t < natural.indices.size() / 3; t += 2)
+            sweeps.triangle(natural.indices[3 * t], natural.indices[3 * t + 1], natural.indices[3 * t + 2]);
+    }
+    CountingAllocator counting;
+    std::vector<Vec4> tangents(sweeps.cornerCount());
+    ASSERT_TRUE(generateTangents(
+        sweeps.view(),
+        {.convention = conventions::opengl, .execution = {.thread_count = 1, .allocator = &counting.allocator}},
+        {.tangents = tangents}));
+    EXPECT_LE(counting.peak_bytes, 32 * (tangents.size() / 3));
+    const Result<TangentPlan> plan = planTangents(sweeps.view(), {.convention = conventions::opengl});
+    std::vector<Vec4> planned(tangents.size());
+    ASSERT_TRUE(evaluateTangents(*plan, {sweeps.positions, sweeps.normals}, {.tangents = planned}));
+    EXPECT_EQ(std::memcmp(tangents.data(), planned.data(), tangents.size() * sizeof(Vec4)), 0);
 }
 
 TEST(TangentMemory, ASmallMeshTakesFewBlocks) {

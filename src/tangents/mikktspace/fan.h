@@ -4,9 +4,9 @@
 // The rule of groups.h links a triangle's leaving half-edge (to the next node) with the oldest waiting
 // arriving one from that node, and the other way round. As long as no two half-edges of one direction wait
 // for the same neighbour, there is nothing to choose, and the links make paths, each of which is known by its
-// two waiting ends. A fan has room for two paths. Where triangles come in any order, a third one may begin before they
-// meet: such a fan borrows room for four until two are left again. Whatever else happens makes the fan complex, and the
-// node is left to the vertex path.
+// two waiting ends. A fan has room for two paths. More may begin before they meet, where triangles come in random order
+// or the second ones of all quads follow the first ones: such a fan borrows room for four until two are left again. A
+// fifth path, and whatever else happens, makes the fan complex, and the node is left to the vertex path.
 #pragma once
 
 #include <bit>
@@ -26,15 +26,14 @@ struct ManyPaths {
     } paths[kMost];
 };
 
-/// Places for fans of many paths, numbered from 1. Each task has some of its own.
+/// Places for fans of many paths, numbered from 1. There must be as many as fans of three triangles and more.
 class FanRoom {
   public:
-    FanRoom(ManyPaths* places, std::size_t count) : places_(places), unused_(static_cast<std::uint32_t>(count)) {}
+    explicit FanRoom(ManyPaths* places) : places_(places) {}
 
     ManyPaths& operator[](std::uint32_t place) { return places_[place - 1]; }
-    /// 0 when all are taken.
     std::uint32_t take() {
-        if (free_ == 0) return unused_ == 0 ? 0 : unused_--;
+        if (free_ == 0) return ++used_;
         const std::uint32_t place = free_;
         free_ = (*this)[place].paths[0].leaves;
         return place;
@@ -46,7 +45,7 @@ class FanRoom {
 
   private:
     ManyPaths* places_;
-    std::uint32_t unused_;    // the first so many were never taken
+    std::uint32_t used_ = 0;  // so many were ever taken
     std::uint32_t free_ = 0;  // a list of those that were given back
 };
 
@@ -81,10 +80,6 @@ class Fan {
         const bool begins = ends_[1] != 0;
         if (!begins && ends_[3] == 0) return;
         const std::uint32_t place = begins ? room.take() : ends_[2];
-        if (place == 0) {
-            ends_ = kComplex;
-            return;
-        }
         ManyPaths& many = room[place];
         if (begins) many = {{{ends_[0], ends_[1]}, {ends_[2], ends_[3]}}};
         const std::uint32_t kept = join(many, begins ? 2 : ends_[3], grown);

@@ -14,7 +14,7 @@ namespace {
 /// Whether the links between them make one path or ring, without a choice.
 bool areOneFan(std::span<const NodeCorner> around) {
     ManyPaths place;
-    FanRoom room(&place, 1);
+    FanRoom room(&place);
     Fan fan;
     for (const NodeCorner& corner : around) fan.add(corner.next, corner.previous, room);
     return fan.isOne();

@@ -17,8 +17,7 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kManyShare = 16;  // one fan in so many may have more than two paths at a time
-constexpr unsigned kTaskShift = 12;     // nodes of a task at least: below, another thread costs more than it saves
+constexpr unsigned kTaskShift = 12;  // nodes of a task at least: below, another thread costs more than it saves
 /// Measured for triangles in random order: 8192 nodes 97 ns per triangle, 4096 99, 16384 102, 65536 117, 1024 137.
 constexpr unsigned kScatteredShift = 13;
 constexpr std::size_t kScatteredRange = std::size_t{1} << kScatteredShift;
@@ -140,7 +139,7 @@ class Summer {
 
     const Sweep& sweep_;
     NodeSums& sums_;
-    FanRoom fan_room_{nullptr, 0};
+    FanRoom fan_room_{nullptr};
     GroupRange range_;
     CornerTerms terms_;
 };
@@ -218,14 +217,14 @@ void sumNodes(const WeldedMesh& welded, const CornerSource& source, CornerTermsF
     const RangeLists lists(by_node, kTermTriangles, node_count, std::size_t{1} << shift, transient.allocator(),
                            parallel);
     const std::size_t ranges = lists.count(), tasks = std::min<std::size_t>(ranges, parallel.width());
-    const std::size_t fans_each = lists.range(0).size() / kManyShare + 64;
-    Buffer<ManyPaths> many_paths(transient.allocator(), tasks * fans_each);
+    const std::size_t fans_each = std::min(lists.range(0).size(), lists.mostTriangles(welded.triangles.count));
+    Buffer<ManyPaths> many_paths(transient.allocator(), tasks * fans_each);  // few are touched in most meshes
     std::atomic<std::size_t> next{0};
     parallel.forTasks(tasks, [&](std::size_t task) {
         Summer summer(sweep);
         for (std::size_t index = next++; index < ranges; index = next++) {
             const GroupRange range = lists.range(index);
-            summer.run(range, {by_node, lists, index}, {many_paths.data() + task * fans_each, fans_each});
+            summer.run(range, {by_node, lists, index}, FanRoom(many_paths.data() + task * fans_each));
             if (ranges > 1) finish(range.begin, range.end);
         }
     });
