@@ -3,7 +3,9 @@
 // tspace::maps.
 //
 // The truth at a point of the low poly is the normal of the high poly where the line along the low poly's interpolated
-// normal meets it. Rays are Embree's: without it (at build or at run time) these calls fail with unsupportedFile.
+// normal meets it. Rays are Embree's: without it (at build or at run time) these calls fail with unsupportedFile. It works on
+// the threads of the call alone. Limits that a host sets for TBB, which Embree uses, hold on, but for the microseconds in
+// which its devices are made.
 #pragma once
 
 #include <cstdint>
