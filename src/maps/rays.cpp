@@ -220,7 +220,8 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
     api.commitGeometry(geometry);
     api.attachGeometry(state->scene, geometry);
     api.releaseGeometry(geometry);
-    const RTCError error = buildScene(*state, parallel);
+    RTCError error = buildScene(*state, parallel);
+    if (error == RTC_ERROR_NONE) error = api.getDeviceError(state->device);  // of the calls above
     if (error == RTC_ERROR_OUT_OF_MEMORY)
         return makeError(ErrorCode::outOfMemory, kNoElement, "out of memory for the rays");
     if (error != RTC_ERROR_NONE)

@@ -389,7 +389,9 @@ TEST_F(MapBake, SaysWhatIsWrongWithOptionsAndMeshes) {
     EXPECT_EQ(codeOf({.padding = 257}), ErrorCode::invalidOption);
     EXPECT_EQ(codeOf({.reach = -1}), ErrorCode::invalidOption);
     EXPECT_EQ(codeOf({.width = 4096, .height = 4096, .memory_limit_bytes = 1 << 26}), ErrorCode::tooLarge);
-    EXPECT_EQ(codeOf({.stop = [] { return true; }}), ErrorCode::cannotWrite);
+    EXPECT_EQ(codeOf({.stop = [] { return true; }}), ErrorCode::cancelled);
+    EXPECT_EQ(codeOf({.progress = [](const char*, std::uint64_t, std::uint64_t) { throw Cancelled{}; }}),
+              ErrorCode::cancelled);
     LowPoly without_uvs = low.view();
     without_uvs.uvs = {};
     EXPECT_EQ(bakeMap(without_uvs, high.view(), sized(8)).error().code, ErrorCode::missingAttribute);
