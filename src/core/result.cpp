@@ -15,9 +15,9 @@ namespace tspace {
 const char* errorName(ErrorCode code) {
     static constexpr std::uint32_t kFirstOfFiles = 100;
     static constexpr const char* kNames[] = {
-        "ok",       "nullData",         "countMismatch", "indexOutOfRange", "strideTooSmall", "misaligned",
-        "tooLarge", "missingAttribute", "invalidOption", "outOfMemory",     "planMismatch",   "internal",
-        "cancelled"};
+        "ok",           "nullData", "countMismatch",    "indexOutOfRange", "strideTooSmall",
+        "misaligned",   "tooLarge", "missingAttribute", "invalidOption",   "outOfMemory",
+        "planMismatch", "internal", "cancelled"};
     static constexpr const char* kNamesOfFiles[] = {"invalidFile", "unsupportedFile", "forbiddenPath", "cannotRead",
                                                     "cannotWrite"};
     static_assert(std::size(kNames) == static_cast<std::size_t>(ErrorCode::cancelled) + 1);
