@@ -210,9 +210,8 @@ enum {
 typedef struct tspace_Execution {
     /* Runs all work, whatever thread_count says; null: threads that are started and joined within the call. */
     const tspace_Executor* executor;
-    /* Only for scratch memory and plans. Null: operator new; in tspace_generateTangents, from a thread's second call
-     * with a mesh of more than 4096 corners on, a tspace_Arena that the thread keeps until it ends, with up to 4 MiB
-     * between calls. */
+    /* Only for scratch memory and plans. Null: operator new, and nothing is kept between calls. With a tspace_Arena
+     * calls that follow each other take a tenth less time (tspace_generateTangents with more than 4096 corners). */
     const tspace_Allocator* allocator;
     uint32_t thread_count;  /* 0 and 1: the calling thread only; TSPACE_ALL_THREADS */
     tspace_SimdTarget simd; /* For tests and measurements. What this CPU lacks becomes the best of a lower number. */
