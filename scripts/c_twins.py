@@ -46,6 +46,7 @@ CPP_ALONE = {
     r"State|TangentPlan::state": "private",
     r"(action|faces|frameFormat|severity|signReading)Name|finding\w+": "reports of files have these names and texts in their JSON",
     r"removeAbandonedFiles": "a matter of the tool",
+    r"Cancelled": "C has no function that is told of progress",
 }
 
 # Fields whose default in C is zero (regular expressions) -> how it is that of C++.

@@ -55,7 +55,8 @@ struct FileOptions {
 /// Takes bytes of an output, in their order. Returns false when it can take no more.
 using Sink = std::function<bool(std::span<const std::uint8_t>)>;
 
-/// Called now and then during long work. `done` of `total` steps; `what` names the step ("computing tangents").
+/// Called now and then during long work. `done` of `total` steps; `what` names the step ("computing tangents"). It may
+/// throw Cancelled, which ends the call with ErrorCode::cancelled: nothing on disk has changed then.
 using Progress = std::function<void(const char* what, std::uint64_t done, std::uint64_t total)>;
 
 /// What becomes of tangents that are there and needed.

@@ -62,7 +62,8 @@ struct FlippedImage {
 ///
 /// Errors: unsupportedFile (not an image that this build reads; grey, so that there is no green channel; animated; a
 /// format that cannot be written), invalidFile (broken), invalidOption, tooLarge, outOfMemory. Time and memory: linear in the
-/// pixels; a PNG that is not interlaced needs a few rows and the size of its file.
+/// pixels; a PNG that is not interlaced needs a few rows and the size of its file. tooLarge also for a PNG that claims to
+/// unpack to more than 16 times the memory limit, 1 GB and more by default.
 Result<FlippedImage> flipGreen(std::span<const std::uint8_t> image, const FlipGreenOptions& options = {});
 
 /// The same from file to file; `output` may be `input`. Where no format is asked for, the name of the output decides: .png, .jpg,

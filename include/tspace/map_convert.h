@@ -43,7 +43,7 @@ struct ConvertMapOptions {
     std::uint32_t padding = 0;
     Execution execution = {};
     MapProgress progress = {};        ///< called from the calling thread
-    std::function<bool()> stop = {};  ///< where it returns true, the call ends soon with cannotWrite
+    std::function<bool()> stop = {};  ///< where it returns true, the call ends soon with cancelled
 };
 
 struct ConvertMapReport {
@@ -78,7 +78,7 @@ struct ConvertMapReport {
 ///
 /// Errors: nullData, countMismatch, strideTooSmall, misaligned, invalidOption (bits; a scale that is 0 or not finite),
 /// missingAttribute (a mesh, normals or tangents that are needed), tooLarge (more than 2^32 texels, or UVs that show the image
-/// far too often), outOfMemory, cannotWrite (stopped). Time: linear. Memory: about 30 bytes a texel, 55 with 16 bits between
+/// far too often), outOfMemory, cancelled. Time: linear. Memory: about 30 bytes a texel, 55 with 16 bits between
 /// tangent and object space. The same bits for any number of threads. Thread-safe.
 Result<ConvertMapReport> convertMap(const MapImage& map, const MapSide& from, const MapSide& to, std::span<Vec3> out,
                                     const ConvertMapOptions& options = {});

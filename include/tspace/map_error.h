@@ -3,7 +3,9 @@
 // tspace::maps.
 //
 // The truth at a point of the low poly is the normal of the high poly where the line along the low poly's interpolated
-// normal meets it. Rays are Embree's: without it (at build or at run time) these calls fail with unsupportedFile.
+// normal meets it. Rays are Embree's: without it (at build or at run time) these calls fail with unsupportedFile. It works on
+// the threads of the call alone, where the process has no other devices of Embree. Limits that a host sets for TBB, which
+// Embree uses, hold on, but for the microseconds in which devices are made.
 #pragma once
 
 #include <cstdint>
@@ -50,7 +52,7 @@ struct MapErrorOptions {
     bool heat = false;                   ///< also MapError::heat
     Execution execution = {};
     MapProgress progress = {};
-    std::function<bool()> stop = {};  ///< where it returns true, the call ends soon with cannotWrite: nothing was made
+    std::function<bool()> stop = {};  ///< where it returns true, the call ends soon with cancelled: nothing was made
 };
 
 /// Angles between the shaded normal and the truth, in degrees.
@@ -73,7 +75,7 @@ double chosenReach(const LowPoly& low, const HighPoly& high);
 /// Compares a map with the surface. The same figures for any thread count. Memory: about 100 bytes per point, 200 per
 /// triangle of the high poly, 16 per texel with `heat`. Errors: nullData, countMismatch, strideTooSmall, misaligned,
 /// indexOutOfRange, invalidOption, missingAttribute (no UVs, normals or tangents; meshes that are nowhere near each other),
-/// unsupportedFile (no Embree), cannotWrite (stopped), outOfMemory. Thread-safe.
+/// unsupportedFile (no Embree), cancelled, outOfMemory. Thread-safe.
 Result<MapError> measureMap(const MapImage& map, const LowPoly& low, const HighPoly& high,
                             const MapErrorOptions& options = {});
 

@@ -24,7 +24,7 @@ struct MapImage {
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
 };
 
-/// Called now and then. `done` of `total` steps; `what` names the step.
+/// Called now and then. `done` of `total` steps; `what` names the step. It may throw Cancelled: as where `stop` is true.
 using MapProgress = std::function<void(const char* what, std::uint64_t done, std::uint64_t total)>;
 
 }  // namespace tspace

@@ -23,6 +23,7 @@ enum class ErrorCode : std::uint32_t {
     outOfMemory = 9,        ///< the allocator returned null
     planMismatch = 10,      ///< arrays do not fit the plan they are evaluated with
     internal = 11,          ///< a defect of tspace; please report it
+    cancelled = 12,         ///< the caller ended the call from a function of its own; nothing was made or written
     invalidFile = 100,      ///< asset layer: the file breaks its format; the error says where
     unsupportedFile = 101,  ///< asset layer: valid, but needs a feature that this version does not have
     forbiddenPath = 102,    ///< asset layer: a URI leads outside the model's folder
@@ -33,6 +34,9 @@ enum class ErrorCode : std::uint32_t {
 /// Stable identifier of a code in lowerCamelCase, for logs and JSON ("indexOutOfRange"); "unknown" for other numbers.
 /// Static memory.
 const char* errorName(ErrorCode code);
+
+/// For a caller's progress function to throw: ends the call with ErrorCode::cancelled.
+struct Cancelled {};
 
 /// Element of an error that is about no element in particular.
 inline constexpr std::uint64_t kNoElement = ~std::uint64_t{0};

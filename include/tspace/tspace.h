@@ -10,8 +10,10 @@
  *   otherwise it is written in either case (code TSPACE_OK and an empty message after success).
  * - Structs that start with `struct_size` are prepared with TSPACE_INIT, which sets the size and every default; what
  *   has no other default is zero. Fields are only ever added at the end, and the size says which a program knows: one
- *   that was compiled with an older header works with a newer library. A size that this version does not know is
- *   TSPACE_ERROR_INVALID_OPTION.
+ *   that was compiled with any older header works with a newer library, and gets the defaults of newer fields. A size
+ *   that this version does not know is TSPACE_ERROR_INVALID_OPTION.
+ * - Structs without `struct_size` that a program fills never change. tspace_Execution and tspace_Convention stand in
+ *   the middle of others: what a later version adds to them is a field at the end of each struct that holds one.
  * - Options and reports may be null: default options, no report wanted. (Tangents need options: a convention has no
  *   default.) A report is written only on success. Other pointers are not null, where nothing else is said: a function
  *   that can fail then fails with TSPACE_ERROR_NULL_DATA.
@@ -70,6 +72,8 @@ enum {
     TSPACE_ERROR_OUT_OF_MEMORY = 9,  /* the allocator returned null */
     TSPACE_ERROR_PLAN_MISMATCH = 10, /* arrays do not fit the plan they are evaluated with */
     TSPACE_ERROR_INTERNAL = 11,      /* a defect of tspace; please report it */
+    /* the caller ended the call from a function of its own; nothing was made or written */
+    TSPACE_ERROR_CANCELLED = 12,
     TSPACE_ERROR_INVALID_FILE = 100, /* asset layer: the file breaks its format; the error says where */
     /* asset layer: valid, but needs a feature that this version does not have */
     TSPACE_ERROR_UNSUPPORTED_FILE = 101,
@@ -201,13 +205,13 @@ enum {
 
 /* Where work runs and where its memory comes from. Passed by value inside option structs. What it points to must
  * outlive the call (and a plan made with it).
- * In C: the two structs are read during the call only; a plan needs the functions in them, and `user`. */
+ * In C: the two structs are read during the call only; a plan needs the functions in them, and `user`. The layout of
+ * this struct never changes. */
 typedef struct tspace_Execution {
     /* Runs all work, whatever thread_count says; null: threads that are started and joined within the call. */
     const tspace_Executor* executor;
-    /* Only for scratch memory and plans. Null: operator new; in tspace_generateTangents, from a thread's second call
-     * with a mesh of more than 4096 corners on, a tspace_Arena that the thread keeps until it ends, with up to 4 MiB
-     * between calls. */
+    /* Only for scratch memory and plans. Null: operator new, and nothing is kept between calls. With a tspace_Arena
+     * calls that follow each other take a tenth less time (tspace_generateTangents with more than 4096 corners). */
     const tspace_Allocator* allocator;
     uint32_t thread_count;  /* 0 and 1: the calling thread only; TSPACE_ALL_THREADS */
     tspace_SimdTarget simd; /* For tests and measurements. What this CPU lacks becomes the best of a lower number. */
@@ -278,7 +282,8 @@ enum { TSPACE_WINDING_COUNTER_CLOCKWISE = 0, TSPACE_WINDING_CLOCKWISE = 1 };
  *     sign = uv_orientation * (v_axis down ? -1 : 1) * (green down ? -1 : 1) * (stored_sign negated ? -1 : 1)
  * where uv_orientation is +1 when cross(dP/du, dP/dv) points along N. Handedness and winding say which side of a
  * face is out (see `tspace_normalFactor`), and so which way N points; B = sign * cross(N, T) holds numerically in
- * either. Normals look at handedness and winding only. */
+ * either. Normals look at handedness and winding only.
+ * In C: the layout of this struct never changes. */
 typedef struct tspace_Convention {
     tspace_VAxis v_axis;
     tspace_Green green;

@@ -124,7 +124,8 @@ tspace_ErrorCode tspace_diffBytes(const tspace_Model* a, const tspace_Model* b, 
  *
  * Errors: UNSUPPORTED_FILE (not an image that this build reads; grey, so that there is no green channel; animated; a
  * format that cannot be written), INVALID_FILE (broken), INVALID_OPTION, TOO_LARGE, OUT_OF_MEMORY. Time and memory:
- * linear in the pixels; a PNG that is not interlaced needs a few rows and the size of its file.
+ * linear in the pixels; a PNG that is not interlaced needs a few rows and the size of its file. TOO_LARGE also for a
+ * PNG that claims to unpack to more than 16 times the memory limit, 1 GB and more by default.
  * In C: options of `tspace flip-green`, report tspace.flip-green/1. The output has the format of the input, and is
  * empty after an error, and with the option "dry-run". Free it by tspace_destroyBytes. */
 tspace_ErrorCode tspace_flipGreenBytes(const uint8_t* data, size_t size, const char* options, tspace_Bytes* output,

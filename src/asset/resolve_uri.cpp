@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Paths on the disk, where links lead anywhere.
-#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
 #include "asset/disk_paths.h"
+#include "asset/folder_rule.h"
 #include "asset/system_files.h"
 #include "asset/uri.h"
 
@@ -12,19 +12,11 @@ namespace tspace {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-bool startsWith(const fs::path& path, const fs::path& prefix) {
-    return std::mismatch(prefix.begin(), prefix.end(), path.begin(), path.end()).first == prefix.end();
-}
-
-}  // namespace
-
 Path resolveUri(const Path& in_folder, std::string_view uri, bool allow_external, const std::string& place) {
     const fs::path folder = in_folder, relative{Path(checkedPathOfUri(uri, allow_external, place))};
     if (allow_external) return folder / relative;
     const fs::path root = canonicalPath(in_folder);
-    if (!startsWith(fs::path(canonicalPath(root / relative)), root)) {
+    if (!isBelow(root, fs::path(canonicalPath(root / relative)))) {
         refuseUri(uri, "leads out of the model's folder by a symbolic link", place);
     }
     return folder / relative;

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "asset/file_error.h"
+#include "asset/folder_rule.h"
 
 namespace tspace {
 
@@ -172,11 +173,7 @@ std::string checkedPathOfUri(std::string_view uri, bool allow_external, const st
         failFile(ErrorCode::invalidFile, "a URI names no file", place);
     }
     if (allow_external) return path;
-    const fs::path relative{Path(path)};
-    // On Windows a path may begin at a root, or in a folder of a drive, and not be absolute.
-    if (relative.has_root_path()) refuseUri(uri, "is an absolute path", place);
-    if (std::find(relative.begin(), relative.end(), fs::path("..")) != relative.end())
-        refuseUri(uri, "leads out of the model's folder", place);
+    if (const char* why = leadsAway(fs::path{Path(path)})) refuseUri(uri, why, place);
     return path;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <charconv>
 
 #include "asset/atomic_output.h"
 #include "asset/file_error.h"
@@ -45,8 +46,8 @@ LowModel::Image shownPart(const LowModel& model, const MapErrorFileOptions& opti
 
 std::string degreesWord(double degrees) {
     char text[32];
-    std::snprintf(text, sizeof text, degrees < 0.1 ? "%.3f" : "%.2f", degrees);
-    return text;
+    const int digits = degrees < 0.1 ? 3 : 2;
+    return {text, std::to_chars(text, text + sizeof text, degrees, std::chars_format::fixed, digits).ptr};
 }
 
 class FileMeasuring {

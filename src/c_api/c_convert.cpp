@@ -22,6 +22,7 @@ static_assert(TSPACE_ERROR_MISSING_ATTRIBUTE == static_cast<std::uint32_t>(Error
 static_assert(TSPACE_ERROR_INVALID_OPTION == static_cast<std::uint32_t>(ErrorCode::invalidOption));
 static_assert(TSPACE_ERROR_OUT_OF_MEMORY == static_cast<std::uint32_t>(ErrorCode::outOfMemory));
 static_assert(TSPACE_ERROR_PLAN_MISMATCH == static_cast<std::uint32_t>(ErrorCode::planMismatch));
+static_assert(TSPACE_ERROR_CANCELLED == static_cast<std::uint32_t>(ErrorCode::cancelled));
 static_assert(TSPACE_ERROR_INTERNAL == static_cast<std::uint32_t>(ErrorCode::internal));
 static_assert(TSPACE_ERROR_INVALID_FILE == static_cast<std::uint32_t>(ErrorCode::invalidFile));
 static_assert(TSPACE_ERROR_UNSUPPORTED_FILE == static_cast<std::uint32_t>(ErrorCode::unsupportedFile));
@@ -60,11 +61,15 @@ tspace_ErrorCode finish(const Error& error, tspace_Error* out) noexcept {
     return code;
 }
 
-Error checkStructSize(std::uint32_t size, std::size_t first, std::size_t latest, const char* name) {
-    if (size == first || size == latest) return {ErrorCode::ok};
+// Both stand in the middle of other structs, so that no field can ever be added to them.
+static_assert(sizeof(tspace_Execution) == 2 * sizeof(void*) + 2 * sizeof(std::uint32_t));
+static_assert(sizeof(tspace_Convention) == 5 * sizeof(std::uint32_t));
+
+Error checkStructSize(std::uint32_t size, std::span<const std::size_t> known, const char* name) {
+    if (std::find(known.begin(), known.end(), size) != known.end()) return {ErrorCode::ok};
     return makeError(ErrorCode::invalidOption, kNoElement,
                      "%s.struct_size is %u, this version knows %zu: prepare the struct with TSPACE_INIT", name, size,
-                     latest);
+                     known.back());
 }
 
 Error checkChoice(std::uint32_t value, std::uint32_t largest, const char* name) {

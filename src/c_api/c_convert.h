@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstring>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,25 +33,30 @@ tspace_ErrorCode atCBorder(tspace_Error* out, Body&& body) noexcept {
     return finish(result ? Error{ErrorCode::ok} : result.error(), out);
 }
 
-/// The size that `Struct` had in the first header, where fields came after it.
+/// Every size that `Struct` had in a header, the last one now; a program may have been compiled with any of them. Whoever
+/// appends a field keeps the list, and appends the new size: an older one says which fields are there. A field that would lie
+/// in what was padding comes behind a `reserved` one, since its size would be that of the struct without it.
 template <class Struct>
-inline constexpr std::size_t kFirstSize = sizeof(Struct);
+inline constexpr std::size_t kSizes[] = {sizeof(Struct)};
 template <>
-inline constexpr std::size_t kFirstSize<tspace_Mesh> = offsetof(tspace_Mesh, normal_indices);
+inline constexpr std::size_t kSizes<tspace_Mesh>[] = {offsetof(tspace_Mesh, normal_indices), sizeof(tspace_Mesh)};
 template <>
-inline constexpr std::size_t kFirstSize<tspace_TangentOptions> = offsetof(tspace_TangentOptions, frame);
+inline constexpr std::size_t kSizes<tspace_TangentOptions>[] = {offsetof(tspace_TangentOptions, frame),
+                                                                sizeof(tspace_TangentOptions)};
 template <>
-inline constexpr std::size_t kFirstSize<tspace_NormalOptions> = offsetof(tspace_NormalOptions, refine);
+inline constexpr std::size_t kSizes<tspace_NormalOptions>[] = {offsetof(tspace_NormalOptions, refine),
+                                                               sizeof(tspace_NormalOptions)};
 template <>
-inline constexpr std::size_t kFirstSize<tspace_SanitizeReport> = offsetof(tspace_SanitizeReport, placeholder_count);
+inline constexpr std::size_t kSizes<tspace_SanitizeReport>[] = {offsetof(tspace_SanitizeReport, placeholder_count),
+                                                                sizeof(tspace_SanitizeReport)};
 
 /// An Error with code ok when `size` is one that the struct has or had. Null is a struct that was not given: fine here.
-Error checkStructSize(std::uint32_t size, std::size_t first, std::size_t latest, const char* name);
+Error checkStructSize(std::uint32_t size, std::span<const std::size_t> known, const char* name);
 
 template <class Struct>
 Error checkSized(const Struct* sized, const char* name) {
     if (sized == nullptr) return {ErrorCode::ok};
-    return checkStructSize(sized->struct_size, kFirstSize<Struct>, sizeof(Struct), name);
+    return checkStructSize(sized->struct_size, kSizes<Struct>, name);
 }
 
 /// The same for a struct that must be given.

@@ -15,11 +15,12 @@ namespace tspace {
 const char* errorName(ErrorCode code) {
     static constexpr std::uint32_t kFirstOfFiles = 100;
     static constexpr const char* kNames[] = {
-        "ok",       "nullData",         "countMismatch", "indexOutOfRange", "strideTooSmall", "misaligned",
-        "tooLarge", "missingAttribute", "invalidOption", "outOfMemory",     "planMismatch",   "internal"};
+        "ok",           "nullData", "countMismatch",    "indexOutOfRange", "strideTooSmall",
+        "misaligned",   "tooLarge", "missingAttribute", "invalidOption",   "outOfMemory",
+        "planMismatch", "internal", "cancelled"};
     static constexpr const char* kNamesOfFiles[] = {"invalidFile", "unsupportedFile", "forbiddenPath", "cannotRead",
                                                     "cannotWrite"};
-    static_assert(std::size(kNames) == static_cast<std::size_t>(ErrorCode::internal) + 1);
+    static_assert(std::size(kNames) == static_cast<std::size_t>(ErrorCode::cancelled) + 1);
     static_assert(std::size(kNamesOfFiles) == static_cast<std::size_t>(ErrorCode::cannotWrite) + 1 - kFirstOfFiles);
     const auto number = static_cast<std::uint32_t>(code);
     if (number < std::size(kNames)) return kNames[number];
@@ -89,6 +90,8 @@ Error caughtError() {
         return {ErrorCode::outOfMemory, "out of memory"};
     } catch (const std::bad_alloc&) {
         return {ErrorCode::outOfMemory, "out of memory"};
+    } catch (const Cancelled&) {
+        return {ErrorCode::cancelled, "stopped before it was done"};
     } catch (...) {
         return {ErrorCode::internal, "internal error: an exception reached the library's border"};
     }

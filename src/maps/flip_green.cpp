@@ -2,6 +2,8 @@
 // flipGreen and flipGreenFile: formats in and out, limits, files.
 #include "maps/flip_green.h"
 
+#include <algorithm>
+
 #include "asset/atomic_output.h"
 #include "asset/file_error.h"
 #include "asset/memory_budget.h"
@@ -81,11 +83,29 @@ FlippedImage flipPixels([[maybe_unused]] ByteSpan bytes, [[maybe_unused]] ImageF
     return result;
 }
 
+/// Rows of a PNG take next to no memory but time, and a few bytes may claim any number of them: what they unpack to may be
+/// so many times what may be taken of memory. 1 GB, about 5 seconds, for any file: a map of one colour and 16384 x 16384
+/// texels has 800 MB in a file of 800 KB.
+void checkWork(ByteSpan bytes, std::uint64_t memory_limit_bytes) {
+    constexpr std::uint64_t kTimesMemory = 16, kMost = std::uint64_t{1} << 56;
+    const std::uint64_t memory = memory_limit_bytes != 0
+                                     ? std::min(memory_limit_bytes, kMost)
+                                     : MemoryBudget::kAnyFile + MemoryBudget::kPerByte * bytes.size();
+    const std::uint64_t unpacked = flipUnpackedBytes(bytes);
+    if (unpacked <= kTimesMemory * memory) return;
+    const auto megabytes = [](std::uint64_t count) { return std::to_string(count >> 20) + " MB"; };
+    failFile(ErrorCode::tooLarge, "it claims to unpack to " + megabytes(unpacked) + ", and " +
+                                      (memory_limit_bytes != 0 ? "--memory-limit" : "a file of its size") + " allows " +
+                                      megabytes(kTimesMemory * memory) +
+                                      (memory_limit_bytes != 0 ? "" : " (--memory-limit allows more)"));
+}
+
 FlippedImage flip(ByteSpan bytes, const FlipGreenOptions& options) {
     const ImageFileFormat input = readableFormat(bytes), output = outputFormat(input, options);
     MemoryBudget budget(options.memory_limit_bytes);
     budget.allow(bytes.size());
     budget.require(flipWorkBytes(bytes), {});
+    checkWork(bytes, options.memory_limit_bytes);
 #ifdef TSPACE_HAS_IMAGES
     if (input == ImageFileFormat::png) {
         FlippedPng png = flipPng(bytes);
@@ -129,6 +149,16 @@ std::uint64_t flipWorkBytes(ByteSpan bytes) {
         default:
             return 0;
     }
+}
+
+std::uint64_t flipUnpackedBytes(ByteSpan bytes) {
+    constexpr std::size_t kBitsAt = 24, kColorAt = 25;
+    if (imageFormat(bytes) != ImageFormat::png || bytes.size() <= kColorAt) return 0;
+    const ImageSize size = claimOf(bytes).size;
+    constexpr std::uint64_t kChannels[] = {1, 1, 3, 1, 2, 1, 4, 1};
+    constexpr std::uint64_t kOfRow = 16;  // what a row takes beside its bytes
+    const std::uint64_t pixel_bits = kChannels[bytes[kColorAt] & 7] * std::min<std::uint64_t>(bytes[kBitsAt], 16);
+    return (size.width * pixel_bits / 8 + kOfRow) * size.height;
 }
 
 Result<FlippedImage> flipGreen(std::span<const std::uint8_t> image, const FlipGreenOptions& options) {

@@ -15,6 +15,9 @@ struct ChannelImage {
 
 /// What flipping takes of memory, beside the input and the output.
 std::uint64_t flipWorkBytes(ByteSpan bytes);
+/// What the rows of a PNG unpack to, with 16 bytes more for each row, as its head claims: the time that flipping takes. 0 for
+/// other formats, all of whose pixels are in memory.
+std::uint64_t flipUnpackedBytes(ByteSpan bytes);
 
 /// A PNG with its green channel inverted, and all else as it was.
 struct FlippedPng {

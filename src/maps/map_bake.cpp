@@ -34,7 +34,7 @@ class Baking {
           parallel_(options.execution) {}
 
     Result<BakedMap> run() {
-        Result<MapSurfaces> surfaces = MapSurfaces::make(low_, high_, options_.reach, options_.execution);
+        Result<MapSurfaces> surfaces = MapSurfaces::make(low_, high_, options_.reach, parallel_);
         if (!surfaces) return std::move(surfaces).error();
         const LowUvs uvs(low_, allocator_);
         const std::uint32_t padding = std::max(options_.padding, kFilterTexels);

@@ -30,9 +30,9 @@ Result<std::vector<MapError>> measureAll(const MapImage& map, const LowPoly& low
         Error error = checkSpan(candidate.tangents, low.positions.count, "candidate.tangents");
         if (error.code != ErrorCode::ok) return error;
     }
-    Result<MapSurfaces> surfaces = MapSurfaces::make(low, high, options.reach, options.execution);
-    if (!surfaces) return std::move(surfaces).error();
     Parallel parallel(options.execution);
+    Result<MapSurfaces> surfaces = MapSurfaces::make(low, high, options.reach, parallel);
+    if (!surfaces) return std::move(surfaces).error();
     const std::optional<MeasurePoints> points =
         MeasurePoints::spread(*surfaces, options.point_count, parallel, options);
     if (!points) return stoppedError();

@@ -6,6 +6,6 @@
 namespace tspace {
 
 /// What a call ends with when its `stop` said so.
-inline Error stoppedError() { return makeError(ErrorCode::cannotWrite, kNoElement, "stopped before it was done"); }
+inline Error stoppedError() { return makeError(ErrorCode::cancelled, kNoElement, "stopped before it was done"); }
 
 }  // namespace tspace

@@ -2,7 +2,6 @@
 #include "maps/map_surfaces.h"
 
 #include <algorithm>
-#include <thread>
 
 #include "core/border.h"
 #include "maps/position_box.h"
@@ -16,12 +15,6 @@ DVec3 mixedAt(const StridedSpan<const T>& values, std::size_t triangle, const st
     DVec3 sum{};
     for (std::size_t i = 0; i < 3; ++i) sum = sum + weights[i] * toDouble(values[3 * triangle + i]);
     return sum;
-}
-
-unsigned threadsOf(const Execution& execution) {
-    if (execution.executor != nullptr) return std::max(1U, execution.executor->concurrency);
-    if (execution.thread_count == kAllThreads) return std::max(1U, std::thread::hardware_concurrency());
-    return std::max(1U, execution.thread_count);
 }
 
 Error apartError(const PositionBox& low, const PositionBox& high) {
@@ -66,8 +59,7 @@ double chosenReach(const LowPoly& low, const HighPoly& high) {
     return reachBetween(PositionBox(low.positions), PositionBox(high.positions));
 }
 
-Result<MapSurfaces> MapSurfaces::make(const LowPoly& low, const HighPoly& high, double reach,
-                                      const Execution& execution) {
+Result<MapSurfaces> MapSurfaces::make(const LowPoly& low, const HighPoly& high, double reach, Parallel& parallel) {
     if (!std::isfinite(reach) || reach < 0)
         return makeError(ErrorCode::invalidOption, kNoElement, "the reach must be a length");
     MapSurfaces surfaces;
@@ -76,7 +68,7 @@ Result<MapSurfaces> MapSurfaces::make(const LowPoly& low, const HighPoly& high, 
     surfaces.reach_ = reach > 0 ? reach : chosenReach(low, high);
     if (!(surfaces.reach_ > 0)) return apartError(PositionBox(low.positions), PositionBox(high.positions));
     Result<std::unique_ptr<const RaySurface>> rays =
-        RaySurface::make(high.positions, high.corners, high.groups, threadsOf(execution));
+        RaySurface::make(high.positions, high.corners, high.groups, parallel);
     if (!rays) return std::move(rays).error();
     surfaces.rays_ = *std::move(rays);
     return surfaces;

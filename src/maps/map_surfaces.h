@@ -19,7 +19,7 @@ class MapSurfaces {
   public:
     /// Checked meshes, which must stay. `reach`: 0 chooses. Errors: unsupportedFile, outOfMemory, invalidOption (a reach
     /// that is no length), missingAttribute (meshes that are nowhere near each other).
-    static Result<MapSurfaces> make(const LowPoly& low, const HighPoly& high, double reach, const Execution& execution);
+    static Result<MapSurfaces> make(const LowPoly& low, const HighPoly& high, double reach, Parallel& parallel);
 
     [[nodiscard]] const LowPoly& low() const { return low_; }
     [[nodiscard]] double reach() const { return reach_; }

@@ -2,8 +2,8 @@
 #include "maps/position_box.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 
 namespace tspace {
 
@@ -23,16 +23,21 @@ PositionBox changed(const PositionBox& box, const Change& change) {
     return result;
 }
 
+/// Three digits; with a point, whatever the program's locale says.
+std::string shortNumber(double number) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, number, std::chars_format::general, 3).ptr};
+}
+
 std::string sizesApart(const PositionBox& low, const PositionBox& high) {
     const double factor = high.diagonal() / low.diagonal();
-    char text[160];
-    std::snprintf(text, sizeof text, "the %s poly is %.3g times as large as the %s poly", factor > 1 ? "high" : "low",
-                  factor > 1 ? factor : 1 / factor, factor > 1 ? "low" : "high");
+    const char* const larger = factor > 1 ? "high" : "low";
+    const char* const smaller = factor > 1 ? "low" : "high";
+    const std::string text = std::string("the ") + larger + " poly is " + shortNumber(std::max(factor, 1 / factor)) +
+                             " times as large as the " + smaller + " poly";
     const PositionBox scaled = changed(high, [&](const DVec3& at) { return (1 / factor) * at; });
-    if (scaled.difference(low) > kFitsNot * low.diagonal()) return std::string(text) + ": are both in the same unit?";
-    std::snprintf(text + std::string_view(text).size(), 80, ": scale the high poly by %.3g, and it lies on it",
-                  1 / factor);
-    return text;
+    if (scaled.difference(low) > kFitsNot * low.diagonal()) return text + ": are both in the same unit?";
+    return text + ": scale the high poly by " + shortNumber(1 / factor) + ", and it lies on it";
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "maps/rays.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -33,7 +34,7 @@ struct Embree {
     decltype(&rtcNewScene) newScene = nullptr;
     decltype(&rtcReleaseScene) releaseScene = nullptr;
     decltype(&rtcSetSceneFlags) setSceneFlags = nullptr;
-    decltype(&rtcCommitScene) commitScene = nullptr;
+    decltype(&rtcJoinCommitScene) joinCommitScene = nullptr;
     decltype(&rtcNewGeometry) newGeometry = nullptr;
     decltype(&rtcReleaseGeometry) releaseGeometry = nullptr;
     decltype(&rtcSetSharedGeometryBuffer) setSharedGeometryBuffer = nullptr;
@@ -51,7 +52,7 @@ struct Embree {
         library.find(newScene, "rtcNewScene");
         library.find(releaseScene, "rtcReleaseScene");
         library.find(setSceneFlags, "rtcSetSceneFlags");
-        library.find(commitScene, "rtcCommitScene");
+        library.find(joinCommitScene, "rtcJoinCommitScene");
         library.find(newGeometry, "rtcNewGeometry");
         library.find(releaseGeometry, "rtcReleaseGeometry");
         library.find(setSharedGeometryBuffer, "rtcSetSharedGeometryBuffer");
@@ -89,12 +90,13 @@ struct RaySurface::State {
     DVec3 centre = {};
     double scale = 1;
     std::vector<Vec4> placed = {};  // 16 bytes each: Embree reads them so
-    RTCDevice device = nullptr;
+    RTCDevice device = nullptr, second_device = nullptr;
     RTCScene scene = nullptr;
 
     ~State() {
         if (scene != nullptr) embree().releaseScene(scene);
         if (device != nullptr) embree().releaseDevice(device);
+        if (second_device != nullptr) embree().releaseDevice(second_device);
     }
 
     /// Where the line meets the plane of a triangle whose front faces against `direction`.
@@ -161,6 +163,28 @@ void findPlace(RaySurface::State& state) {
     state.scale = size > 0 ? 1 / size : 1;
 }
 
+/// A device whose scenes are built by those threads that call joinCommitScene, `threads` at most. Its number of threads is
+/// the limit of TBB for the whole process, and so for a host that uses it too, as long as no device has a larger one: a
+/// second device, which has none, takes that back, and the first keeps its arena. False where there are no devices.
+bool makeDevices(RaySurface::State& state, unsigned threads) {
+    char settings[64];
+    std::snprintf(settings, sizeof settings, "threads=%u,user_threads=%u", threads, threads);
+    state.device = embree().newDevice(settings);
+    state.second_device = embree().newDevice(nullptr);
+    return state.device != nullptr && state.second_device != nullptr;
+}
+
+/// By all threads of the call.
+RTCError buildScene(const RaySurface::State& state, Parallel& parallel) {
+    std::atomic<RTCError> failure = RTC_ERROR_NONE;
+    parallel.forTasks(parallel.width(), [&](std::size_t) {
+        embree().joinCommitScene(state.scene);
+        // Each thread has its own.
+        if (const RTCError error = embree().getDeviceError(state.device); error != RTC_ERROR_NONE) failure = error;
+    });
+    return failure;
+}
+
 }  // namespace
 
 RaySurface::RaySurface(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -168,7 +192,7 @@ RaySurface::~RaySurface() = default;
 
 Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec3> positions,
                                                            std::span<const std::uint32_t> corners,
-                                                           std::span<const std::uint32_t> groups, unsigned threads) {
+                                                           std::span<const std::uint32_t> groups, Parallel& parallel) {
     const Embree& api = embree();
     if (!api.is_loaded)
         return makeError(ErrorCode::unsupportedFile, kNoElement, "rays need Embree: %s cannot be loaded",
@@ -183,10 +207,8 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
         const Vec3 at = toFloat(state->scale * (toDouble(positions[i]) - state->centre));
         state->placed[i] = {at.x, at.y, at.z, 0};
     }
-    char settings[32];
-    std::snprintf(settings, sizeof settings, "threads=%u", threads);
-    state->device = api.newDevice(settings);
-    if (state->device == nullptr) return makeError(ErrorCode::unsupportedFile, kNoElement, "Embree does not start");
+    if (!makeDevices(*state, parallel.width()))
+        return makeError(ErrorCode::unsupportedFile, kNoElement, "Embree does not start");
     state->scene = api.newScene(state->device);
     api.setSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST);
     const RTCGeometry geometry = api.newGeometry(state->device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -198,8 +220,8 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
     api.commitGeometry(geometry);
     api.attachGeometry(state->scene, geometry);
     api.releaseGeometry(geometry);
-    api.commitScene(state->scene);
-    const RTCError error = api.getDeviceError(state->device);
+    RTCError error = buildScene(*state, parallel);
+    if (error == RTC_ERROR_NONE) error = api.getDeviceError(state->device);  // of the calls above
     if (error == RTC_ERROR_OUT_OF_MEMORY)
         return makeError(ErrorCode::outOfMemory, kNoElement, "out of memory for the rays");
     if (error != RTC_ERROR_NONE)
@@ -224,7 +246,15 @@ bool shoot(const RaySurface::State& state, const DVec3& from, const DVec3& direc
     query.most = std::max(std::fabs(begin), std::fabs(end));
     query.group = group;
     query.is_hit = false;
-    const Vec3 origin = toFloat(state.scale * (from + begin * direction - state.centre));
+    // Embree ends the process where a ray begins or ends beyond 1.8e18: only the part near the surface is asked for, whose
+    // box has sides of 1 about the centre.
+    constexpr double kBeyond = 2;
+    const double middle = dot(state.centre - from, direction);
+    begin = std::max(begin, middle - kBeyond / state.scale);
+    end = std::min(end, middle + kBeyond / state.scale);
+    const DVec3 place = state.scale * (from + begin * direction - state.centre);
+    if (!(begin <= end) || !(dot(place, place) <= 4 * kBeyond * kBeyond)) return false;
+    const Vec3 origin = toFloat(place);
     RTCRayHit ray{};
     ray.ray.org_x = origin.x;
     ray.ray.org_y = origin.y;
@@ -254,7 +284,9 @@ bool shoot(const RaySurface::State& state, const DVec3& from, const DVec3& direc
 bool RaySurface::nearest(const DVec3& from, const DVec3& outward, double reach, std::uint32_t group, double& guess,
                          RayHit& hit) const {
     const DVec3 inward = -1.0 * outward;
-    for (double half = std::clamp(guess, reach / 1024, reach);; half = std::min(4 * half, reach)) {
+    // The part of a reach that is hardly more than zero may be zero.
+    const double least = std::max(reach / 1024, std::min(reach, std::numeric_limits<double>::min()));
+    for (double half = std::clamp(guess, least, reach);; half = std::min(4 * half, reach)) {
         if (shoot(*state_, from, inward, -half, half, group, hit)) {
             hit.distance = -hit.distance;
             guess = 2 * std::fabs(hit.distance);
@@ -275,7 +307,7 @@ RaySurface::RaySurface(std::unique_ptr<State> state) : state_(std::move(state)) 
 RaySurface::~RaySurface() = default;
 
 Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec3>, std::span<const std::uint32_t>,
-                                                           std::span<const std::uint32_t>, unsigned) {
+                                                           std::span<const std::uint32_t>, Parallel&) {
     return makeError(ErrorCode::unsupportedFile, kNoElement, "rays need Embree, and this build has none");
 }
 bool RaySurface::nearest(const DVec3&, const DVec3&, double, std::uint32_t, double&, RayHit&) const { return false; }

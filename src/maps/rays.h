@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 
+#include "core/parallel.h"
 #include "core/vec_math.h"
 #include "tspace/result.h"
 #include "tspace/span.h"
@@ -25,10 +26,10 @@ struct RayHit {
 class RaySurface {
   public:
     /// `positions`, `corners` and `groups` (one per triangle, or empty) must stay. Triangles that are not finite, or have no
-    /// area, are not met. Errors: unsupportedFile (no Embree), outOfMemory.
+    /// area, are not met. Lines may begin and end anywhere. Built by the threads of `parallel`. Errors: unsupportedFile (no Embree), outOfMemory.
     static Result<std::unique_ptr<const RaySurface>> make(StridedSpan<const Vec3> positions,
                                                           std::span<const std::uint32_t> corners,
-                                                          std::span<const std::uint32_t> groups, unsigned threads);
+                                                          std::span<const std::uint32_t> groups, Parallel& parallel);
     ~RaySurface();
     RaySurface(const RaySurface&) = delete;
     RaySurface& operator=(const RaySurface&) = delete;

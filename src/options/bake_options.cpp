@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How normal maps are baked and measured.
 #include <cmath>
-#include <cstdlib>
 
 #include "options/file_options.h"
 #include "options/request.h"
@@ -17,9 +16,8 @@ constexpr unsigned kMostPadding = 256, kMostSide = 16384;
 
 Option reachOption(double& target) {
     const auto take = [&target](const std::string& text) -> std::string {
-        char* end = nullptr;
-        const double given = std::strtod(text.c_str(), &end);
-        if (text.empty() || *end != '\0' || !(given > 0) || !std::isfinite(given)) return "must be a length above 0";
+        double given = 0;
+        if (!parseReal(text, given) || !(given > 0) || !std::isfinite(given)) return "must be a length above 0";
         target = given;
         return {};
     };

@@ -14,7 +14,7 @@ enum class ExitCode : int {
     findings = 1,           ///< a checking command found something
     usage = 2,              ///< the command line makes no sense
     badInput = 3,           ///< a file is broken, not supported, or leads outside its folder
-    cannotReadOrWrite = 4,  ///< the file system said no
+    cannotReadOrWrite = 4,  ///< the file system said no, or the caller ended the call
     internal = 5,           ///< out of memory, or a defect of tspace
 };
 
@@ -36,6 +36,7 @@ inline ExitCode exitCodeOf(ErrorCode code) {
             return ExitCode::badInput;
         case ErrorCode::cannotRead:
         case ErrorCode::cannotWrite:
+        case ErrorCode::cancelled:
             return ExitCode::cannotReadOrWrite;
         case ErrorCode::nullData:
         case ErrorCode::strideTooSmall:

@@ -315,6 +315,24 @@ TEST(GenerateGltf, CopiesNamedFilesButOverwritesNoOther) {
     EXPECT_EQ(readFile(output), model);
 }
 
+TEST(GenerateGltf, IsCancelledByItsProgressAndLeavesNothing) {
+    const TempFolder folder;
+    writeWithFiles(folder, "a.gltf", gridModel(Grid(4)));
+    const std::size_t files = folder.entryCount();
+    int calls_left = 0;
+    GenerateOptions options{.all = true};
+    options.progress = [&](const char*, std::uint64_t, std::uint64_t) {
+        if (calls_left-- == 0) throw Cancelled{};
+    };
+    for (int calls = 0; calls < 3; ++calls) {
+        calls_left = calls;
+        const auto report = generateFile(folder.path("in/a.gltf").string(), folder.path("out/a.glb").string(), options);
+        ASSERT_FALSE(report) << calls;
+        EXPECT_EQ(report.error().code, ErrorCode::cancelled);
+        EXPECT_EQ(folder.entryCount(), files);
+    }
+}
+
 TEST(GenerateGltf, FindsFilesThatAreNamedWithWindowsSeparators) {
     const TempFolder folder;
     writeWithFiles(folder, "b.gltf", gridModel(Grid(4)), "tex\\image.png");

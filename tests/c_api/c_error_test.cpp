@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "c_api/c_convert.h"
 #include "c_api/random_mesh.h"
 #include "tspace/tspace.h"
 
@@ -170,6 +171,33 @@ TEST_F(CErrors, ServeCallersThatWereCompiledWithAnOlderHeader) {
                                                 {tangents.data(), mesh.cornerCount(), 0}, nullptr, &error));
 }
 
+TEST_F(CErrors, KnowEverySizeThatAStructHad) {
+    // As of a struct that grew twice.
+    constexpr std::size_t kGrown[] = {24, 32, 48};
+    for (const std::uint32_t size : {24U, 32U, 48U})
+        EXPECT_EQ(c_api::checkStructSize(size, kGrown, "options").code, ErrorCode::ok) << size;
+    for (const std::uint32_t size : {0U, 28U, 40U, 52U, 0xffffffffU})
+        EXPECT_EQ(c_api::checkStructSize(size, kGrown, "options").code, ErrorCode::invalidOption) << size;
+    // What headers had on machines of 64 bits, once and for all.
+    const auto expectKnown = [](std::span<const std::size_t> known, std::initializer_list<std::size_t> sizes) {
+        for (const std::size_t size : sizes)
+            EXPECT_NE(std::find(known.begin(), known.end(), size), known.end()) << size;
+    };
+    if (sizeof(void*) != 8) return;
+    expectKnown(c_api::kSizes<tspace_Mesh>, {120, 168});
+    expectKnown(c_api::kSizes<tspace_TangentOptions>, {72, 80});
+    expectKnown(c_api::kSizes<tspace_TangentReport>, {72});
+    expectKnown(c_api::kSizes<tspace_TangentOutput>, {104});
+    expectKnown(c_api::kSizes<tspace_TangentPlanInfo>, {40});
+    expectKnown(c_api::kSizes<tspace_Pose>, {56});
+    expectKnown(c_api::kSizes<tspace_NormalOptions>, {80, 88});
+    expectKnown(c_api::kSizes<tspace_NormalReport>, {32});
+    expectKnown(c_api::kSizes<tspace_SanitizeOptions>, {32});
+    expectKnown(c_api::kSizes<tspace_SanitizeReport>, {104, 112});
+    expectKnown(c_api::kSizes<tspace_IndexedFramesOptions>, {48});
+    expectKnown(c_api::kSizes<tspace_PackReport>, {72});
+}
+
 TEST_F(CErrors, RefuseNullWhereSomethingIsNeeded) {
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_validate(nullptr, &error));
     EXPECT_STREQ("mesh is null", error.message);
@@ -272,7 +300,7 @@ TEST_F(CErrors, PassOnWhatTheLibraryFinds) {
 
 TEST_F(CErrors, HaveANameForEveryCode) {
     EXPECT_STREQ("ok", tspace_errorName(TSPACE_OK));
-    for (tspace_ErrorCode code = TSPACE_ERROR_NULL_DATA; code <= TSPACE_ERROR_INTERNAL; ++code) {
+    for (tspace_ErrorCode code = TSPACE_ERROR_NULL_DATA; code <= TSPACE_ERROR_CANCELLED; ++code) {
         EXPECT_STRNE("unknown", tspace_errorName(code)) << code;
     }
     for (tspace_ErrorCode code = TSPACE_ERROR_INVALID_FILE; code <= TSPACE_ERROR_CANNOT_WRITE; ++code) {

@@ -244,6 +244,47 @@ TEST(Import, MeshesWithoutUvsGetNoTextures) {
     EXPECT_FALSE(materials[used]["pbrMetallicRoughness"].contains("baseColorTexture")) << materials.dump();
 }
 
+constexpr const char* kTriangle =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+/// A scene of LightWave that takes its meshes from other files.
+std::string sceneOfFiles(const TempFolder& folder, std::initializer_list<const char*> names) {
+    std::string text = "LWSC\n3\n\n";
+    for (const char* name : names) text += "LoadObjectLayer 1 " + std::string(name) + "\nShowObject 6 8421504\n\n";
+    return folder.write("scene/a.lws", text);
+}
+
+TEST(Import, FilesThatAModelNamesAreThoseOfItsFolder) {
+    const TempFolder folder;
+    folder.write("scene/parts/inside.ply", kTriangle);
+    folder.write("scene/more.ply", kTriangle);
+    folder.write("outside.ply", kTriangle);
+    std::filesystem::create_symlink(folder.path("outside.ply"), folder.path("scene/link.ply"));
+    std::filesystem::create_symlink(folder.path("scene/more.ply"), folder.path("scene/link_inside.ply"));
+    const std::string absolute = folder.path("outside.ply").string();
+    FileOptions anywhere = kWithImporter;
+    anywhere.allow_external = true;
+    const auto primitives = [](const Result<Inspection>& result) { return result ? result->primitives.size() : 0; };
+    for (const char* inside : {"more.ply", "parts/inside.ply", "link_inside.ply"}) {
+        const Result<Inspection> result = inspectFile(sceneOfFiles(folder, {inside}), kWithImporter);
+        EXPECT_EQ(primitives(result), 1U) << inside;
+        EXPECT_TRUE(!result || result->warnings.empty()) << inside;
+    }
+    for (const char* outside : {"../outside.ply", "parts/../../outside.ply", "link.ply", absolute.c_str()}) {
+        const std::string scene = sceneOfFiles(folder, {"more.ply", outside});
+        const Result<Inspection> result = inspectFile(scene, kWithImporter);
+        ASSERT_EQ(primitives(result), 1U) << outside;
+        ASSERT_EQ(result->warnings.size(), 1U) << outside;
+        EXPECT_NE(result->warnings[0].find("lies outside of the model's folder"), std::string::npos);
+        EXPECT_EQ(primitives(inspectFile(scene, anywhere)), 2U) << outside;
+        const Result<Inspection> alone = inspectFile(sceneOfFiles(folder, {outside}), kWithImporter);
+        ASSERT_FALSE(alone.ok()) << outside;
+        EXPECT_NE(alone.error().message.find("lies outside of the model's folder"), std::string::npos)
+            << alone.error().message;
+    }
+}
+
 TEST(Import, WithoutTheImporterTheErrorSaysWhatIsMissing) {
     const TempFolder folder;
     const Result<GenerateReport> report = generate(folder.write("a.fbx", "x"), folder.path("a.glb").string(), {});

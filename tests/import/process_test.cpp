@@ -206,6 +206,22 @@ TEST(ImportProcess, HasNoOpenFileButItsModelAndItsPipes) {
     close(secret);
 }
 
+TEST(ImportProcess, IsConfinedBeforeItLooksAtTheModel) {
+    const TempFolder folder;
+    RunningTool tool(folder, {"inspect", endlessPly(folder), "--import-seconds", "100"});
+    std::string status;
+    const auto says = [&](const char* line) { return status.find(line) != std::string::npos; };
+    const auto isConfined = [&] {
+        for (const pid_t importer : tool.importers()) status = textOf("/proc/" + std::to_string(importer) + "/status");
+        return says("NoNewPrivs:\t1");
+    };
+    EXPECT_TRUE(soon(isConfined)) << status;
+#ifndef __SANITIZE_ADDRESS__  // which needs more than a parser
+    if (!says("Seccomp:")) GTEST_SKIP() << "this kernel has no filter of system calls";
+    EXPECT_TRUE(soon([&] { return isConfined() && says("Seccomp:\t2"); })) << status;
+#endif
+}
+
 #endif
 
 }  // namespace

@@ -423,7 +423,7 @@ TEST(ConvertMap, StopsWhenAskedTo) {
     std::vector<Vec3> out(16);
     const auto stopped = convertMap({4, 4, texels}, {}, {}, out, {.stop = [] { return true; }});
     ASSERT_FALSE(stopped.ok());
-    EXPECT_EQ(stopped.error().code, ErrorCode::cannotWrite);
+    EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
 }
 
 TEST(ConvertMap, RefusesWhatMakesNoSense) {

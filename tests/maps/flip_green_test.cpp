@@ -236,5 +236,47 @@ TEST(FlipGreenFile, WritesTheFormatOfTheNameAtOnceOrNothing) {
     EXPECT_FALSE(std::filesystem::exists(folder.path("b.png")));
 }
 
+/// The head of a PNG alone, as long as the file that has it.
+Bytes8 claimingPng(std::uint32_t width, std::uint32_t height, std::uint8_t bits, std::uint8_t color,
+                   std::size_t bytes) {
+    Bytes8 file = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0, 0, 13, 'I', 'H', 'D', 'R'};
+    for (const std::uint32_t number : {width, height}) {
+        for (int shift = 24; shift >= 0; shift -= 8) file.push_back(static_cast<std::uint8_t>(number >> shift));
+    }
+    file.insert(file.end(), {bits, color, 0, 0, 0});
+    file.resize(bytes);
+    return file;
+}
+
+ErrorCode codeOf(const Bytes8& file, std::uint64_t memory_limit_bytes = 0) {
+    const Result<FlippedImage> flipped = flipGreen(file, {.memory_limit_bytes = memory_limit_bytes});
+    return flipped ? ErrorCode::ok : flipped.error().code;
+}
+
+TEST(FlipGreen, TakesNoTimeForRowsThatFewBytesClaim) {
+    constexpr std::uint64_t kGigabyte = std::uint64_t{1} << 30;
+    for (const std::uint8_t color : {kRgb, kPalette, kRgba}) {
+        const Bytes8 thin = claimingPng(1, 0x7fffffff, 8, color, 194'000);
+        EXPECT_EQ(codeOf(thin), ErrorCode::tooLarge);
+        EXPECT_EQ(codeOf(thin, kGigabyte), ErrorCode::tooLarge);
+        EXPECT_EQ(codeOf(thin, 4 * kGigabyte), ErrorCode::invalidFile) << "looked at, and found to be broken";
+    }
+    EXPECT_EQ(codeOf(claimingPng(16384, 16384, 8, kRgb, 800'000)), ErrorCode::invalidFile) << "of one colour";
+    EXPECT_EQ(codeOf(claimingPng(16384, 16384, 8, kPalette, 40'000)), ErrorCode::invalidFile);
+    EXPECT_EQ(codeOf(claimingPng(8192, 8192, 16, kRgba, 500'000)), ErrorCode::invalidFile);
+    EXPECT_EQ(codeOf(claimingPng(60000, 60000, 8, kRgb, 200'000'000)), ErrorCode::invalidFile);
+}
+
+TEST(FlipGreen, TakesLargeImagesOfOneColour) {
+    constexpr std::uint32_t kSide = 4096;
+    spng_ihdr header{};
+    header.width = header.height = kSide;
+    header.bit_depth = 8;
+    header.color_type = kRgb;
+    const Bytes8 file = makePng(header, Bytes8(std::size_t{3} * kSide * kSide, 128));
+    EXPECT_LT(file.size(), 100'000U);
+    EXPECT_EQ(codeOf(file), ErrorCode::ok);
+}
+
 }  // namespace
 }  // namespace tspace::test

@@ -7,11 +7,17 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
+#include <set>
 
 #include "bake_cases.h"
 #include "core/vec_math.h"
 #include "maps/position_box.h"
 #include "support/thread_team.h"
+
+#ifdef TSPACE_HAS_TBB
+#include <tbb/global_control.h>
+#endif
 
 namespace tspace::test {
 namespace {
@@ -26,6 +32,8 @@ const accuracy::Surface& surfaceNamed(const char* name) {
     }
     return accuracy::surfaces().front();
 }
+
+const std::vector<Vec3> kFlat = {{0.5F, 0.5F, 1}};
 
 class MapBake : public testing::Test {
   protected:
@@ -381,7 +389,9 @@ TEST_F(MapBake, SaysWhatIsWrongWithOptionsAndMeshes) {
     EXPECT_EQ(codeOf({.padding = 257}), ErrorCode::invalidOption);
     EXPECT_EQ(codeOf({.reach = -1}), ErrorCode::invalidOption);
     EXPECT_EQ(codeOf({.width = 4096, .height = 4096, .memory_limit_bytes = 1 << 26}), ErrorCode::tooLarge);
-    EXPECT_EQ(codeOf({.stop = [] { return true; }}), ErrorCode::cannotWrite);
+    EXPECT_EQ(codeOf({.stop = [] { return true; }}), ErrorCode::cancelled);
+    EXPECT_EQ(codeOf({.progress = [](const char*, std::uint64_t, std::uint64_t) { throw Cancelled{}; }}),
+              ErrorCode::cancelled);
     LowPoly without_uvs = low.view();
     without_uvs.uvs = {};
     EXPECT_EQ(bakeMap(without_uvs, high.view(), sized(8)).error().code, ErrorCode::missingAttribute);
@@ -440,6 +450,51 @@ TEST_F(MapBake, HeatIsTheErrorOfEachTexel) {
         ++count;
     }
     EXPECT_NEAR(sum / static_cast<double>(count), map.error.mean_deg, 0.3 * map.error.mean_deg);
+}
+
+#ifdef TSPACE_HAS_TBB
+TEST_F(MapBake, LimitsOfAHostThatUsesTbbStayAsTheyAre) {
+    // Embree uses TBB too, and one number holds for the whole process.
+    const auto limit = [] { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); };
+    const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
+    const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 64, false);
+    for (const std::size_t of_host : {std::size_t{0}, std::size_t{3}, std::size_t{7}}) {
+        std::optional<tbb::global_control> control;
+        if (of_host != 0) control.emplace(tbb::global_control::max_allowed_parallelism, of_host);
+        const std::size_t before = limit();
+        for (const std::uint32_t threads : {1U, 2U, 5U}) {
+            BakeOptions options = sized(32);
+            options.execution.thread_count = threads;
+            std::set<std::size_t> seen;
+            options.progress = [&](const char*, std::uint64_t, std::uint64_t) { seen.insert(limit()); };
+            ASSERT_TRUE(bakeMap(low.view(), high.view(), options));
+            EXPECT_EQ(seen, (std::set<std::size_t>{before})) << threads;
+            EXPECT_EQ(limit(), before) << threads;
+        }
+    }
+}
+#endif
+
+TEST_F(MapBake, ReachesAndPlacesMayBeOfAnySize) {
+    const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
+    HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 8, false);
+    const MapImage map{1, 1, kFlat};
+    for (const double reach : {1e18, 1.9e18, 1e19, 1e38, 1e300}) {
+        BakeOptions options = sized(16);
+        options.reach = reach;
+        EXPECT_GT(baked(low.view(), high.view(), options).hit_count, 0U) << reach;
+        EXPECT_TRUE(measureMap(map, low.view(), high.view(), {.reach = reach})) << reach;
+    }
+    // Nothing of the high poly is near: an error, as with any distance.
+    for (const float distance : {10.0F, 1e10F, 1.84e18F, 1.9e18F, 1e30F, 3e38F}) {
+        HighMesh far = high;
+        for (Vec3& position : far.positions) position.x += distance;
+        BakeOptions options = sized(16);
+        options.reach = 1;
+        const Result<BakedMap> missed = bakeMap(low.view(), far.view(), options);
+        ASSERT_FALSE(missed) << distance;
+        EXPECT_EQ(missed.error().code, ErrorCode::missingAttribute) << distance;
+    }
 }
 
 }  // namespace

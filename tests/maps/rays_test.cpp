@@ -55,7 +55,8 @@ TEST(Rays, FindTheNearestFrontFacingTriangleOnBothSides) {
     std::normal_distribution<double> direction(0, 1);
     for (const auto& [scale, offset] : {std::pair(1.0F, 0.0F), {1e-12F, 0.0F}, {1e12F, 0.0F}, {1.0F, 1000.0F}}) {
         const Soup soup = randomSoup(random, scale, offset);
-        const auto rays = RaySurface::make(soup.positions, soup.corners, {}, 1);
+        Parallel parallel({.thread_count = 2});
+        const auto rays = RaySurface::make(soup.positions, soup.corners, {}, parallel);
         if (!rays) GTEST_SKIP() << rays.error().message;
         int hits = 0, misses = 0;
         double guess = 0;
@@ -97,7 +98,8 @@ TEST(Rays, MissNothingThroughEdgesAndVertices) {
                 soup.corners.push_back(vertex);
         }
     }
-    const auto rays = RaySurface::make(soup.positions, soup.corners, {}, 1);
+    Parallel parallel({});
+    const auto rays = RaySurface::make(soup.positions, soup.corners, {}, parallel);
     if (!rays) GTEST_SKIP() << rays.error().message;
     double guess = 0;
     RayHit hit;
@@ -108,6 +110,37 @@ TEST(Rays, MissNothingThroughEdgesAndVertices) {
             EXPECT_NEAR(hit.distance, -0.2, 1e-6);
             EXPECT_FALSE((*rays)->nearest(from, {0, 0, -1}, 1, 0, guess, hit)) << "seen from behind";
         }
+    }
+}
+
+TEST(Rays, BeginAndEndAnywhere) {
+    // Embree ends the process where a ray begins beyond 1.844e18, in units of the surface.
+    for (const float size : {1.0F, 1e-30F, 1e30F}) {
+        const std::vector<Vec3> positions = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}};
+        const std::vector<std::uint32_t> corners = {0, 1, 2};
+        Parallel parallel({});
+        const auto rays = RaySurface::make(positions, corners, {}, parallel);
+        if (!rays) GTEST_SKIP() << rays.error().message;
+        const double unit = static_cast<double>(size), inside = unit / 4;
+        for (const double far : {0.0, 1.0, 1e10, 1e18, 1.9e18, 1e19, 1e30, 1e100}) {
+            for (const double reach : {2e19, 1e38, 1e300}) {
+                double guess = 0;
+                RayHit hit;
+                const bool is_near = far * unit <= reach;
+                EXPECT_EQ((*rays)->nearest({inside, inside, far * unit}, {0, 0, 1}, reach, 0, guess, hit), is_near);
+                if (is_near) {
+                    EXPECT_NEAR(hit.distance, -far * unit, 1e-12 * far * unit);
+                }
+                guess = 0;
+                EXPECT_FALSE((*rays)->nearest({2 * unit, inside, far * unit}, {0, 0, 1}, reach, 0, guess, hit));
+                EXPECT_FALSE((*rays)->nearest({far * unit, inside, unit}, {1, 0, 0}, reach, 0, guess, hit));
+                EXPECT_EQ((*rays)->first({inside, inside, far * unit}, {0, 0, -1}, reach, 0, hit), is_near);
+                EXPECT_FALSE((*rays)->first({2 * unit, inside, far * unit}, {0, 0, -1}, reach, 0, hit));
+            }
+        }
+        double guess = 0;
+        RayHit hit;
+        EXPECT_TRUE((*rays)->nearest({inside, inside, 0}, {0, 0, 1}, 1e-322, 0, guess, hit)) << "hardly more than 0";
     }
 }
 

@@ -15,9 +15,6 @@
 namespace tspace::tool {
 namespace {
 
-/// Thrown out of the library's progress callback: it unwinds, and takes its temporary files away.
-struct BakeInterrupted {};
-
 std::string degreesText(double degrees) { return fmt::format("{:.4f}", degrees); }
 
 void addFile(const BakedFile& file, Table& table) {
@@ -58,7 +55,7 @@ Result<BakeFileReport> bake(const BakeArguments& arguments) {
     BakeFileOptions options = arguments.options;
     ProgressLine progress(1, !arguments.quiet);
     options.map.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
-        if (wasInterrupted()) throw BakeInterrupted{};
+        if (wasInterrupted()) throw Cancelled{};
         progress.update(arguments.low, what, done, total);
     };
     options.map.stop = wasInterrupted;

@@ -24,10 +24,6 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Thrown out of the library's progress callback: it unwinds, takes its temporary files away, and reports an
-/// error.
-struct Interrupted {};
-
 /// What was read and written, with fingerprints. A file that was written over is an output alone.
 ManifestEntry manifestEntry(const Job& job, const GenerateOutcome& outcome, const std::string& options) {
     ManifestEntry entry{.version = TSPACE_VERSION, .options = options, .job = job, .seconds = outcome.seconds};
@@ -103,7 +99,7 @@ class GenerateRun {
         options.normals.execution.thread_count = threads;
         options.sanitize_options.execution.thread_count = threads;
         options.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
-            if (wasInterrupted()) throw Interrupted{};
+            if (wasInterrupted()) throw Cancelled{};
             progress_.update(job.input, what, done, total);
         };
         StandardInput standard_input;

@@ -12,9 +12,6 @@
 namespace tspace::tool {
 namespace {
 
-/// Thrown out of the library's progress callback: it unwinds.
-struct MeasureInterrupted {};
-
 std::string readingText(const ExplainedReading& reading) {
     if (reading.frames == "object") return "object space";
     const std::string frames = reading.frames == "file"    ? "tangents of the file"
@@ -53,7 +50,7 @@ ExitCode runMapError(const MapErrorArguments& arguments) {
     MapErrorFileOptions options = arguments.options;
     ProgressLine progress(1, !arguments.quiet);
     options.map.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
-        if (wasInterrupted()) throw MeasureInterrupted{};
+        if (wasInterrupted()) throw Cancelled{};
         progress.update(arguments.map, what, done, total);
     };
     options.map.stop = wasInterrupted;

@@ -15,6 +15,7 @@
 #include "materials.h"
 #include "mend.h"
 #include "meshes.h"
+#include "model_files.h"
 #include "stored_tangents.h"
 
 namespace tspace::import {
@@ -265,22 +266,31 @@ class SceneWriter {
 
 }  // namespace
 
-Imported importScene(const std::string& path) {
+Imported importScene(const std::string& path, bool anywhere) {
+    std::vector<std::string> refused;
     Assimp::Importer importer;
+    importer.SetIOHandler(new ModelFiles(path, anywhere, refused));  // which the importer owns
     // No step after reading: seams, duplicates and polygons stay as the file has them.
     const aiScene* scene = importer.ReadFile(path, 0);
+    std::vector<std::string> not_read;
+    for (const std::string& file : refused)
+        not_read.push_back("the file " + file +
+                           " lies outside of the model's folder, and was not read (--allow-external)");
     if (scene == nullptr || scene->mRootNode == nullptr) {
         std::string why = importer.GetErrorString();
         std::replace(why.begin(), why.end(), '\n', ' ');
-        return {.error = "the importer cannot read it: " + (why.empty() ? "no scene" : why)};
+        return {.error = "the importer cannot read it: " + (!not_read.empty() ? not_read[0]
+                                                            : why.empty()     ? "no scene"
+                                                                              : why)};
     }
     bool has_faces = false;
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) has_faces = has_faces || scene->mMeshes[i]->HasFaces();
-    if (!has_faces) return {.error = "it has no faces"};
+    if (!has_faces) return {.error = not_read.empty() ? "it has no faces" : "it has no faces; " + not_read[0]};
     const StoredTangents stored = storedTangents(path);
     SceneWriter writer(*scene, stored == StoredTangents::withBitangents);
     Imported imported{.glb = writer.write()};
     imported.warnings = writer.warnings();
+    imported.warnings.insert(imported.warnings.end(), not_read.begin(), not_read.end());
     imported.has_no_tangents = stored == StoredTangents::none;
     return imported;
 }

@@ -17,7 +17,8 @@ struct Imported {
 
 /// Meshes are neither joined nor split: one primitive per mesh of the file, polygons cut by tspace's own rule, vertices
 /// joined only when all their attributes have the same bits. Nodes, materials (base colour and normal map), all UV
-/// sets, colours, skins, morph targets and animations go along. UVs are turned so that v runs down.
-Imported importScene(const std::string& path);
+/// sets, colours, skins, morph targets and animations go along. UVs are turned so that v runs down. Files that it names are
+/// read where the URIs of glTF may lead (src/asset/folder_rule.h); `anywhere`: all.
+Imported importScene(const std::string& path, bool anywhere);
 
 }  // namespace tspace::import

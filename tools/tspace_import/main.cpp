@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// tspace-import IN MAX_BYTES MAX_PROCESSOR_SECONDS MAX_SECONDS PARENT: reads FBX, PLY, STL, DAE, 3DS and what else Assimp
-// knows, and writes to stdout a GLB that tspace goes on with. A program of its own, because Assimp's parsers may crash or
-// run away on broken files: memory and time are limited, and whatever happens ends with this process. It writes no file,
-// and ends when the process PARENT does. Not meant to be called by hand.
+// tspace-import IN MAX_BYTES MAX_PROCESSOR_SECONDS MAX_SECONDS PARENT WHERE: reads FBX, PLY, STL, DAE, 3DS and what else
+// Assimp knows, and writes to stdout a GLB that tspace goes on with. A program of its own, because Assimp's parsers may
+// crash, run away or do worse on broken files: memory and time are limited, and so is what it may do (confine.h). WHERE:
+// "folder", the files that it may read are those in the model's folder, or "anywhere". It ends when the process PARENT
+// does. Not meant to be called by hand.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -16,9 +17,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
+#include <string_view>
 
+#include "confine.h"
 #include "import_scene.h"
 
 namespace {
@@ -75,8 +79,10 @@ int takeStdout() {
     return result;
 }
 
-int run(const char* input, std::FILE* output) {
-    const tspace::import::Imported imported = tspace::import::importScene(input);
+int run(const char* input, bool anywhere, std::FILE* output) {
+    const std::string folder = std::filesystem::path(input).parent_path().string();
+    tspace::import::confine({input, anywhere ? "/" : folder.empty() ? "." : folder});
+    const tspace::import::Imported imported = tspace::import::importScene(input, anywhere);
     if (!imported.error.empty()) {
         std::fprintf(stderr, "%s\n", imported.error.c_str());
         return kBadInput;
@@ -96,10 +102,10 @@ int run(const char* input, std::FILE* output) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 6) {
+    if (argc != 7) {
         std::fprintf(stderr,
-                     "usage: tspace-import IN MAX_BYTES MAX_PROCESSOR_SECONDS MAX_SECONDS PARENT (a helper of "
-                     "tspace)\n");
+                     "usage: tspace-import IN MAX_BYTES MAX_PROCESSOR_SECONDS MAX_SECONDS PARENT folder|anywhere "
+                     "(a helper of tspace)\n");
         return 2;
     }
     const auto number = [argv](int i) { return std::strtoull(argv[i], nullptr, 10); };
@@ -107,7 +113,7 @@ int main(int argc, char** argv) {
     closeOtherFiles();
     limitAll(number(2), number(3), static_cast<unsigned>(number(4)));
     try {
-        return run(argv[1], fdopen(takeStdout(), "wb"));
+        return run(argv[1], std::string_view(argv[6]) == "anywhere", fdopen(takeStdout(), "wb"));
     } catch (const std::bad_alloc&) {
         std::fprintf(stderr, "reading it takes more memory than is allowed (--memory-limit allows more)\n");
         return kOutOfMemory;

@@ -27,8 +27,8 @@ export function typeError(code, message) {
 /** Names of the numbers in tspace/result.h. */
 const codes = {
   1: "nullData", 2: "countMismatch", 3: "indexOutOfRange", 4: "strideTooSmall", 5: "misaligned", 6: "tooLarge",
-  7: "missingAttribute", 8: "invalidOption", 9: "outOfMemory", 10: "planMismatch", 11: "internal", 100: "invalidFile",
-  101: "unsupportedFile", 102: "forbiddenPath", 103: "cannotRead", 104: "cannotWrite",
+  7: "missingAttribute", 8: "invalidOption", 9: "outOfMemory", 10: "planMismatch", 11: "internal", 12: "cancelled",
+  100: "invalidFile", 101: "unsupportedFile", 102: "forbiddenPath", 103: "cannotRead", 104: "cannotWrite",
 };
 
 export const codeName = (number) => codes[number] ?? "internal";

@@ -121,7 +121,7 @@ export interface Split {
 export class TspaceError extends Error {
   /**
    * Stable: wrongType, detached, notReady, or one of the library: nullData, countMismatch, indexOutOfRange, tooLarge,
-   * missingAttribute, invalidOption, outOfMemory, planMismatch, internal.
+   * missingAttribute, invalidOption, outOfMemory, planMismatch, internal, cancelled.
    */
   readonly code: string;
   /** Index of the offending element, where there is one. */

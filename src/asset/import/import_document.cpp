@@ -44,7 +44,7 @@ std::vector<std::string> warningsIn(const std::string& messages) {
     std::vector<std::string> warnings;
     std::istringstream lines(messages);
     for (std::string line; std::getline(lines, line);) {
-        if (line.starts_with(kMark)) warnings.push_back(line.substr(kMark.size()));
+        if (line.starts_with(kMark)) warnings.push_back(firstLine(line.substr(kMark.size())));
     }
     return warnings;
 }
@@ -61,6 +61,7 @@ ImportLimits limitsFor(std::uint64_t size, const FileOptions& options) {
                               ? options.memory_limit_bytes
                               : std::min(options.import_max_memory_bytes, kAnyFile + kPerByte * size);
     limits.processor_seconds = options.import_max_seconds != 0 ? options.import_max_seconds : seconds;
+    limits.reads_anywhere = options.allow_external;
     // Others may want the processors too.
     limits.seconds = options.import_max_seconds != 0 ? options.import_max_seconds : 2 * seconds;
     return limits;

@@ -16,6 +16,7 @@ struct ImportLimits {
     std::uint64_t memory_bytes = 0;       ///< address space; the result cannot be larger
     std::uint32_t processor_seconds = 0;  ///< processor time
     std::uint32_t seconds = 0;            ///< on the clock
+    bool reads_anywhere = false;          ///< also files outside of the model's folder
 };
 
 enum class ImportEnd {

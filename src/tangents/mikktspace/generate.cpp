@@ -13,7 +13,6 @@
 #include "tangents/mikktspace/splits.h"
 #include "tangents/mikktspace/vertex_path.h"
 #include "tangents/mikktspace/weld.h"
-#include "tspace/arena.h"
 
 namespace tspace::mikk {
 
@@ -58,35 +57,13 @@ TangentReport generateWith(const MeshView& mesh, const TangentOptions& options, 
     return evaluateInOnePass({{mesh, triangles, nodes}, options, bucket}, out, transient, parallel);
 }
 
-/// A thread keeps its scratch memory between such calls, so that pages are taken from the system once: models of more than
-/// 5,000 triangles take a tenth less time. Not in a thread's first call, which would pay 0.3 ms for all of it alone, and not
-/// in WebAssembly, which gives no page back.
-TangentReport generateLarge(const MeshView& mesh, TangentOptions options, const TangentOutput& out,
-                            Parallel& parallel) {
-#ifndef TSPACE_SERIAL
-    constexpr std::size_t kMostKept = std::size_t{4} << 20;  // bytes
-    static thread_local bool has_called = false;
-    if (options.execution.allocator == nullptr && std::exchange(has_called, true)) {
-        static thread_local Arena kept;
-        const struct AtEnd {  // of a call that runs out of memory, too
-            ~AtEnd() {
-                if (kept.heldBytes() > kMostKept) kept.trim();
-            }
-        } trim_kept;
-        options.execution.allocator = kept.allocator();
-        return generateWith(mesh, options, out, parallel);
-    }
-#endif
-    return generateWith(mesh, options, out, parallel);
-}
-
 }  // namespace
 
 TangentReport generateGrouped(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
                               Parallel& parallel) {
     if (!kHasOnePass) return planAndEvaluate(mesh, options, out, parallel);
     const std::size_t corners = mesh.cornerCount();
-    if (corners > kSmallMesh) return generateLarge(mesh, options, out, parallel);
+    if (corners > kSmallMesh) return generateWith(mesh, options, out, parallel);
     const std::size_t bytes = std::min(kLeastBlock + corners * kBytesPerCorner, kLargestBlock);
     const Allocator* allocator = options.execution.allocator;
     alignas(kMemoryAlignment) std::byte room[kStackRoom];

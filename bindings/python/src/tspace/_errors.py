@@ -64,7 +64,7 @@ def raise_error(error: _abi.Error) -> None:
         kind = ReadWriteError if error.code in _READ_WRITE_CODES else FileError
     elif code == "indexOutOfRange":
         kind = IndexRangeError
-    elif code == "internal":
+    elif code in ("internal", "cancelled"):
         kind = Error
     else:
         kind = InputError

@@ -3,7 +3,9 @@
 #include "asset/gltf/codecs/draco_library.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 
@@ -207,10 +209,14 @@ void addAttribute(draco::Mesh& mesh, DracoAttribute& from) {
     from.id = mesh.attribute(number)->unique_id();
 }
 
-/// A float as the library reads it back with the same bits; what it writes itself has six digits behind the point.
+/// A float as the library reads it back with the same bits; what it writes itself has six digits behind the point. A whole
+/// number and a power of two, in hexadecimal: it reads by the C library, which looks for the point of the locale.
 std::string exactText(float value) {
+    int exponent = 0;
+    const auto whole = static_cast<int>(std::ldexp(std::frexp(value, &exponent), 24));
     char text[32];
-    std::snprintf(text, sizeof text, "%.9g", static_cast<double>(value));
+    std::snprintf(text, sizeof text, "%s0x%xp%d", std::signbit(value) ? "-" : "",
+                  static_cast<unsigned>(std::abs(whole)), exponent - 24);
     return text;
 }
 

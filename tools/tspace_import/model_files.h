@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The files that a model names, for Assimp.
+#pragma once
+
+#include <assimp/DefaultIOSystem.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tspace::import {
+
+/// Opens the model, and what lies in its folder or below, by the rule for the URIs of glTF (asset/folder_rule.h): no ".."
+/// in a name, and no link that leads out. Others are not there.
+class ModelFiles : public Assimp::DefaultIOSystem {
+  public:
+    /// `anywhere` lifts the rule. `refused` gets what is there and was not read, fit for a message.
+    ModelFiles(const std::string& model, bool anywhere, std::vector<std::string>& refused);
+
+    bool Exists(const char* file) const override;
+    Assimp::IOStream* Open(const char* file, const char* mode) override;
+
+  private:
+    [[nodiscard]] std::string find(const std::filesystem::path& name) const;
+
+    std::filesystem::path model_, folder_;
+    bool anywhere_;
+    std::vector<std::string>& refused_;
+};
+
+}  // namespace tspace::import
