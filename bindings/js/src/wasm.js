@@ -12,13 +12,6 @@ class Failure {
   }
 }
 
-/** What is loaded has the module in it, squeezed. */
-function unsqueezed({ instance }) {
-  const { memory, unsqueeze } = instance.exports;
-  const place = unsqueeze();
-  return WebAssembly.compile(new Uint8Array(memory.buffer, place + 4, new Uint32Array(memory.buffer, place, 1)[0]));
-}
-
 export class Wasm {
   #module;
   #instance;
@@ -28,7 +21,7 @@ export class Wasm {
   /** Starts loading. `imports`: what the module needs beside the way out of a call. */
   constructor(url, imports = {}) {
     this.#imports = imports;
-    this.ready = load(url).then(WebAssembly.instantiate).then(unsqueezed).then((module) => {
+    this.ready = load(url).then(WebAssembly.compile).then((module) => {
       this.#module = module;
     });
     this.ready.catch(() => {}); // who awaits `ready` hears of it, and who calls without does below
