@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The entry "tspace": the whole core.
+// The whole core, for the entries that load its module.
 import { keepReport, makeCalls, meshOf, mikktspaceOptions, setMesh, tangentArguments, tangentCounts, writeTangents } from "./calls.js";
 import { boolean, choice, count, fail, floats, integers, number, object, optionsOf } from "./check.js";
 import { conventionBits } from "./convention.js";
 import { Wasm } from "./wasm.js";
 
-export { conventions } from "./convention.js";
-export { TspaceError } from "./error.js";
-
-const wasm = new Wasm(new URL("./core.wasm", import.meta.url));
-export const ready = wasm.ready;
+const wasm = new Wasm();
+/** Loads the module, once, from where `source` says. */
+export const start = (source) => wasm.start(source);
 
 const methods = ["mikktspace", "lengyel", "uniform", "angle", "area", "flat", "basis", "fast", "best"];
 const tangentOptions = [...mikktspaceOptions, "frame", "refine"];

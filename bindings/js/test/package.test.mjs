@@ -53,7 +53,7 @@ describe("the archive", { skip: !archive && "run scripts/js" }, () => {
       const text = readFileSync(join(installed, file), "utf8");
       for (const [, name] of text.matchAll(/from ?"\.\/(.+?)"|new URL\("\.\/(.+?)"/g)) if (name) queue.push(name);
       for (const [, name] of text.matchAll(/new URL\("\.\/(.+?)"/g)) queue.push(name);
-      if (text.includes('"#load"')) queue.push("load-web.js");
+      for (const [, name] of text.matchAll(/from ?"#(\w+)"/g)) queue.push(`${name}-beside.js`);
     }
     return [...seen].reduce((bytes, file) => bytes + gzipSync(readFileSync(join(installed, file)), { level: 9 }).length, 0);
   }

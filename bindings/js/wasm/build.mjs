@@ -161,7 +161,7 @@ async function link(name, module, objects) {
   const wasm = join(out, `${name}.wasm`);
   // Low memory: the first KB is the end of the stack, where no offset below 1024 can lead by going round 2^32.
   await run("wasm-opt", ["--enable-simd", "--enable-bulk-memory", "--enable-sign-ext", "--enable-mutable-globals",
-    "--enable-nontrapping-float-to-int", module.isFast ? "-Os" : "-Oz", "--converge", "--low-memory-unused", "-ocimfs=30", raw, "-o", wasm]);
+    "--enable-nontrapping-float-to-int", module.isFast ? "-Os" : "-Oz", "--converge", "--low-memory-unused", "-ocimfs=15", raw, "-o", wasm]);
   const bytes = readFileSync(wasm);
   const imports = WebAssembly.Module.imports(new WebAssembly.Module(bytes)).map((i) => i.name);
   const unknown = imports.filter((i) => !(module.imports ?? ["endCall"]).includes(i));

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+// The entry "tspace": the whole core.
+import { source } from "#core";
+import { start } from "./core.js";
+
+export { generateNormals, generateTangents, makeIndexedFrames, memoryBytes, Plan, sanitizeTangents, splitVertices } from "./core.js";
+export { conventions } from "./convention.js";
+export { TspaceError } from "./error.js";
+export const ready = start(source);
