@@ -2,7 +2,7 @@
 // The page becomes one file: scripts, styles, the worker, WebAssembly and samples are all in index.html.
 import { createHash } from "node:crypto";
 import { readFileSync } from "node:fs";
-import { dirname, resolve } from "node:path";
+import { resolve } from "node:path";
 import { gzipSync } from "node:zlib";
 import { defineConfig, type Plugin } from "vite";
 
@@ -28,14 +28,11 @@ function packedWasm(): Plugin {
     name: "packed-wasm",
     enforce: "pre",
     load: (id) => (id.endsWith(".wasm?packed") ? `export default ${packed(id.replace("?packed", ""))}` : null),
-    transform(code, id) {
-      if (!/\/tspace\/src\/\w+\.js$/.test(id)) return null;
-      const made = code.replace(/new URL\("(\.\/\w+\.wasm)",\s*import\.meta\.url\)/, (_, name: string) => `new URL(${packed(resolve(dirname(id), name))})`);
-      if (made.includes("import.meta.url")) throw new Error(`${id} names its WebAssembly in a way that is not known here`);
-      return made;
-    },
   };
 }
+
+/** The package's modules that lie in JavaScript, packed in the same way. */
+const insideOf = (name: string) => resolve(import.meta.dirname, `node_modules/tspace/src/${name}-inside.js`);
 
 /** Draco's module asks node for these where it runs there. */
 const nodeModules: Plugin = {
@@ -75,7 +72,7 @@ export default defineConfig({
   base: "./",
   assetsInclude: ["**/*.glb"],
   build: { target: "es2022", assetsInlineLimit: 1 << 30, cssCodeSplit: false, modulePreload: false, chunkSizeWarningLimit: 8000 },
-  resolve: { alias: { "#load": resolve(import.meta.dirname, "src/worker/load_packed.ts") } },
+  resolve: { alias: { "#core": insideOf("core"), "#gltf": insideOf("gltf") } },
   worker: { format: "iife", plugins: () => [packedWasm(), nodeModules] },
   plugins: [packedWasm(), oneFile()],
 });

@@ -39,8 +39,8 @@ std::size_t countTogether(std::span<const Pool> pools, const Document& document,
     document.memory->require(pools[0].workBytes() / 4 * 5, primitives[pools[0].primitives[0]].place());
     const unsigned width = Parallel(execution).width();
     const std::size_t most = width == 1 ? 0 : kCornersPerThread * width;
-    std::size_t count = 0, corners = 0;
-    std::uint64_t bytes = 0;
+    std::size_t count = 0;
+    std::uint64_t corners = 0, bytes = 0;
     while (count < pools.size() && (count == 0 || (corners + pools[count].corner_count <= most &&
                                                    document.memory->has(2 * (bytes + pools[count].workBytes()))))) {
         bytes += pools[count].workBytes();

@@ -135,7 +135,7 @@ Pool selected(const Pool& pool, std::span<const Primitive> primitives, const Men
                 continue;
             }
             result.geometries.push_back({.primitives = {number}, .mends = *mends});
-            result.corner_count += primitives[number].triangleCount() * 3;
+            result.corner_count += std::uint64_t{3} * primitives[number].triangleCount();
         }
     }
     std::sort(result.primitives.begin(), result.primitives.end());

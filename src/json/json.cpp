@@ -134,6 +134,7 @@ std::partial_ordering Json::compare(const Json& other) const {
     const bool is_negative = kind_ == Kind::integer && value_.integer < 0;
     const bool is_other_negative = other.kind_ == Kind::integer && other.value_.integer < 0;
     if (is_negative != is_other_negative) return is_other_negative <=> is_negative;
+    if (is_negative) return value_.integer <=> other.value_.integer;
     return get<std::uint64_t>() <=> other.get<std::uint64_t>();
 }
 

@@ -11,6 +11,7 @@
 #include <exception>
 #include <initializer_list>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -119,7 +120,8 @@ class Json {
     [[nodiscard]] bool is_object() const { return kind_ == Kind::object; }
     [[nodiscard]] bool is_structured() const { return kind_ >= Kind::array; }
 
-    /// T: bool, a number (which is converted) or std::string. Throws JsonError where this is something else.
+    /// T: bool, a number (which is converted) or std::string. Throws JsonError where this is something else. A whole
+    /// number beyond T's becomes T's largest or smallest, which is no index of anything.
     template <class T>
     [[nodiscard]] T get() const {
         if constexpr (std::is_same_v<T, bool>) {
@@ -129,8 +131,8 @@ class Json {
             return text();
         } else {
             static_assert(std::is_arithmetic_v<T>);
-            if (kind_ == Kind::integer) return static_cast<T>(value_.integer);
-            if (kind_ == Kind::natural) return static_cast<T>(value_.natural);
+            if (kind_ == Kind::integer) return within<T>(value_.integer);
+            if (kind_ == Kind::natural) return within<T>(value_.natural);
             expect(Kind::real);
             return static_cast<T>(value_.real);
         }
@@ -214,6 +216,14 @@ class Json {
     template <class T>
     static constexpr Kind kindOfInteger() {
         return std::is_same_v<T, bool> ? Kind::boolean : std::is_signed_v<T> ? Kind::integer : Kind::natural;
+    }
+    template <class T, class Integer>
+    static constexpr T within(Integer value) {
+        if constexpr (std::is_integral_v<T>) {
+            if (std::cmp_greater(value, std::numeric_limits<T>::max())) return std::numeric_limits<T>::max();
+            if (std::cmp_less(value, std::numeric_limits<T>::min())) return std::numeric_limits<T>::min();
+        }
+        return static_cast<T>(value);
     }
     void expect(Kind kind) const {
         if (kind_ != kind) failKind();

@@ -176,6 +176,17 @@ TEST(Json, ComparesNumbersByValue) {
     EXPECT_FALSE((Json{{"a", 1}, {"b", 2}} == Json{{"b", 2}, {"a", 1}}));
 }
 
+TEST(Json, GivesTheNearestNumberWhereATypeHoldsNotTheNumberItself) {
+    const std::uint64_t more = (std::uint64_t{1} << 32) + 16;
+    EXPECT_EQ(Json(more).get<std::uint32_t>(), 0xffffffffU);  // and not 16
+    EXPECT_EQ(Json(more).get<std::uint64_t>(), more);
+    EXPECT_EQ(Json(more).get<std::int32_t>(), 0x7fffffff);
+    EXPECT_EQ(Json(~std::uint64_t{0}).get<std::int64_t>(), std::numeric_limits<std::int64_t>::max());
+    EXPECT_EQ(Json(-1).get<std::size_t>(), 0U);
+    EXPECT_EQ(Json(std::int64_t{-1} << 40).get<std::int32_t>(), std::numeric_limits<std::int32_t>::min());
+    EXPECT_EQ(Json(-1).get<double>(), -1.0);
+}
+
 TEST(Json, ThrowsWhereAValueIsOfAnotherKind) {
     const Json json = {{"text", "x"}, {"number", 1}};
     EXPECT_THROW(static_cast<void>(json["text"].get<int>()), JsonError);

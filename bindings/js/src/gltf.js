@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The entry "tspace/gltf": models as bytes. Options and reports are those of the tool and its JSON.
+import { source } from "#gltf";
 import { bytes, fail, failType, object } from "./check.js";
 import { Codecs, codecsOf } from "./codecs.js";
 import { TspaceError } from "./error.js";
@@ -10,7 +11,7 @@ export { TspaceError };
 /** The call that runs: where each of its models gets the files that it names, and its codecs. */
 let current;
 
-const wasm = new Wasm(new URL("./gltf.wasm", import.meta.url), {
+const wasm = new Wasm({
   findFile: (model, path, data, size) => current.files.findFile(model, path, data, size),
   hasCodec: (number) => current.codecs.hasCodec(number),
   decodeMeshopt: (...given) => current.codecs.decodeMeshopt(...given),
@@ -25,7 +26,7 @@ const wasm = new Wasm(new URL("./gltf.wasm", import.meta.url), {
   parseNumber: (text) => Number(textAt(wasm.exports, text)),
   now: () => performance.now(),
 });
-export const ready = wasm.ready;
+export const ready = wasm.start(source);
 
 const verbs = ["generate", "check", "inspect", "identify", "diff"];
 const ofAll = ["resources", "meshopt", "draco", "signal", "memoryLimit", "allowExternal"];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The entry "tspace/mikktspace": one method, mending and splitting, in half of the bytes.
+import { source } from "#mikktspace";
 import { makeCalls, mikktspaceOptions } from "./calls.js";
 import { fail } from "./check.js";
 import { Wasm } from "./wasm.js";
@@ -7,8 +8,8 @@ import { Wasm } from "./wasm.js";
 export { conventions } from "./convention.js";
 export { TspaceError } from "./error.js";
 
-const wasm = new Wasm(new URL("./mikktspace.wasm", import.meta.url));
-export const ready = wasm.ready;
+const wasm = new Wasm();
+export const ready = wasm.start(source);
 
 const calls = makeCalls(wasm, { methods: ["mikktspace"], ngons: ["skip"], options: mikktspaceOptions });
 export const { splitVertices } = calls;

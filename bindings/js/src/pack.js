@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The entry "tspace/pack": whole frames in 4 to 16 bytes.
+import { source } from "#pack";
 import { bytes as bytesOf, choice, fail, floats, optionsOf } from "./check.js";
 import { Wasm } from "./wasm.js";
 
 export { TspaceError } from "./error.js";
 
-const wasm = new Wasm(new URL("./pack.wasm", import.meta.url));
-export const ready = wasm.ready;
+const wasm = new Wasm();
+export const ready = wasm.start(source);
 
 /** In the order of tspace::FrameFormat. */
 export const frameFormats = Object.freeze([

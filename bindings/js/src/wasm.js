@@ -2,7 +2,6 @@
 // A WebAssembly module, its instance, and arrays on the way in and out. The modules import one function, or more where they
 // ask for files, which ends a call, as one that runs out of memory: it throws through the module's frames. What such a call
 // leaves behind is unknown, so the next one gets a new instance.
-import { load } from "#load";
 import { TspaceError, codeName } from "./error.js";
 
 /** A code that the module returned; its text is still there. */
@@ -12,26 +11,32 @@ class Failure {
   }
 }
 
-/** What is loaded has the module in it, squeezed. */
-function unsqueezed({ instance }) {
-  const { memory, unsqueeze } = instance.exports;
-  const place = unsqueeze();
-  return WebAssembly.compile(new Uint8Array(memory.buffer, place + 4, new Uint32Array(memory.buffer, place, 1)[0]));
+async function fetched(url) {
+  const answer = await fetch(url);
+  if (!answer.ok) throw new Error(`tspace: cannot load ${url} (${answer.status})`);
+  return answer.arrayBuffer();
 }
 
 export class Wasm {
   #module;
   #instance;
   #imports;
+  #ready;
   #isWorn = false;
 
-  /** Starts loading. `imports`: what the module needs beside the way out of a call. */
-  constructor(url, imports = {}) {
+  /** `imports`: what the module needs beside the way out of a call. */
+  constructor(imports = {}) {
     this.#imports = imports;
-    this.ready = load(url).then(WebAssembly.instantiate).then(unsqueezed).then((module) => {
+  }
+
+  /** Starts loading, once. `source`: where the module lies, or a function that gives its bytes. */
+  start(source) {
+    if (this.#ready) return this.#ready;
+    this.#ready = (source instanceof URL ? fetched(source) : source()).then(WebAssembly.compile).then((module) => {
       this.#module = module;
     });
-    this.ready.catch(() => {}); // who awaits `ready` hears of it, and who calls without does below
+    this.#ready.catch(() => {}); // who awaits `ready` hears of it, and who calls without does below
+    return this.#ready;
   }
 
   get exports() {

@@ -7,19 +7,12 @@ import { basename, join } from "node:path";
 import { describe, it } from "node:test";
 import { check, decodeImages, diff, generate, identify, inspect, ready, TspaceError } from "tspace/gltf";
 import { gridModel } from "./models.mjs";
-import { besideOf, filesIn, hasModels, ofTool, plain, shared, skip } from "./tool.mjs";
+import { besideOf, filesIn, hasModels, npmCodecs, ofTool, plain, shared, skip } from "./tool.mjs";
 
 await ready;
-const [meshoptimizer, draco3d, pngjs] = await Promise.all(["meshoptimizer", "draco3d", "pngjs"].map((name) => import(name).catch(() => null)));
-const missing = !(meshoptimizer && draco3d && pngjs) && "meshoptimizer, draco3d or pngjs is not installed";
-
-let meshopt, draco;
-if (!missing) {
-  const { MeshoptDecoder: decoder, MeshoptEncoder: encoder } = meshoptimizer;
-  await Promise.all([decoder.ready, encoder.ready]);
-  meshopt = { decoder, encoder };
-  draco = { decoder: await draco3d.default.createDecoderModule({}), encoder: await draco3d.default.createEncoderModule({}) };
-}
+const [codecs, pngjs] = await Promise.all([npmCodecs(), import("pngjs").catch(() => null)]);
+const missing = !(codecs && pngjs) && "meshoptimizer, draco3d or pngjs is not installed";
+const { meshopt, draco } = codecs ?? {};
 const decodePng = (bytes) => {
   const { width, height, data } = pngjs.PNG.sync.read(Buffer.from(bytes), { skipRescale: true });
   return { width, height, rgba: data };

@@ -19,6 +19,18 @@ export const besideOf = (path) => (name) => {
   const file = join(dirname(path), name);
   return existsSync(file) && statSync(file).isFile() ? readFileSync(file) : undefined;
 };
+/** The options meshopt and draco, of npm's packages; null where these are not installed. */
+export async function npmCodecs() {
+  const [meshoptimizer, draco3d] = await Promise.all(["meshoptimizer", "draco3d"].map((name) => import(name).catch(() => null)));
+  if (!meshoptimizer || !draco3d) return null;
+  const { MeshoptDecoder: decoder, MeshoptEncoder: encoder } = meshoptimizer;
+  await Promise.all([decoder.ready, encoder.ready]);
+  const { default: draco } = draco3d;
+  return {
+    meshopt: { decoder, encoder },
+    draco: { decoder: await draco.createDecoderModule({}), encoder: await draco.createEncoderModule({}) },
+  };
+}
 /** What the tool prints as JSON, whatever its exit code. */
 export function ofTool(...args) {
   try {

@@ -150,22 +150,6 @@ async function inParallel(jobs) {
   return results;
 }
 
-/// LLVM writes 0 0 0 0 for a lane of a shuffle that nobody reads, which is no lane of 32 bits: engines then move single bytes, by
-/// masks that V8 makes each time. Such lanes become those of a shuffle that engines have one instruction for: any, where all lanes
-/// are of one vector. What moves bytes in earnest would be spoilt.
-const halves = [[0, 4, 1, 5], [2, 6, 3, 7], [0, 1, 4, 5], [2, 3, 6, 7], [0, 2, 4, 6], [1, 3, 5, 7]];
-function completeShuffles(wasm) {
-  const bytes = readFileSync(wasm), shuffle = Buffer.of(0xfd, 0x0d);
-  for (let at = -1; (at = bytes.indexOf(shuffle, at + 1)) !== -1 && at + 18 <= bytes.length; ) {
-    const words = [2, 6, 10, 14].map((i) => bytes.readUInt32LE(at + i)), isRead = (i) => words[i] !== 0;
-    const lanes = words.map((word) => (word - 0x03020100) / 0x04040404), read = lanes.filter((_, i) => isRead(i));
-    if (read.length === 0 || !read.every((lane) => Number.isInteger(lane) && lane >= 0 && lane < 8)) continue;
-    const whole = halves.find((half) => half.every((lane, i) => !isRead(i) || lane === lanes[i])) ?? (read.every((lane) => lane < 4) && [0, 0, 0, 0]);
-    for (let i = 0; whole && i < 4; ++i) if (!isRead(i)) bytes.writeUInt32LE(0x03020100 + 0x04040404 * whole[i], at + 2 + 4 * i);
-  }
-  writeFileSync(wasm, bytes);
-}
-
 async function link(name, module, objects) {
   const libraries = (await run("em-config", ["CACHE"]).catch(() => ({ stdout: "" }))).stdout.trim() || "/usr/share/emscripten/cache";
   const folder = join(libraries, "sysroot/lib/wasm32-emscripten");
@@ -174,29 +158,15 @@ async function link(name, module, objects) {
     `--initial-memory=${module.throws ? 2097152 : 1048576}`, "--max-memory=4294967296", "--lto-O2", "-mllvm", "-disable-lsr", ...copiesLess, ...inlined(-14000), ...objects,
     `-L${folder}/lto`, `-L${folder}`, ...(module.throws ? ["-ldlmalloc", "--export=stackSave", "--export=stackRestore", "--export-table"] : []),
     "-lc-optz", "-lc++-noexcept", "-lc++abi-noexcept", "-lcompiler_rt", "--export=__wasm_call_ctors", "--allow-undefined", "-o", raw]);
-  const wasm = join(out, `${name}_plain.wasm`);
+  const wasm = join(out, `${name}.wasm`);
   // Low memory: the first KB is the end of the stack, where no offset below 1024 can lead by going round 2^32.
   await run("wasm-opt", ["--enable-simd", "--enable-bulk-memory", "--enable-sign-ext", "--enable-mutable-globals",
-    "--enable-nontrapping-float-to-int", module.isFast ? "-O3" : "-Oz", "--converge", "--low-memory-unused", "-ocimfs=30", raw, "-o", wasm]);
-  if (module.isFast) completeShuffles(wasm);
-  const imports = WebAssembly.Module.imports(new WebAssembly.Module(readFileSync(wasm))).map((i) => i.name);
+    "--enable-nontrapping-float-to-int", module.isFast ? "-Os" : "-Oz", "--converge", "--low-memory-unused", "-ocimfs=15", raw, "-o", wasm]);
+  const bytes = readFileSync(wasm);
+  const imports = WebAssembly.Module.imports(new WebAssembly.Module(bytes)).map((i) => i.name);
   const unknown = imports.filter((i) => !(module.imports ?? ["endCall"]).includes(i));
   if (unknown.length !== 0) throw new Error(`${name}.wasm imports ${unknown.join(", ")}`);
-  const bytes = readFileSync(wasm), squeezed = await squeeze(name, wasm);
-  console.log(`${name}.wasm: ${bytes.length} bytes, ${gzipSync(bytes, { level: 9 }).length} gzipped, ${squeezed} squeezed`);
-}
-
-/// The module that is loaded: it has the other one in it, squeezed (squeezed.cpp), and opens it. Its bytes.
-async function squeeze(name, wasm) {
-  const { stdout: lzma } = await run("xz", ["--format=raw", "--lzma1=preset=9e,lc=3,lp=0,pb=0", "--stdout", wasm], { encoding: "buffer", maxBuffer: 1 << 30 });
-  const [object, raw, result] = ["_squeezed.o", "_squeezed_raw.wasm", ".wasm"].map((end) => join(out, name + end));
-  const data = write(join(out, `${name}_squeezed.h`),
-    `constexpr unsigned kBytes = ${statSync(wasm).size};\nconstexpr unsigned char kSqueezed[] = {${[...lzma]}};\n`);
-  await run("em++", ["-std=c++20", "-Oz", "-finline-functions", "-mbulk-memory", "-fno-exceptions", "-fno-rtti", "-Wall", "-Wextra", "-Werror",
-    "-include", data, "-c", join(here, "squeezed.cpp"), "-o", object]);
-  await run("wasm-ld-14", ["--no-entry", "--gc-sections", "--strip-all", "--stack-first", "-z", "stack-size=1024", object, "-o", raw]);
-  await run("wasm-opt", ["--enable-bulk-memory", "--enable-mutable-globals", "-Oz", "--converge", raw, "-o", result]);
-  return statSync(result).size;
+  console.log(`${name}.wasm: ${bytes.length} bytes, ${gzipSync(bytes, { level: 9 }).length} gzipped`);
 }
 
 const version = readFileSync(join(root, "CMakeLists.txt"), "utf8").match(/project\(tspace VERSION (\d+)\.(\d+)\.(\d+)/);

@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Makes the modules of a folder smaller, where the rolldown of Vite is installed: node bundle.mjs PROJECT FOLDER. An entry
-// becomes one module, and what entries share a few: together they compress better than one by one.
+// Puts WebAssembly into modules of JavaScript too, and makes the modules of a folder smaller, where the rolldown of Vite is
+// installed: node bundle.mjs PROJECT FOLDER. An entry becomes one module, and what entries share a few: together they compress
+// better than one by one.
 import { readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
+import { gzipSync } from "node:zlib";
 
 const [project, folder] = process.argv.slice(2);
 const { exports, imports } = JSON.parse(readFileSync(join(folder, "../package.json"), "utf8"));
-const entries = [...Object.values(exports).map((entry) => entry.default), ...Object.values(imports["#load"])].map((path) => path.match(/(\w[\w-]*)\.js$/)[1]);
+const chosen = Object.values(imports).flatMap((choice) => Object.values(choice));
+const entries = [...Object.values(exports).map((entry) => entry.default), ...chosen].map((path) => path.match(/(\w[\w-]*)\.js$/)[1]);
+
+for (const name of readdirSync(folder).filter((file) => file.endsWith(".wasm"))) {
+  const text = gzipSync(readFileSync(join(folder, name)), { level: 9 }).toString("base64");
+  writeFileSync(join(folder, name.replace(".wasm", "-inside.js")),
+    `// SPDX-License-Identifier: MIT\nimport { unpacked } from "./inside.js";\n\nexport const source = () => unpacked("${text}");\n`);
+}
 
 async function bundled({ rolldown }) {
   const input = Object.fromEntries(entries.map((name) => [name, resolve(folder, `${name}.js`)]));

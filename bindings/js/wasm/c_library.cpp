@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Functions of the C library that JavaScript has, or that nobody needs: those of the library are 30 KB.
+#include <cstdarg>
 #include <cstddef>
 #include <ctime>
 
@@ -7,6 +8,8 @@ extern "C" {
 
 /// The number that a text of JSON spells, which is there and is right.
 __attribute__((import_module("env"), import_name("parseNumber"))) double tspace_js_parseNumber(const char* text);
+/// As in exports.h, which includes headers that declare what is defined below in another way.
+__attribute__((import_module("env"), import_name("endCall"), noreturn)) void tspace_js_endCall(int code);
 /// Milliseconds from some start.
 __attribute__((import_module("env"), import_name("now"))) double tspace_js_now();
 
@@ -25,10 +28,28 @@ double strtod_l(const char* text, char** end, void*) { return strtod(text, end);
 float strtof_l(const char* text, char** end, void*) { return strtof(text, end); }
 long double strtold_l(const char* text, char** end, void*) { return strtold(text, end); }
 
-/// Parts of messages of the JSON library, which tspace does not show.
-int snprintf(char* to, std::size_t size, const char*, ...) {
-    if (size != 0) *to = '\0';
-    return 0;
+/// What the JSON library spells by it: text with numbers of four hexadecimal digits, by "%04x" or "%.4X".
+int snprintf(char* to, std::size_t size, const char* format, ...) {
+    std::va_list numbers;
+    va_start(numbers, format);
+    std::size_t count = 0;
+    const auto put = [&](char c) {
+        if (count + 1 < size) to[count] = c;
+        ++count;
+    };
+    for (; *format != '\0'; ++format) {
+        if (*format != '%') {
+            put(*format);
+            continue;
+        }
+        format += 3;
+        if (*format != 'x' && *format != 'X') tspace_js_endCall(11);
+        const auto number = va_arg(numbers, unsigned);
+        for (int shift = 12; shift >= 0; shift -= 4) put("0123456789abcdef"[number >> shift & 15]);
+    }
+    va_end(numbers);
+    if (size != 0) to[count < size ? count : size - 1] = '\0';
+    return static_cast<int>(count);
 }
 
 /// There is no environment.

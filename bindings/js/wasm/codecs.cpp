@@ -2,6 +2,8 @@
 // Codecs of compressed geometry: those that the caller hands in from npm.
 #include "codecs.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 
@@ -63,6 +65,8 @@ Bytes takeBytes(std::uint8_t* from, std::size_t count) {
     const Released<std::uint8_t> owner(from, &std::free);
     return Bytes(from, from + count);
 }
+
+std::size_t atMostAll(std::uint64_t count) { return static_cast<std::size_t>(std::min<std::uint64_t>(count, SIZE_MAX)); }
 
 void needEncoder(Codec encoder, const char* what) {
     if (tspace_js_hasCodec(encoder) == 0) failFile(ErrorCode::unsupportedFile, what);
@@ -133,7 +137,8 @@ std::string decodeDraco(std::span<const std::uint8_t> data, const DracoLimits& l
     std::vector<DracoAttributeWords> attributes;
     DracoMeshWords words = wordsOf(mesh, attributes);
     const Released<char> fault(tspace_js_decodeDraco(data.data(), data.size(), isEdgebreaker(data) ? 1 : 0,
-                                                     limits.corner_count, limits.point_count, &words),
+                                                     atMostAll(limits.corner_count), atMostAll(limits.point_count),
+                                                     &words),
                                &std::free);
     if (fault) return fault.get();
     const Released<std::uint32_t> corners(words.corners, &std::free);

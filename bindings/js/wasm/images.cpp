@@ -59,6 +59,8 @@ std::string faultOf(ByteSpan bytes, ImageSize size, std::uint64_t most_pixels) {
     std::string why;
     if (tspace_js_hasCodec(Codec::imageDecoder) == 0) return "the option decodeImage was not given";
     if (size.pixels() == 0) return std::string("it is a broken ") + formatName(imageFormat(bytes));
+    constexpr std::uint64_t kMostBytes = 4 * sizeof(std::uint16_t);  // of a pixel
+    if (size.pixels() > SIZE_MAX / kMostBytes) return "it has more pixels than there is memory for";
     isTooLarge(size, bytes.size(), most_pixels, why);
     return why;
 }

@@ -23,7 +23,7 @@ constexpr std::size_t kMaxZeroElements = std::size_t{1} << 24;
 }
 
 ComponentType readComponentType(const Json& object, const std::string& place) {
-    const std::size_t value = readSize(object, "componentType", place);
+    const std::uint64_t value = readWhole(object, "componentType", place);
     switch (value) {
         case 5120:
         case 5121:
@@ -317,16 +317,17 @@ Accessor readAccessor(const Document& document, std::size_t index) {
     accessor.component = readComponentType(object, place);
     setShape(accessor, object, place);
     accessor.normalized = readBool(object, "normalized", place, false);
-    accessor.count = readSize(object, "count", place);
+    const std::uint64_t count = readWhole(object, "count", place);
     accessor.view = readIndex(object, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
     accessor.byte_offset = readSize(object, "byteOffset", place, 0);
     accessor.stride = accessor.element_bytes;
-    if (accessor.count > kMaxCorners) {
+    if (count > kMaxCorners) {
         failFile(ErrorCode::unsupportedFile,
-                 "the accessor has " + std::to_string(accessor.count) + " elements; at most " +
-                     std::to_string(kMaxCorners) + " are supported",
+                 "the accessor has " + std::to_string(count) + " elements; at most " + std::to_string(kMaxCorners) +
+                     " are supported",
                  join(place, "count"));
     }
+    accessor.count = static_cast<std::size_t>(count);
     // Decoded elements are tight, whatever a view beside them says.
     if (accessor.view && document.elements.count(index) == 0) {
         const BufferView view = readBufferView(document, *accessor.view);

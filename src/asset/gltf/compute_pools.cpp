@@ -175,7 +175,7 @@ std::vector<PoolElements> PoolComputer::compute(std::span<const Pool> pools, std
     };
 
     Parallel parallel(execution);
-    std::size_t total = 0;
+    std::uint64_t total = 0;
     for (const Pool& pool : pools) total += pool.corner_count;
     // A caller's allocator is called from one thread only.
     const bool one_by_one = execution.allocator != nullptr || total < kCornersForThreads;

@@ -20,10 +20,10 @@ namespace {
 /// What decoding may take where the user has not said it. Draco has no smallest size per vertex (a flat grid
 /// takes next to nothing), so this is a choice: a file of any size may decode to 4 MiB, and a large one to
 /// 256 times its size.
-constexpr std::size_t kFreeBytes = std::size_t{4} << 20;
-constexpr std::size_t kRatio = 256;
+constexpr std::uint64_t kFreeBytes = std::uint64_t{4} << 20;
+constexpr std::uint64_t kRatio = 256;
 /// What the library needs beside the values themselves.
-constexpr std::size_t kWorkFactor = 4;
+constexpr std::uint64_t kWorkFactor = 4;
 
 constexpr std::size_t kTriangles = 4;
 
@@ -72,7 +72,7 @@ Packed readPacked(const Document& document, const Json& primitive, std::size_t m
         const auto accessor =
             readIndex(*attributes, name.c_str(), packed.primitivePlace() + "/attributes", accessor_count, "accessor");
         if (!accessor) continue;
-        const std::size_t number = readSize(*ids, name.c_str(), place + "/attributes");
+        const std::uint64_t number = readWhole(*ids, name.c_str(), place + "/attributes");
         if (number > 0xffffffffu)
             failFile(ErrorCode::invalidFile, "the Draco id is out of range", join(place + "/attributes", name));
         packed.attributes.push_back({name, *accessor, static_cast<std::uint32_t>(number)});
@@ -111,7 +111,7 @@ class Decoder {
     void run() {
         std::vector<Packed> all = findPacked(document_);
         countOtherUses(all);
-        std::size_t stored = 0;
+        std::uint64_t stored = 0;
         for (const Buffer& buffer : document_.buffers) stored += buffer.bytes.size();
         budget_ = kFreeBytes + kRatio * stored;
         for (Packed& packed : all) {
@@ -182,7 +182,7 @@ class Decoder {
     }
 
     /// Before values are decoded: what their accessors claim.
-    void takeFromBudget(std::size_t bytes, const std::string& place) {
+    void takeFromBudget(std::uint64_t bytes, const std::string& place) {
         if (document_.memory->isUsers()) {
             document_.memory->require(bytes * kWorkFactor, place);
             return;
@@ -199,17 +199,17 @@ class Decoder {
     DracoMesh decodeBlob(const Packed& packed) {
         DracoMesh mesh;
         DracoLimits limits;
-        std::size_t bytes = 0;
+        std::uint64_t bytes = 0;
         for (const Packed::Attribute& attribute : packed.attributes) {
             const Accessor accessor = readAccessor(document_, attribute.accessor);
             mesh.attributes.push_back(
                 {.id = attribute.id, .component = accessor.component, .component_count = accessor.component_count});
-            limits.point_count = std::max(limits.point_count, accessor.count);
-            bytes += accessor.count * accessor.element_bytes;
+            limits.point_count = std::max<std::uint64_t>(limits.point_count, accessor.count);
+            bytes += std::uint64_t{accessor.count} * accessor.element_bytes;
         }
         limits.corner_count = limits.point_count * 3 * 3;
         if (packed.indices) {
-            const std::size_t count = readAccessor(document_, *packed.indices).count;
+            const std::uint64_t count = readAccessor(document_, *packed.indices).count;
             limits.corner_count = packed.mode == kTriangles ? count : count * 3;
         }
         bytes += limits.corner_count * sizeof(std::uint32_t);
@@ -259,7 +259,7 @@ class Decoder {
     }
 
     Document& document_;
-    std::size_t budget_ = 0;
+    std::uint64_t budget_ = 0;
     std::vector<std::size_t> other_uses_;
     std::map<std::size_t, Source> sources_;
     std::map<std::tuple<std::size_t, std::size_t, std::int64_t>, std::size_t> copies_;

@@ -173,7 +173,7 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
             {pool_number, primitive.indices.value_or(no_indices), primitive.mode}, pool.geometries.size());
         if (is_new_geometry) {
             pool.geometries.emplace_back();
-            pool.corner_count += primitive.triangleCount() * 3;
+            pool.corner_count += std::uint64_t{3} * primitive.triangleCount();
         }
         pool.geometries[geometry_entry->second].primitives.push_back(i);
     }

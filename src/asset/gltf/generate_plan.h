@@ -34,7 +34,7 @@ struct Pool {
     bool keeps_tangents = false;  ///< they stay, and morph targets without tangent deltas get some
     bool tries_quads = false;     ///< tangents may be computed on quads, if those that are there show it
     bool is_blenders = false;     ///< Blender wrote the file
-    std::size_t corner_count = 0;
+    std::uint64_t corner_count = 0;
     std::size_t vertex_count = 0;
 
     /// The tangents that are there stay, but where the geometries say.

@@ -19,7 +19,7 @@ std::uint32_t word(std::span<const std::uint8_t> bytes, std::size_t at) {
            std::uint32_t{bytes[at + 3]} << 24;
 }
 
-void putWord(Bytes& bytes, std::size_t value) {
+void putWord(Bytes& bytes, std::uint64_t value) {
     for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(value >> shift));
 }
 
@@ -85,7 +85,7 @@ GlbChunks readGlb(std::span<const std::uint8_t> file) {
 
 GlbFrame frameGlb(const std::string& json, std::optional<std::size_t> bin_bytes, std::span<const ExtraChunk> extra) {
     const std::size_t json_bytes = json.size() + paddingOf(json.size());
-    std::size_t total = kHeaderBytes + kChunkHeadBytes + json_bytes;
+    std::uint64_t total = kHeaderBytes + kChunkHeadBytes + json_bytes;
     if (bin_bytes) total += kChunkHeadBytes + *bin_bytes + paddingOf(*bin_bytes);
     for (const ExtraChunk& chunk : extra) total += kChunkHeadBytes + chunk.bytes.size() + paddingOf(chunk.bytes.size());
     if (total > 0xffffffffu) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "asset/file_error.h"
@@ -50,7 +52,8 @@ JsonStyle styleOf(std::string_view text) {
     return style;
 }
 
-std::optional<std::size_t> wholeNumber(const Json& value) {
+/// Of 64 bits also where a size has 32, so that it is compared as what it is.
+std::optional<std::uint64_t> wholeNumber(const Json& value) {
     if (value.is_number_integer()) {
         // Parsed numbers are unsigned; those that this program wrote may be signed.
         if (!value.is_number_unsigned() && value.get<std::int64_t>() < 0) return {};
@@ -60,7 +63,7 @@ std::optional<std::size_t> wholeNumber(const Json& value) {
     // 5.0 is a whole number too; beyond 2^53 a double cannot say which one.
     const double number = value.get<double>();
     if (!(number >= 0 && number <= 9007199254740992.0) || number != std::floor(number)) return {};
-    return static_cast<std::size_t>(number);
+    return static_cast<std::uint64_t>(number);
 }
 
 }  // namespace
@@ -80,8 +83,8 @@ std::string writeJson(const Json& root, const JsonStyle& style) {
 
 const Json* findMember(const Json& object, const char* key) { return object.find(key); }
 
-std::size_t readSize(const Json& object, const char* key, const std::string& place,
-                     std::optional<std::size_t> fallback) {
+std::uint64_t readWhole(const Json& object, const char* key, const std::string& place,
+                        std::optional<std::uint64_t> fallback) {
     const Json* value = findMember(object, key);
     if (value == nullptr) {
         if (fallback) return *fallback;
@@ -92,6 +95,18 @@ std::size_t readSize(const Json& object, const char* key, const std::string& pla
     return *number;
 }
 
+std::size_t readSize(const Json& object, const char* key, const std::string& place,
+                     std::optional<std::size_t> fallback) {
+    constexpr std::uint64_t kMost = std::numeric_limits<std::size_t>::max();
+    const std::uint64_t number = readWhole(object, key, place, fallback);
+    if (number > kMost) {
+        failJson(std::string("'") + key + "' is " + std::to_string(number) + "; this build counts to " +
+                     std::to_string(kMost),
+                 join(place, key));
+    }
+    return static_cast<std::size_t>(number);
+}
+
 std::size_t toIndex(const Json& value, const std::string& place, std::size_t limit, const char* what) {
     const auto number = wholeNumber(value);
     if (!number) failJson(std::string("the index of the ") + what + " is not a whole number of 0 or more", place);
@@ -100,7 +115,7 @@ std::size_t toIndex(const Json& value, const std::string& place, std::size_t lim
                      std::to_string(limit),
                  place);
     }
-    return *number;
+    return static_cast<std::size_t>(*number);
 }
 
 std::optional<std::size_t> readIndex(const Json& object, const char* key, const std::string& place, std::size_t limit,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -42,6 +43,11 @@ std::string writeJson(const Json& root, const JsonStyle& style);
 const Json* findMember(const Json& object, const char* key);
 
 /// A whole number that is not negative; absent: `fallback`, or a failure when there is none.
+std::uint64_t readWhole(const Json& object, const char* key, const std::string& place,
+                        std::optional<std::uint64_t> fallback = {});
+
+/// The same where the number counts what is in memory. Beyond what a size holds, which has 32 bits in WebAssembly, it
+/// fails: there is no such data.
 std::size_t readSize(const Json& object, const char* key, const std::string& place,
                      std::optional<std::size_t> fallback = {});
 

@@ -104,8 +104,10 @@ std::vector<std::size_t> variantMaterials(const Document& document, const Primit
     const std::size_t count = rootArray(document, "materials").size();
     for (std::size_t i = 0; i < mappings.size(); ++i) {
         // Exporters leave mappings to materials that they dropped. Viewers then keep the primitive's own material.
-        const std::size_t material = readSize(mappings[i], "material", join(place + "/mappings", i), count);
-        if (material < count && seen.insert(material).second) materials.push_back(material);
+        const std::uint64_t material = readWhole(mappings[i], "material", join(place + "/mappings", i), count);
+        if (material >= count) continue;
+        const auto index = static_cast<std::size_t>(material);
+        if (seen.insert(index).second) materials.push_back(index);
     }
     return materials;
 }

@@ -15,8 +15,8 @@ namespace {
 
 /// What a fallback buffer without data may have beyond its compressed views, whatever the file's size: gaps cost
 /// memory.
-constexpr std::size_t kFreeGap = std::size_t{4} << 20;
-constexpr std::size_t kGapRatio = 16;
+constexpr std::uint64_t kFreeGap = std::uint64_t{4} << 20;
+constexpr std::uint64_t kGapRatio = 16;
 
 constexpr std::array<std::pair<const char*, MeshoptMode>, 3> kModes = {{{"ATTRIBUTES", MeshoptMode::attributes},
                                                                         {"TRIANGLES", MeshoptMode::triangles},
@@ -77,7 +77,7 @@ void decodeInto(const Document& document, std::size_t index, const MeshoptView& 
 /// The views to decode, by the fallback buffer that they go into.
 std::map<std::size_t, std::vector<std::size_t>> viewsToDecode(const Document& document) {
     std::map<std::size_t, std::vector<std::size_t>> views;
-    std::size_t decoded_bytes = 0, stored_bytes = 0;
+    std::uint64_t decoded_bytes = 0, stored_bytes = 0;
     for (const Buffer& buffer : document.buffers) stored_bytes += buffer.bytes.size();
     for (std::size_t i = 0; i < rootArray(document, "bufferViews").size(); ++i) {
         const std::optional<MeshoptView> view = readMeshoptView(document, i);
@@ -99,7 +99,7 @@ std::map<std::size_t, std::vector<std::size_t>> viewsToDecode(const Document& do
 void makeFallback(Document& document, std::size_t index, std::span<const std::size_t> views) {
     const std::string place = join("/buffers", index);
     const std::size_t length = readSize(rootArray(document, "buffers")[index], "byteLength", place);
-    std::size_t covered = 0;
+    std::uint64_t covered = 0;
     for (const std::size_t view : views) covered += readBufferView(document, view).byte_count;
     if (length > covered && length - covered > kFreeGap + kGapRatio * document.input_bytes) {
         failFile(ErrorCode::invalidFile,
@@ -185,7 +185,7 @@ Bytes gatherUnfiltered(const Document& document, const Accessor& accessor, std::
     const bool can_cut = filter == MeshoptFilter::exponential
                              ? accessor.component == ComponentType::f32 && accessor.byte_offset % 4 == 0
                              : row == accessor.stride && accessor.byte_offset == 0;
-    const std::size_t total = view.coding.byteCount();
+    const std::size_t total = readBufferView(document, *accessor.view).byte_count;  // as readMeshoptView asks for
     if (!can_cut || accessor.byte_offset + (accessor.count - 1) * accessor.stride + row > total) return {};
     Bytes all(total);
     decodeInto(document, *accessor.view, view, all);

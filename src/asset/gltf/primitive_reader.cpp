@@ -59,8 +59,8 @@ Primitive readPrimitive(const Document& document, const Json& object, std::uint3
     primitive.index = index;
     const std::string place = primitive.place();
     const std::size_t accessor_count = rootArray(document, "accessors").size();
-    const std::size_t mode = readSize(object, "mode", place, static_cast<std::size_t>(Mode::triangles));
-    if (mode > static_cast<std::size_t>(Mode::triangleFan)) {
+    const std::uint64_t mode = readWhole(object, "mode", place, static_cast<std::uint64_t>(Mode::triangles));
+    if (mode > static_cast<std::uint64_t>(Mode::triangleFan)) {
         failFile(ErrorCode::invalidFile, "the mode " + std::to_string(mode) + " does not exist", join(place, "mode"));
     }
     primitive.mode = static_cast<Mode>(mode);

@@ -34,7 +34,7 @@ class VectorCache {
             const auto found = arrays_.find(index);
             if (found != arrays_.end()) return found->second;
             const Accessor accessor = readAccessor(document, index);
-            budget.take(accessor.count * sizeof(Vec), accessor.place());
+            budget.take(std::uint64_t{accessor.count} * sizeof(Vec), accessor.place());
             return arrays_.emplace(index, decode_(document, accessor, join(place, name))).first->second;
         }
         return {};
@@ -98,7 +98,7 @@ class PrimitiveLoader {
         for (const PackedPart& part : stored.layout->parts) accessors.push_back(*primitive.find(part.attribute));
         auto& words = words_[accessors];
         if (words.empty()) {
-            budget_.take(2 * primitive.vertex_count * frameBytes(packed.format), primitive.place());
+            budget_.take(std::uint64_t{2} * primitive.vertex_count * frameBytes(packed.format), primitive.place());
             const Bytes bytes = readPackedWords(document_, primitive, *stored.layout);
             words = std::vector<std::uint8_t>(bytes.begin(), bytes.end());
         }

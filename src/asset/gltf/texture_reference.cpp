@@ -13,9 +13,9 @@ namespace {
 /// Reports number UV sets in 32 bits.
 std::size_t readUvSet(const Json& object, const std::string& place, std::size_t fallback) {
     constexpr std::size_t kMaxUvSet = 0x7fffffff;
-    const std::size_t set = readSize(object, "texCoord", place, fallback);
+    const std::uint64_t set = readWhole(object, "texCoord", place, fallback);
     if (set > kMaxUvSet) failFile(ErrorCode::invalidFile, "no file has so many UV sets", join(place, "texCoord"));
-    return set;
+    return static_cast<std::size_t>(set);
 }
 
 /// UV set and transform of a texture reference. The texCoord of KHR_texture_transform goes before its own.

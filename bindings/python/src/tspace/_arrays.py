@@ -31,7 +31,7 @@ EMPTY_SPAN = _abi.Span()
 NO_INDICES = _abi.Indices()
 
 
-def _shape_text(shape: Sequence[int]) -> str:
+def shape_text(shape: Sequence[int]) -> str:
     return "(" + ", ".join(str(n) for n in shape) + ("," if len(shape) == 1 else "") + ")"
 
 
@@ -66,7 +66,7 @@ def float_array(name: str, value: Any, components: int) -> numpy.ndarray:
     if array.shape == (0,):  # an empty list
         array = array.reshape(0, components)
     if array.ndim != 2 or array.shape[1] != components:
-        raise InputError(f"{name} must have shape (n, {components}), not {_shape_text(array.shape)}", "countMismatch")
+        raise InputError(f"{name} must have shape (n, {components}), not {shape_text(array.shape)}", "countMismatch")
     if len(array) > _abi.MAX_COUNT:
         raise InputError(f"{name} has {len(array)} entries; at most {_abi.MAX_COUNT} are possible", "tooLarge")
     return array
@@ -92,7 +92,7 @@ def output_array(out: Optional[numpy.ndarray], count: int, components: int) -> n
         kind = out.dtype if isinstance(out, numpy.ndarray) else type(out).__name__
         raise TypeError(f"out must be a numpy array of float32, not {kind}")
     if out.shape != shape:
-        raise InputError(f"out must have shape {_shape_text(shape)}, not {_shape_text(out.shape)}", "countMismatch")
+        raise InputError(f"out must have shape {shape_text(shape)}, not {shape_text(out.shape)}", "countMismatch")
     if not out.flags.writeable:
         raise InputError("out is read-only")
     if out.size and (out.strides[1] != 4 or out.strides[0] < 4 * components or (out.strides[0] | out.ctypes.data) & 3):
@@ -134,10 +134,12 @@ def index_array(name: str, value: Any) -> numpy.ndarray:
 
 
 def uint32_array(name: str, value: Any) -> numpy.ndarray:
-    """One-dimensional, dense, of uint32; a copy where it is not."""
+    """One-dimensional (or a column), dense, of uint32; a copy where it is not."""
     array = index_array(name, value)
+    if array.ndim == 2 and array.shape[1] == 1:
+        array = array[:, 0]
     if array.ndim != 1:
-        raise InputError(f"{name} must have shape (n,), not {_shape_text(array.shape)}", "countMismatch")
+        raise InputError(f"{name} must have shape (n,), not {shape_text(array.shape)}", "countMismatch")
     if array.dtype != UINT32:
         bad = _first_outside(array, 2**32)
         if bad is not None:

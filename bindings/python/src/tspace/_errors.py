@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Exceptions, and turning the errors of the C API into them."""
 
+import re
 from typing import Any, Optional, Type
 
 from . import _abi
@@ -52,9 +53,25 @@ def shown(value: Any) -> str:
     return text if len(text) <= 60 and "\n" not in text else f"an object of type {type(value).__name__}"
 
 
+# How messages of the C API begin, and how they begin with the name of the argument here.
+_IN_PYTHON = (
+    (r"^crease_angle_deg ", "crease "),
+    (r"^face sizes ", "face_sizes "),
+    (r"^(\d+ corners are not a whole number of faces)", r"face_sizes, indices: \1"),
+    (r"^index (\d+) of corner", r"indices: index \1 of corner"),
+    (r"^corner (\d+) has no vertex", r"indices: corner \1 has no vertex"),
+    (r"^(\w+ needs?) normals, and the mesh has none", r"normals is None: \1 them"),
+    (r"^this method needs UVs, and the mesh has none", "uvs is None: this method needs UVs"),
+    (r"^(only lengyel and basis have|results per vertex need)", r'domain is "vertex": \1'),
+    (r"^the symmetric frame ", r'frame is "symmetric": the symmetric frame '),
+)
+
+
 def raise_error(error: _abi.Error) -> None:
     """Raises what the C API said."""
     message = error.message.decode("utf-8", "replace")
+    for pattern, words in _IN_PYTHON:
+        message = re.sub(pattern, words, message)
     if error.code == _OUT_OF_MEMORY:
         raise MemoryError(message)
     code = _abi.library.tspace_errorName(error.code).decode()

@@ -16,6 +16,7 @@ from ._arrays import (
     index_array,
     read_indices,
     read_span,
+    shape_text,
     uint32_array,
 )
 from ._errors import InputError, raise_error
@@ -29,12 +30,12 @@ class Mesh:
     """The struct, with the arrays that it points into.
 
     positions  (vertices, 3); normals (vertices, 3) or None; uvs (vertices, 2) or None
-    indices    None: corner c is vertex c. (corners,), or (faces, k): faces of k corners
+    indices    None: corner c is vertex c. (corners,), also as a column (corners, 1), or (faces, k): faces of k corners
     face_sizes None: triangles, or what the shape of `indices` says. A number: corners of every face. (faces,): of each
     normal_indices, uv_indices  None: normals, uvs have one entry per vertex. "corners": one per corner. Else as `indices`
     """
 
-    __slots__ = ("_lists", "arrays", "corner_count", "struct", "vertex_count")
+    __slots__ = ("_list_shape", "_lists", "arrays", "corner_count", "struct", "vertex_count")
 
     def __init__(
         self,
@@ -53,12 +54,13 @@ class Mesh:
         if uvs is not None:
             uvs = float_array("uvs", uvs, 2)
         if indices is not None:
-            indices = index_array("indices", indices)
+            indices = _face_indices(index_array("indices", indices))
         self.vertex_count = len(positions)
         self.corner_count = self.vertex_count if indices is None else indices.size
         self._check_count("normals", normals, normal_indices)
         self._check_count("uvs", uvs, uv_indices)
         face_size = _face_size(indices, face_sizes)
+        self._list_shape = None if indices is None else indices.shape
 
         self.arrays: List[numpy.ndarray] = []
         self._lists: List[Tuple[str, numpy.ndarray, int]] = []
@@ -116,7 +118,38 @@ class Mesh:
         array = index_array(name, value)
         if array.size != self.corner_count:
             raise InputError(f"{name} has {array.size} entries, corners are {self.corner_count}", "countMismatch")
+        shapes = [(array.size,), (array.size, 1)]
+        if self._list_shape is not None and len(self._list_shape) == 2:
+            shapes.append(self._list_shape)
+        elif self.struct.face_size and self.corner_count % self.struct.face_size == 0:
+            shapes.append((self.corner_count // self.struct.face_size, self.struct.face_size))
+        if array.shape not in shapes:
+            wanted = " or ".join(shape_text(shape) for shape in shapes)
+            raise InputError(f"{name} must have shape {wanted}, not {shape_text(array.shape)}", "countMismatch")
         return self._indices(name, array, 0 if attribute is None else len(attribute))
+
+
+def _face_indices(indices: numpy.ndarray) -> numpy.ndarray:
+    """The indices without the second dimension of a column, as numpy reads an accessor of scalars. A shape by which
+    hardly anybody means faces is refused: faces of two corners would give zeros, and one large face a wrong result."""
+    if indices.ndim != 2 or indices.shape[1] == 0:
+        return indices
+    rows, columns = indices.shape
+    if columns == 1:
+        return indices[:, 0]
+    if columns == 2:
+        raise InputError(
+            f"indices of shape {shape_text(indices.shape)} are faces of 2 corners: they must have shape (corners,), or "
+            "(faces, k) with 3 corners or more",
+            "countMismatch",
+        )
+    if rows == 1 and columns > 4:
+        raise InputError(
+            f"indices of shape {shape_text(indices.shape)} are one face of {columns} corners: triangles have shape "
+            f"(corners,) or (faces, 3); for this one face give shape ({columns},) and face_sizes={columns}",
+            "countMismatch",
+        )
+    return indices
 
 
 def _face_size(indices: Optional[numpy.ndarray], face_sizes: Any) -> Optional[int]:
@@ -128,7 +161,9 @@ def _face_size(indices: Optional[numpy.ndarray], face_sizes: Any) -> Optional[in
             raise InputError("indices has shape (n, 0): faces without corners")
         return indices.shape[1]
     if indices is not None and indices.ndim != 1:
-        raise InputError(f"indices must have shape (corners,) or (faces, k), not {indices.shape}", "countMismatch")
+        raise InputError(
+            f"indices must have shape (corners,) or (faces, k), not {shape_text(indices.shape)}", "countMismatch"
+        )
     if face_sizes is None:
         return 3
     if isinstance(face_sizes, numbers.Integral):

@@ -2,18 +2,30 @@
 """From corners to an indexed mesh, and from polygons to triangles."""
 
 import ctypes
+import math
 from ctypes import POINTER, byref
 from typing import Any, Iterable, List, NamedTuple, Sequence, Tuple, Union
 
 import numpy
 
 from . import _abi
-from ._arrays import NO_INDICES, UINT32, copied, fail_at_index, float_array, index_array, read_indices, read_span
+from ._arrays import (
+    NO_INDICES,
+    UINT32,
+    copied,
+    fail_at_index,
+    float_array,
+    index_array,
+    read_indices,
+    read_span,
+    shape_text,
+)
 from ._errors import InputError, shown
 from ._mesh import Mesh
 from ._options import execution, real
 
 _library = _abi.library
+_MOST_COLUMNS = 16
 
 
 def corner_attributes(
@@ -23,6 +35,8 @@ def corner_attributes(
     if isinstance(attributes, (numpy.ndarray, str, bytes)) or not isinstance(attributes, Iterable):
         raise TypeError(f"{name} must be a list of arrays: [tangents], not tangents")
     tolerance = real("tolerance", tolerance)
+    if not 0 <= tolerance < math.inf:
+        raise InputError(f"tolerance is {tolerance}; it must be 0 or more, and finite", "invalidOption")
     arrays: List[numpy.ndarray] = []
     for attribute in attributes:
         place = f"{name}[{len(arrays)}]"
@@ -30,6 +44,8 @@ def corner_attributes(
         array = float_array(place, array, array.shape[1] if array.ndim == 2 else 1)
         if len(array) != corner_count:
             raise InputError(f"{place} has {len(array)} rows, there are {corner_count} corners", "countMismatch")
+        if not 1 <= array.shape[1] <= _MOST_COLUMNS:
+            raise InputError(f"{place} has {array.shape[1]} columns, not 1 to {_MOST_COLUMNS}", "invalidOption")
         arrays.append(array)
     rows = (_abi.CornerAttribute * len(arrays))()
     for number, array in enumerate(arrays):
@@ -71,7 +87,12 @@ def split(
         raise InputError(f"vertex_count is {vertex_count}; it must be 0 to {_abi.MAX_COUNT}", "tooLarge")
     struct, corner_count, index_list = NO_INDICES, int(vertex_count), None
     if indices is not None:
-        struct, index_list = read_indices("indices", index_array("indices", indices).ravel(), int(vertex_count))
+        given = index_array("indices", indices)
+        if not 1 <= given.ndim <= 2:
+            raise InputError(
+                f"indices must have shape (corners,) or (faces, k), not {shape_text(given.shape)}", "countMismatch"
+            )
+        struct, index_list = read_indices("indices", given.ravel(), int(vertex_count))
         corner_count = index_list.size
     rows, keep = corner_attributes("attributes", attributes, corner_count, tolerance)
     result = POINTER(_abi.SplitResult)()

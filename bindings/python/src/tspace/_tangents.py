@@ -178,10 +178,11 @@ def tangents(
     positions:  (vertices, 3)
     normals:    (vertices, 3), unit; used as given. `tspace.normals` makes them
     uvs:        (vertices, 2); None for method="basis", which needs none
-    indices:    (corners,), the vertex of each corner, or (faces, k) for faces of k corners; None: corner c is vertex c
+    indices:    (corners,), the vertex of each corner, also as a column (corners, 1), or (faces, k) for faces of k corners;
+                None: corner c is vertex c
     face_sizes: None: triangles. A number: corners of every face. (faces,): corners of each face
-    normal_indices, uv_indices: None: normals and uvs have one row per vertex. An index list of their own, shaped as `indices`:
-                they have any number of rows. "corners": they have one row per corner
+    normal_indices, uv_indices: None: normals and uvs have one row per vertex. An index list of their own, shaped as `indices`
+                or (corners,): they have any number of rows. "corners": they have one row per corner
     method:     "mikktspace" (every bit of the MikkTSpace reference), "fast", "best", "lengyel", "uniform", "angle", "area",
                 "flat", or "basis"
     convention: decides the sign, so it has no default: "gltf", "opengl", "directx", "unreal", "unity", "blender", "godot",

@@ -41,9 +41,10 @@ struct DracoMesh {
     std::vector<DracoAttribute> attributes = {};
 };
 
-/// What a mesh may be at most. More is refused before memory is asked for.
+/// What a mesh may be at most. More is refused before memory is asked for. What a file claims may be more than a size
+/// holds.
 struct DracoLimits {
-    std::size_t corner_count = 0, point_count = 0, bytes = 0;
+    std::uint64_t corner_count = 0, point_count = 0, bytes = 0;
 };
 
 /// Why this build cannot decode or encode; empty when it can. One sentence.

@@ -36,7 +36,7 @@ bool comesBack(const MeshoptCoding& coding, std::span<const std::uint8_t> rows, 
 
 }  // namespace
 
-std::size_t meshoptRatio(bool is_khr) {
+std::uint64_t meshoptRatio(bool is_khr) {
     // Codec 0 spends 2 bits on 16 equal bytes of a column; codec 1 spends 2 bits on 256 of them.
     return is_khr ? 1024 : 64;
 }
@@ -46,9 +46,9 @@ std::string meshoptFault(const MeshoptCoding& coding, std::size_t byte_count) {
     std::string fault = is_attributes ? attributeFault(coding) : indexFault(coding);
     if (!fault.empty()) return fault;
     // A triangle takes at least one byte, and so does an index of any other row.
-    const std::size_t most = coding.mode == MeshoptMode::triangles ? byte_count * 3
-                             : is_attributes ? byte_count * meshoptRatio(coding.is_khr) / coding.stride
-                                             : byte_count;
+    const std::uint64_t most = coding.mode == MeshoptMode::triangles ? std::uint64_t{byte_count} * 3
+                               : is_attributes ? byte_count * meshoptRatio(coding.is_khr) / coding.stride
+                                               : byte_count;
     if (coding.count > most) {
         return std::to_string(byte_count) + " compressed bytes cannot hold " + std::to_string(coding.count) +
                " elements of " + std::to_string(coding.stride) + " bytes";

@@ -23,14 +23,14 @@ struct MeshoptCoding {
     bool is_khr = false;  ///< KHR_meshopt_compression: a newer vertex codec and one more filter
     std::size_t count = 0, stride = 0;
 
-    [[nodiscard]] std::size_t byteCount() const { return count * stride; }
+    [[nodiscard]] std::uint64_t byteCount() const { return std::uint64_t{count} * stride; }
 };
 
 /// Why this build cannot decode it; empty when it can. One sentence.
 std::string meshoptMissing(bool is_khr);
 
 /// The most bytes that one byte of compressed data can stand for.
-std::size_t meshoptRatio(bool is_khr);
+std::uint64_t meshoptRatio(bool is_khr);
 
 /// What is wrong with the numbers of a coding whose data has `byte_count` bytes; empty when nothing is. Afterwards
 /// byteCount() cannot overflow and is at most meshoptRatio times `byte_count`.

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+// The entry "tspace/inline": the whole core with its module inside, wherever it runs.
+import { source } from "./core-inside.js";
+import { start } from "./core.js";
+
+export { generateNormals, generateTangents, makeIndexedFrames, memoryBytes, Plan, sanitizeTangents, splitVertices } from "./core.js";
+export { conventions } from "./convention.js";
+export { TspaceError } from "./error.js";
+export const ready = start(source);

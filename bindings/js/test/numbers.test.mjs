@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// Numbers and texts of files that a module with addresses of 32 bits could take for others: what the tool refuses, which counts in
+// 64 bits, is refused here, and what it reads is read.
+import assert from "node:assert/strict";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { describe, it } from "node:test";
+import { check, generate, identify, inspect, ready, TspaceError } from "tspace/gltf";
+import { gridModel } from "./models.mjs";
+import { npmCodecs, ofTool, plain, tool } from "./tool.mjs";
+
+await ready;
+const codecs = await npmCodecs();
+
+/** A model with all that glTF counts and numbers. */
+function fullModel() {
+  const json = JSON.parse(gridModel().model.toString());
+  const [primitive] = json.meshes[0].primitives;
+  primitive.mode = 4;
+  primitive.targets = [{ POSITION: primitive.attributes.POSITION }];
+  primitive.extensions = { KHR_materials_variants: { mappings: [{ material: 0, variants: [0] }] } };
+  json.materials[0].normalTexture = { index: 0, texCoord: 0, extensions: { KHR_texture_transform: { texCoord: 0 } } };
+  const normals = json.accessors[primitive.attributes.NORMAL];
+  Object.assign(normals, { byteOffset: 0, sparse: {
+    count: 1, indices: { bufferView: primitive.indices, byteOffset: 0, componentType: 5125 },
+    values: { bufferView: primitive.attributes.NORMAL, byteOffset: 0 },
+  } });
+  json.bufferViews[primitive.attributes.POSITION].byteStride = 12;
+  json.nodes = [{ mesh: 0 }];
+  json.scenes = [{ nodes: [0] }];
+  json.scene = 0;
+  return json;
+}
+
+/** Places of the whole numbers in it, as [parent, key] and a name; not those that are values, as the corners of a box. */
+function numbersIn(value, path = "") {
+  return Object.entries(value).flatMap(([key, member]) => {
+    if (typeof member === "number") return [`${path}/${key}`];
+    return typeof member === "object" && key !== "min" && key !== "max" && key !== "variants" ? numbersIn(member, `${path}/${key}`) : [];
+  });
+}
+/** The model's text with another number there. */
+function withNumber(path, spell) {
+  const json = fullModel();
+  const keys = path.slice(1).split("/"), last = keys.pop();
+  const parent = keys.reduce((value, key) => value[key], json);
+  const number = BigInt(parent[last]);
+  parent[last] = "@";
+  return Buffer.from(JSON.stringify(json).replace('"@"', spell(number)));
+}
+
+const ways = {
+  "2^32 more": (number) => String(number + 2n ** 32n),
+  "2^32 more, as a real number": (number) => `${number + 2n ** 32n}.0`,
+  "2^35 more": (number) => String(number + 2n ** 35n),
+  "2^63 more": (number) => String(number + 2n ** 63n),
+};
+
+/** The report, or the code of the error; never another exception. */
+function verdict(call) {
+  try {
+    return call();
+  } catch (error) {
+    assert.ok(error instanceof TspaceError, error.stack);
+    return { ok: false, code: error.code };
+  }
+}
+
+describe("numbers beyond 32 bits", () => {
+  // What frames do not depend on is no reason to refuse a file: textures, images, scenes.
+  const refused = numbersIn(fullModel()).filter((path) => !/normalTexture\/index|textures|mappings|\/scene|\/nodes/.test(path));
+
+  it("are not read as the numbers that their last 32 bits are", () => {
+    assert.equal(check(Buffer.from(JSON.stringify(fullModel()))).ok, true);
+    assert.ok(refused.length > 25, refused.join(" "));
+    for (const path of refused)
+      for (const [way, spell] of Object.entries(ways))
+        for (const call of [check, generate, identify])
+          assert.ok(["invalidFile", "unsupportedFile"].includes(verdict(() => call(withNumber(path, spell))).code), `${path} with ${way}`);
+  });
+
+  it("are named as what they are", () => {
+    for (const [path, words] of [
+      ["/meshes/0/primitives/0/attributes/POSITION", /there is no accessor 4294967296; the file has/],
+      ["/accessors/0/count", /the accessor has 4294967312 elements/],
+      ["/accessors/0/componentType", /the component type 4294972422 does not exist/],
+      ["/meshes/0/primitives/0/mode", /the mode 4294967300 does not exist/],
+      ["/buffers/0/byteLength", /byteLength.* is 4294968[0-9]+; this build counts to 4294967295/],
+    ])
+      assert.throws(() => check(withNumber(path, ways["2^32 more"])), words);
+  });
+
+  it("have the verdict of the tool", { skip: !tool && "no tool here: build the preset release" }, () => {
+    const folder = mkdtempSync(join(tmpdir(), "tspace-js-"));
+    try {
+      const cases = numbersIn(fullModel()).flatMap((path) => Object.values(ways).map((spell) => withNumber(path, spell)));
+      const names = cases.map((text, i) => join(folder, `${String(i).padStart(4, "0")}.gltf`));
+      names.forEach((name, i) => writeFileSync(name, cases[i]));
+      for (const [verb, call, ...options] of [["check", (model, given) => check(model, { ...given, noImages: true }), "--no-images"], ["inspect", inspect], ["identify", identify]])
+        ofTool(verb, ...options, folder).files.forEach((file, i) => {
+          const wanted = file.ok ? plain(file) : { ok: false, code: file.error.code };
+          const report = verdict(() => plain(call(readFileSync(file.input), { name: file.input, resources: () => undefined })));
+          assert.deepEqual(report, wanted, `${verb} ${cases[i]}`);
+        });
+    } finally {
+      rmSync(folder, { recursive: true });
+    }
+  });
+
+  it("are not what a product of two numbers leaves of them", { skip: !codecs && "npm's codecs are not installed" }, () => {
+    const packed = generate(gridModel().model, { ...codecs, compress: "draco", all: true }).bytes;
+    assert.equal(check(packed, codecs).ok, true);
+    const size = new DataView(packed.buffer, packed.byteOffset).getUint32(12, true);
+    const json = JSON.parse(Buffer.from(packed.buffer, packed.byteOffset + 20, size).toString());
+    const data = Buffer.from(packed.subarray(20 + size + 8));
+    for (const accessor of Object.values(json.meshes[0].primitives[0].attributes)) json.accessors[accessor].count = 2 ** 30;
+    json.buffers[0].uri = `data:application/octet-stream;base64,${data.toString("base64")}`;
+    // 2^30 elements of 12, 8 and 16 bytes: a multiple of 2^32, which is 0 in 32 bits.
+    assert.throws(() => check(Buffer.from(JSON.stringify(json)), codecs), { code: "invalidFile", message: /claim [0-9]{11} bytes/ });
+  });
+
+  it("do not make large compressed data too small", { skip: !codecs && "npm's codecs are not installed" }, () => {
+    // 4 MiB of data for KHR_meshopt_compression and a little: 1024 times as much is 2^32 and a little.
+    const noise = new Uint8Array(12 * 400_000);
+    for (let i = 0, state = 1; i < noise.length; ++i) noise[i] = (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) >>> 24;
+    const encoded = (rows) => codecs.meshopt.encoder.encodeGltfBuffer(rows, rows.length / 12, 12, "ATTRIBUTES", 1);
+    const count = Math.ceil((2 ** 22 + 2000) / (encoded(noise).length / 400_000));
+    const rows = noise.subarray(0, 12 * count), data = encoded(rows);
+    assert.ok(data.length > 2 ** 22 && data.length < 2 ** 22 + 4096, String(data.length));
+    const view = { buffer: 0, byteOffset: 0, byteLength: data.length, byteStride: 12, count, mode: "ATTRIBUTES" };
+    const json = {
+      asset: { version: "2.0" }, extensionsUsed: ["KHR_meshopt_compression"], extensionsRequired: ["KHR_meshopt_compression"],
+      buffers: [{ byteLength: data.length, uri: "data.bin" }, { byteLength: rows.length, extensions: { KHR_meshopt_compression: { fallback: true } } }],
+      bufferViews: [{ buffer: 1, byteLength: rows.length, byteStride: 12, extensions: { KHR_meshopt_compression: view } }],
+      accessors: [{ bufferView: 0, componentType: 5126, count, type: "VEC3" }],
+      meshes: [{ primitives: [{ mode: 0, attributes: { POSITION: 0 } }] }],
+    };
+    const { primitives } = inspect(Buffer.from(JSON.stringify(json)), { ...codecs, resources: { "data.bin": data } });
+    assert.equal(primitives[0].vertices, count);
+  });
+});
+
+describe("control characters", () => {
+  const names = ["a\u0001b", "\u0000", "\u001f\u007f", "tab\tline\nquote\"\\", "\u0007é\u0008😀\u000b"];
+
+  it("in names come back in reports", () => {
+    for (const name of names) {
+      const json = JSON.parse(gridModel().model.toString());
+      json.meshes[0].name = json.materials[0].name = name;
+      const text = Buffer.from(JSON.stringify(json));
+      const { findings, ok } = check(text);
+      assert.equal(ok, true);
+      for (const finding of findings) assert.equal(finding.materialName, name);
+      const { bytes, report } = generate(text);
+      assert.equal(report.primitives[0].meshName, name);
+      const size = new DataView(bytes.buffer, bytes.byteOffset).getUint32(12, true);
+      const made = JSON.parse(Buffer.from(bytes.buffer, bytes.byteOffset + 20, size).toString());
+      assert.equal(made.meshes[0].name, name);
+      assert.equal(inspect(bytes).primitives[0].meshName, name);
+      assert.equal(identify(bytes).ok, true);
+    }
+  });
+
+  it("in other texts of a model are kept, or refused with a sentence", () => {
+    const text = gridModel().model.toString();
+    for (const [from, to] of [['"normal.png"', '"a\\u0001.png"'], ['"a test"', '"a\\u0002test"'], ['"VEC3"', '"VEC\\u00033"'], ['"POSITION"', '"POS\\u0004"']]) {
+      for (const call of [check, generate, identify, inspect]) {
+        const got = verdict(() => call(Buffer.from(text.replace(from, to))));
+        assert.ok(got.code === undefined || got.code !== "internal", JSON.stringify(got));
+      }
+    }
+  });
+});

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// The package beside the tool on every file of ../shared/bad, ../shared/reports and (small ones) ../shared/models: the same
+// verdicts, codes of errors, findings with their counts, and outputs.
+import assert from "node:assert/strict";
+import { existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { describe, it } from "node:test";
+import { check, generate, identify, ready, TspaceError } from "tspace/gltf";
+import { besideOf, filesIn, npmCodecs, ofTool, plain, shared, skip } from "./tool.mjs";
+
+await ready;
+const codecs = await npmCodecs();
+
+// What differs for a reason:
+/** The tool has tspace-import read other formats, and the package refuses them. */
+const isOther = /\.(off|ply|dae)$/;
+/** Models that are compressed, or have a part that is: npm's encoders are of other versions than the tool's, so the bytes of
+ * outputs differ; and where npm's codecs are not installed, nothing of them is compared. */
+const isCompressed = /draco|meshopt|DenseSphere/i;
+/** Only bytes go out of the package, while the tool copies files beside a model and names them as they then lie. */
+const leavesFilesBeside = ({ warnings }) => warnings?.some((warning) => warning.endsWith("that the model names does not come along"));
+
+const isCompared = (name) => statSync(name).size < 300e3 && !isOther.test(name) && (codecs || !isCompressed.test(name));
+
+/** The tool's report, or the code of its error. */
+const ofFile = (file) => (file.ok ? plain(file) : { ok: false, code: file.error.code });
+/** The same of the package. */
+function ofPackage(call, name) {
+  try {
+    return plain(call(readFileSync(name), { name, resources: besideOf(name), ...codecs }));
+  } catch (error) {
+    assert.ok(error instanceof TspaceError, `${name}: ${error.stack}`);
+    return { ok: false, code: error.code };
+  }
+}
+
+describe("beside the tool", { skip }, () => {
+  for (const [folder, least] of [["bad", 400], ["reports", 35], ["models", 100]]) {
+    const path = shared && join(shared, folder);
+    const missing = !(path && existsSync(path)) && `no ../shared/${folder} here`;
+
+    /** Calls compare(name, the tool's entry) for what is compared. */
+    function compareAll(verb, options, compare) {
+      const files = ofTool(verb, path, ...options).files.filter(({ input }) => isCompared(input));
+      for (const file of files) compare(file.input, file);
+      assert.ok(files.length >= least, `${files.length} files are compared`);
+    }
+
+    it(`check says the same of ${folder}`, { skip: missing }, () => {
+      const call = (model, options) => check(model, { ...options, noImages: true });
+      compareAll("check", ["--no-images"], (name, file) => assert.deepEqual(ofPackage(call, name), ofFile(file), name));
+    });
+
+    it(`identify says the same of ${folder}`, { skip: missing }, () => {
+      compareAll("identify", [], (name, file) => assert.deepEqual(ofPackage(identify, name), ofFile(file), name));
+    });
+
+    it(`generate makes the same of ${folder}`, { skip: missing }, () => {
+      const out = mkdtempSync(join(tmpdir(), "tspace-js-"));
+      try {
+        compareAll("generate", ["-o", out, "--container", "glb", "--overwrite"], (name, file) => {
+          let bytes;
+          const report = ofPackage((model, options) => {
+            const made = generate(model, { ...options, overwrite: true });
+            bytes = made.bytes;
+            return made.report;
+          }, name);
+          const wanted = ofFile(file);
+          if (isCompressed.test(name) || leavesFilesBeside(report)) {
+            assert.equal(report.ok, wanted.ok, name);
+            assert.deepEqual(report.primitives, wanted.primitives, name);
+            return;
+          }
+          assert.deepEqual(report, wanted, name);
+          if (file.ok) assert.ok(Buffer.compare(bytes, readFileSync(file.output)) === 0, name);
+        });
+      } finally {
+        rmSync(out, { recursive: true });
+      }
+    });
+
+    it(`other formats of ${folder} are refused with a sentence`, { skip: missing }, () => {
+      for (const name of filesIn(path, isOther)) assert.deepEqual(ofPackage(check, name), { ok: false, code: "invalidFile" }, name);
+    });
+  }
+});
