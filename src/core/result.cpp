@@ -83,6 +83,7 @@ Error makeError(ErrorCode code, std::uint64_t element, const char* format, ...) 
 void throwOutOfMemory() { throw OutOfMemory{}; }
 
 Error caughtError() {
+    // Strings of up to 15 characters take no memory.
     try {
         throw;
     } catch (const OutOfMemory&) {
@@ -90,7 +91,12 @@ Error caughtError() {
     } catch (const std::bad_alloc&) {
         return {ErrorCode::outOfMemory, "out of memory"};
     } catch (...) {
-        return {ErrorCode::internal, "internal error: an exception reached the library's border"};
+        // A message of this length takes memory.
+        try {
+            return {ErrorCode::internal, "internal error: an exception reached the library's border"};
+        } catch (...) {
+            return {ErrorCode::internal, "internal error"};
+        }
     }
 }
 
