@@ -186,7 +186,14 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
     char settings[32];
     std::snprintf(settings, sizeof settings, "threads=%u", threads);
     state->device = api.newDevice(settings);
-    if (state->device == nullptr) return makeError(ErrorCode::unsupportedFile, kNoElement, "Embree does not start");
+    if (state->device == nullptr) {
+        const RTCError why = api.getDeviceError(nullptr);
+        if (why == RTC_ERROR_UNSUPPORTED_CPU)
+            return makeError(ErrorCode::unsupportedFile, kNoElement, "Embree does not run on this CPU");
+        // The settings are right: it says other codes, too, where memory ends.
+        return makeError(ErrorCode::outOfMemory, kNoElement, "Embree does not start for lack of memory: its code is %u",
+                         static_cast<unsigned>(why));
+    }
     state->scene = api.newScene(state->device);
     api.setSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST);
     const RTCGeometry geometry = api.newGeometry(state->device, RTC_GEOMETRY_TYPE_TRIANGLE);
