@@ -238,6 +238,44 @@ TEST_F(FailingMemory, OfTheCFunctionsAlsoWhereTheCallIsWrong) {
         tspace_destroyTangentPlan(plan);
         return made;
     });
+    std::vector<float> normals(18);
+    onlyReads("normals", [&] {
+        tspace_NormalOptions chosen;
+        TSPACE_INIT(chosen);
+        chosen.convention = options.convention;
+        chosen.weighting = TSPACE_NORMAL_WEIGHTING_BEST;
+        return code(tspace_generateNormals(&square.mesh, &chosen, {normals.data(), 6, 0}, nullptr, &error));
+    });
+    onlyReads("triangulate", [&] {
+        tspace_Triangulation* made = nullptr;
+        const ErrorCode said = code(tspace_triangulate(&square.mesh, &made, &error));
+        tspace_destroyTriangulation(made);
+        return said;
+    });
+    onlyReads("split", [&] {
+        const tspace_CornerAttribute attribute = {tangents.data(), 0, 4, 0};
+        tspace_SplitResult* made = nullptr;
+        const ErrorCode said =
+            code(tspace_splitVertices(&square.mesh.indices, 4, 6, &attribute, 1, nullptr, &made, &error));
+        tspace_destroySplitResult(made);
+        return said;
+    });
+    onlyReads("indexed frames", [&] {
+        tspace_IndexedFramesOptions chosen;
+        TSPACE_INIT(chosen);
+        chosen.tangents = &options;
+        chosen.sanitize = 1;
+        tspace_IndexedFrames* made = nullptr;
+        const ErrorCode said = code(tspace_makeIndexedFrames(&square.mesh, &chosen, &made, &error));
+        tspace_destroyIndexedFrames(made);
+        return said;
+    });
+    onlyReads("arena", [&] {
+        tspace_Arena* made = nullptr;
+        const ErrorCode said = code(tspace_createArena(&made, &error));
+        if (made != nullptr) tspace_destroyArena(made);
+        return said;
+    });
     onlyReads("files", [&] {
         tspace_Bytes report{};
         const ErrorCode made = code(tspace_checkFile(at("plain.glb").c_str(), nullptr, &report, &error));
