@@ -50,9 +50,16 @@ struct FileOptions {
     /// Gives the files that `content` names; only those in the model's own folder (and below), unless `allow_external`.
     /// Without it they are an error (invalidFile) where they are needed.
     FindFile find_file = {};
+    /// Told the path of each file that is read, at once. Perhaps called by several threads at one time.
+    std::function<void(const std::string& path)> opened = {};
+    /// A written file is on the disk, and not in its cache alone, before it takes its name: after a power cut the old file is
+    /// there or the new one, and never half of one. false: for many small files, where that takes most of the time.
+    bool sync = true;
 };
 
-/// Takes bytes of an output, in their order. Returns false when it can take no more.
+/// Takes bytes of an output, in their order. Returns false when it can take no more. Called by one thread at a time, which
+/// need not be that of the call. What it throws ends the call (internal, or outOfMemory); so it is with Progress, FindFile and
+/// all that the caller has called: no exception leaves the library.
 using Sink = std::function<bool(std::span<const std::uint8_t>)>;
 
 /// Called now and then during long work. `done` of `total` steps; `what` names the step ("computing tangents"). It may
@@ -317,10 +324,11 @@ struct Inspection {
     std::vector<std::string> warnings = {};      ///< about the file as a whole: one sentence each
 };
 
-/// Removes the temporary files that killed runs of generateFile left in a folder and below it. Their names tell which
-/// process on which machine made them; only those of processes of this machine that are gone are removed. Returns how
-/// many. What cannot be read or removed is passed over. Linear in the number of files there; thread-safe.
-std::uint64_t removeAbandonedFiles(const std::string& folder);
+/// Removes the temporary files that killed runs of any call that writes left in a folder, and below it where that is asked
+/// for. Their names tell which process on which machine made them; only those of processes of this machine that are gone are
+/// removed. A file that such a run had set aside comes back where its place is empty. Returns how many files it was. What
+/// cannot be read or removed is passed over. Linear in the number of files there; thread-safe.
+std::uint64_t removeAbandonedFiles(const std::string& folder, bool with_folders_below = true);
 
 /// Reads a model and says what is in it. Changes nothing. Errors as generateFile.
 Result<Inspection> inspectFile(const std::string& input, const FileOptions& options = {});

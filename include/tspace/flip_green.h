@@ -36,6 +36,7 @@ struct FlipGreenOptions {
     /// As GenerateOptions::sink: gets the bytes in place of the file `output`, of which nothing is asked then.
     std::function<bool(std::span<const std::uint8_t>)> sink = {};
     bool dry_run = false;  ///< everything but writing
+    bool sync = true;      ///< as FileOptions::sync
 };
 
 struct FlipGreenReport {

@@ -60,20 +60,12 @@ int writePieces(const Sink& sink, std::span<const OutputPiece> pieces, Parallel&
     int error = 0;
     batches[0].fill(pieces, piece, offset);
     for (std::size_t current = 0; error == 0 && !batches[current].empty(); current ^= 1) {
-        // The other one is filled even where nothing is left: then it is empty.
-        int no_memory = 0;
+        // The other one is filled even where nothing is left: then it is empty. What a caller's sink throws comes out.
         parallel.forTasks(2, [&](std::size_t task) {
-            if (task == 0) {
-                if (!batches[current].write(sink)) error = errno != 0 ? errno : EIO;
-                return;
-            }
-            try {
-                batches[current ^ 1].fill(pieces, piece, offset);
-            } catch (...) {
-                no_memory = ENOMEM;
-            }
+            if (task == 1) return batches[current ^ 1].fill(pieces, piece, offset);
+            errno = 0;
+            if (!batches[current].write(sink)) error = errno != 0 ? errno : EIO;
         });
-        if (error == 0) error = no_memory;
     }
     return error;
 }
@@ -92,17 +84,23 @@ void AtomicOutput::add(const Path& requested_path, std::span<const OutputPiece> 
     for (const OutputPiece& piece : pieces) byte_count_ += piece.size();
     const bool any_made = std::any_of(pieces.begin(), pieces.end(), [](const OutputPiece& p) { return !p.isThere(); });
     Parallel parallel(any_made ? execution : Execution{.thread_count = 1});
-    if (sink_ || is_dry_run_) {
-        files_.push_back({{}, requested_path});
-        const int failure = is_dry_run_ ? 0 : writePieces(sink_, pieces, parallel);
+    if (way_.sink) {
+        files_.push_back({requested_path});
+        const int failure = way_.is_dry_run ? 0 : writePieces(way_.sink, pieces, parallel);
         if (failure != 0) failToWrite(requested_path, std::strerror(failure));
         return;
     }
-    addFile(requested_path, [&](const Sink& to_file) { return writePieces(to_file, pieces, parallel); });
+    File planned = planFile(requested_path);
+    if (way_.is_dry_run) {
+        planned.target = requested_path;
+        files_.push_back(std::move(planned));
+        return;
+    }
+    addFile(std::move(planned), [&](const Sink& to_file) { return writePieces(to_file, pieces, parallel); });
 }
 
 void AtomicOutput::commit() {
-    if (!sink_ && !is_dry_run_) renameFiles();
+    if (!way_.sink && !way_.is_dry_run) renameFiles();
     committed_ = true;
 }
 

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <functional>
+#include <mutex>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,25 +16,54 @@
 
 namespace tspace {
 
+/// Files that outputs must not take the place of.
+class InputFiles {
+  public:
+    void add(const Path& path);
+    /// Makes `options` tell about every file that is opened, also to whom they told it before. Lives longer than they.
+    void watch(FileOptions& options);
+    /// Whether `path` is one of them, under whatever name.
+    [[nodiscard]] bool has(const Path& path) const;
+
+  private:
+    mutable std::mutex mutex_ = {};
+    std::set<std::string> identities_ = {};
+};
+
+/// How outputs are written.
+struct OutputWay {
+    /// The one file goes there at once, in place of the disk.
+    Sink sink = {};
+    bool is_dry_run = false;    ///< writes nothing
+    bool makes_folders = true;  ///< that are missing
+    /// Files are on the disk, and not in its cache alone, before they take their places. Costs some milliseconds for each.
+    bool sync = true;
+    const InputFiles* inputs = nullptr;  ///< no output may be one of these; null: they may
+};
+
 /// Collects files, then commit() puts them in place. Without commit() the destructor removes every temporary
 /// file. All functions fail with cannotWrite by throwing FileError.
+///
+/// A target that is a link is what it points at, but where isForeignLink(). A character device or FIFO is written into, in
+/// commit(); what is neither that nor a file is refused. A file that was there leaves its owner, group and permissions to
+/// the new one, and until then nobody may do more with that.
 class AtomicOutput {
   public:
-    /// With a `sink` the one file goes there at once, in place of the disk; a dry run writes nothing.
-    explicit AtomicOutput(Sink sink = {}, bool is_dry_run = false) : sink_(std::move(sink)), is_dry_run_(is_dry_run) {}
+    explicit AtomicOutput(OutputWay way = {}) : way_(std::move(way)) {}
     ~AtomicOutput();
     AtomicOutput(const AtomicOutput&) = delete;
     AtomicOutput& operator=(const AtomicOutput&) = delete;
 
-    /// Writes `pieces` one after the other to a temporary file beside `target`. Missing folders are created. Pieces are
-    /// made while the ones before them are written, where `execution` has a second thread.
+    /// Writes `pieces` one after the other to a temporary file beside `target`. Pieces are
+    /// made while the ones before them are written, where `execution` has a second thread. Fails where the target is
+    /// one of the inputs, or one that was added before.
     void add(const Path& target, std::span<const OutputPiece> pieces, const Execution& execution = {.thread_count = 1});
     void add(const Path& target, std::initializer_list<OutputPiece> pieces) {
         add(target, std::span(pieces.begin(), pieces.size()));
     }
     void add(const Path& target, std::span<const std::uint8_t> bytes) { add(target, {OutputPiece(bytes)}); }
 
-    [[nodiscard]] bool isStream() const { return sink_ != nullptr; }
+    [[nodiscard]] bool isStream() const { return way_.sink != nullptr; }
 
     /// Remembers a file whose content went into an output.
     void addSource(const Path& source);
@@ -47,20 +78,28 @@ class AtomicOutput {
     [[nodiscard]] std::uint64_t byteCount() const { return byte_count_; }
 
   private:
-    [[noreturn]] static void failToWrite(const Path& target, const std::string& why);
-    /// What is done on the disk. writeTo(sink) returns 0, or errno.
-    void addFile(const Path& requested_path, const std::function<int(const Sink&)>& writeTo);
-    void renameFiles();
-    void removeTemporaryFiles();
-
     struct File {
-        Path temporary;
-        Path target;
+        Path target;  ///< no link
+        Path temporary = {};
+        bool is_made = false;  ///< the temporary file is there
+        Bytes held = {};       ///< for a stream
+        bool is_stream = false;
     };
-    Sink sink_;
-    bool is_dry_run_ = false;
+
+    [[noreturn]] static void failToWrite(const Path& target, const std::string& why);
+    // What is done on the disk.
+    /// The entry for a target that may be written.
+    File planFile(const Path& requested);
+    /// writeTo(sink) returns 0, or errno.
+    void addFile(File planned, const std::function<int(const Sink&)>& writeTo);
+    void makeFolders(const Path& target);
+    void renameFiles();
+    void removeTemporaryFiles() noexcept;
+
+    OutputWay way_;
     std::vector<File> files_;
     std::vector<Path> created_folders_;
+    std::set<std::string> identities_;  ///< of targets
     std::vector<std::string> sources_;
     std::uint64_t byte_count_ = 0;
     bool committed_ = false;

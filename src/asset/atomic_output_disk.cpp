@@ -1,94 +1,187 @@
 // SPDX-License-Identifier: MIT
 // Temporary files beside their targets, renamed together at the end.
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 
 #include "asset/atomic_output.h"
 #include "asset/system_files.h"
+#include "asset/temporary_files.h"
 #include "asset/temporary_name.h"
 
 namespace tspace {
 
 namespace fs = std::filesystem;
 
-void AtomicOutput::removeTemporaryFiles() {
-    std::error_code ignored;
-    for (const File& file : files_) fs::remove(fs::path(file.temporary), ignored);
-    // Only empty folders go: remove() fails on others.
-    for (auto folder = created_folders_.rbegin(); folder != created_folders_.rend(); ++folder)
-        fs::remove(fs::path(*folder), ignored);
+namespace {
+
+int writeTo(std::FILE* file, std::span<const std::uint8_t> bytes) {
+    errno = 0;
+    return std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() ? 0 : errno != 0 ? errno : EIO;
 }
 
-void AtomicOutput::addFile(const Path& requested_path, const std::function<int(const Sink&)>& writeTo) {
+int writeStream(const Path& path, std::span<const std::uint8_t> bytes) {
+    CFile stream = openFile(path, "wb");
+    if (!stream) return errno;
+    const int failure = writeTo(stream.get(), bytes);
+    return std::fclose(stream.release()) == 0 || failure != 0 ? failure : errno;
+}
+
+}  // namespace
+
+void InputFiles::add(const Path& path) {
+    std::string identity = identityOf(path);
+    const std::lock_guard lock(mutex_);
+    identities_.insert(std::move(identity));
+}
+
+void InputFiles::watch(FileOptions& options) {
+    options.opened = [this, told = options.opened](const std::string& path) {
+        add(path);
+        if (told) told(path);
+    };
+}
+
+bool InputFiles::has(const Path& path) const {
+    const std::string identity = identityOf(path);
+    const std::lock_guard lock(mutex_);
+    return identities_.contains(identity);
+}
+
+void AtomicOutput::removeTemporaryFiles() noexcept {
+    for (const File& file : files_) {
+        if (!file.is_made) continue;
+        TemporaryFilesInWork work;
+        removePath(file.temporary);
+        work.forget(file.temporary);
+    }
+    // Only empty folders go: removePath() fails on others.
+    for (auto folder = created_folders_.rbegin(); folder != created_folders_.rend(); ++folder) removePath(*folder);
+}
+
+AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
     // A link keeps being a link: what it points at is replaced.
     std::error_code error;
-    const fs::path requested = requested_path;
-    const fs::path target = fs::is_symlink(requested, error) ? fs::weakly_canonical(requested) : requested;
-    if (fs::is_directory(target, error)) failToWrite(target, "it is a folder");
+    if (isForeignLink(requested))
+        failToWrite(requested, "it is a link that another user made in a folder where everybody may write");
+    const Path target = fs::is_symlink(fs::path(requested), error) ? canonicalPath(requested) : requested;
+    const PathKind kind = kindOf(target);
+    if (kind == PathKind::folder) failToWrite(target, "it is a folder");
+    if (kind == PathKind::other) failToWrite(target, "it is neither a file nor a stream of bytes");
+    if (kind == PathKind::stream) return {.target = target, .is_stream = true};
+    if (way_.inputs != nullptr && way_.inputs->has(target)) failToWrite(requested, "it is an input");
+    if (!identities_.insert(identityOf(target)).second) failToWrite(requested, "another output is the same file");
+    return {.target = target, .temporary = besideName(target, kTemporaryEnding)};
+}
+
+void AtomicOutput::makeFolders(const Path& target) {
+    std::error_code error;
     std::vector<fs::path> missing;
     for (fs::path folder = folderOf(target); !folder.empty() && !fs::exists(folder, error);
-         folder = folder.parent_path()) {
+         folder = folder.parent_path())
         missing.push_back(folder);
-    }
+    created_folders_.reserve(created_folders_.size() + missing.size());
     for (auto folder = missing.rbegin(); folder != missing.rend(); ++folder) {
-        if (fs::create_directory(*folder, error)) created_folders_.push_back(*folder);
+        Path created = *folder;
+        if (fs::create_directory(*folder, error)) created_folders_.push_back(std::move(created));
         if (error) failToWrite(target, "cannot make its folder: " + error.message());
     }
-    const Path temporary = besideName(target, kTemporaryEnding);
-    CFile file = openFile(temporary, "wb");
-    if (!file) failToWrite(target, std::strerror(errno));
-    files_.push_back({temporary, target});
-    const int failure = writeTo([&file](std::span<const std::uint8_t> part) {
-        return std::fwrite(part.data(), 1, part.size(), file.get()) == part.size();
+}
+
+void AtomicOutput::addFile(File planned, const std::function<int(const Sink&)>& writeAll) {
+    files_.push_back(std::move(planned));
+    File& added = files_.back();
+    if (added.is_stream) {
+        const int failure = writeAll([&](std::span<const std::uint8_t> part) {
+            added.held.insert(added.held.end(), part.begin(), part.end());
+            return true;
+        });
+        if (failure != 0) failToWrite(added.target, std::strerror(failure));
+        return;
+    }
+    if (way_.makes_folders) makeFolders(added.target);
+    CFile file;
+    {
+        TemporaryFilesInWork work;
+        work.add(added.temporary);
+        file = createFile(added.temporary, added.target);
+        added.is_made = file != nullptr;
+        const int why = errno;
+        if (!added.is_made) work.forget(added.temporary);
+        errno = why;
+    }
+    if (!file) failToWrite(added.target, std::strerror(errno));
+    int failure = writeAll([&](std::span<const std::uint8_t> part) {
+        errno = writeTo(file.get(), part);
+        return errno == 0;
     });
-    if (failure != 0) failToWrite(target, std::strerror(failure));
-    if (std::fclose(file.release()) != 0) failToWrite(target, std::strerror(errno));
-    const fs::file_status old = fs::status(target, error);
-    if (fs::exists(old)) fs::permissions(fs::path(temporary), old.permissions(), error);
+    if (failure != 0) failToWrite(added.target, std::strerror(failure));
+    if (std::fflush(file.get()) != 0) failToWrite(added.target, std::strerror(errno));
+    takePermissions(file.get(), added.target);
+    if (way_.sync && !syncFile(file.get())) failToWrite(added.target, std::strerror(errno));
+    if (std::fclose(file.release()) != 0) failToWrite(added.target, std::strerror(errno));
 }
 
 void AtomicOutput::renameFiles() {
-    // Old files are set aside first, so that a failure half-way can be taken back.
+    for (const File& file : files_) {
+        const int failure = file.is_stream ? writeStream(file.target, file.held) : 0;
+        if (failure != 0) failToWrite(file.target, std::strerror(failure));
+    }
+    // Old files are set aside first, so that a failure half-way can be taken back. Nothing takes memory until all is done.
     struct Aside {
-        fs::path old_name, new_name;
-        bool renamed = false;
+        Path name = {};
+        bool is_made = false;
     };
     std::vector<Aside> aside(files_.size());
-    std::error_code error, ignored;
-    std::size_t done = 0;
-    for (std::size_t i = files_.size(); i-- > 0 && !error; ++done) {
-        const File& file = files_[i];
-        if (fs::is_directory(fs::path(file.target), ignored)) {
-            error = std::make_error_code(std::errc::is_a_directory);
-            continue;
-        }
-        if (files_.size() > 1 && fs::exists(fs::path(file.target), ignored)) {
-            aside[i] = {file.target, besideName(file.target, ".old"), false};
-            fs::create_hard_link(aside[i].old_name, aside[i].new_name, error);
-            // Not every file system has hard links.
-            if (error) fs::rename(aside[i].old_name, aside[i].new_name, error);
-            if (error) continue;
-            aside[i].renamed = true;
-        }
-        fs::rename(fs::path(file.temporary), fs::path(file.target), error);
+    std::vector<Path> folders;
+    const auto addFolder = [&](Path folder) {
+        const auto isIt = [&](const Path& known) { return known.string() == folder.string(); };
+        if (way_.sync && std::none_of(folders.begin(), folders.end(), isIt)) folders.push_back(std::move(folder));
+    };
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+        if (files_[i].is_stream) continue;
+        addFolder(folderOf(files_[i].target));
+        if (files_.size() > 1 && kindOf(files_[i].target) == PathKind::file)
+            aside[i].name = besideName(files_[i].target, kAsideEnding);
     }
-    if (error) {
-        const std::size_t failed = files_.size() - done;
-        for (std::size_t i = failed; i < files_.size(); ++i) {
-            if (aside[i].renamed) {
-                fs::rename(aside[i].new_name, aside[i].old_name, ignored);
+    for (const Path& folder : created_folders_) addFolder(folderOf(folder));
+    int failure = 0;
+    std::size_t failed = files_.size();
+    {
+        TemporaryFilesInWork work;
+        for (std::size_t i = files_.size(); i-- > 0 && failure == 0;) {
+            const File& file = files_[i];
+            if (file.is_stream) continue;
+            failed = i;
+            if (kindOf(file.target) == PathKind::folder) {
+                failure = EISDIR;
+            } else if (!aside[i].name.empty()) {
+                // Not every file system has hard links.
+                failure = linkFile(file.target, aside[i].name);
+                if (failure != 0) failure = renameFile(file.target, aside[i].name);
+                aside[i].is_made = failure == 0;
+            }
+            if (failure == 0) failure = renameFile(file.temporary, file.target);
+        }
+        for (std::size_t i = failed; failure != 0 && i < files_.size(); ++i) {
+            if (aside[i].is_made) {
+                renameFile(aside[i].name, files_[i].target);
                 // Where both names are still one file, renaming does nothing.
-                fs::remove(aside[i].new_name, ignored);
-            } else if (i != failed) {
-                fs::remove(fs::path(files_[i].target), ignored);
+                removePath(aside[i].name);
+            } else if (i != failed && !files_[i].is_stream) {
+                removePath(files_[i].target);
             }
         }
-        failToWrite(files_[failed].target, error.message());
+        for (std::size_t i = 0; failure == 0 && i < files_.size(); ++i) {
+            if (aside[i].is_made) removePath(aside[i].name);
+            work.forget(files_[i].temporary);
+            files_[i].is_made = false;
+        }
     }
-    for (const Aside& old : aside) {
-        if (old.renamed) fs::remove(old.new_name, ignored);
-    }
+    if (failure != 0) failToWrite(files_[failed].target, std::strerror(failure));
+    committed_ = true;
+    for (const Path& folder : folders) syncFolder(folder);
 }
 
 }  // namespace tspace

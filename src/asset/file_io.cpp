@@ -78,10 +78,16 @@ bool isOneFile(const Path& a, const Path& b) {
     return fs::equivalent(fs::path(a), fs::path(b), error) && !error;
 }
 
-bool isSameFile(const Path& a, const Path& b) {
-    if (isOneFile(a, b)) return true;
-    if (isThere(a) || isThere(b)) return false;
-    return canonicalPath(a).string() == canonicalPath(b).string();
+std::string identityOf(const Path& path) {
+    std::string identity = fileIdentity(path);
+    if (!identity.empty()) return identity;
+    try {
+        return canonicalPath(path).string();
+    } catch (const fs::filesystem_error&) {
+        return Path(fs::absolute(fs::path(path)).lexically_normal()).string();
+    }
 }
+
+bool isSameFile(const Path& a, const Path& b) { return identityOf(a) == identityOf(b); }
 
 }  // namespace tspace

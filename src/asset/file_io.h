@@ -63,6 +63,8 @@ bool isFolder(const Path& path);
 
 /// True when both paths name the same existing file.
 bool isOneFile(const Path& a, const Path& b);
+/// One text for all names of a file, also of one that is not there yet.
+std::string identityOf(const Path& path);
 /// True when both paths name the same existing file, or are the same path where nothing exists yet.
 bool isSameFile(const Path& a, const Path& b);
 

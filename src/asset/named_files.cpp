@@ -13,9 +13,12 @@ namespace fs = std::filesystem;
 
 NamedFiles::NamedFiles(const Path& model, const FileOptions& options)
     : find_file_(options.find_file),
+      opened_(options.opened),
       is_in_memory_(options.content.data() != nullptr),
       allow_external_(options.allow_external) {
-    if (!is_in_memory_) folder_ = folderOf(model);
+    if (is_in_memory_) return;
+    folder_ = folderOf(model);
+    if (opened_) opened_(model.string());
 }
 
 Path NamedFiles::resolve(const Path& folder, std::string_view uri, const std::string& place) const {
@@ -43,7 +46,10 @@ NamedFiles::Kind NamedFiles::kindOf(const Path& file) const {
 }
 
 Bytes NamedFiles::read(const Path& file, const std::string& place) const {
-    if (!is_in_memory_) return readFile(file, place);
+    if (!is_in_memory_) {
+        if (opened_) opened_(file.string());
+        return readFile(file, place);
+    }
     const Result<std::span<const std::uint8_t>> found = find(file);
     if (!found) failFile(ErrorCode::invalidFile, "the file " + pathInQuotes(file) + " was not given", place);
     return Bytes(found->begin(), found->end());

@@ -2,6 +2,7 @@
 // The files that a model names: those in its folder, or what the caller gives for a model in memory.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -42,6 +43,7 @@ class NamedFiles {
 
     Path folder_ = {};
     FindFile find_file_ = {};
+    std::function<void(const std::string&)> opened_ = {};
     bool is_in_memory_ = false;
     bool allow_external_ = false;
 };

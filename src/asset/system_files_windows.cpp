@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 // All by the functions for UTF-16: what those for bytes take for text depends on the machine.
+#define _CRT_RAND_S  // NOLINT: rand_s is declared then
+#include <fcntl.h>
 #include <io.h>
+#include <sys/stat.h>
 #include <windows.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -91,6 +96,78 @@ std::string fileIdentity(const Path& path) {
     return std::to_string(found.dwVolumeSerialNumber) + ":" + std::to_string(found.nFileIndexHigh) + ":" +
            std::to_string(found.nFileIndexLow);
 }
+
+PathKind kindOf(const Path& path) {
+    std::error_code error;
+    switch (fs::status(fs::path(path), error).type()) {
+        case fs::file_type::not_found:
+        case fs::file_type::none:
+            return PathKind::nothing;
+        case fs::file_type::regular:
+            return PathKind::file;
+        case fs::file_type::directory:
+            return PathKind::folder;
+        case fs::file_type::character:
+        case fs::file_type::fifo:
+            return PathKind::stream;
+        default:
+            return PathKind::other;
+    }
+}
+
+bool isForeignLink(const Path&) { return false; }
+
+CFile createFile(const Path& path, const Path&) {
+    const int number =
+        _wopen(fs::path(path).c_str(), _O_WRONLY | _O_CREAT | _O_EXCL | _O_BINARY | _O_NOINHERIT, _S_IREAD | _S_IWRITE);
+    if (number < 0) return nullptr;
+    CFile file(_fdopen(number, "wb"));
+    if (!file) _close(number);
+    return file;
+}
+
+// What a file may be used for comes from its folder.
+void takePermissions(std::FILE*, const Path&) {}
+
+bool syncFile(std::FILE* file) {
+    return std::fflush(file) == 0 && FlushFileBuffers(reinterpret_cast<HANDLE>(_get_osfhandle(_fileno(file)))) != 0;
+}
+void syncFolder(const Path&) {}
+
+int renameFile(const Path& from, const Path& to) noexcept try {
+    std::error_code error;
+    fs::rename(fs::path(from), fs::path(to), error);
+    return error.default_error_condition().value();
+} catch (...) {
+    return ENOMEM;
+}
+int linkFile(const Path& from, const Path& to) noexcept try {
+    std::error_code error;
+    fs::create_hard_link(fs::path(from), fs::path(to), error);
+    return error.default_error_condition().value();
+} catch (...) {
+    return ENOMEM;
+}
+int removePath(const Path& path) noexcept try {
+    std::error_code error;
+    fs::remove(fs::path(path), error);
+    return error.default_error_condition().value();
+} catch (...) {
+    return ENOMEM;
+}
+
+std::uint64_t randomNumber() {
+    unsigned low = 0, high = 0;
+    rand_s(&low);
+    rand_s(&high);
+    return std::uint64_t{high} << 32 | low;
+}
+
+// Handlers run on a thread of their own, and interrupt nobody.
+HeldSignals::HeldSignals() = default;
+HeldSignals::~HeldSignals() = default;
+
+void waitBriefly() { Sleep(1); }
 
 std::uint32_t processNumber() { return GetCurrentProcessId(); }
 

@@ -7,9 +7,11 @@
 namespace tspace {
 
 inline constexpr const char* kTemporaryEnding = ".tmp";
+/// Of a file that was there, while others take their places.
+inline constexpr const char* kAsideEnding = ".old";
 
-/// A name beside `target` that no other run and no other thread uses: TARGET.tspace-MACHINE-PROCESS-NUMBER and the
-/// ending. Two models that share an image may copy it at the same time.
+/// A name beside `target` that nobody can foresee: TARGET.tspace-MACHINE-PROCESS-RANDOM and the ending, as many bytes as
+/// names may have. Of a longer target only the begin is in it.
 Path besideName(const Path& target, const char* ending);
 
 }  // namespace tspace

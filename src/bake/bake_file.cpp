@@ -48,6 +48,7 @@ std::string withWord(const std::string& path, const std::string& word) {
 class FileBaking {
   public:
     FileBaking(const std::string& output, const BakeFileOptions& options) : output_(output), options_(options) {
+        inputs_.watch(options_.file);
         options_.map.reading.two_channels = options_.map.reading.two_channels || options_.unit;
         // An image is as large as it was asked for: what a file may take by its own size says nothing here.
         constexpr std::uint64_t kUsualLimit = std::uint64_t{16} << 30;
@@ -81,8 +82,8 @@ class FileBaking {
         if (!options_.out_mesh.empty())
             addModelWithMaps({low, std::move(models_.low_glb), options_.out_mesh, std::move(maps_)}, options_.file,
                              files_, report_.warnings);
-        files_.commit();
         report_.output_files = files_.files();
+        files_.commit();
         return std::move(report_);
     }
 
@@ -188,9 +189,10 @@ class FileBaking {
     }
 
     const std::string& output_;
+    InputFiles inputs_ = {};
     BakeFileOptions options_;
     BakeModels models_ = {};
-    AtomicOutput files_;
+    AtomicOutput files_{{.sync = options_.file.sync, .inputs = &inputs_}};
     std::vector<ModelMap> maps_ = {};
     std::set<std::string> words_ = {};
     BakeFileReport report_ = {};

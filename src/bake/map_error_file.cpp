@@ -59,10 +59,12 @@ class FileMeasuring {
         bake_.tangents = options.tangents;
         bake_.normals = options.normals;
         bake_.file = options.file;
+        inputs_.watch(bake_.file);
         bake_.cage = options.cage;
     }
 
     MapErrorFileReport run(const std::string& map, const std::string& low, const std::string& high) {
+        inputs_.add(map);
         image_ = aboutInput(BakeInput::map, [&] { return readMap(map); });
         report_.width = image_.width;
         report_.height = image_.height;
@@ -228,12 +230,13 @@ class FileMeasuring {
         const std::optional<std::vector<std::uint8_t>> png = encodePng(
             {.width = view.width, .height = view.height, .texels = pictureOfHeat(error.heat, error.p99_deg)}, 8);
         if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
-        AtomicOutput files;
+        AtomicOutput files({.sync = options_.file.sync, .inputs = &inputs_});
         files.add(options_.heat, std::span<const std::uint8_t>(*png));
         files.commit();
     }
 
     MapErrorFileOptions options_;
+    InputFiles inputs_ = {};
     BakeFileOptions bake_ = {};
     FloatImage image_ = {};
     std::vector<TriedFrames> frames_ = {};

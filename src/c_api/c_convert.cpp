@@ -46,18 +46,24 @@ static_assert(TSPACE_SIGN_NEGATED == static_cast<std::uint32_t>(StoredSign::nega
 static_assert(TSPACE_HANDEDNESS_LEFT == static_cast<std::uint32_t>(Handedness::left));
 static_assert(TSPACE_WINDING_CLOCKWISE == static_cast<std::uint32_t>(Winding::clockwise));
 
+void appendMessage(std::string_view text, tspace_Error& to) noexcept {
+    const std::size_t used = std::strlen(to.message), room = sizeof(to.message) - 1 - used;
+    std::size_t length = std::min(text.size(), room);
+    if (length < text.size()) {
+        // Bytes 10xxxxxx continue a character.
+        while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0u) == 0x80u) --length;
+    }
+    std::memcpy(to.message + used, text.data(), length);
+    to.message[used + length] = '\0';
+}
+
 tspace_ErrorCode finish(const Error& error, tspace_Error* out) noexcept {
     const auto code = static_cast<tspace_ErrorCode>(error.code);
     if (out == nullptr) return code;
     *out = tspace_Error{};
     out->code = code;
     out->element = error.element;
-    std::size_t length = std::min(error.message.size(), sizeof(out->message) - 1);
-    if (length < error.message.size()) {
-        // A cut must not leave half a UTF-8 character: bytes 10xxxxxx continue one.
-        while (length > 0 && (static_cast<unsigned char>(error.message[length]) & 0xc0u) == 0x80u) --length;
-    }
-    std::memcpy(out->message, error.message.data(), length);
+    appendMessage(error.message, *out);
     return code;
 }
 

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/border.h"
@@ -23,14 +24,22 @@
 
 namespace tspace::c_api {
 
-/// Writes `error` to the caller's struct, which may be null, and returns its code.
+/// Writes `error` to the caller's struct, which may be null, and returns its code. Takes no memory, as there may be none.
 tspace_ErrorCode finish(const Error& error, tspace_Error* out) noexcept;
+
+/// Appends to the message as much as it has room for; no half of a UTF-8 character.
+void appendMessage(std::string_view text, tspace_Error& to) noexcept;
+
+/// Writes the error of `result`, or that there is none, and returns its code.
+template <class Value>
+tspace_ErrorCode finishResult(const Result<Value>& result, tspace_Error* out) noexcept {
+    return result ? finish(Error{ErrorCode::ok}, out) : finish(result.error(), out);
+}
 
 /// Runs `body`, which returns a Result<Done>, at the C border.
 template <class Body>
 tspace_ErrorCode atCBorder(tspace_Error* out, Body&& body) noexcept {
-    const Result<Done> result = atBorder(body);
-    return finish(result ? Error{ErrorCode::ok} : result.error(), out);
+    return finishResult<Done>(atBorder(body), out);
 }
 
 /// Every size that `Struct` had in a header, the last one now; a program may have been compiled with any of them. Whoever

@@ -35,16 +35,18 @@ void GrowingBytes::giveTo(tspace_Bytes* to) noexcept {
 }
 
 tspace_ErrorCode finishCall(const Error& error, tspace_Error* out) noexcept {
-    const Result<Done> result = atBorder([&]() -> Result<Done> {
-        Error whole = error;
-        if (!whole.place.empty()) whole.message += " (at " + whole.place + ")";
-        // An option may say anything, and the message is one line.
-        std::replace_if(
-            whole.message.begin(), whole.message.end(),
-            [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
-        return whole;
-    });
-    return c_api::finish(result.error(), out);
+    const tspace_ErrorCode code = c_api::finish(error, out);
+    if (out == nullptr) return code;
+    if (!error.place.empty()) {
+        for (const std::string_view part :
+             {std::string_view(" (at "), std::string_view(error.place), std::string_view(")")})
+            c_api::appendMessage(part, *out);
+    }
+    // An option may say anything, and the message is one line.
+    for (char* c = out->message; *c != '\0'; ++c) {
+        if (static_cast<unsigned char>(*c) < 0x20 || *c == 0x7f) *c = ' ';
+    }
+    return code;
 }
 
 std::string neededText(const char* text, const char* name) {

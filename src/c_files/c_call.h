@@ -36,7 +36,7 @@ class GrowingBytes {
     std::size_t size_ = 0, capacity_ = 0;
 };
 
-/// Writes `error` with its place to the caller's struct, which may be null, and returns its code.
+/// Writes `error` with its place to the caller's struct, which may be null, and returns its code. Takes no memory.
 tspace_ErrorCode finishCall(const Error& error, tspace_Error* out) noexcept;
 
 /// Runs `body`, which may throw as the file layer does, at the border. `results`, which may be null, are empty
@@ -53,7 +53,7 @@ tspace_ErrorCode atCallBorder(tspace_Error* out, std::initializer_list<tspace_By
     if (!result) {
         for (tspace_Bytes* half_done : results) tspace_destroyBytes(half_done);
     }
-    return finishCall(result ? Error{ErrorCode::ok} : result.error(), out);
+    return result ? finishCall(Error{ErrorCode::ok}, out) : finishCall(result.error(), out);
 }
 
 /// A text that must be there. Fails with nullData.

@@ -16,7 +16,7 @@ class Parallel;
 /// code each.
 [[gnu::format(printf, 3, 4)]] Error makeError(ErrorCode code, std::uint64_t element, const char* format, ...);
 
-/// What the exception means that is being handled.
+/// What the exception means that is being handled. Throws nothing, also where there is no memory left.
 Error caughtError();
 
 /// Runs `body`, which returns a Result, and turns running out of memory (and any defect of our own) into an Error.

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <exception>
 #include <thread>
 #include <vector>
 
@@ -122,7 +123,7 @@ Parallel::Parallel(const Execution& execution, std::uint64_t corners) {
 
 Parallel::~Parallel() { delete pool_; }
 
-void Parallel::run(std::size_t count, void (*task)(void*, std::size_t), void* context) {
+void Parallel::runTasks(std::size_t count, void (*task)(void*, std::size_t), void* context) {
     if (executor_ != nullptr) {
         executor_->run(executor_->user, count, task, context);
         return;
@@ -132,5 +133,44 @@ void Parallel::run(std::size_t count, void (*task)(void*, std::size_t), void* co
     pool_->startHelpers(std::min<std::size_t>(width_, count) - 1);
     pool_->run(count, task, context);
 }
+
+#ifdef __cpp_exceptions
+
+namespace {
+
+/// A loop of tasks that may throw. An exception on a helper's stack would end the program, and one on the caller's would
+/// leave the loop while helpers still work on it.
+struct ThrowingTasks {
+    void (*task)(void*, std::size_t);
+    void* context;
+    std::atomic<bool> has_failed{false};
+    std::exception_ptr first = {};
+
+    static void run(void* tasks, std::size_t number) {
+        auto& self = *static_cast<ThrowingTasks*>(tasks);
+        if (self.has_failed.load(std::memory_order_relaxed)) return;
+        try {
+            self.task(self.context, number);
+        } catch (...) {
+            if (!self.has_failed.exchange(true)) self.first = std::current_exception();
+        }
+    }
+};
+
+}  // namespace
+
+void Parallel::run(std::size_t count, void (*task)(void*, std::size_t), void* context) {
+    ThrowingTasks tasks{task, context};
+    runTasks(count, ThrowingTasks::run, &tasks);
+    if (tasks.first) std::rethrow_exception(tasks.first);
+}
+
+#else
+
+void Parallel::run(std::size_t count, void (*task)(void*, std::size_t), void* context) {
+    runTasks(count, task, context);
+}
+
+#endif
 
 }  // namespace tspace

@@ -43,7 +43,7 @@ class Parallel {
 #endif
 
     /// body(begin, end) over disjoint ranges that cover [0, count). Ranges hold at least `grain` items (but for the
-    /// last), so that small loops stay on the calling thread. The body must not throw.
+    /// last), so that small loops stay on the calling thread. A body may throw, as with forTasks.
     template <class Body>
     void forRanges(std::size_t count, std::size_t grain, Body&& body) {
         if (count == 0) return;
@@ -52,7 +52,8 @@ class Parallel {
         forTasks(tasks, [&](std::size_t task) { body(count * task / tasks, count * (task + 1) / tasks); });
     }
 
-    /// body(task) once for each task in [0, count). The body must not throw.
+    /// body(task) once for each task in [0, count). Where bodies throw, one of the exceptions comes out of this call once
+    /// no task runs any more; tasks that had not begun are left out.
     template <class Body>
     void forTasks(std::size_t count, Body&& body) {
 #ifdef TSPACE_SERIAL
@@ -74,6 +75,7 @@ class Parallel {
         (*static_cast<Body*>(context))(task);
     }
     void run(std::size_t count, void (*task)(void*, std::size_t), void* context);
+    void runTasks(std::size_t count, void (*task)(void*, std::size_t), void* context);
 
     unsigned width_ = 1;
     const Executor* executor_ = nullptr;

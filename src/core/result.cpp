@@ -84,6 +84,7 @@ Error makeError(ErrorCode code, std::uint64_t element, const char* format, ...) 
 void throwOutOfMemory() { throw OutOfMemory{}; }
 
 Error caughtError() {
+    // Strings of up to 15 characters take no memory.
     try {
         throw;
     } catch (const OutOfMemory&) {
@@ -93,7 +94,12 @@ Error caughtError() {
     } catch (const Cancelled&) {
         return {ErrorCode::cancelled, "stopped before it was done"};
     } catch (...) {
-        return {ErrorCode::internal, "internal error: an exception reached the library's border"};
+        // A message of this length takes memory.
+        try {
+            return {ErrorCode::internal, "internal error: an exception reached the library's border"};
+        } catch (...) {
+            return {ErrorCode::internal, "internal error"};
+        }
     }
 }
 

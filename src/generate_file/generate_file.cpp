@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // generateFile: finds out what the input is and hands it to its reader.
+#include "asset/file_error.h"
 #include "asset/file_io.h"
 #include "generate_file/generate_gltf.h"
 #include "generate_file/generate_obj.h"
@@ -24,10 +25,7 @@ std::string whyMapsStay(const std::string& input, const GenerateOptions& options
     return {};
 }
 
-}  // namespace
-
-Result<GenerateReport> generateFile(const std::string& input, const std::string& output,
-                                    const GenerateOptions& options) {
+Result<GenerateReport> generate(const std::string& input, const std::string& output, const GenerateOptions& options) {
     if (options.all && options.strip) {
         return Error{ErrorCode::invalidOption, "tangents for all primitives, and none where they are not needed"};
     }
@@ -40,6 +38,13 @@ Result<GenerateReport> generateFile(const std::string& input, const std::string&
     // there.
     if (lowerExtension(input) == ".obj") return generateObj(input, output, options);
     return gltf::generateGltf(input, output, options);
+}
+
+}  // namespace
+
+Result<GenerateReport> generateFile(const std::string& input, const std::string& output,
+                                    const GenerateOptions& options) {
+    return atFileBorder([&] { return generate(input, output, options); });
 }
 
 }  // namespace tspace

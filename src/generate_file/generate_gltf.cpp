@@ -61,9 +61,11 @@ void noteMissingBitangents(std::span<const Primitive> primitives, std::span<Prim
 
 GenerateReport generate(const std::string& input, const std::string& output_path, const GenerateOptions& requested) {
     GenerateReport report;
-    tell(requested, "reading", 0, 1);
-    Document document = loadDocument(input, requested.file, requested.tangents.execution, requested.progress);
+    InputFiles inputs;
     GenerateOptions options = requested;
+    inputs.watch(options.file);
+    tell(options, "reading", 0, 1);
+    Document document = loadDocument(input, options.file, options.tangents.execution, options.progress);
     // Other formats leave open whose conventions their tangents follow: only those stay that are right in glTF.
     if (document.imported && options.existing == ExistingTangents::keep) options.existing = ExistingTangents::repair;
     const OutputTarget target = outputTarget(document, output_path, options.sink != nullptr);
@@ -116,7 +118,10 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     editor.finish();
     const bool packed = packGeometry(document, options.compression, new_file);
 
-    AtomicOutput files(options.sink, options.dry_run);
+    AtomicOutput files({.sink = options.sink,
+                        .is_dry_run = options.dry_run,
+                        .sync = options.file.sync,
+                        .inputs = target.in_place ? nullptr : &inputs});
     tell(options, "writing", 0, 1);
     report.changed = editor.changed() || converted || unpacked || packed;
     if (report.changed) {
@@ -124,8 +129,6 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     } else {
         writeUnchanged(document, target, files, report.warnings);
     }
-    files.commit();
-    tell(options, "writing", 1, 1);
     report.input_files = {input};
     for (const std::vector<std::string>& more : {document.input_files, files.sources()}) {
         for (const std::string& file : more) {
@@ -137,6 +140,9 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     report.output_files = files.files();
     report.output_bytes = files.files().empty() ? document.input_bytes : files.byteCount();
     report.primitives = std::move(plan.reports);
+    tell(options, "writing", 1, 1);
+    // Nothing that can fail comes after it.
+    files.commit();
     return report;
 }
 

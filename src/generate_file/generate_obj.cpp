@@ -149,7 +149,10 @@ GenerateReport generate(const std::string& input, const std::string& output, con
                  "what is made from OBJ is not compressed in the same run; compress the result in a second one");
     }
     tell(options, "reading", 0, 0);
-    Model model = readModel(input, options.file);
+    InputFiles inputs;
+    FileOptions file_options = options.file;
+    inputs.watch(file_options);
+    Model model = readModel(input, file_options);
     std::vector<ObjPrimitive> primitives = collectPrimitives(model);
     tell(options, "computing normals", 0, 0);
     NormalReport normals = valueOrThrow(completeNormals(model, primitives, options));
@@ -171,13 +174,15 @@ GenerateReport generate(const std::string& input, const std::string& output, con
     report.changed = true;
     report.input_bytes = model.input_bytes;
     report.warnings = model.warnings;
-    AtomicOutput files(options.sink, options.dry_run);
+    AtomicOutput files(
+        {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
     writeScene(model, finished, output, files, report.warnings);
-    files.commit();
     report.input_files = std::move(model.input_files);
     report.input_files.insert(report.input_files.end(), files.sources().begin(), files.sources().end());
     report.output_files = files.files();
     report.output_bytes = files.byteCount();
+    // Nothing that can fail comes after it.
+    files.commit();
     return report;
 }
 

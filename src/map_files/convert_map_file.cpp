@@ -159,7 +159,11 @@ unsigned outputBits(ImageFormat format, unsigned bits) {
 }
 
 ConvertMapFileReport convert(const std::string& input, const std::string& output,
-                             const ConvertMapFileOptions& options) {
+                             const ConvertMapFileOptions& requested) {
+    InputFiles inputs;
+    ConvertMapFileOptions options = requested;
+    inputs.watch(options.file);
+    if (options.content.data() == nullptr) inputs.add(input);
     const ImageFormat format = outputFormat(output, options);
     const unsigned bits = outputBits(format, options.bits);
     FloatImage image = readImage(input, options);
@@ -192,7 +196,8 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     const std::optional<std::vector<std::uint8_t>> file =
         format == ImageFormat::png ? encodePng(image, bits) : encodeExr(image, bits);
     if (!file) failFile(ErrorCode::outOfMemory, "the image cannot be packed");
-    AtomicOutput files(options.sink, options.dry_run);
+    AtomicOutput files(
+        {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
     files.add(output, std::span<const std::uint8_t>(*file));
     files.commit();
     return report;

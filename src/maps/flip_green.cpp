@@ -172,7 +172,7 @@ Result<FlipGreenReport> flipGreenFile(const std::string& input, const std::strin
         if (chosen.format == ImageFileFormat::sameAsInput && !options.sink) chosen.format = namedFormat(output);
         FlippedImage flipped =
             options.content.data() != nullptr ? flip(options.content, chosen) : flip(readFile(input), chosen);
-        AtomicOutput files(options.sink, options.dry_run);
+        AtomicOutput files({.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.sync});
         files.add(output, std::span<const std::uint8_t>(flipped.bytes));
         files.commit();
         return std::move(flipped.report);

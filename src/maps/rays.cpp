@@ -207,8 +207,14 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
         const Vec3 at = toFloat(state->scale * (toDouble(positions[i]) - state->centre));
         state->placed[i] = {at.x, at.y, at.z, 0};
     }
-    if (!makeDevices(*state, parallel.width()))
-        return makeError(ErrorCode::unsupportedFile, kNoElement, "Embree does not start");
+    if (!makeDevices(*state, parallel.width())) {
+        const RTCError why = api.getDeviceError(nullptr);
+        if (why == RTC_ERROR_UNSUPPORTED_CPU)
+            return makeError(ErrorCode::unsupportedFile, kNoElement, "Embree does not run on this CPU");
+        // The settings are right: it says other codes, too, where memory ends.
+        return makeError(ErrorCode::outOfMemory, kNoElement, "Embree does not start for lack of memory: its code is %u",
+                         static_cast<unsigned>(why));
+    }
     state->scene = api.newScene(state->device);
     api.setSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST);
     const RTCGeometry geometry = api.newGeometry(state->device, RTC_GEOMETRY_TYPE_TRIANGLE);

@@ -113,6 +113,7 @@ OptionList bakeOptions(BakeFileOptions& options) {
     addThreads(list, options.map.execution,
                "Number of threads; 0: as many as there are cores. Changes no bit of the result.");
     addLimits(list, options.file);
+    addSync(list, options.file.sync);
     return list;
 }
 
@@ -140,6 +141,7 @@ OptionList mapErrorOptions(MapErrorFileOptions& options) {
     add(list, "Rays", cageOption(options.cage));
     addThreads(list, options.map.execution, "Number of threads; 0: as many as there are cores. Changes no figure.");
     addLimits(list, options.file);
+    addSync(list, options.file.sync);
     return list;
 }
 

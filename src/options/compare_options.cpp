@@ -42,6 +42,7 @@ OptionList flipGreenOptions(FlipGreenOptions& options) {
     OptionList list;
     add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything but write."));
     addMemoryLimit(list, options.memory_limit_bytes);
+    addSync(list, options.sync);
     return list;
 }
 

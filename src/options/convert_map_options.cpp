@@ -76,6 +76,7 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
     addThreads(list, options.tangents.execution,
                "Threads; 0: as many as there are cores. The output is the same for any number.");
     addLimits(list, options.file);
+    addSync(list, options.file.sync);
     return list;
 }
 

@@ -74,4 +74,12 @@ void addLimits(OptionList& list, FileOptions& file) {
             "more for each MiB of the file."));
 }
 
+void addSync(OptionList& list, bool& sync) {
+    add(list, kRunning,
+        setting(
+            "--no-sync", sync, false,
+            "Do not wait until outputs are on the disk. By default they are there before they take the places of old "
+            "files, so that a power cut leaves one or the other whole; many small files take longer for it."));
+}
+
 }  // namespace tspace::options

@@ -38,5 +38,7 @@ void addThreads(OptionList& list, Execution& execution, HelpText help);
 /// Only the first of the limits: for what needs no importer.
 void addMemoryLimit(OptionList& list, std::uint64_t& memory_limit_bytes);
 void addLimits(OptionList& list, FileOptions& file);
+/// For calls that write: FileOptions::sync.
+void addSync(OptionList& list, bool& sync);
 
 }  // namespace tspace::options

@@ -197,6 +197,7 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
     addThreads(list, options.tangents.execution,
                "Number of threads; 0: as many as there are cores. Changes no bit of the result.");
     addLimits(list, options.file);
+    addSync(list, options.file.sync);
 }
 
 }  // namespace

@@ -160,6 +160,7 @@ OptionList renderOptions(RenderOptions& options) {
     addThreads(list, options.execution,
                "Number of threads; 0: as many as there are cores. Changes no byte of the picture.");
     addLimits(list, options.file);
+    addSync(list, options.file.sync);
     return list;
 }
 

@@ -41,7 +41,10 @@ bool showsTangents(RenderShow show) {
 
 RenderReport renderModel(const std::string& input, const std::string& output, const RenderOptions& options) {
     checkRenderOptions(options);
-    const DrawnScene drawn = readDrawnScene(input, options.file, options.textures);
+    InputFiles inputs;
+    FileOptions file_options = options.file;
+    inputs.watch(file_options);
+    const DrawnScene drawn = readDrawnScene(input, file_options, options.textures);
     ModelTextures textures(drawn.scene, options.most_pixels);
     const bool compares = options.show == RenderShow::error;
     const FrameChoice choice{.frames = compares ? RenderFrames::stored : options.frames,
@@ -67,7 +70,8 @@ RenderReport renderModel(const std::string& input, const std::string& output, co
     }
     report.warnings.insert(report.warnings.end(), textures.warnings.begin(), textures.warnings.end());
     const std::vector<std::uint8_t> png = encodePicture(picture.image);
-    AtomicOutput files(options.sink, options.dry_run);
+    AtomicOutput files(
+        {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
     files.add(output, std::span<const std::uint8_t>(png));
     files.commit();
     return report;

@@ -24,7 +24,7 @@ struct EmbeddedFile {
 };
 
 /// The model, then each file that it names. A GLB made of it asks for all of them.
-std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options) {
+std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options, InputFiles& inputs) {
     const std::string extension = lowerExtension(input);
     if (extension != ".glb" && extension != ".gltf" && extension != ".obj") {
         failFile(ErrorCode::unsupportedFile,
@@ -32,6 +32,7 @@ std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options)
     }
     const std::string& path = input.string();
     std::vector<EmbeddedFile> files;
+    inputs.add(input);
     files.push_back({path.substr(path.rfind('/') + 1), readFile(input)});
     const Bytes model = files.front().bytes;
     std::map<std::string, Bytes> found;
@@ -41,7 +42,11 @@ std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options)
     ask.file.find_file = [&](const std::string& name) {
         return atFileBorder([&]() -> Result<std::span<const std::uint8_t>> {
             auto known = found.find(name);
-            if (known == found.end()) known = found.emplace(name, readFile(folderOf(input) / name)).first;
+            if (known == found.end()) {
+                const Path file = folderOf(input) / name;
+                inputs.add(file);
+                known = found.emplace(name, readFile(file)).first;
+            }
             return std::span<const std::uint8_t>(known->second);
         });
     };
@@ -55,6 +60,8 @@ std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options)
 
 Result<ViewReport> writeViewPage(const Path& input, const Path& output, const Path& page, const FileOptions& options) {
     return atFileBorder([&]() -> Result<ViewReport> {
+        InputFiles inputs;
+        inputs.add(page);
         const Bytes html = readFile(page);
         const std::string_view text(reinterpret_cast<const char*>(html.data()), html.size());
         const std::size_t place = text.find(kPlaceOfModel);
@@ -62,14 +69,14 @@ Result<ViewReport> writeViewPage(const Path& input, const Path& output, const Pa
             failFile(ErrorCode::unsupportedFile, "the page " + pathInQuotes(page) + " has no place for a model");
         ViewReport report;
         std::string made(text.substr(0, place));
-        for (const EmbeddedFile& file : filesOf(input, options)) {
+        for (const EmbeddedFile& file : filesOf(input, options, inputs)) {
             made += "<script type=\"application/octet-stream\" data-name=\"" + htmlText(file.name) + "\">";
             made += encodeBase64(file.bytes);
             made += "</script>\n";
             report.files.push_back(file.name);
         }
         made += text.substr(place + kPlaceOfModel.size());
-        AtomicOutput target;
+        AtomicOutput target({.sync = options.sync, .inputs = &inputs});
         target.add(output, std::span(reinterpret_cast<const std::uint8_t*>(made.data()), made.size()));
         target.commit();
         report.output_bytes = target.byteCount();

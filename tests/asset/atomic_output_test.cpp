@@ -2,12 +2,16 @@
 // All files or none.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
 #include <memory>
 
 #include "asset/atomic_output.h"
+#include "asset/system_files.h"
+#include "asset/temporary_name.h"
 #include "gltf_builder.h"
 #include "support/temp_folder.h"
 
@@ -94,6 +98,88 @@ TEST(AtomicOutput, WritesThroughALink) {
     output.commit();
     EXPECT_TRUE(std::filesystem::is_symlink(folder.path("link")));
     EXPECT_EQ(readFile(folder.path("real")), toBytes("new"));
+}
+
+/// The one temporary file in the folder.
+std::filesystem::path temporaryFile(const TempFolder& folder) {
+    for (const std::string& name : folder.files()) {
+        if (name.ends_with(kTemporaryEnding)) return folder.path(name);
+    }
+    return {};
+}
+
+TEST(AtomicOutput, GivesATemporaryFileNoMoreThanTheTargetHas) {
+    using std::filesystem::perms;
+    const TempFolder folder;
+    for (const perms kept :
+         {perms::owner_read | perms::owner_write, perms::owner_read | perms::owner_write | perms::group_read,
+          perms::owner_all | perms::group_all | perms::others_all}) {
+        folder.write("a", std::string("old"));
+        std::filesystem::permissions(folder.path("a"), kept);
+        AtomicOutput output;
+        output.add(folder.path("a"), toBytes("new"));
+        const perms temporary = std::filesystem::status(temporaryFile(folder)).permissions();
+        EXPECT_EQ(temporary & ~kept, perms::none);
+        output.commit();
+        EXPECT_EQ(std::filesystem::status(folder.path("a")).permissions(), kept);
+    }
+}
+
+TEST(AtomicOutput, HasTemporaryNamesThatNobodyForesees) {
+    const TempFolder folder;
+    std::set<std::string> names;
+    for (int i = 0; i < 20; ++i) {
+        AtomicOutput output;
+        output.add(folder.path("a"), toBytes("new"));
+        names.insert(temporaryFile(folder).filename().string());
+    }
+    EXPECT_EQ(names.size(), 20u);
+    const std::string longest(255, 'a');
+    EXPECT_LE(
+        std::filesystem::path(besideName(folder.path(longest), kTemporaryEnding).string()).filename().string().size(),
+        255u);
+    AtomicOutput output;
+    output.add(folder.path(longest), toBytes("new"));
+    output.commit();
+    EXPECT_EQ(readFile(folder.path(longest)), toBytes("new"));
+}
+
+TEST(AtomicOutput, RefusesInputsAndTwoOutputsThatAreOne) {
+    const TempFolder folder;
+    folder.write("input", std::string("old"));
+    std::filesystem::create_symlink("input", folder.path("link"));
+    std::filesystem::create_hard_link(folder.path("input"), folder.path("hard"));
+    std::filesystem::create_directory(folder.path("sub"));
+    InputFiles inputs;
+    inputs.add(folder.path("input"));
+    for (const char* name : {"input", "link", "hard", "sub/../input"}) {
+        AtomicOutput output({.inputs = &inputs});
+        EXPECT_EQ(errorOf([&] { output.add(folder.path(name), toBytes("new")); }).code, ErrorCode::cannotWrite) << name;
+    }
+    AtomicOutput output;
+    output.add(folder.path("a"), toBytes("new"));
+    EXPECT_EQ(errorOf([&] { output.add(folder.path("sub/../a"), toBytes("new")); }).code, ErrorCode::cannotWrite);
+    EXPECT_EQ(readFile(folder.path("input")), toBytes("old"));
+}
+
+TEST(AbandonedFiles, ComeBackWhereTheirPlaceIsEmpty) {
+    const TempFolder folder;
+    // A process that is gone.
+    const pid_t child = fork();
+    if (child == 0) {
+        folder.write("a", std::string("set aside"));
+        renameFile(folder.path("a"), besideName(folder.path("a"), kAsideEnding));
+        folder.write("b", std::string("set aside"));
+        renameFile(folder.path("b"), besideName(folder.path("b"), kAsideEnding));
+        folder.write("b", std::string("new"));
+        _exit(0);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_EQ(removeAbandonedFiles(folder.path().string(), false), 2u);
+    EXPECT_EQ(folder.files(), (std::set<std::string>{"a", "b"}));
+    EXPECT_EQ(folder.read("a"), "set aside");
+    EXPECT_EQ(folder.read("b"), "new");
 }
 
 TEST(AtomicOutput, SaysWhyItCannotWrite) {

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -111,6 +112,39 @@ TEST(Parallel, UsesTheCallersExecutor) {
     });
     EXPECT_EQ(runs, 1);
     for (const int n : seen) ASSERT_EQ(n, 1);
+}
+
+TEST(Parallel, CarriesWhatABodyThrowsToTheCaller) {
+    struct Thrown {
+        std::size_t task;
+    };
+    const Executor executor{.run =
+                                [](void*, std::size_t count, void (*task)(void*, std::size_t), void* context) {
+                                    for (std::size_t i = 0; i < count; ++i) task(context, i);
+                                },
+                            .concurrency = 4};
+    for (const Execution& execution : {Execution{}, Execution{.thread_count = 4}, Execution{.executor = &executor}}) {
+        for (int round = 0; round < 50; ++round) {
+            Parallel parallel(execution);
+            // Gone when the exception comes out: nobody may still work on it.
+            auto seen = std::make_unique<std::vector<std::atomic<int>>>(64);
+            try {
+                parallel.forTasks(seen->size(), [&](std::size_t task) {
+                    ++(*seen)[task];
+                    if (task % 7 == 3) throw Thrown{task};
+                });
+                ADD_FAILURE() << "nothing was thrown";
+            } catch (const Thrown& thrown) {
+                EXPECT_EQ(thrown.task % 7, 3u);
+                for (const std::atomic<int>& n : *seen) EXPECT_LE(n, 1);
+            }
+            seen.reset();
+            // It goes on as before.
+            std::atomic<int> count{0};
+            parallel.forTasks(10, [&](std::size_t) { ++count; });
+            EXPECT_EQ(count, 10);
+        }
+    }
 }
 
 TEST(Parallel, IsNotUsedForAMeshOf200Triangles) {

@@ -9,8 +9,8 @@
 #include "commands.h"
 #include "console.h"
 #include "interrupt.h"
+#include "output_files.h"
 #include "report.h"
-#include "text_file.h"
 
 namespace tspace::tool {
 namespace {
@@ -62,25 +62,14 @@ Result<BakeFileReport> bake(const BakeArguments& arguments) {
     return bakeFile(arguments.low, arguments.high, arguments.output, options);
 }
 
-/// An output that is an input is refused; so are two outputs that are one.
-std::string wrongFiles(const BakeArguments& arguments) {
-    const std::string outputs[] = {arguments.output, arguments.options.misses, arguments.options.heat,
-                                   arguments.options.out_mesh, arguments.report};
-    for (const std::string& output : outputs) {
-        if (output.empty()) continue;
-        for (const std::string& input : {arguments.low, arguments.high, arguments.options.cage}) {
-            if (!input.empty() && (output == input || isOneFile(output, input)))
-                return "the output " + output + " is an input";
-        }
-        if (std::count(std::begin(outputs), std::end(outputs), output) > 1) return "two outputs are " + output;
-    }
-    return {};
-}
-
 }  // namespace
 
 ExitCode runBake(const BakeArguments& arguments) {
-    if (const std::string wrong = wrongFiles(arguments); !wrong.empty()) return printUsageError(wrong);
+    const BakeFileOptions& options = arguments.options;
+    const Result<Done> fit =
+        prepareOutputs({arguments.output, options.misses, options.heat, options.out_mesh, arguments.report},
+                       {arguments.low, arguments.high, options.cage});
+    if (!fit) return printUsageError(fit.error().message);
     catchInterrupts();
     const auto start = std::chrono::steady_clock::now();
     const Result<BakeFileReport> result = bake(arguments);

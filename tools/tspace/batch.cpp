@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <mutex>
 #include <thread>
 
@@ -26,6 +27,34 @@ unsigned threadsPerFile(unsigned asked, unsigned workers) {
     return std::max(1U, std::thread::hardware_concurrency() / workers);
 }
 
+namespace {
+
+/// Runs `work` on up to `count` further threads and on this one. Where the system gives no more threads, those that there
+/// are do all. What `work` throws first comes out when all have ended.
+void workOnThreads(unsigned count, const std::function<void()>& work) {
+    std::mutex mutex;
+    std::exception_ptr failure;
+    const auto guarded = [&] {
+        try {
+            work();
+        } catch (...) {
+            const std::lock_guard lock(mutex);
+            if (!failure) failure = std::current_exception();
+        }
+    };
+    std::vector<std::thread> threads;
+    try {
+        threads.reserve(count);
+        while (threads.size() < count) threads.emplace_back(guarded);
+    } catch (const std::exception&) {  // std::system_error, std::bad_alloc
+    }
+    guarded();
+    for (std::thread& thread : threads) thread.join();
+    if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace
+
 void runBatch(std::size_t count, unsigned workers, const std::function<void(std::size_t)>& work,
               const std::function<void(std::size_t)>& finished, const std::function<bool()>& stop) {
     std::atomic<std::size_t> next = 0;
@@ -45,10 +74,7 @@ void runBatch(std::size_t count, unsigned workers, const std::function<void(std:
             report(job);
         }
     };
-    std::vector<std::thread> threads;
-    for (unsigned i = 1; i < workers; ++i) threads.emplace_back(take);
-    take();
-    for (std::thread& thread : threads) thread.join();
+    workOnThreads(workers - 1, take);
     // After stop() a job may be missing in between; those behind it are done all the same.
     for (; reported < count; ++reported) {
         if (is_done[reported] != 0) finished(reported);

@@ -20,7 +20,7 @@ unsigned workerCount(const BatchArguments& batch, std::size_t job_count);
 /// Threads for each file when the user did not say: the cores, shared by those files.
 unsigned threadsPerFile(unsigned asked, unsigned workers);
 
-/// Calls work(i) for every i below `count` on `workers` threads, and finished(i) for each in ascending order, one at a
+/// Calls work(i) for every i below `count` on `workers` threads, or as many of them as the system gives, and finished(i) for each in ascending order, one at a
 /// time, as soon as it and all before it are done. No work begins after stop() is true; finished() is then called
 /// for those alone that were worked on.
 void runBatch(std::size_t count, unsigned workers, const std::function<void(std::size_t)>& work,

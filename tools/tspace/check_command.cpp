@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // tspace check
 #include "commands.h"
+#include "output_files.h"
 #include "page/check_page.h"
 #include "read_files.h"
 #include "standard_input.h"
-#include "text_file.h"
 
 namespace tspace::tool {
 namespace {
@@ -24,9 +24,15 @@ ExitCode runCheck(const CheckArguments& arguments) {
     const bool wants_text = !arguments.json && !arguments.quiet && !sarif_to_stdout;
     const bool in_color = wantsColor(arguments.color);
     std::vector<Job> jobs = inputJobs(arguments.inputs);
+    std::vector<std::string> inputs;
+    for (const Job& job : jobs) inputs.push_back(job.input);
+    if (const Result<Done> fit = prepareOutputs({arguments.sarif, arguments.html}, inputs); !fit)
+        return printUsageError(fit.error().message);
     takeShard(jobs, arguments.batch.shard);
     const unsigned workers = workerCount(arguments.batch, jobs.size());
     CheckOptions options = arguments.request.options;
+    InputFiles read;
+    if (!arguments.sarif.empty() || !arguments.html.empty()) read.watch(options.file);
     options.execution.thread_count = threadsPerFile(options.execution.thread_count, workers);
     const auto files = readFiles<CheckReport>(
         jobs, arguments.batch, {.progress = !arguments.quiet, .text = wants_text},
@@ -39,11 +45,11 @@ ExitCode runCheck(const CheckArguments& arguments) {
             exit_code = worse(exit_code, ExitCode::findings);
     }
     if (!arguments.sarif.empty() && !sarif_to_stdout) {
-        const Result<Done> written = writeTextFile(arguments.sarif, checkSarif(files.outcomes, exit_code));
+        const Result<Done> written = writeTextFile(arguments.sarif, checkSarif(files.outcomes, exit_code), &read);
         if (!written) exit_code = worse(exit_code, printError(arguments.sarif, written.error()));
     }
     if (!arguments.html.empty()) {
-        const Result<Done> written = writeTextFile(arguments.html, checkPage(files.outcomes, options.file));
+        const Result<Done> written = writeTextFile(arguments.html, checkPage(files.outcomes, options.file), &read);
         if (!written) exit_code = worse(exit_code, printError(arguments.html, written.error()));
     }
     std::string last;

@@ -12,7 +12,8 @@
 namespace tspace::tool {
 namespace {
 
-void printLine(const std::string& line) { fmt::print(stderr, "{}\n", line); }
+/// In one piece, as several threads may print.
+void printLine(const std::string& line) { printPlain(line + "\n"); }
 
 bool isNumber(const std::string& cell) {
     return !cell.empty() && cell.find_first_not_of("0123456789") == std::string::npos;
@@ -25,7 +26,23 @@ std::size_t columnCount(std::string_view text) {
     return columns;
 }
 
+/// The character that these bytes begin with, where it changes what stands around it and shows nothing itself: marks and
+/// overrides of the direction of text, ends of lines, spaces without width. 0: it is none of them.
+unsigned invisibleCharacter(unsigned first, unsigned second, unsigned third) {
+    if (first == 0xD8 && second == 0x9C) return 0x061C;
+    if (first != 0xE2 && first != 0xEF) return 0;
+    const unsigned code = (first & 0xFU) << 12 | (second & 0x3FU) << 6 | (third & 0x3FU);
+    const bool is_one = code == 0x200B || code == 0x200E || code == 0x200F || (code >= 0x2028 && code <= 0x202E) ||
+                        (code >= 0x2060 && code <= 0x206F) || code == 0xFEFF;
+    return is_one ? code : 0;
+}
+
 }  // namespace
+
+void printPlain(std::string_view text) noexcept {
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fflush(stderr);
+}
 
 ExitCode printError(const std::string& file, const Error& error) {
     std::string line = "tspace: " + printable(file) + ": " + printable(error.message);
@@ -46,8 +63,12 @@ ExitCode printUsageError(const std::string& message) {
 void printRemark(const std::string& message) { printLine("tspace: " + printable(message)); }
 
 bool printResult(std::string_view text, std::FILE* to) {
+    if (to == stderr) {
+        printPlain(text);
+        return true;
+    }
     const bool written = std::fwrite(text.data(), 1, text.size(), to) == text.size() && std::fflush(to) == 0;
-    if (!written) printLine("tspace: standard output: cannot write");
+    if (!written) printPlain("tspace: standard output: cannot write\n");
     return written;
 }
 
@@ -58,15 +79,23 @@ bool wantsColor(Color color) {
 }
 
 std::string printable(std::string_view text) {
-    // U+0080 to U+009F in UTF-8. U+009B alone starts what ESC [ starts.
-    const auto isLateControl = [](char lead, char next) {
-        return static_cast<unsigned char>(lead) == 0xC2 && static_cast<unsigned char>(next) >= 0x80 &&
-               static_cast<unsigned char>(next) < 0xA0;
-    };
-    std::string clean(text);
-    for (std::size_t i = 0; i < clean.size(); ++i) {
-        if (static_cast<unsigned char>(clean[i]) < 0x20 || clean[i] == 0x7F) clean[i] = ' ';
-        if (i + 1 < clean.size() && isLateControl(clean[i], clean[i + 1])) clean.replace(i, 2, " ");
+    std::string clean;
+    while (!text.empty()) {
+        const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+        std::size_t length = 1;
+        if (byte(0) < 0x20 || byte(0) == 0x7F) {
+            clean += ' ';
+        } else if (byte(0) == 0xC2 && byte(1) >= 0x80 && byte(1) < 0xA0) {
+            // U+0080 to U+009F. U+009B alone starts what ESC [ starts.
+            clean += ' ';
+            length = 2;
+        } else if (const unsigned code = invisibleCharacter(byte(0), byte(1), byte(2)); code != 0) {
+            clean += fmt::format("\\u{:04x}", code);
+            length = code < 0x800 ? 2 : 3;
+        } else {
+            clean += text.front();
+        }
+        text.remove_prefix(length);
     }
     return clean;
 }
@@ -118,8 +147,7 @@ void ProgressLine::update(const std::string& file, const char* what, std::uint64
     }
     line += fmt::format("{}: {}", printable(file), what);
     if (total != 0) line += fmt::format(" {:.0f} %", 100.0 * static_cast<double>(done) / static_cast<double>(total));
-    fmt::print(stderr, "\r\033[K{}", line);
-    std::fflush(stderr);
+    printPlain("\r\033[K" + line);
 }
 
 void ProgressLine::fileDone(bool succeeded) {
@@ -132,8 +160,7 @@ void ProgressLine::clear() {
     const std::lock_guard lock(mutex_);
     if (!shown_) return;
     shown_ = false;
-    fmt::print(stderr, "\r\033[K");
-    std::fflush(stderr);
+    printPlain("\r\033[K");
 }
 
 }  // namespace tspace::tool

@@ -16,6 +16,10 @@
 
 namespace tspace::tool {
 
+/// Sends the text to stderr as it is. All that the tool prints there goes through here. Throws nothing: where stderr takes
+/// nothing, there is nobody to tell.
+void printPlain(std::string_view text) noexcept;
+
 /// Prints "tspace: FILE: message (at PLACE)" on stderr as exactly one line, and returns the exit code it
 /// stands for.
 ExitCode printError(const std::string& file, const Error& error);
@@ -27,15 +31,15 @@ ExitCode printUsageError(const std::string& message);
 /// The same for what is no error.
 void printRemark(const std::string& message);
 
-/// Writes text to stdout, or to stderr where a model goes to stdout. false when it cannot take it (closed pipe, full
-/// disk).
+/// Writes text to stdout, or to stderr where a model goes to stdout. false when stdout cannot take it (closed pipe, full
+/// disk), which is said on stderr.
 bool printResult(std::string_view text, std::FILE* to = stdout);
 
 /// Whether stdout gets colours. automatic: it is a terminal that shows them, and the user did not say no by NO_COLOR.
 bool wantsColor(Color color);
 
-/// The text with control characters replaced, so that a name from a file can break neither lines nor the
-/// terminal.
+/// The text with control characters replaced, and characters escaped that turn the direction of text, so that a name from
+/// a file can break neither lines nor the terminal, nor look like another one.
 std::string printable(std::string_view text);
 
 using report::counted;

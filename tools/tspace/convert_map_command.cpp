@@ -5,6 +5,7 @@
 #include "asset/file_io.h"
 #include "commands.h"
 #include "console.h"
+#include "output_files.h"
 #include "report.h"
 #include "standard_input.h"
 #include "system.h"
@@ -62,9 +63,9 @@ Result<ConvertMapFileReport> convert(const ConvertMapArguments& arguments) {
 }  // namespace
 
 ExitCode runConvertMap(const ConvertMapArguments& arguments) {
-    if (isOneFile(arguments.input, arguments.output)) {
-        return printUsageError("the output " + arguments.output + " is the input; name another file");
-    }
+    const Result<Done> fit =
+        prepareOutputs({arguments.output}, {arguments.input, arguments.options.mesh, arguments.options.to_mesh});
+    if (!fit) return printUsageError(fit.error().message + "; name another file");
     const bool to_stdout = arguments.output == "-";
     if (to_stdout && !arguments.options.dry_run && isTerminal(stdout))
         return printUsageError("an image is no text for a terminal; send stdout to a file or a pipe");

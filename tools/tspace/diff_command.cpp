@@ -2,14 +2,19 @@
 // tspace diff: two models, corner by corner.
 #include "commands.h"
 #include "console.h"
+#include "output_files.h"
 #include "page/diff_page.h"
 #include "report.h"
-#include "text_file.h"
 
 namespace tspace::tool {
 
 ExitCode runDiff(const DiffArguments& arguments) {
-    const Result<FrameDiff> diff = diffFiles(arguments.a, arguments.b, arguments.request.options);
+    if (const Result<Done> fit = prepareOutputs({arguments.html}, {arguments.a, arguments.b}); !fit)
+        return printUsageError(fit.error().message);
+    DiffOptions options = arguments.request.options;
+    InputFiles read;
+    read.watch(options.file);
+    const Result<FrameDiff> diff = diffFiles(arguments.a, arguments.b, options);
     ExitCode exit_code = ExitCode::done;
     if (!diff) {
         exit_code = printError(diff.error().element == 1 ? arguments.b : arguments.a, diff.error());
@@ -19,7 +24,7 @@ ExitCode runDiff(const DiffArguments& arguments) {
     }
     if (diff && !arguments.html.empty()) {
         const Result<Done> written =
-            writeTextFile(arguments.html, diffPage(arguments.a, arguments.b, *diff, arguments.request.options));
+            writeTextFile(arguments.html, diffPage(arguments.a, arguments.b, *diff, options), &read);
         if (!written) exit_code = worse(exit_code, printError(arguments.html, written.error()));
     }
     std::string text;

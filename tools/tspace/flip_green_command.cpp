@@ -5,6 +5,7 @@
 #include "asset/file_io.h"
 #include "commands.h"
 #include "console.h"
+#include "output_files.h"
 #include "report.h"
 #include "standard_input.h"
 #include "system.h"
@@ -48,6 +49,10 @@ Result<FlipGreenReport> flip(const FlipGreenArguments& arguments) {
 ExitCode runFlipGreen(const FlipGreenArguments& arguments) {
     if (!arguments.in_place && isOneFile(arguments.input, arguments.output)) {
         return printUsageError("the output " + arguments.output + " is the input; --in-place writes over it");
+    }
+    if (!arguments.options.dry_run) {
+        const Result<Done> fit = prepareOutputs({arguments.output}, {});
+        if (!fit) return printUsageError(fit.error().message);
     }
     const bool to_stdout = arguments.output == "-";
     if (to_stdout && !arguments.options.dry_run && isTerminal(stdout))

@@ -8,12 +8,14 @@
 #include <cstring>
 #include <mutex>
 #include <optional>
+#include <set>
 
 #include "batch.h"
 #include "commands.h"
 #include "console.h"
 #include "interrupt.h"
 #include "manifest.h"
+#include "output_files.h"
 #include "report.h"
 #include "standard_input.h"
 
@@ -59,6 +61,7 @@ class GenerateRun {
     /// Reads and opens the manifest. An error ends the run before anything was done.
     Result<Done> openManifest() {
         const BatchArguments& batch = arguments_.batch;
+        if (!arguments_.options.dry_run) removeLeftovers();
         if (batch.manifest.empty()) return Done{};
         if (batch.resume) {
             Result<ManifestRecord> record = ManifestRecord::read(batch.manifest);
@@ -91,6 +94,15 @@ class GenerateRun {
     }
 
   private:
+    /// What killed runs left beside the outputs.
+    void removeLeftovers() const {
+        std::set<std::string> folders;
+        for (const Job& job : jobs_) {
+            if (!job.output.empty() && job.output != "-") folders.insert(folderOf(job.output).string());
+        }
+        for (const std::string& folder : folders) removeAbandonedFiles(folder, false);
+    }
+
     Result<GenerateReport> generate(const Job& job) {
         if (job.error.code != ErrorCode::ok) return job.error;
         GenerateOptions options = arguments_.options;
@@ -178,6 +190,10 @@ ExitCode runGenerate(const GenerateArguments& arguments) {
     Result<std::vector<Job>> jobs = generateJobs(arguments);
     if (!jobs) return printUsageError(jobs.error().message);
     if (!arguments.quiet && !jobs->empty() && !jobs->front().remark.empty()) printRemark(jobs->front().remark);
+    std::vector<std::string> files;
+    for (const Job& job : *jobs) files.insert(files.end(), {job.input, job.output});
+    if (const Result<Done> fit = prepareOutputs({arguments.batch.manifest}, files); !fit)
+        return printUsageError(fit.error().message);
     takeShard(*jobs, arguments.batch.shard);
     catchInterrupts();
     GenerateRun run(arguments, std::move(*jobs));

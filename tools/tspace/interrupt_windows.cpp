@@ -1,28 +1,45 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C to a mark that the work looks at now and then. The system itself sets the default again when it comes.
+// Ctrl-C to a mark that the work looks at now and then, or to the end. The system itself sets the default again when it
+// comes, and calls us on a thread of its own.
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <initializer_list>
 
+#include "asset/temporary_files.h"
 #include "interrupt.h"
 
 namespace tspace::tool {
 namespace {
 
-volatile std::sig_atomic_t caught_signal = 0;
+std::atomic<int> caught_signal = 0;
+std::atomic<bool> marks_first = false;
 
-extern "C" void markSignal(int signal) { caught_signal = signal; }
+extern "C" void takeSignal(int signal) {
+    int none = 0;
+    if (marks_first && caught_signal.compare_exchange_strong(none, signal)) {
+        std::signal(signal, takeSignal);
+        return;
+    }
+    removeTemporaryFiles();
+    std::_Exit(128 + signal);
+}
 
 }  // namespace
 
-void catchInterrupts() {
+void tidyUpAtSignals() {
     for (const int signal : {SIGINT, SIGBREAK}) {
-        if (std::signal(signal, markSignal) == SIG_IGN) std::signal(signal, SIG_IGN);
+        if (std::signal(signal, takeSignal) == SIG_IGN) std::signal(signal, SIG_IGN);
     }
 }
 
+void catchInterrupts() { marks_first = true; }
+
 bool wasInterrupted() { return caught_signal != 0; }
 
-void endByInterrupt() { std::_Exit(128 + caught_signal); }
+void endByInterrupt() {
+    removeTemporaryFiles();
+    std::_Exit(128 + caught_signal);
+}
 
 }  // namespace tspace::tool

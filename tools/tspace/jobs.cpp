@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -25,45 +26,51 @@ std::string canonicalName(const fs::path& path) try {
     return Path(fs::absolute(path).lexically_normal()).string();
 }
 
-/// One text per file: the same for all links to one that exists.
-std::string identityOf(const Path& path) {
-    std::string identity = fileIdentity(path);
-    return identity.empty() ? canonicalName(path) : identity;
-}
-
 struct Found {
     Job job;
     fs::path relative;  // where it lies below its folder; for files that were named: the file name
 };
 
-/// Model files below `folder`, but for those in `skipped_folder` (where outputs go).
-void findModels(const fs::path& folder, const std::string& skipped_folder, std::vector<Found>& found) {
+/// Model files in `folder` and below, but for those in `skipped_folder` (where outputs go). A folder that cannot be read
+/// costs what is in it alone.
+void listModels(const fs::path& folder, const std::string& skipped_folder, std::vector<fs::path>& models,
+                std::vector<Found>& failures) {
     std::error_code failed;
-    std::vector<fs::path> models;
-    fs::recursive_directory_iterator entry(folder, failed);
-    for (; !failed && entry != fs::recursive_directory_iterator(); entry.increment(failed)) {
+    std::vector<fs::path> folders;
+    for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed)) {
         std::error_code ignored;
         if (entry->is_directory(ignored)) {
-            if (!skipped_folder.empty() && canonicalName(entry->path()) == skipped_folder) {
-                entry.disable_recursion_pending();
-            }
+            // No links to folders: they may lead in a circle.
+            if (!entry->is_symlink(ignored)) folders.push_back(entry->path());
         } else if (entry->is_regular_file(ignored) && isModelFile(Path(entry->path()).string())) {
             models.push_back(entry->path());
         }
     }
+    if (failed) {
+        failures.push_back({{.input = Path(folder).string(),
+                             .error = {ErrorCode::cannotRead, "cannot read the folder: " + failed.message()}},
+                            {}});
+    }
+    for (const fs::path& below : folders) {
+        if (skipped_folder.empty() || canonicalName(below) != skipped_folder)
+            listModels(below, skipped_folder, models, failures);
+    }
+}
+
+void findModels(const fs::path& folder, const std::string& skipped_folder, std::vector<Found>& found) {
+    std::vector<fs::path> models;
+    std::vector<Found> failures;
+    listModels(folder, skipped_folder, models, failures);
     std::sort(models.begin(), models.end());
     for (const fs::path& model : models) {
         const fs::path relative = model.lexically_relative(folder);
         found.push_back({{.input = Path(model).string(), .name = Path(relative).string()}, relative});
     }
-    if (failed) {
-        found.push_back({{.input = Path(folder).string(),
-                          .error = {ErrorCode::cannotRead, "cannot read the folder: " + failed.message()}},
-                         {}});
-    } else if (models.empty()) {
+    if (models.empty() && failures.empty()) {
         found.push_back(
             {{.input = Path(folder).string(), .error = {ErrorCode::invalidFile, "no model files in this folder"}}, {}});
     }
+    std::move(failures.begin(), failures.end(), std::back_inserter(found));
 }
 
 /// Model files that match. The output folder is no reason to leave one out: the pattern says what is meant.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Starts the command that the command line asks for.
 #include <exception>
+#include <new>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -9,6 +10,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "console.h"
+#include "interrupt.h"
 #include "system.h"
 
 namespace {
@@ -56,11 +58,20 @@ ExitCode run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    openStandardStreams();
+    tidyUpAtSignals();
     try {
         std::vector<char*> words = commandLine(argc, argv);
         return static_cast<int>(run(static_cast<int>(words.size()), words.data()));
+    } catch (const std::bad_alloc&) {
+        // What is printed takes memory too.
+        printPlain("tspace: out of memory\n");
     } catch (const std::exception& defect) {
-        printError("internal error", {tspace::ErrorCode::internal, defect.what()});
-        return static_cast<int>(ExitCode::internal);
+        printPlain("tspace: internal error: ");
+        printPlain(defect.what());
+        printPlain("\n");
+    } catch (...) {
+        printPlain("tspace: internal error\n");
     }
+    return static_cast<int>(ExitCode::internal);
 }

@@ -70,6 +70,17 @@ Error fileError(ErrorCode code, const std::string& path) {
                       path + ": " + std::strerror(errno)};
 }
 
+/// Whether lines may be appended: there is nothing yet, or a manifest, be it of a run that was killed in its first line.
+bool isManifest(const std::string& path) {
+    constexpr std::string_view kBegin = R"({"schema":"tspace.manifest/)";
+    constexpr std::size_t kLookedAt = std::size_t{1} << 16;
+    std::ifstream file(std::filesystem::path(Path(path)), std::ios::binary);
+    std::string found(kLookedAt, '\0');
+    file.read(found.data(), static_cast<std::streamsize>(found.size()));
+    found.resize(static_cast<std::size_t>(file.gcount()));
+    return kBegin.starts_with(found) || found.find(kBegin) != std::string::npos;
+}
+
 /// A run that was killed while it wrote leaves a line without an end.
 bool endsInsideALine(const std::string& path) {
     std::ifstream file(std::filesystem::path(Path(path)), std::ios::binary | std::ios::ate);
@@ -112,7 +123,14 @@ bool ManifestRecord::isDone(const Job& job, const std::string& options) const {
 
 Result<ManifestWriter> ManifestWriter::open(const std::string& path) {
     ManifestWriter writer;
-    const bool needs_line_end = endsInsideALine(path);
+    const auto refuse = [&](const char* why) {
+        return Error{ErrorCode::cannotWrite, "cannot write the manifest " + path + ": " + why};
+    };
+    if (isForeignLink(path)) return refuse("it is a link that another user made in a folder where everybody may write");
+    const PathKind kind = kindOf(path);
+    if (kind == PathKind::other) return refuse("it is neither a file nor a stream of bytes");
+    if (kind == PathKind::file && !isManifest(path)) return refuse("there is a file of that name that is no manifest");
+    const bool needs_line_end = kind == PathKind::file && endsInsideALine(path);
     writer.path_ = path;
     writer.file_ = openFile(path, "ab");
     if (!writer.file_) return fileError(ErrorCode::cannotWrite, path);

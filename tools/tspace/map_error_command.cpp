@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "console.h"
 #include "interrupt.h"
+#include "output_files.h"
 #include "report.h"
 
 namespace tspace::tool {
@@ -42,10 +43,9 @@ std::string textOf(const MapErrorArguments& arguments, const MapErrorFileReport&
 }  // namespace
 
 ExitCode runMapError(const MapErrorArguments& arguments) {
-    for (const std::string& input : {arguments.map, arguments.low, arguments.high, arguments.options.cage}) {
-        if (!input.empty() && input == arguments.options.heat)
-            return printUsageError("the output " + input + " is an input");
-    }
+    const Result<Done> fit = prepareOutputs({arguments.options.heat},
+                                            {arguments.map, arguments.low, arguments.high, arguments.options.cage});
+    if (!fit) return printUsageError(fit.error().message);
     catchInterrupts();
     MapErrorFileOptions options = arguments.options;
     ProgressLine progress(1, !arguments.quiet);

@@ -5,6 +5,7 @@
 #include "asset/file_io.h"
 #include "commands.h"
 #include "console.h"
+#include "output_files.h"
 #include "report.h"
 #include "standard_input.h"
 #include "system.h"
@@ -51,6 +52,10 @@ ExitCode runRender(const RenderArguments& arguments) {
         return printUsageError("a picture is no text for a terminal; send stdout to a file or a pipe");
     if (!to_stdout && lowerExtension(arguments.output) != ".png")
         return printUsageError("the picture " + arguments.output + " must end in .png");
+    if (!arguments.options.dry_run) {
+        if (const Result<Done> fit = prepareOutputs({arguments.output}, {arguments.input}); !fit)
+            return printUsageError(fit.error().message);
+    }
     const Result<RenderReport> result = render(arguments);
     const ExitCode exit_code = result ? ExitCode::done : printError(arguments.input, result.error());
     std::string text;

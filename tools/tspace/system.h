@@ -9,6 +9,10 @@
 
 namespace tspace::tool {
 
+/// Call it before all else. Where the program was started without stdin, stdout or stderr, opens something that takes and
+/// gives nothing in their places: else the next file that is opened would be one of them, and get what is printed.
+void openStandardStreams();
+
 /// The words of the command line, in UTF-8. Call it once, first: it also makes standard input and output carry bytes as
 /// they are.
 std::vector<char*> commandLine(int argc, char** argv);

@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: MIT
+#include <fcntl.h>
 #include <fnmatch.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <string_view>
 
 #include "system.h"
 
 namespace tspace::tool {
+
+void openStandardStreams() {
+    // Opened in the wrong direction: whoever reads or writes it is told. The lowest number that is free is taken.
+    for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number) {
+        if (fcntl(number, F_GETFD) != -1 || errno != EBADF) continue;
+        if (open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) open("/", O_RDONLY);
+    }
+}
 
 std::vector<char*> commandLine(int argc, char** argv) { return {argv, argv + argc}; }
 

@@ -52,6 +52,9 @@ void prepareStreams() {
 
 }  // namespace
 
+// Windows has handles for them, which no file gets.
+void openStandardStreams() {}
+
 std::vector<char*> commandLine(int argc, char** argv) {
     prepareStreams();
     int count = 0;

@@ -8,6 +8,7 @@
 #include "asset/system_files.h"
 #include "commands.h"
 #include "console.h"
+#include "output_files.h"
 #include "report.h"
 
 namespace tspace::tool {
@@ -36,8 +37,8 @@ Result<ViewReport> view(const ViewArguments& arguments) {
 }  // namespace
 
 ExitCode runView(const ViewArguments& arguments) {
-    if (isOneFile(arguments.input, arguments.output))
-        return printUsageError("the output " + arguments.output + " is the input");
+    if (const Result<Done> fit = prepareOutputs({arguments.output}, {arguments.input}); !fit)
+        return printUsageError(fit.error().message);
     const report::Outcome<ViewReport> outcome{
         .input = arguments.input, .output = arguments.output, .result = view(arguments)};
     const ExitCode exit_code = outcome.result ? ExitCode::done : printError(arguments.input, outcome.result.error());

@@ -71,6 +71,13 @@ void closeOtherFiles() {
     for (long i = kFirst; i < std::min(sysconf(_SC_OPEN_MAX), kMost); ++i) close(static_cast<int>(i));
 }
 
+/// No file that is opened takes the place of stdin, stdout or stderr, which may be closed.
+void openStandardStreams() {
+    for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number) {
+        if (fcntl(number, F_GETFD) == -1) static_cast<void>(open("/dev/null", number == 0 ? O_WRONLY : O_RDONLY));
+    }
+}
+
 /// Stdout for the result alone: what a library prints goes nowhere.
 int takeStdout() {
     const int result = dup(STDOUT_FILENO);
@@ -102,6 +109,7 @@ int run(const char* input, bool anywhere, std::FILE* output) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    openStandardStreams();
     if (argc != 7) {
         std::fprintf(stderr,
                      "usage: tspace-import IN MAX_BYTES MAX_PROCESSOR_SECONDS MAX_SECONDS PARENT folder|anywhere "

@@ -27,11 +27,15 @@ Path resolveUri(const Path&, std::string_view uri, bool, const std::string& plac
 std::uint64_t fileSize(const Path&) { return 0; }
 std::string pathBelow(const Path&, const Path&) { return {}; }
 
-void AtomicOutput::addFile(const Path& path, const std::function<int(const Sink&)>&) {
-    failToWrite(path, "there is no disk");
+void InputFiles::add(const Path&) {}
+void InputFiles::watch(FileOptions&) {}
+bool InputFiles::has(const Path&) const { return false; }
+AtomicOutput::File AtomicOutput::planFile(const Path& requested) { return {.target = requested}; }
+void AtomicOutput::addFile(File planned, const std::function<int(const Sink&)>&) {
+    failToWrite(planned.target, "there is no disk");
 }
 void AtomicOutput::renameFiles() {}
-void AtomicOutput::removeTemporaryFiles() {}
+void AtomicOutput::removeTemporaryFiles() noexcept {}
 
 bool isImportedFormat(const Path&) { return false; }
 gltf::Document importDocument(const Path&, const FileOptions&, const Progress&) {

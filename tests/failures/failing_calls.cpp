@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Loaded into a program in front of the C library (LD_PRELOAD): calls that it makes fail, or a signal comes in between.
+//
+// TSPACE_FAIL_CALL=K       the Kth call of those below fails, as on a disk that breaks
+// TSPACE_FAIL_MARK=FILE    is made at the end of a program that has reached that call
+// TSPACE_SIGNAL_AT_SYNC=N  signal N comes where the first file is sent to the disk
+// TSPACE_NO_THREADS=1      no thread can be started
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+
+namespace {
+
+std::atomic<long> call_count = 0;
+
+long numberOf(const char* name) {
+    const char* text = std::getenv(name);
+    return text == nullptr ? 0 : std::atol(text);
+}
+
+/// Counts a call; true where it is the one that fails.
+bool fails(int why) {
+    static const long failing = numberOf("TSPACE_FAIL_CALL");
+    if (++call_count != failing) return false;
+    errno = why;
+    return true;
+}
+
+template <class Function>
+Function* real(const char* name) {
+    return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+int openReal(const char* name, const char* path, int flags, va_list more) {
+    const bool makes = (flags & O_CREAT) != 0;
+    const mode_t mode = makes ? va_arg(more, mode_t) : 0;
+    return real<int(const char*, int, mode_t)>(name)(path, flags, mode);
+}
+
+}  // namespace
+
+extern "C" {
+
+// open and openat have no fixed number of arguments.
+int open(const char* path, int flags, ...) {
+    if (fails(EIO)) return -1;
+    va_list more;
+    va_start(more, flags);
+    const int number = openReal("open", path, flags, more);
+    va_end(more);
+    return number;
+}
+int open64(const char* path, int flags, ...) {
+    if (fails(EIO)) return -1;
+    va_list more;
+    va_start(more, flags);
+    const int number = openReal("open64", path, flags, more);
+    va_end(more);
+    return number;
+}
+
+#define TSPACE_FAILING(result, failure, why, name, parameters, arguments) \
+    result name parameters {                                              \
+        if (fails(why)) return failure;                                   \
+        return real<result parameters>(#name) arguments;                  \
+    }
+
+TSPACE_FAILING(FILE*, nullptr, EIO, fopen, (const char* path, const char* mode), (path, mode))
+TSPACE_FAILING(FILE*, nullptr, EIO, fopen64, (const char* path, const char* mode), (path, mode))
+TSPACE_FAILING(FILE*, nullptr, ENOMEM, fdopen, (int number, const char* mode), (number, mode))
+TSPACE_FAILING(size_t, 0, EIO, fread, (void* to, size_t bytes, size_t count, FILE* file), (to, bytes, count, file))
+TSPACE_FAILING(size_t, 0, ENOSPC, fwrite, (const void* from, size_t bytes, size_t count, FILE* file),
+               (from, bytes, count, file))
+TSPACE_FAILING(int, EOF, ENOSPC, fflush, (FILE * file), (file))
+TSPACE_FAILING(ssize_t, -1, EIO, pread, (int number, void* to, size_t bytes, off_t at), (number, to, bytes, at))
+TSPACE_FAILING(ssize_t, -1, EIO, pread64, (int number, void* to, size_t bytes, off64_t at), (number, to, bytes, at))
+TSPACE_FAILING(int, -1, EIO, rename, (const char* from, const char* to), (from, to))
+TSPACE_FAILING(int, -1, EIO, link, (const char* from, const char* to), (from, to))
+TSPACE_FAILING(int, -1, EIO, mkdir, (const char* path, mode_t mode), (path, mode))
+TSPACE_FAILING(int, -1, EPERM, fchmod, (int number, mode_t mode), (number, mode))
+TSPACE_FAILING(int, -1, EPERM, fchown, (int number, uid_t user, gid_t group), (number, user, group))
+TSPACE_FAILING(int, -1, EIO, stat, (const char* path, struct stat* status), (path, status))
+TSPACE_FAILING(int, -1, EIO, lstat, (const char* path, struct stat* status), (path, status))
+TSPACE_FAILING(int, -1, EIO, fstat, (int number, struct stat* status), (number, status))
+
+int fclose(FILE* file) {
+    // The system closes it all the same.
+    const bool is_failing = fails(EIO);
+    const int done = real<int(FILE*)>("fclose")(file);
+    if (!is_failing) return done;
+    errno = EIO;
+    return EOF;
+}
+
+int fsync(int number) {
+    static const int signal = static_cast<int>(numberOf("TSPACE_SIGNAL_AT_SYNC"));
+    if (signal != 0) kill(getpid(), signal);
+    if (fails(EIO)) return -1;
+    return real<int(int)>("fsync")(number);
+}
+
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*body)(void*), void* argument) {
+    static const bool none = numberOf("TSPACE_NO_THREADS") != 0;
+    if (none) return EAGAIN;
+    return real<int(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*)>("pthread_create")(thread, attributes,
+                                                                                                   body, argument);
+}
+
+[[gnu::destructor]] void tellWhetherReached() {
+    const char* path = std::getenv("TSPACE_FAIL_MARK");
+    if (path == nullptr || call_count < numberOf("TSPACE_FAIL_CALL")) return;
+    const int file = real<int(const char*, int, mode_t)>("open")(path, O_WRONLY | O_CREAT, 0600);
+    if (file >= 0) close(file);
+}
+
+}  // extern "C"

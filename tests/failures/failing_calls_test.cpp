@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// The tool where a call of the system fails, where a signal comes, and where no thread can be started.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <map>
+
+#include "tool/run_tool.h"
+
+namespace tspace::test {
+namespace {
+
+/// A runner that sets what failing_calls does.
+std::string with(const std::string& settings) { return settings + " LD_PRELOAD='" TSPACE_FAILING_CALLS "'"; }
+
+std::string writeModel(const TempFolder& folder) {
+    writeFoldedObj(folder, "folded.obj");
+    writeBumpMap(folder);
+    EXPECT_EQ(runTool(folder, "generate folded.obj -q -o made.glb").exit_code, 0);
+    EXPECT_EQ(runTool(folder, "generate made.glb -q --overwrite --convention opengl -o plain.glb").exit_code, 0);
+    return folder.read("plain.glb");
+}
+
+/// Calls try_one(k) for each call of the system that the run has, until one has fewer.
+template <class TryOne>
+void failEachCall(const TempFolder& folder, const std::string& arguments, const TryOne& try_one) {
+    constexpr int kMostCalls = 3000;
+    int k = 1;
+    for (; k <= kMostCalls; ++k) {
+        std::filesystem::remove(folder.path("mark"));
+        const ToolRun run =
+            runTool(folder, arguments, with("TSPACE_FAIL_MARK=mark TSPACE_FAIL_CALL=" + std::to_string(k)));
+        if (!folder.has("mark")) break;
+        std::filesystem::remove(folder.path("mark"));
+        ASSERT_LE(run.exit_code, 5) << arguments << ", call " << k << ": " << run.err;
+        try_one(k, run);
+        if (::testing::Test::HasFailure()) return;
+    }
+    EXPECT_GT(k, 20) << "no calls were seen";
+    EXPECT_LE(k, kMostCalls);
+}
+
+/// Where only the words about it cannot be said, the files are there.
+bool hasWritten(const ToolRun& run) {
+    return run.exit_code == 0 || run.err.find("standard output: cannot write") != std::string::npos;
+}
+
+TEST(FailingCalls, LeaveTheOldFileOrTheNewOne) {
+    const TempFolder folder;
+    const std::string before = writeModel(folder);
+    ASSERT_EQ(runTool(folder, "generate plain.glb -q --overwrite -o new.glb").exit_code, 0);
+    const std::string after = folder.read("new.glb");
+    ASSERT_FALSE(before == after);
+    const std::set<std::string> files = folder.files();
+    failEachCall(folder, "generate made.glb -q --overwrite -o new.glb --jobs 1", [&](int k, const ToolRun& run) {
+        EXPECT_EQ(folder.files(), files) << "call " << k << ", exit code " << run.exit_code << ": " << run.err;
+        EXPECT_TRUE(folder.read("new.glb") == (hasWritten(run) ? after : before)) << "call " << k << ": " << run.err;
+        folder.write("new.glb", before);
+    });
+}
+
+TEST(FailingCalls, OfSeveralFilesLeaveAllOldOnesOrAllNewOnes) {
+    const TempFolder folder;
+    writeModel(folder);
+    ASSERT_EQ(runTool(folder, "generate plain.glb -q -o out.gltf").exit_code, 0);
+    std::map<std::string, std::string> before, after;
+    const auto contents = [&] {
+        std::map<std::string, std::string> found;
+        for (const std::string& name : folder.files()) found[name] = folder.read(name);
+        return found;
+    };
+    before = contents();
+    const std::string command = "generate plain.glb -q --overwrite -o out.gltf";
+    ASSERT_EQ(runTool(folder, command).exit_code, 0);
+    after = contents();
+    ASSERT_FALSE(before == after);
+    for (const auto& [name, bytes] : before) folder.write(name, bytes);
+    failEachCall(folder, command, [&](int k, const ToolRun& run) {
+        EXPECT_TRUE(contents() == (hasWritten(run) ? after : before)) << "call " << k << ": " << run.err;
+        for (const auto& [name, bytes] : before) folder.write(name, bytes);
+    });
+}
+
+TEST(FailingCalls, OfACheckAreSaidAndLeaveNoHalfPage) {
+    const TempFolder folder;
+    writeModel(folder);
+    const std::string command = "check plain.glb --html page.html --json";
+    const ToolRun whole = runTool(folder, command);
+    ASSERT_LE(whole.exit_code, 1) << whole.err;
+    const std::string page = folder.read("page.html"), page_end = page.substr(page.size() - 30);
+    std::set<std::string> files = folder.files();
+    folder.write("page.html", "old");
+    failEachCall(folder, command, [&](int k, const ToolRun& run) {
+        EXPECT_EQ(folder.files(), files) << "call " << k << ": " << run.err;
+        const std::string found = folder.read("page.html");
+        // Its pictures are drawn of the model read anew.
+        EXPECT_TRUE(found == "old" || found.ends_with(page_end)) << "call " << k;
+        if (run.exit_code == whole.exit_code) {
+            EXPECT_NE(found, "old") << "call " << k << run.err;
+            EXPECT_TRUE(run.out == whole.out) << "call " << k << run.err;
+        }
+        folder.write("page.html", "old");
+    });
+}
+
+TEST(Signals, LeaveNoTemporaryFileInAnyCommand) {
+    const TempFolder folder;
+    writeModel(folder);
+    folder.write("old.html", "old");
+    const std::set<std::string> files = folder.files();
+    for (const char* command :
+         {"generate made.glb --overwrite -o plain.glb", "generate made.glb --overwrite -o new/x.gltf",
+          "check plain.glb --html old.html", "check plain.glb --sarif new.sarif",
+          "diff plain.glb made.glb --html new.html", "render plain.glb -o new.png", "flip-green bump.png -o new.png",
+          "convert-map bump.png --from gltf --to directx -o new.png"}) {
+        for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGPIPE, SIGQUIT}) {
+            const std::string before = folder.read("plain.glb");
+            const ToolRun run =
+                runTool(folder, command,
+                        "exec env --default-signal " + with("TSPACE_SIGNAL_AT_SYNC=" + std::to_string(signal)));
+            if (run.exit_code == 2) continue;  // this build has not all commands
+            EXPECT_EQ(run.exit_code, 128 + signal) << command << run.err;
+            EXPECT_EQ(folder.files(), files) << command << ", signal " << signal;
+            EXPECT_EQ(folder.read("old.html"), "old");
+            EXPECT_EQ(folder.read("plain.glb"), before);
+        }
+    }
+}
+
+TEST(NoThreads, LeavesTheWorkToTheOneThatIsThere) {
+    const TempFolder folder;
+    writeModel(folder);
+    for (const char* name : {"a", "b", "c", "d"})
+        folder.write(std::string("in/") + name + ".glb", folder.read("made.glb"));
+    const std::string none = with("TSPACE_NO_THREADS=1");
+    for (const char* command : {"check in", "inspect in", "identify in"}) {
+        const ToolRun some = runTool(folder, std::string(command) + " --jobs 8");
+        const ToolRun run = runTool(folder, std::string(command) + " --jobs 8", none);
+        EXPECT_EQ(run.exit_code, some.exit_code) << command << run.err;
+        EXPECT_EQ(run.out, some.out) << command;
+    }
+    ASSERT_EQ(runTool(folder, "generate in -q --overwrite -o some/ --jobs 8").exit_code, 0);
+    const ToolRun run = runTool(folder, "generate in -q --overwrite -o none/ --jobs 8 --threads 8", none);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    for (const char* name : {"a.glb", "b.glb", "c.glb", "d.glb"})
+        EXPECT_EQ(folder.read(std::string("none/") + name), folder.read(std::string("some/") + name));
+    EXPECT_EQ(runTool(folder, "render plain.glb -o picture.png --threads 8", none).exit_code, 0);
+}
+
+TEST(NoThreads, AtALimitOfProcesses) {
+    if (std::system("test $(id -u) = 0 && command -v setpriv > /dev/null && command -v prlimit > /dev/null") != 0)
+        GTEST_SKIP() << "another user is needed, whose processes are limited";
+    const TempFolder folder;
+    writeModel(folder);
+    folder.write("in/a.glb", folder.read("made.glb"));
+    folder.write("in/b.glb", folder.read("made.glb"));
+    const int code = runTool(folder, "check in").exit_code;
+    std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
+    std::filesystem::permissions(folder.path("in"), std::filesystem::perms::all);
+    const ToolRun run = runTool(folder, "check in --jobs 8", "setpriv --reuid 65531 --clear-groups prlimit --nproc=1");
+    if (run.exit_code > 125 && run.err.find("Permission denied") != std::string::npos)
+        GTEST_SKIP() << "another user cannot start the tool here: " << run.err;
+    EXPECT_EQ(run.exit_code, code) << run.err;
+}
+
+}  // namespace
+}  // namespace tspace::test

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+// Outputs that are pointed at something that is there: inputs, links, pipes, devices; and programs without descriptors.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <unistd.h>
+
+#include <map>
+#include <sstream>
+
+#include "tool/run_tool.h"
+
+namespace tspace::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// plain.glb, made.glb, and separate.gltf with separate.bin and bump.png beside it.
+void writeModels(const TempFolder& folder) {
+    writeFoldedObj(folder, "folded.obj");
+    writeBumpMap(folder);
+    ASSERT_EQ(runTool(folder, "generate folded.obj -q -o plain.glb").exit_code, 0);
+    ASSERT_EQ(runTool(folder, "generate plain.glb -q --overwrite --method angle -o made.glb").exit_code, 0);
+    ASSERT_EQ(runTool(folder, "generate folded.obj -q -o separate.gltf").exit_code, 0);
+}
+
+std::map<std::string, std::string> contentsOf(const TempFolder& folder) {
+    std::map<std::string, std::string> contents;
+    for (const std::string& name : folder.files()) contents[name] = folder.read(name);
+    return contents;
+}
+
+TEST(Outputs, NeverTakeThePlaceOfAnInput) {
+    const TempFolder folder;
+    writeModels(folder);
+    fs::create_directory(folder.path("sub"));
+    fs::create_symlink("plain.glb", folder.path("link.png"));
+    fs::create_symlink("plain.glb", folder.path("link.html"));
+    fs::create_hard_link(folder.path("plain.glb"), folder.path("hard.html"));
+    fs::create_symlink("bump.png", folder.path("map.png"));
+    const auto before = contentsOf(folder);
+    std::string bin;
+    for (const auto& [name, bytes] : before) {
+        if (name.ends_with(".bin")) bin = name;
+    }
+    ASSERT_FALSE(bin.empty());
+    for (const std::string& command :
+         {std::string("check plain.glb --html plain.glb"),
+          std::string("check plain.glb --html sub/../plain.glb"),
+          std::string("check plain.glb --html link.html"),
+          std::string("check plain.glb --html hard.html"),
+          std::string("check . --html plain.glb"),
+          std::string("check plain.glb --sarif plain.glb"),
+          "check separate.gltf --html " + bin,
+          "check separate.gltf --sarif " + bin,
+          std::string("check separate.gltf --html bump.png"),
+          std::string("diff plain.glb made.glb --html plain.glb"),
+          std::string("diff plain.glb made.glb --html made.glb"),
+          "diff separate.gltf made.glb --html " + bin,
+          std::string("generate plain.glb -o new.glb --manifest plain.glb"),
+          std::string("generate plain.glb -o new.glb --manifest made.glb"),
+          std::string("generate plain.glb -o new.glb --manifest bump.png"),
+          std::string("render plain.glb -o link.png"),
+          std::string("render separate.gltf -o bump.png"),
+          std::string("render separate.gltf -o map.png"),
+          std::string("convert-map bump.png --mesh plain.glb -o link.png --from gltf --to directx"),
+          std::string("convert-map bump.png -o map.png --from gltf --to directx"),
+          std::string("map-error bump.png --low plain.glb --high made.glb --heat link.png"),
+          std::string("bake plain.glb --high made.glb -o link.png"),
+          std::string("bake plain.glb --high made.glb -o n.png --report plain.glb"),
+          std::string("bake plain.glb --high made.glb -o n.png --heat link.png"),
+          std::string("view plain.glb -o plain.glb"),
+          std::string("flip-green bump.png -o map.png")}) {
+        const ToolRun run = runTool(folder, command);
+        EXPECT_TRUE(run.exit_code == 2 || run.exit_code == 4) << command << ": " << run.exit_code << run.err;
+        EXPECT_EQ(run.errorLines(), 1) << command << ": " << run.err;
+        EXPECT_TRUE(contentsOf(folder) == before) << command;
+    }
+}
+
+TEST(Outputs, OfOneRunAreDifferentFiles) {
+    const TempFolder folder;
+    writeModels(folder);
+    const auto before = contentsOf(folder);
+    fs::create_directory(folder.path("sub"));
+    for (const char* command :
+         {"check plain.glb --html new --sarif new", "check plain.glb --html new --sarif sub/../new",
+          "generate plain.glb -o new.glb --manifest new.glb", "generate plain.glb -o new.glb --manifest ./new.glb",
+          "bake plain.glb --high made.glb -o new.png --heat new.png",
+          "bake plain.glb --high made.glb -o new.png --report sub/../new.png"}) {
+        const ToolRun run = runTool(folder, command);
+        EXPECT_EQ(run.exit_code, 2) << command << run.err;
+        EXPECT_TRUE(contentsOf(folder) == before) << command;
+    }
+}
+
+TEST(Outputs, KeepThePermissionsThatWereThere) {
+    const TempFolder folder;
+    writeModels(folder);
+    for (const char* name : {"page.html", "page.sarif", "out.glb", "picture.png"}) {
+        folder.write(name, "");
+        fs::permissions(folder.path(name), fs::perms::owner_read | fs::perms::owner_write);
+    }
+    runTool(folder, "check plain.glb --html page.html --sarif page.sarif");
+    runTool(folder, "generate plain.glb -o out.glb");
+    runTool(folder, "render plain.glb -o picture.png");
+    for (const char* name : {"page.html", "page.sarif", "out.glb", "picture.png"}) {
+        EXPECT_FALSE(folder.read(name).empty()) << name;
+        EXPECT_EQ(fs::status(folder.path(name)).permissions(), fs::perms::owner_read | fs::perms::owner_write) << name;
+    }
+}
+
+TEST(Outputs, GoIntoPipesAndDevicesAndLeaveThemThere) {
+    const TempFolder folder;
+    writeModels(folder);
+    ASSERT_EQ(mkfifo(folder.path("pipe").c_str(), 0600), 0);
+    fs::create_symlink("pipe", folder.path("pipe.png"));
+    fs::create_symlink("pipe", folder.path("pipe.glb"));
+    struct Case {
+        const char* command;
+        const char* begin;
+    };
+    for (const Case& one :
+         {Case{"check plain.glb --html pipe", "<!doctype html>"}, Case{"check plain.glb --sarif pipe", "{"},
+          Case{"render plain.glb -o pipe.png", "\x89PNG"}, Case{"generate plain.glb -o pipe.glb", "glTF"},
+          Case{"generate plain.glb -o new.glb --manifest pipe", "{\"schema\""}}) {
+        runTool(folder, one.command, R"(sh -c 'timeout 20 cat pipe > got & timeout 20 "$0" "$@"; wait')");
+        EXPECT_TRUE(fs::is_fifo(folder.path("pipe"))) << one.command;
+        EXPECT_EQ(folder.read("got").substr(0, std::string(one.begin).size()), one.begin) << one.command;
+    }
+    // As /dev/null, which nobody wants to lose.
+    if (mknod(folder.path("null").c_str(), S_IFCHR | 0600, makedev(1, 3)) != 0) GTEST_SKIP() << "no device can be made";
+    fs::create_symlink("null", folder.path("null.png"));
+    for (const char* command : {"check plain.glb --html null --sarif null", "render plain.glb -o null.png",
+                                "generate plain.glb -o new.glb --manifest null"}) {
+        runTool(folder, command);
+        EXPECT_TRUE(fs::is_character_file(folder.path("null"))) << command;
+    }
+}
+
+TEST(Outputs, FollowNoLinkOfAnotherUserInAFolderForAll) {
+    if (geteuid() != 0) GTEST_SKIP() << "only root can make links of others";
+    const TempFolder folder;
+    writeModels(folder);
+    fs::create_directory(folder.path("shared"));
+    ASSERT_EQ(chmod(folder.path("shared").c_str(), 01777), 0);
+    folder.write("precious", "mine");
+    for (const char* name : {"trap.html", "trap.glb", "trap.png"}) {
+        fs::create_symlink("../precious", folder.path(std::string("shared/") + name));
+        ASSERT_EQ(lchown(folder.path(std::string("shared/") + name).c_str(), 65533, 65533), 0);
+    }
+    for (const char* command :
+         {"check plain.glb --html shared/trap.html", "generate plain.glb -o shared/trap.glb",
+          "render plain.glb -o shared/trap.png", "generate plain.glb -o new.glb --manifest shared/trap.html"}) {
+        const ToolRun run = runTool(folder, command);
+        EXPECT_EQ(run.exit_code, 4) << command << run.err;
+        EXPECT_NE(run.err.find("another user"), std::string::npos) << run.err;
+        EXPECT_EQ(folder.read("precious"), "mine") << command;
+    }
+}
+
+TEST(Outputs, HaveNamesAsLongAsNamesMayBe) {
+    const TempFolder folder;
+    writeModels(folder);
+    const std::string longest = std::string(251, 'n');
+    EXPECT_EQ(runTool(folder, "generate plain.glb -q -o " + longest + ".glb").exit_code, 0);
+    EXPECT_EQ(runTool(folder, "render plain.glb -q -o " + longest + ".png").exit_code, 0);
+    EXPECT_EQ(runTool(folder, "check plain.glb -q --html " + longest + ".htm").exit_code, 0);
+    EXPECT_TRUE(folder.has(longest + ".glb") && folder.has(longest + ".png") && folder.has(longest + ".htm"));
+}
+
+TEST(Outputs, AreTheSameWithoutWaitingForTheDisk) {
+    const TempFolder folder;
+    writeModels(folder);
+    EXPECT_EQ(runTool(folder, "generate plain.glb -q --overwrite -o a.glb").exit_code, 0);
+    EXPECT_EQ(runTool(folder, "generate plain.glb -q --overwrite --no-sync -o b.glb").exit_code, 0);
+    EXPECT_EQ(folder.read("a.glb"), folder.read("b.glb"));
+}
+
+TEST(Names, ThatTurnTextAroundAreShownEscaped) {
+    const TempFolder folder;
+    writeModels(folder);
+    // A right-to-left override, a line separator, an isolate; a word in Persian keeps its joiner.
+    for (const std::string name : {"a\xe2\x80\xae"
+                                   "blg.glb",
+                                   "a\xe2\x80\xa8"
+                                   "b.glb",
+                                   "a\xe2\x81\xa6"
+                                   "b.glb"}) {
+        folder.write(name, folder.read("plain.glb"));
+        for (const std::string& said :
+             {runTool(folder, "check '" + name + "'").out, runTool(folder, "inspect '" + name + "x'").err}) {
+            EXPECT_EQ(said.find("\xe2"), std::string::npos) << said;
+            EXPECT_NE(said.find("a\\u20"), std::string::npos) << said;
+        }
+    }
+    const std::string joined = "\xd9\x85\xdb\x8c\xe2\x80\x8c\xd8\xb4.glb";
+    folder.write(joined, folder.read("plain.glb"));
+    EXPECT_NE(runTool(folder, "check '" + joined + "'").out.find(joined), std::string::npos);
+}
+
+TEST(Folders, ThatCannotBeReadCostNoOther) {
+    if (std::system("test $(id -u) = 0 && command -v setpriv > /dev/null") != 0) GTEST_SKIP() << "needs another user";
+    const TempFolder folder;
+    writeModels(folder);
+    for (const char* name : {"in/a/x.glb", "in/b/x.glb", "in/c/x.glb", "in/y.glb"})
+        folder.write(name, folder.read("plain.glb"));
+    fs::permissions(folder.path(), fs::perms::all);
+    fs::permissions(folder.path("in/b"), fs::perms::none);
+    const ToolRun run = runTool(folder, "inspect in", "setpriv --reuid 65531 --clear-groups");
+    if (run.exit_code > 125) GTEST_SKIP() << "another user cannot start the tool here: " << run.err;
+    EXPECT_EQ(run.exit_code, 4) << run.err;
+    for (const char* name : {"in/a/x.glb", "in/c/x.glb", "in/y.glb"})
+        EXPECT_NE(run.out.find(name), std::string::npos) << name << run.out;
+    EXPECT_EQ(run.errorLines(), 1) << run.err;
+    EXPECT_NE(run.err.find("in/b"), std::string::npos) << run.err;
+    fs::permissions(folder.path("in/b"), fs::perms::all);
+}
+
+TEST(Descriptors, ThatAreClosedOrFullEndNoRun) {
+    const TempFolder folder;
+    writeModels(folder);
+    folder.write("bad.glb", "no model");
+    for (const char* command : {"check none.glb", "check bad.glb", "inspect bad.glb", "generate bad.glb -o new.glb",
+                                "render bad.glb -o new.png", "check", "nonsense", "diff bad.glb plain.glb"}) {
+        const int code = runTool(folder, command).exit_code;
+        for (const char* broken : {"2>&-", "2> /dev/full", "<&- 2>&-", "<&- >&- 2>&-"}) {
+            const ToolRun run = runTool(folder, command, std::string("sh -c '\"$0\" \"$@\" ") + broken + "'");
+            EXPECT_EQ(run.exit_code, code) << command << " " << broken;
+        }
+    }
+}
+
+TEST(Descriptors, ThatAreClosedLetNoMessageIntoAFile) {
+    const TempFolder folder;
+    writeModels(folder);
+    folder.write("in/bad.glb", "no model");
+    for (int i = 0; i < 12; ++i) folder.write("in/" + std::to_string(i) + ".glb", folder.read("plain.glb"));
+    ASSERT_EQ(runTool(folder, "generate in -q --overwrite -o whole/ --jobs 4").exit_code, 3);
+    for (const char* closed : {"2>&-", ">&- 2>&-", "<&- >&- 2>&-"}) {
+        for (int round = 0; round < 5; ++round) {
+            fs::remove_all(folder.path("out"));
+            fs::remove(folder.path("m.jsonl"));
+            runTool(folder, "generate in -q --overwrite -o out/ --jobs 4 --manifest m.jsonl",
+                    std::string("sh -c '\"$0\" \"$@\" ") + closed + "'");
+            EXPECT_EQ(folder.files("out"), folder.files("whole"));
+            for (const std::string& name : folder.files("out"))
+                EXPECT_EQ(folder.read("out/" + name), folder.read("whole/" + name)) << closed << name;
+            EXPECT_EQ(folder.read("m.jsonl").find("tspace: "), std::string::npos);
+            std::istringstream lines(folder.read("m.jsonl"));
+            for (std::string line; std::getline(lines, line);) EXPECT_EQ(line.front(), '{') << line;
+        }
+    }
+}
+
+TEST(Descriptors, AFullStdoutIsOneLineWhereItIsTheProduct) {
+    const TempFolder folder;
+    writeModels(folder);
+    for (const char* command :
+         {"check plain.glb", "check plain.glb --json", "check plain.glb --sarif -", "inspect plain.glb",
+          "identify plain.glb", "diff plain.glb plain.glb", "generate plain.glb -o -", "generate plain.glb -o new.glb",
+          "render plain.glb -o -", "--help", "--version", "help check"}) {
+        for (const char* broken : {"> /dev/full", ">&-"}) {
+            const ToolRun run = runTool(folder, command, std::string("sh -c '\"$0\" \"$@\" ") + broken + "'");
+            EXPECT_EQ(run.exit_code, 4) << command << " " << broken << run.err;
+            EXPECT_EQ(run.errorLines(), 1) << command << run.err;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tspace::test

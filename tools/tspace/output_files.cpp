@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Before and after the work.
+#include "output_files.h"
+
+#include <map>
+#include <set>
+
+#include "asset/file_error.h"
+#include "asset/file_io.h"
+#include "asset/system_files.h"
+
+namespace tspace::tool {
+
+Result<Done> prepareOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+    const auto isFile = [](const std::string& path) {
+        return !path.empty() && path != "-" && kindOf(path) != PathKind::stream;
+    };
+    std::map<std::string, std::string> names;  // by identity
+    for (const std::string& input : inputs) {
+        if (isFile(input)) names.emplace(identityOf(input), "an input");
+    }
+    std::set<std::string> folders;
+    for (const std::string& output : outputs) {
+        if (!isFile(output)) continue;
+        const auto [other, is_new] = names.emplace(identityOf(output), "the output " + output + " as well");
+        if (!is_new) return Error{ErrorCode::invalidOption, "the output " + output + " is " + other->second};
+        folders.insert(folderOf(output).string());
+    }
+    for (const std::string& folder : folders) removeAbandonedFiles(folder, false);
+    return Done{};
+}
+
+Result<Done> writeTextFile(const std::string& path, const std::string& text, const InputFiles* inputs) {
+    return atFileBorder([&]() -> Result<Done> {
+        AtomicOutput output({.makes_folders = false, .inputs = inputs});
+        output.add(path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+        output.commit();
+        return Done{};
+    });
+}
+
+}  // namespace tspace::tool

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// The files that a run writes: what all commands ask of them, and reports that go to files of their own.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "asset/atomic_output.h"
+#include "tspace/result.h"
+
+namespace tspace::tool {
+
+/// Call it before anything is written. An output that is one of `inputs`, or another output, is an error, under whatever
+/// name; the message is for a wrong command line. Empty paths and "-" are none. Removes what killed runs left beside the
+/// outputs.
+Result<Done> prepareOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
+
+/// The file appears whole or not at all, in a folder that is there; it may be none of `inputs`, which are what was read.
+Result<Done> writeTextFile(const std::string& path, const std::string& text, const InputFiles* inputs = nullptr);
+
+}  // namespace tspace::tool
