@@ -26,7 +26,7 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
     facts.mesh = {.positions = primitive.positions.span(),
                   .normals = primitive.normals.span(),
                   .tangents = primitive.tangents.span(),
-                  .uvs = facts.reading.uvs,
+                  .uvs = primitive.hasFreeTangents() ? std::span<const Vec2>{} : facts.reading.uvs,
                   .corners = primitive.corners.span()};
     facts.surface = describeSurface(facts.mesh);
     checkPositions(facts);
@@ -35,7 +35,10 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
     checkTextures(facts);
     if (const Result<Done> done = checkTangents(facts); !done) return done.error();
     checkMorphTargets(facts);
-    return PrimitiveVerdict{std::move(facts.findings), std::move(facts.faults), facts.wrong_sign_share};
+    const Surface& surface = facts.surface;
+    const bool is_compared = facts.looked_at_values && surface.area > 0;
+    return PrimitiveVerdict{std::move(facts.findings), std::move(facts.faults), facts.wrong_sign_share,
+                            is_compared ? surface.known_area / surface.area : 0};
 }
 
 Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, const CheckOptions& options,

@@ -41,7 +41,6 @@ Result<FrameHealth> examineTangents(const TangentView& mesh, const Surface& surf
     }
     if (surface.area > 0) {
         health.far_from_unit /= surface.area;
-        health.parallel /= surface.area;
         health.far_directions /= surface.area;
     }
     return found;

@@ -58,10 +58,13 @@ class PrimitiveLoader {
         result.material_name = materialName(document_, primitive);
         result.mode = modeName(primitive.mode);
         result.uses = tangentUses(document_, primitive);
+        result.other_reader = otherTangentReader(document_, primitive);
         const SurfaceKind kind = surfaceKind(document_, primitive);
         result.is_unlit = kind.is_unlit;
         result.is_double_sided = kind.is_double_sided;
         loadAttributes(primitive, result);
+        for (const UnreadableTangents& tangents : primitive.unreadable_tangents)
+            result.tangent_faults.push_back({tangents.target, tangents.why});
         result.tangents_not_read = result.tangents.empty() && document_.may_hide_tangents;
         for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
             const AttributeList& list = primitive.targets[i];

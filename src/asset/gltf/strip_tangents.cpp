@@ -50,4 +50,42 @@ void stripTangents(Editor& editor, std::span<const Primitive> primitives, std::s
     }
 }
 
+void removeUnreadableTangents(Editor& editor, std::span<const Primitive> primitives, GeneratePlan& plan) {
+    std::vector<bool> is_computed(primitives.size(), false);
+    for (const Pool& pool : plan.pools) {
+        for (const std::size_t number : pool.primitives) is_computed[number] = true;
+    }
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const Primitive& primitive = primitives[i];
+        for (const UnreadableTangents& tangents : primitive.unreadable_tangents) {
+            const bool is_base = tangents.target < 0;
+            if (is_base) {
+                eraseAttribute(editor, primitive, "TANGENT");
+            } else {
+                Json& targets = editor.primitive(primitive.mesh, primitive.index)["targets"];
+                targets[static_cast<std::size_t>(tangents.target)].erase("TANGENT");
+            }
+            editor.release(tangents.accessor);
+            if (!is_base || is_computed[i]) continue;
+            PrimitiveReport& report = plan.reports[i];
+            report.action = PrimitiveAction::removed;
+            report.reason = "its tangents could not be read, and none are computed: " + report.reason;
+        }
+    }
+}
+
+void noteUnreadableTangents(std::span<const Primitive> primitives, std::span<PrimitiveReport> reports) {
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        for (const UnreadableTangents& tangents : primitives[i].unreadable_tangents) {
+            const bool is_base = tangents.target < 0;
+            reports[i].notes.push_back((is_base ? "its tangents were wrong: "
+                                                : "what morph target " + std::to_string(tangents.target) +
+                                                      " added to its tangents was wrong: ") +
+                                       tangents.why);
+            if (is_base && reports[i].action == PrimitiveAction::generated)
+                reports[i].action = PrimitiveAction::replaced;
+        }
+    }
+}
+
 }  // namespace tspace::gltf
