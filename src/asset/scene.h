@@ -69,8 +69,9 @@ struct ScenePrimitive {
     /// Three vertices per triangle, every one smaller than positions.size(). Empty for points and lines.
     SharedArray<std::uint32_t> corners = {};
     SharedArray<Vec3> positions = {};
-    SharedArray<Vec3> normals = {};                      ///< one per vertex, or empty: absent
-    SharedArray<Vec4> tangents = {};                     ///< one per vertex, or empty: absent
+    double position_step = 0;         ///< where they are stored as whole numbers: between neighbours; 0: floats
+    SharedArray<Vec3> normals = {};   ///< one per vertex, or empty: absent
+    SharedArray<Vec4> tangents = {};  ///< one per vertex, or empty: absent
     std::vector<SceneTangentFault> tangent_faults = {};  ///< of those that count as absent
     bool tangents_not_read = false;               ///< they are empty, but the importer cannot tell that there are none
     std::vector<SharedArray<Vec2>> uv_sets = {};  ///< entry n: TEXCOORD_n, empty where absent; v runs down

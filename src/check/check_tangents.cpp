@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "check/findings.h"
+#include "check/other_axes.h"
 #include "check/other_reading.h"
 #include "check/primitive_checks.h"
 
@@ -118,7 +119,17 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
         facts.mesh.uvs = facts.reading.uvs;
         for (std::size_t v = 0; v < health->faults.size(); ++v) facts.faults[v] |= health->faults[v];
     }
+    const std::string axes = *other ? std::string() : findOtherAxes(facts, *health);
+    if (!axes.empty()) {
+        // For one reason all of them are wrong, also those that come near to what is right.
+        for (const std::uint32_t vertex : facts.mesh.corners) facts.fault(vertex, FindingCode::directionsWrong);
+    }
     for (Finding& finding : tangentFindings(*health, facts.options)) {
+        if (finding.code == FindingCode::directionsWrong && !axes.empty()) {
+            finding.message +=
+                "; as (" + axes +
+                ") of what is stored they fit, so the mesh was turned to other axes, and its tangents were not";
+        }
         // Without a texture the side on which v grows is seldom looked at.
         if (finding.code == FindingCode::signsMixed && facts.primitive.hasFreeTangents())
             finding.severity = Severity::warning;

@@ -175,6 +175,22 @@ std::string decimalText(double value) {
     return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10);
 }
 
+std::string stepText(double value) {
+    if (value >= 10) return std::to_string(static_cast<std::uint64_t>(std::llround(value)));
+    int digits = 1;
+    for (double scaled = value; scaled > 0 && scaled < 1 && digits < 12; scaled *= 10) ++digits;
+    auto number = static_cast<std::uint64_t>(std::llround(value * std::pow(10, digits)));
+    while (digits > 0 && number % 10 == 0) {
+        number /= 10;
+        --digits;
+    }
+    std::string text = std::to_string(number);
+    if (digits == 0) return text;
+    const auto behind = static_cast<std::size_t>(digits);
+    if (text.size() <= behind) text = std::string(behind + 1 - text.size(), '0') + text;
+    return text.substr(0, text.size() - behind) + "." + text.substr(text.size() - behind);
+}
+
 std::string countText(const Tally& tally, const char* unit) {
     const std::string total = std::to_string(tally.total) + " " + unit;
     if (tally.count == tally.total) return "all " + total;

@@ -30,6 +30,7 @@ std::string keyOf(const ScenePrimitive& primitive) {
     append(primitive.normals.data());
     append(primitive.tangents.data());
     for (const SharedArray<Vec2>& uvs : primitive.uv_sets) append(uvs.data());
+    append(primitive.position_step);
     append(primitive.packedAlone() != nullptr);
     append(primitive.other_reader.empty());
     for (const SceneTangentFault& fault : primitive.tangent_faults) {

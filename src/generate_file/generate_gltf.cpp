@@ -109,6 +109,8 @@ GenerateReport generate(const std::string& input, const std::string& output_path
         rest = rest.subspan(pools.size());
         std::vector<PoolElements> elements = computer.compute(pools, plan.reports);
         for (std::size_t i = 0; i < pools.size(); ++i) {
+            if (!elements[i].warning.empty())
+                report.warnings.push_back(primitives[pools[i].primitives[0]].place() + ": " + elements[i].warning);
             applyFrames(editor, document, primitives, pools[i], std::move(elements[i]), plan.reports);
             done += pools[i].corner_count;
         }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "asset/file_error.h"
+#include "asset/gltf/primitive_notes.h"
 #include "asset/gltf/read_scene.h"
 #include "check/findings.h"
 #include "check/frame_health.h"
@@ -61,9 +62,10 @@ std::string whyKept(const PrimitiveJudgement& judgement, bool is_free) {
     constexpr double kNearlyAll = 0.99;
     std::string warnings;
     for (const Finding& finding : judgement.findings) {
-        const bool is_of_tangents =
-            partsOf(finding.code) != 0 || finding.code == FindingCode::textureTransformIgnored ||
-            finding.code == FindingCode::splitFramesDiffer || finding.code == FindingCode::signsMixed;
+        const bool is_of_tangents = partsOf(finding.code) != 0 || finding.code == FindingCode::positionsRounded ||
+                                    finding.code == FindingCode::textureTransformIgnored ||
+                                    finding.code == FindingCode::splitFramesDiffer ||
+                                    finding.code == FindingCode::signsMixed;
         if (is_of_tangents) warnings += (warnings.empty() ? "" : "; and ") + finding.message;
     }
     if (!warnings.empty()) return "its tangents stay, since nothing in them is surely wrong; but " + warnings;
@@ -137,6 +139,8 @@ std::vector<Verdict> judge(const Document& document, std::span<const Primitive> 
 void keep(const Verdict& verdict, PrimitiveReport& report) {
     report.action = PrimitiveAction::kept;
     report.reason = verdict.kept;
+    // They were not computed, and may follow the transform or not.
+    std::erase_if(report.notes, [](const std::string& note) { return note.rfind(kTransformNote, 0) == 0; });
 }
 
 /// It has tangents with normals, and they cannot be computed.

@@ -148,7 +148,8 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
         const std::vector<TangentUse> uses = tangentUses(document, primitive);
         const bool computes = decide(report, document, primitive, uses, options);
         if (hasTriangles(primitive.mode))
-            report.notes = notesOf(uses, animated, options.texture_transform, computes && report.uv_set >= 0);
+            report.notes = notesOf(uses, animated, options.texture_transform,
+                                   computes && report.uv_set >= 0 && report.action != PrimitiveAction::kept);
         if (!computes) continue;
         if (primitive.find("TANGENT") && !hasUsableTangents(primitive))
             report.notes.emplace_back("the tangents that it had did not count, because it had no normals");

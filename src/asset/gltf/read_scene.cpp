@@ -45,6 +45,22 @@ class VectorCache {
     std::map<std::size_t, SharedArray<Vec>> arrays_ = {};
 };
 
+/// Between neighbouring numbers of an accessor of whole numbers; 0 for floats.
+double stepOf(const Accessor& accessor) {
+    if (accessor.component == ComponentType::f32) return 0;
+    if (!accessor.normalized) return 1;
+    switch (accessor.component) {
+        case ComponentType::i8:
+            return 1.0 / 127;
+        case ComponentType::u8:
+            return 1.0 / 255;
+        case ComponentType::i16:
+            return 1.0 / 32767;
+        default:
+            return 1.0 / 65535;
+    }
+}
+
 class PrimitiveLoader {
   public:
     explicit PrimitiveLoader(const Document& document) : document_(document), budget_(*document.memory) {}
@@ -84,6 +100,8 @@ class PrimitiveLoader {
         const AttributeList& list = primitive.attributes;
         const std::string place = join(result.place, "attributes");
         result.positions = vec3(list, "POSITION", place);
+        if (const auto index = primitive.find("POSITION"))
+            result.position_step = stepOf(readAccessor(document_, *index));
         result.normals = vec3(list, "NORMAL", place);
         result.tangents = vec4_.read(document_, list, "TANGENT", place, budget_);
         for (std::size_t set = 0; set < kMaxUvSets; ++set) {
