@@ -44,13 +44,16 @@ struct FrameHealth {
     [[nodiscard]] bool isSettled(std::uint32_t vertex) const { return !settled.empty() && settled[vertex]; }
 
     // Values on their own. Counted: all vertices, and for directions those that triangles use. Flags: of the latter.
-    Tally not_finite;                  ///< tangent or w
-    bool has_not_finite = false;       ///< some
-    Tally not_unit;                    ///< and finite
-    double far_from_unit = 0;          ///< share of the surface with lengths below 0.9 or above 1.1
-    bool has_zero = false;             ///< some have no length at all
-    Tally not_orthogonal;              ///< finite, not zero, with a usable N
-    std::uint64_t parallel_count = 0;  ///< of these: within 5 degrees of N or its opposite, so that there is no frame
+    Tally not_finite;             ///< tangent or w
+    bool has_not_finite = false;  ///< some
+    Tally not_unit;               ///< and finite
+    double far_from_unit = 0;     ///< share of the surface with lengths below 0.9 or above 1.1
+    bool has_zero = false;        ///< some have no length at all
+    Tally not_orthogonal;         ///< finite, not zero, with a usable N
+    Tally parallel;               ///< of these: within 5 degrees of N or its opposite, so that there is no frame
+    /// They cover so little that the others that lean are another matter, and a warning: only they have the bit of
+    /// tangentsNotOrthogonal.
+    bool parallel_apart = false;
     Tally sign_not_one;
     bool sign_vanishes = false;  ///< some |w| is below 0.5
     Tally signs_mixed;           ///< triangles that have UV area

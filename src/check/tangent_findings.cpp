@@ -44,13 +44,20 @@ void addValues(const FrameHealth& health, const CheckOptions& options, FindingLi
                   health.not_unit,
                   "the tangents of " + countText(health.not_unit, kVertices) + " are not unit" +
                       (health.has_zero ? ", some have no length at all" : "") + onSurface(health.not_unit));
-    const bool is_parallel = health.parallel_count != 0;
-    list.addWhole(
-        FindingCode::tangentsNotOrthogonal, is_parallel ? Severity::error : Severity::warning, health.not_orthogonal,
-        "the tangents of " + countText(health.not_orthogonal, kVertices) +
-            " are not perpendicular to the normal, off by up to " + decimalText(health.not_orthogonal.worst_deg) +
-            " degrees" + (is_parallel ? "; " + std::to_string(health.parallel_count) + " of them lie along it" : "") +
-            onSurface(health.not_orthogonal));
+    Tally leaning = health.not_orthogonal;
+    if (health.parallel_apart) {
+        list.addWhole(FindingCode::tangentsNotOrthogonal, Severity::error, health.parallel,
+                      "the tangents of " + countText(health.parallel, kVertices) +
+                          " lie along the normal, so that there is no bitangent" + onSurface(health.parallel));
+        leaning.count -= health.parallel.count;
+    }
+    const bool is_parallel = health.parallel.count != 0 && !health.parallel_apart;
+    list.addWhole(FindingCode::tangentsNotOrthogonal, is_parallel ? Severity::error : Severity::warning, leaning,
+                  "the tangents of " + countText(leaning, kVertices) +
+                      " are not perpendicular to the normal, off by up to " + decimalText(leaning.worst_deg) +
+                      " degrees" +
+                      (is_parallel ? "; " + std::to_string(health.parallel.count) + " of them lie along it" : "") +
+                      onSurface(leaning));
     list.addWhole(FindingCode::signsNotOne, health.sign_vanishes ? Severity::error : Severity::warning,
                   health.sign_not_one,
                   "the sign (w) of " + countText(health.sign_not_one, kVertices) + " is neither +1 nor -1");

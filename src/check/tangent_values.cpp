@@ -78,13 +78,14 @@ void examineValues(const TangentView& mesh, const Surface& surface, const CheckO
         DVec3 normal = mesh.normals.empty() ? DVec3{} : toDouble(mesh.normals[v]);
         if (!normalize(tangent) || !normalize(normal)) continue;
         ++health.not_orthogonal.total;
+        ++health.parallel.total;
         const double lean = std::fabs(90 - angleBetween(normal, tangent) * 180 / kPi);
         const double limit = mesh.uvs.empty() || knows_direction[v] ? options.orthogonal_deg : kParallel;
         if (!(lean > limit) || health.isSettled(v)) continue;
         health.not_orthogonal.add(v, area, lean);
         fault(FindingCode::tangentsNotOrthogonal);
         if (lean <= kParallel) continue;
-        ++health.parallel_count;
+        health.parallel.add(v, area, lean);
         health.addFaults(v, kParallelTangent, mesh.positions.size());
     }
     examineMixedSigns(mesh, surface, health);
