@@ -37,9 +37,10 @@ void checkRounding(PrimitiveFacts& facts) {
                       .vertices = {turned.first}};
     facts.add(FindingCode::positionsRounded, Severity::warning, tally, "triangles",
               "positions are rounded to steps of " + stepText(rounding.step) + " at up to " + stepText(rounding.far) +
-                  " from the origin, which can turn " + countText(tally, "triangles") + " by up to " +
-                  decimalText(turned.worst_deg) + " degrees (" + shareText(turned.share) +
-                  " of the surface); what tangents say there is not held against them");
+                  " from the origin, which turns " + countText(tally, "triangles") + " by " +
+                  decimalText(facts.options.direction_deg) + " degrees or more, up to " +
+                  decimalText(turned.worst_deg) + " (" + shareText(turned.share) +
+                  " of the surface); tangents are not blamed for it");
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ struct FrameHealth {
     double far_from_unit = 0;     ///< share of the surface with lengths below 0.9 or above 1.1
     bool has_zero = false;        ///< some have no length at all
     Tally not_orthogonal;         ///< finite, not zero, with a usable N
-    Tally parallel;               ///< of these: within 5 degrees of N or its opposite, so that there is no frame
+    Tally parallel;               ///< not among these: within 5 degrees of N or its opposite, so that there is no frame
     /// They cover so little that the others that lean are another matter, and a warning: only they have the bit of
     /// tangentsNotOrthogonal.
     bool parallel_apart = false;

@@ -60,7 +60,9 @@ double wrongShare(const PrimitiveFacts& facts, std::span<const Vec4> tangents) {
 
 std::string findOtherAxes(const PrimitiveFacts& facts, const FrameHealth& health) {
     if (facts.mesh.uvs.empty() || !(facts.surface.known_area > 0)) return {};
-    if (health.not_orthogonal.surface_share < kClearlyLeaning || health.directions_wrong.count == 0) return {};
+    if (health.not_orthogonal.surface_share + health.parallel.surface_share < kClearlyLeaning ||
+        health.directions_wrong.count == 0)
+        return {};
     std::vector<Vec4> turned(facts.mesh.tangents.size());
     Axes axes;
     do {

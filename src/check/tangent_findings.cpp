@@ -49,7 +49,8 @@ void addValues(const FrameHealth& health, const CheckOptions& options, FindingLi
         list.addWhole(FindingCode::tangentsNotOrthogonal, Severity::error, health.parallel,
                       "the tangents of " + countText(health.parallel, kVertices) +
                           " lie along the normal, so that there is no bitangent" + onSurface(health.parallel));
-        leaning.count -= health.parallel.count;
+    } else {
+        leaning.include(health.parallel);
     }
     const bool is_parallel = health.parallel.count != 0 && !health.parallel_apart;
     list.addWhole(FindingCode::tangentsNotOrthogonal, is_parallel ? Severity::error : Severity::warning, leaning,

@@ -82,10 +82,9 @@ void examineValues(const TangentView& mesh, const Surface& surface, const CheckO
         const double lean = std::fabs(90 - angleBetween(normal, tangent) * 180 / kPi);
         const double limit = mesh.uvs.empty() || knows_direction[v] ? options.orthogonal_deg : kParallel;
         if (!(lean > limit) || health.isSettled(v)) continue;
-        health.not_orthogonal.add(v, area, lean);
+        (lean > kParallel ? health.parallel : health.not_orthogonal).add(v, area, lean);
         fault(FindingCode::tangentsNotOrthogonal);
         if (lean <= kParallel) continue;
-        health.parallel.add(v, area, lean);
         health.addFaults(v, kParallelTangent, mesh.positions.size());
     }
     examineMixedSigns(mesh, surface, health);

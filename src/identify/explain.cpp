@@ -173,6 +173,8 @@ Result<std::vector<Explanation>> explainTangents(const ScenePrimitive& primitive
 }
 
 bool isCloser(const Explanation& a, const Explanation& b) {
+    // 0: the very bits of the file, at every corner.
+    if (a.mean_deg == 0) return b.mean_deg > 0;
     constexpr double kRoundingDeg = 0.001;
     return b.mean_deg > 2 * a.mean_deg + kRoundingDeg;
 }
@@ -188,7 +190,8 @@ void sortExplanations(std::vector<Explanation>& explanations) {
     for (auto entry = top + 1; entry != explanations.end(); ++entry) {
         const bool is_same_reading =
             entry->is_textures_set == top->is_textures_set && entry->is_transformed == top->is_transformed;
-        if (is_same_reading && entry->nearShare() + kTieShare >= top->nearShare() && isCloser(*entry, *top))
+        const bool is_own = entry->method == Method::fast || entry->method == Method::best;
+        if (!is_own && is_same_reading && entry->nearShare() + kTieShare >= top->nearShare() && isCloser(*entry, *top))
             top = entry;
     }
     std::rotate(explanations.begin(), top, top + 1);

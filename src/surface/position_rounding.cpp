@@ -79,9 +79,10 @@ TurnedTriangles turnedBy(const PositionRounding& rounding, StridedSpan<const Vec
         if (!(size > 0) || !std::isfinite(size)) continue;
         ++turned.total;
         whole += size;
-        // Of an edge, twice the error of a position.
-        const double off = 2 * rounding.error;
-        const double sine = off * (length(e) + length(f) + off) / size;
+        // A corner moves along N by a third of the largest error in the mean square, and the plane turns by that over the
+        // height of the triangle; two corners move.
+        const double longest = std::max({length(e), length(f), length(f - e)});
+        const double sine = std::sqrt(2.0) / 3 * rounding.error * longest / size;
         const double deg = sine >= 1 ? 90 : polarAngle(std::sqrt(1 - sine * sine), sine) * 180 / kPi;
         if (!(deg > limit_deg)) continue;
         if (turned.count++ == 0) turned.first = corners[c];

@@ -24,11 +24,11 @@ PositionRounding roundingOf(StridedSpan<const Vec3> positions, double stored_ste
 /// Triangles that rounding turns.
 struct TurnedTriangles {
     std::uint64_t count = 0, total = 0;
-    double share = 0;  ///< of the surface: those that can be turned by more than the limit
+    double share = 0;  ///< of the surface: those that are turned by more than the limit
     double worst_deg = 0;
     std::uint32_t first = 0;  ///< a corner of the first
 };
-/// By how much rounding can turn the plane of each triangle, at most. Linear.
+/// By how much rounding turns the plane of each triangle, in the mean square. Linear.
 TurnedTriangles turnedBy(const PositionRounding& rounding, StridedSpan<const Vec3> positions,
                          std::span<const std::uint32_t> corners, double limit_deg);
 

@@ -174,7 +174,12 @@ std::vector<TangentUse> tangentUses(const Document& document, const Primitive& p
         if (material != primitive.material) MaterialUses(document, material, true, uses).collect();
     }
     // Textures decide where tangents point; a factor goes with them.
-    std::stable_partition(uses.begin(), uses.end(), [](const TangentUse& use) { return use.has_texture; });
+    const auto texture = std::find_if(uses.begin(), uses.end(), [](const TangentUse& use) { return use.has_texture; });
+    if (texture == uses.end()) return uses;
+    for (auto use = uses.begin(); use != texture; ++use) {
+        use->uv_set = texture->uv_set;
+        use->transform = texture->transform;
+    }
     return uses;
 }
 
