@@ -68,8 +68,11 @@ std::string whyKept(const PrimitiveJudgement& judgement, bool is_free) {
                                     finding.code == FindingCode::signsMixed;
         if (is_of_tangents) warnings += (warnings.empty() ? "" : "; and ") + finding.message;
     }
+    if (is_free) {
+        return "its tangents stay: no texture is read with them, so their values alone were looked at" +
+               (warnings.empty() ? "" : "; " + warnings);
+    }
     if (!warnings.empty()) return "its tangents stay, since nothing in them is surely wrong; but " + warnings;
-    if (is_free) return "its tangents stay: no texture is read with them, so their values alone were looked at";
     if (judgement.compared_share == 0)
         return "its tangents stay: its UVs have no area, so their values alone were looked at";
     if (judgement.compared_share >= kNearlyAll) return "its tangents are good";
