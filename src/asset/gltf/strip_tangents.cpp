@@ -3,6 +3,7 @@
 #include "asset/gltf/strip_tangents.h"
 
 #include <algorithm>
+#include <array>
 
 namespace tspace::gltf {
 
@@ -10,6 +11,12 @@ namespace {
 
 bool names(const AttributeList& list, const char* attribute) {
     return std::any_of(list.begin(), list.end(), [&](const auto& entry) { return entry.first == attribute; });
+}
+
+bool hasKnownType(const Json& accessor) {
+    static constexpr std::array kTypes{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+    const std::string type = accessor["type"].get<std::string>();
+    return std::any_of(kTypes.begin(), kTypes.end(), [&](const char* known) { return type == known; });
 }
 
 }  // namespace
@@ -65,7 +72,8 @@ void removeUnreadableTangents(Editor& editor, std::span<const Primitive> primiti
                 Json& targets = editor.primitive(primitive.mesh, primitive.index)["targets"];
                 targets[static_cast<std::size_t>(tangents.target)].erase("TANGENT");
             }
-            editor.release(tangents.accessor);
+            // Of a type that nobody knows nothing says how long its data are: they stay.
+            if (hasKnownType(editor.accessor(tangents.accessor))) editor.release(tangents.accessor);
             if (!is_base || is_computed[i]) continue;
             PrimitiveReport& report = plan.reports[i];
             report.action = PrimitiveAction::removed;
