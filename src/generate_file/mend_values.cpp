@@ -75,7 +75,9 @@ std::vector<std::vector<std::size_t>> findBrokenValues(const Document& document,
     std::map<std::size_t, std::vector<std::size_t>> sharing;  // accessor -> primitives
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const auto accessor = primitives[i].find("TANGENT");
-        if (!accessor || is_computed[i] || plan.reports[i].action == PrimitiveAction::removed) continue;
+        // Without positions there is nothing to draw, and no element to store new ones like.
+        if (!accessor || !primitives[i].find("POSITION") || is_computed[i]) continue;
+        if (plan.reports[i].action == PrimitiveAction::removed) continue;
         if (hasData(document, readAccessor(document, *accessor))) sharing[*accessor].push_back(i);
     }
     std::vector<std::vector<std::size_t>> groups;
