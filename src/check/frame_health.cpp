@@ -43,7 +43,7 @@ Result<FrameHealth> examineTangents(const TangentView& mesh, const Surface& surf
         health.far_from_unit /= surface.area;
         health.far_directions /= surface.area;
     }
-    health.parallel_apart = health.parallel.count != 0 && health.parallel.surface_share < options.error_share;
+    health.parallel_apart = health.has_no_frame && health.parallel.surface_share < options.error_share;
     if (health.parallel_apart) {
         for (std::uint32_t& bits : health.faults) {
             if ((bits & kParallelTangent) == 0) bits &= ~faultBit(FindingCode::tangentsNotOrthogonal);

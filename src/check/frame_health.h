@@ -53,6 +53,7 @@ struct FrameHealth {
     Tally parallel;               ///< not among these: within 5 degrees of N or its opposite, so that there is no frame
     /// They cover so little that the others that lean are another matter, and a warning: only they have the bit of
     /// tangentsNotOrthogonal.
+    bool has_no_frame = false;  ///< some are within 1 degree of N or its opposite
     bool parallel_apart = false;
     Tally sign_not_one;
     bool sign_vanishes = false;  ///< some |w| is below 0.5

@@ -52,7 +52,8 @@ void addValues(const FrameHealth& health, const CheckOptions& options, FindingLi
     } else {
         leaning.include(health.parallel);
     }
-    const bool is_parallel = health.parallel.count != 0 && !health.parallel_apart;
+    const bool is_parallel =
+        !health.parallel_apart && health.parallel.surface_share >= options.error_share && health.parallel.count != 0;
     list.addWhole(FindingCode::tangentsNotOrthogonal, is_parallel ? Severity::error : Severity::warning, leaning,
                   "the tangents of " + countText(leaning, kVertices) +
                       " are not perpendicular to the normal, off by up to " + decimalText(leaning.worst_deg) +

@@ -15,6 +15,8 @@ namespace {
 constexpr double kFarFromUnit = 0.1;
 
 constexpr double kParallel = 90 - kParallelDeg;
+/// From here on one vertex is too many.
+constexpr double kNoFrame = 89;
 
 void examineMixedSigns(const TangentView& mesh, const Surface& surface, FrameHealth& health) {
     for (std::size_t f = 0; f < surface.faces.size(); ++f) {
@@ -85,6 +87,7 @@ void examineValues(const TangentView& mesh, const Surface& surface, const CheckO
         (lean > kParallel ? health.parallel : health.not_orthogonal).add(v, area, lean);
         fault(FindingCode::tangentsNotOrthogonal);
         if (lean <= kParallel) continue;
+        health.has_no_frame = health.has_no_frame || lean > kNoFrame;
         health.addFaults(v, kParallelTangent, mesh.positions.size());
     }
     examineMixedSigns(mesh, surface, health);
