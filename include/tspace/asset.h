@@ -181,7 +181,7 @@ enum class PrimitiveAction : std::uint32_t {
     notNeeded = 4,     ///< the material needs no tangents (no `all`)
     notTriangles = 5,  ///< points or lines
     impossible = 6,    ///< no UVs, no positions or nothing to compute; `reason` says which
-    removed = 7,       ///< no material needs the tangents, and they were taken away (`strip`)
+    removed = 7,       ///< taken away: no material needs them (`strip`), or they could not be read
 };
 /// Stable lowerCamelCase name, for JSON.
 const char* actionName(PrimitiveAction action);

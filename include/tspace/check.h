@@ -58,8 +58,10 @@ enum class FindingCode : std::uint32_t {
     greenMixed = 30,              ///< a normal map whose green points down in one part and up in another
     packedFramesUnreadable = 31,  ///< an attribute of packed frames is not what its name promises (docs/pack.md)
     packedFramesDiffer = 32,      ///< packed frames are not those of NORMAL and TANGENT
+    tangentsUnreadable = 33,      ///< TANGENT has a type or a number of elements that tangents cannot have
+    positionsRounded = 34,        ///< positions are stored so coarsely that triangles do not say where tangents point
 };
-inline constexpr std::uint32_t kFindingCodeCount = 33;
+inline constexpr std::uint32_t kFindingCodeCount = 35;
 
 /// Stable lowerCamelCase name: the name of the enumerator.
 const char* findingName(FindingCode code);

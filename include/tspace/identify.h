@@ -83,8 +83,9 @@ struct Identification {
 
 /// Reads a model and compares its tangents with those of mikktspace, angle, area, uniform, lengyel, flat and the other
 /// methods of tspace that follow UVs; mikktspace also on quads, where pairs of triangles explain clearly more. "The
-/// best" is the one with the most near corners; of those within half a percent the better known (that order). `fast`
-/// and `best`, which only tspace has, must explain 5 % more than any other. Errors: those of generateFile for reading.
+/// best" is the one with the most near corners; of those within half a percent the nearest in the mean, where that is
+/// more than rounding, else the better known (that order). `fast` and `best`, which only tspace has, must explain 5 % more
+/// than any other. Errors: those of generateFile for reading.
 /// Time: about that of generating with each method. Thread-safe; the same result for any number of threads.
 Result<Identification> identifyFile(const std::string& input, const IdentifyOptions& options = {});
 

@@ -90,10 +90,10 @@ tspace_ErrorCode tspace_inspectBytes(const tspace_Model* model, const char* opti
 
 /* Reads a model and compares its tangents with those of mikktspace, angle, area, uniform, lengyel, flat and the
  * other methods of tspace that follow UVs; mikktspace also on quads, where pairs of triangles explain clearly more.
- * "The best" is the one with the most near corners; of those within half a percent the better known (that order).
- * `fast` and `best`, which only tspace has, must explain 5 % more than any other. Errors: those of
- * tspace_generateFile for reading. Time: about that of generating with each method. Thread-safe; the same result for
- * any number of threads.
+ * "The best" is the one with the most near corners; of those within half a percent the nearest in the mean, where
+ * that is more than rounding, else the better known (that order). `fast` and `best`, which only tspace has, must
+ * explain 5 % more than any other. Errors: those of tspace_generateFile for reading.
+ * Time: about that of generating with each method. Thread-safe; the same result for any number of threads.
  * In C: options of `tspace identify`, report tspace.identify/1. */
 tspace_ErrorCode tspace_identifyFile(const char* input, const char* options, tspace_Bytes* report,
                                      tspace_Error* error) TSPACE_NOEXCEPT;

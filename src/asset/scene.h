@@ -3,6 +3,8 @@
 // at it. `generate` edits files in place and does not use it.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -43,6 +45,12 @@ struct SceneMorphTarget {
     SharedArray<Vec3> tangents = {};
 };
 
+/// A TANGENT that cannot be read.
+struct SceneTangentFault {
+    std::ptrdiff_t target = -1;  ///< of which morph target; -1: the primitive's own
+    std::string why = {};        ///< "they do not have 4 components"
+};
+
 /// Packed frames in one format.
 struct ScenePacked {
     FrameFormat format = FrameFormat::frame32;
@@ -61,8 +69,10 @@ struct ScenePrimitive {
     /// Three vertices per triangle, every one smaller than positions.size(). Empty for points and lines.
     SharedArray<std::uint32_t> corners = {};
     SharedArray<Vec3> positions = {};
-    SharedArray<Vec3> normals = {};               ///< one per vertex, or empty: absent
-    SharedArray<Vec4> tangents = {};              ///< one per vertex, or empty: absent
+    double position_step = 0;         ///< where they are stored as whole numbers: between neighbours; 0: floats
+    SharedArray<Vec3> normals = {};   ///< one per vertex, or empty: absent
+    SharedArray<Vec4> tangents = {};  ///< one per vertex, or empty: absent
+    std::vector<SceneTangentFault> tangent_faults = {};  ///< of those that count as absent
     bool tangents_not_read = false;               ///< they are empty, but the importer cannot tell that there are none
     std::vector<SharedArray<Vec2>> uv_sets = {};  ///< entry n: TEXCOORD_n, empty where absent; v runs down
     std::vector<SceneMorphTarget> morph_targets = {};
@@ -72,6 +82,19 @@ struct ScenePrimitive {
     /// Everything in the primitive's materials (variants too) that needs tangents; the first decides which UV set the
     /// tangents follow.
     std::vector<TangentUse> uses = {};
+    /// What else may read the tangents, or says that somebody made them: "the material extension EXT_hair". Empty: nothing.
+    std::string other_reader = {};
+
+    /// Whether a texture is read with the tangents, so that its UVs say where they must point.
+    [[nodiscard]] bool uvsDecide() const {
+        return std::any_of(uses.begin(), uses.end(), [](const TangentUse& use) { return use.has_texture; });
+    }
+
+    /// There are tangents that something may read, but no texture with them: somebody may have drawn them, along hair or
+    /// brushed metal, and UVs are no authority on them.
+    [[nodiscard]] bool hasFreeTangents() const {
+        return !tangents.empty() && (uses.empty() ? !other_reader.empty() : !uvsDecide());
+    }
 
     /// The packed frames that are the only ones it has, or null: `generate` then leaves it as it is.
     [[nodiscard]] const ScenePacked* packedAlone() const {

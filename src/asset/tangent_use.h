@@ -13,7 +13,9 @@ namespace tspace {
 struct TangentUse {
     std::string needed_by = {};  ///< "normalTexture", "clearcoatNormalTexture" or "anisotropy"
     std::string place = {};      ///< JSON pointer of the texture reference, or of the extension
-    std::size_t uv_set = 0;      ///< n of TEXCOORD_n; KHR_texture_transform's own texCoord goes first
+    /// False: a factor alone (KHR_materials_anisotropy), which tangents along any direction serve.
+    bool has_texture = true;
+    std::size_t uv_set = 0;  ///< n of TEXCOORD_n; KHR_texture_transform's own texCoord goes first
     UvTransform transform = {};
     std::optional<std::size_t> image = {};  ///< index into the file's images
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;

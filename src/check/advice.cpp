@@ -13,6 +13,8 @@ namespace {
 
 constexpr const char* kUnwrapFirst =
     "Give the mesh the UVs that the texture is read with; without them no tangent can be computed.";
+constexpr const char* kNoUvsToFollow =
+    "Give the mesh UVs for the tangents to follow, or export the tangents that are meant.";
 constexpr const char* kOtherTool =
     "Compute them anew with the tool that made them. Doing it here for the whole file would turn signs round that the "
     "normal maps of this file may want as they are.";
@@ -31,11 +33,29 @@ constexpr const char* kAlsoForOthers =
     "generate "
     "--overwrite.";
 
+constexpr const char* kDrawnTangents =
+    "Mend it with the tool that made the tangents. No texture is read with them, so nothing here says where they must "
+    "point.";
+
 constexpr std::string_view kRepairOption = "--repair", kOverwriteOption = "--overwrite";
 
 /// What is mended by computing tangents anew.
 bool isOfTangents(FindingCode code) {
     return (code >= FindingCode::tangentsNotFinite && code <= FindingCode::morphTangentsWrong);
+}
+
+/// What the format forbids. It is mended without a look at UVs, and however few vertices have it.
+bool isOfValues(FindingCode code) {
+    return code == FindingCode::tangentsNotFinite || code == FindingCode::tangentsNotUnit ||
+           code == FindingCode::signsNotOne;
+}
+
+/// The preset that a convention is; of two that are equal the first.
+std::string nameOf(const Convention& convention) {
+    for (const char* name : {"opengl", "directx", "unreal", "unity"}) {
+        if (*findConvention(name) == convention) return name;
+    }
+    return "opengl";  // it has the same signs
 }
 
 void replaceAll(std::string& text, std::string_view old, const std::string& with) {
@@ -48,7 +68,9 @@ class Advice {
   public:
     Advice(const CheckOptions& options, bool signs_stay_somewhere)
         : signs_stay_somewhere_(signs_stay_somewhere),
-          convention_(signFactor(options.convention) == signFactor(conventions::gltf) ? "" : " --convention opengl") {}
+          convention_(signFactor(options.convention) == signFactor(conventions::gltf)
+                          ? ""
+                          : " --convention " + nameOf(options.convention)) {}
 
     void give(const ScenePrimitive& primitive, const PrimitiveJudgement& judgement, Finding& finding) const {
         const bool can_compute = canCompute(primitive);
@@ -57,16 +79,21 @@ class Advice {
             return addConvention(finding);
         }
         if (finding.code == FindingCode::tangentsMissing || finding.code == FindingCode::tangentsIgnored) {
-            if (!can_compute) finding.remedy = kUnwrapFirst;
+            if (!can_compute) finding.remedy = primitive.uvsDecide() ? kUnwrapFirst : kNoUvsToFollow;
             return addConvention(finding);
         }
         if (!isOfTangents(finding.code)) return;
         const bool is_of_signs = finding.code == FindingCode::signsInverted || finding.code == FindingCode::signsWrong;
-        if (!can_compute) {
+        const bool is_error = finding.severity == Severity::error;
+        if (isOfValues(finding.code) || (finding.code == FindingCode::tangentsNotOrthogonal && is_error)) {
+            // As the remedy says.
+        } else if (primitive.hasFreeTangents()) {
+            finding.remedy = kDrawnTangents;
+        } else if (!can_compute) {
             finding.remedy = kUnwrapFirst;
         } else if (is_of_signs && judgement.signs != SignVerdict::plain) {
             finding.remedy = judgement.signs == SignVerdict::cancelled ? kBothOrNeither : kLookAtTheMap;
-        } else if (finding.severity == Severity::error) {
+        } else if (is_error) {
             replaceAll(finding.remedy, kOverwriteOption, std::string(kRepairOption));
         } else if (signs_stay_somewhere_) {
             finding.remedy = kOtherTool;

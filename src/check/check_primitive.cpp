@@ -3,6 +3,7 @@
 #include "check/primitive_checks.h"
 
 #include "check/findings.h"
+#include "core/angle.h"
 
 namespace tspace {
 
@@ -10,6 +11,39 @@ void PrimitiveFacts::add(FindingCode code, Severity severity, const Tally& tally
                          std::string message) {
     findings.push_back(makeFinding(code, severity, tally, unit, std::move(message)));
 }
+
+namespace {
+
+/// Of the surface, where UVs say where tangents point, and positions are not too coarse for it.
+double comparedShare(const PrimitiveFacts& facts) {
+    const double most = sineCosine(facts.options.direction_deg * kPi / 180).sine;
+    double area = 0;
+    for (const SurfaceFrame& face : facts.surface.faces) {
+        if (face.orientation != 0 && face.tangent_error <= most) area += face.area;
+    }
+    return facts.surface.area > 0 ? area / facts.surface.area : 0;
+}
+
+/// Positions so coarse that triangles say neither where tangents point nor, reliably, where they face.
+void checkRounding(PrimitiveFacts& facts) {
+    const PositionRounding& rounding = facts.surface.rounding;
+    const TurnedTriangles turned =
+        turnedBy(rounding, facts.mesh.positions, facts.mesh.corners, facts.options.direction_deg);
+    if (turned.share < kSomeTurned) return;
+    const Tally tally{.count = turned.count,
+                      .total = turned.total,
+                      .surface_share = turned.share,
+                      .worst_deg = turned.worst_deg,
+                      .vertices = {turned.first}};
+    facts.add(FindingCode::positionsRounded, Severity::warning, tally, "triangles",
+              "positions are rounded to steps of " + stepText(rounding.step) + " at up to " + stepText(rounding.far) +
+                  " from the origin, which turns " + countText(tally, "triangles") + " by " +
+                  decimalText(facts.options.direction_deg) + " degrees or more, up to " +
+                  decimalText(turned.worst_deg) + " (" + shareText(turned.share) +
+                  " of the surface); tangents are not blamed for it");
+}
+
+}  // namespace
 
 Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf) {
     PrimitiveFacts facts{.primitive = primitive, .options = options, .is_gltf = is_gltf};
@@ -26,16 +60,19 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
     facts.mesh = {.positions = primitive.positions.span(),
                   .normals = primitive.normals.span(),
                   .tangents = primitive.tangents.span(),
-                  .uvs = facts.reading.uvs,
-                  .corners = primitive.corners.span()};
+                  .uvs = primitive.hasFreeTangents() ? std::span<const Vec2>{} : facts.reading.uvs,
+                  .corners = primitive.corners.span(),
+                  .position_step = primitive.position_step};
     facts.surface = describeSurface(facts.mesh);
     checkPositions(facts);
+    checkRounding(facts);
     checkNormals(facts);
     checkUvs(facts);
     checkTextures(facts);
     if (const Result<Done> done = checkTangents(facts); !done) return done.error();
     checkMorphTargets(facts);
-    return PrimitiveVerdict{std::move(facts.findings), std::move(facts.faults), facts.wrong_sign_share};
+    const double compared = facts.looked_at_values ? comparedShare(facts) : 0;
+    return PrimitiveVerdict{std::move(facts.findings), std::move(facts.faults), facts.wrong_sign_share, compared};
 }
 
 Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, const CheckOptions& options,

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Whether tangents are there when they are needed, and whether they are good along the UVs that they should follow;
 // else, whether they are along other ones.
+#include <algorithm>
+
 #include "check/findings.h"
+#include "check/other_axes.h"
 #include "check/other_reading.h"
 #include "check/primitive_checks.h"
 
@@ -31,8 +34,24 @@ void addExplanation(PrimitiveFacts& facts, const FrameHealth& health, const Othe
     for (const std::uint32_t vertex : facts.mesh.corners) facts.faults[vertex] |= faultBit(code);
 }
 
+void checkUnreadable(PrimitiveFacts& facts) {
+    const Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
+    for (const SceneTangentFault& fault : facts.primitive.tangent_faults) {
+        const std::string what = fault.target < 0
+                                     ? "the tangents"
+                                     : "what morph target " + std::to_string(fault.target) + " adds to the tangents";
+        facts.add(FindingCode::tangentsUnreadable, Severity::error, all, "vertices",
+                  what + " cannot be read: " + fault.why);
+    }
+}
+
+bool isUnreadable(const ScenePrimitive& primitive) {
+    return std::any_of(primitive.tangent_faults.begin(), primitive.tangent_faults.end(),
+                       [](const SceneTangentFault& fault) { return fault.target < 0; });
+}
+
 void checkTangentsMissing(PrimitiveFacts& facts) {
-    if (facts.primitive.uses.empty()) return;
+    if (facts.primitive.uses.empty() || isUnreadable(facts.primitive)) return;
     Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
     const char* state =
         facts.primitive.tangents_not_read ? "were not read (the importer cannot give them)" : "are missing";
@@ -65,12 +84,13 @@ Result<Done> readOnQuads(PrimitiveFacts& facts, FrameHealth& health) {
 }  // namespace
 
 Result<Done> checkTangents(PrimitiveFacts& facts) {
+    checkUnreadable(facts);
     if (facts.mesh.tangents.empty()) {
         checkTangentsMissing(facts);
         return Done{};
     }
     Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
-    if (facts.primitive.uses.empty()) {
+    if (facts.primitive.uses.empty() && !facts.primitive.hasFreeTangents()) {
         // Whatever they are, nobody sees it.
         facts.add(FindingCode::tangentsUnused, Severity::note, all, "vertices",
                   "it has tangents, but its material needs none");
@@ -86,6 +106,7 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
     if (Result<Done> done = readOnQuads(facts, *health); !done) return done;
     Result<std::optional<OtherReading>> other = findOtherReading(facts, *health);
     if (!other) return other.error();
+    facts.looked_at_values = true;
     facts.faults = std::move(health->faults);
     facts.wrong_sign_share = health->wrong_sign_share;
     if (*other) {
@@ -98,7 +119,22 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
         facts.mesh.uvs = facts.reading.uvs;
         for (std::size_t v = 0; v < health->faults.size(); ++v) facts.faults[v] |= health->faults[v];
     }
-    for (Finding& finding : tangentFindings(*health, facts.options)) facts.findings.push_back(std::move(finding));
+    const std::string axes = *other ? std::string() : findOtherAxes(facts, *health);
+    if (!axes.empty()) {
+        // For one reason all of them are wrong, also those that come near to what is right.
+        for (const std::uint32_t vertex : facts.mesh.corners) facts.fault(vertex, FindingCode::directionsWrong);
+    }
+    for (Finding& finding : tangentFindings(*health, facts.options)) {
+        if (finding.code == FindingCode::directionsWrong && !axes.empty()) {
+            finding.message +=
+                "; as (" + axes +
+                ") of what is stored they fit, so the mesh was turned to other axes, and its tangents were not";
+        }
+        // Without a texture the side on which v grows is seldom looked at.
+        if (finding.code == FindingCode::signsMixed && facts.primitive.hasFreeTangents())
+            finding.severity = Severity::warning;
+        facts.findings.push_back(std::move(finding));
+    }
     return Done{};
 }
 

@@ -20,6 +20,7 @@ std::string setName(std::size_t set) { return "TEXCOORD_" + std::to_string(set);
 void checkUvsMissing(PrimitiveFacts& facts) {
     std::set<std::size_t> reported;
     for (const TangentUse& use : facts.primitive.uses) {
+        if (!use.has_texture) continue;
         if (!plainReading(facts.primitive, use.uv_set).uvs.empty() || !reported.insert(use.uv_set).second) continue;
         Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
         facts.add(FindingCode::uvsMissing, Severity::error, all, "vertices",

@@ -45,6 +45,16 @@ double angleInPlane(const Vec3& normal, const Vec3& v, double least, bool& found
     return signedAngle(dot(axes.x, d), dot(axes.y, d));
 }
 
+double withinTurn(double angle) { return angle > kPi ? angle - kTurn : angle < -kPi ? angle + kTurn : angle; }
+
+/// Radians by which rounding of the positions can have turned a triangle's direction in the plane of n; pi: anywhere.
+double errorInPlane(const DVec3& n, const SurfaceFrame& face) {
+    if (face.tangent_error == 0) return 0;
+    const double part = length(cross(n, toDouble(face.tangent)));
+    const double sine = face.tangent_error / part;
+    return sine < 1 ? polarAngle(std::sqrt(1 - sine * sine), sine) : kPi;
+}
+
 /// Whether the corner spans an angle, seen along N, that is more than the rounding of floats. A method that
 /// weights by this angle, as MikkTSpace does, gives other corners no weight, or one by chance.
 bool spansAngle(const TangentView& mesh, std::size_t corner) {
@@ -88,10 +98,17 @@ class NearestDirections {
             if (face.tangent != Vec3{}) addAngle(vertex, 0);
             return;
         }
-        addAngle(vertex, static_cast<float>(signedAngle(dot(t, d), dot(cross(n, t), d))));
-        if (face.orientation == 0) {
-            addAngle(vertex, static_cast<float>(signedAngle(-dot(t, d), -dot(cross(n, t), d))));
-        }
+        const double off = errorInPlane(n, face);
+        addArc(vertex, signedAngle(dot(t, d), dot(cross(n, t), d)), off);
+        if (face.orientation == 0) addArc(vertex, signedAngle(-dot(t, d), -dot(cross(n, t), d)), off);
+    }
+    /// Every direction within `off` of an angle.
+    void addArc(std::uint32_t vertex, double angle, double off) {
+        if (off >= std::fabs(angle)) addAngle(vertex, 0);
+        addAngle(vertex, static_cast<float>(angle));
+        if (off == 0) return;
+        addAngle(vertex, static_cast<float>(withinTurn(angle - off)));
+        addAngle(vertex, static_cast<float>(withinTurn(angle + off)));
     }
     void addAngle(std::uint32_t vertex, float angle) {
         if (angle >= 0) left_[vertex] = std::min(left_[vertex], angle);
@@ -192,8 +209,17 @@ std::vector<DirectionCone> conesOfClasses(const TangentView& mesh, const Surface
         bool found = false;
         const double angle = angleInPlane(mesh.normals[vertex], face.tangent, kLeastOfTriangle, found);
         if (!found) continue;
-        entries.push_back({class_of_vertex[vertex], angle});
-        if (face.orientation == 0) entries.push_back({class_of_vertex[vertex], angle > 0 ? angle - kPi : angle + kPi});
+        DVec3 n = toDouble(mesh.normals[vertex]);
+        const double off = normalize(n) ? errorInPlane(n, face) : 0;
+        const auto add = [&](double at) {
+            entries.push_back({class_of_vertex[vertex], at});
+            if (off == 0) return;
+            // Where it can point anywhere, from there on round the circle.
+            for (const double part : {-1.0, -0.5, 0.5, 1.0})
+                entries.push_back({class_of_vertex[vertex], withinTurn(at + part * off)});
+        };
+        add(angle);
+        if (face.orientation == 0) add(angle > 0 ? angle - kPi : angle + kPi);
     }
     std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.of_class < b.of_class; });
     std::vector<DirectionCone> cones(class_count);

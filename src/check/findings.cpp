@@ -23,7 +23,7 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
     {"uvsNotFinite", "Find the tool that wrote NaN or infinity as a UV, and export again."},
     {"uvsDegenerate",
      "Unwrap those triangles so that they cover some of the texture. If they show one plain colour on purpose, leave "
-     "them: their tangents do not matter."},
+     "them: any tangent in the plane of the surface will do there."},
     {"normalsMissing", "Nothing needs to be done if flat shading is meant; else export normals."},
     {"normalsNotFinite", "Export the normals again."},
     {"normalsNotUnit", "Normalise the normals and compute the tangents anew."},
@@ -38,8 +38,9 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "meant."},
     {"tangentsIgnored", "Run tspace generate, which makes normals too; or export normals as well."},
     {"tangentsNotFinite", kRepair},
-    {"tangentsNotUnit", kRepair},
-    {"tangentsNotOrthogonal", "Compute those tangents anew from the normals of the file: tspace generate --repair."},
+    {"tangentsNotUnit", "Make them unit, and compute those anew that have no length: tspace generate --repair."},
+    {"tangentsNotOrthogonal",
+     "Make those tangents perpendicular to the normals of the file: tspace generate --repair."},
     {"signsNotOne", "Store +1 or -1 in w: tspace generate --repair."},
     {"signsMixed", "Split the vertices where mirrored and other triangles meet: tspace generate --repair."},
     {"signsInverted",
@@ -73,6 +74,12 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
     {"packedFramesUnreadable", "Pack them anew, in the format that the attribute names: tspace generate --pack."},
     {"packedFramesDiffer",
      "Pack them anew from NORMAL and TANGENT, in the format that the attribute names: tspace generate --pack."},
+    {"tangentsUnreadable",
+     "Run tspace generate: it computes tangents where a material needs them, and takes the attribute away elsewhere."},
+    {"positionsRounded",
+     "Store the positions relative to a point near the mesh, and put that point into the node. Tangents that are there "
+     "are "
+     "better than what can be computed from these positions: keep them."},
 }};
 
 }  // namespace
@@ -130,6 +137,8 @@ const char* findingSummary(FindingCode code) {
         "Green points down in one part of a normal map and up in another.",
         "Packed frames cannot be read.",
         "Packed frames are not those of the normals and tangents.",
+        "Tangents are stored in a form that tangents cannot have.",
+        "Positions are rounded too coarsely for directions.",
     };
     static_assert(kSummaries.size() == kFindingCodeCount);
     const auto number = static_cast<std::size_t>(code);
@@ -164,6 +173,22 @@ std::string decimalText(double value) {
     // One digit behind the point, without the locale.
     const auto tenths = static_cast<std::uint64_t>(std::llround(value * 10));
     return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10);
+}
+
+std::string stepText(double value) {
+    if (value >= 10) return std::to_string(static_cast<std::uint64_t>(std::llround(value)));
+    int digits = 1;
+    for (double scaled = value; scaled > 0 && scaled < 1 && digits < 12; scaled *= 10) ++digits;
+    auto number = static_cast<std::uint64_t>(std::llround(value * std::pow(10, digits)));
+    while (digits > 0 && number % 10 == 0) {
+        number /= 10;
+        --digits;
+    }
+    std::string text = std::to_string(number);
+    if (digits == 0) return text;
+    const auto behind = static_cast<std::size_t>(digits);
+    if (text.size() <= behind) text = std::string(behind + 1 - text.size(), '0') + text;
+    return text.substr(0, text.size() - behind) + "." + text.substr(text.size() - behind);
 }
 
 std::string countText(const Tally& tally, const char* unit) {

@@ -32,6 +32,8 @@ Severity onShare(Severity severity, double surface_share, const CheckOptions& op
 std::string countText(const Tally& tally, const char* unit);
 /// "34.5 %", "less than 0.1 %".
 std::string shareText(double share);
+/// A length with two digits, or all before the point: "0.5", "0.00012", "4659477".
+std::string stepText(double value);
 /// "12.3".
 std::string decimalText(double value);
 

@@ -34,15 +34,20 @@ Result<FrameHealth> examineTangents(const TangentView& mesh, const Surface& surf
         if (!found) return found;
     }
     FrameHealth& health = *found;
-    for (Tally* tally : {&health.not_finite, &health.not_unit, &health.not_orthogonal, &health.sign_not_one,
-                         &health.signs_mixed, &health.signs_wrong, &health.mirrored_seams, &health.uv_seams,
-                         &health.directions_wrong, &health.frames_differ}) {
+    for (Tally* tally : {&health.not_finite, &health.not_unit, &health.not_orthogonal, &health.parallel,
+                         &health.sign_not_one, &health.signs_mixed, &health.signs_wrong, &health.mirrored_seams,
+                         &health.uv_seams, &health.directions_wrong, &health.frames_differ}) {
         tally->finish(surface.area);
     }
     if (surface.area > 0) {
         health.far_from_unit /= surface.area;
-        health.parallel /= surface.area;
         health.far_directions /= surface.area;
+    }
+    health.parallel_apart = health.has_no_frame && health.parallel.surface_share < options.error_share;
+    if (health.parallel_apart) {
+        for (std::uint32_t& bits : health.faults) {
+            if ((bits & kParallelTangent) == 0) bits &= ~faultBit(FindingCode::tangentsNotOrthogonal);
+        }
     }
     return found;
 }

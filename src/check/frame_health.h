@@ -10,19 +10,20 @@
 #include "check/direction_cones.h"
 #include "check/tally.h"
 #include "surface/surface.h"
+#include "surface/tangent_values.h"
 #include "surface/tangent_view.h"
 #include "tspace/check.h"
 
 namespace tspace {
 
-/// The bit of a finding in FrameHealth::faults.
+/// The bit of a finding in FrameHealth::faults. Only codes below greenFlipped are about vertices.
 inline constexpr std::uint32_t faultBit(FindingCode code) { return 1u << static_cast<std::uint32_t>(code); }
 
 /// Another bit: the sign goes with the inverted ones around.
 inline constexpr std::uint32_t kUndecidedSign = 1u << 31;
 
-/// Lengths of normals and tangents below cannot be told from zero.
-inline constexpr double kShortest = 1e-6;
+/// Another: the tangent is nearly parallel to N.
+inline constexpr std::uint32_t kParallelTangent = 1u << 30;
 
 struct FrameHealth {
     /// Per vertex the bits of what it is counted for below; empty: nothing at all. Wrong signs have the bit of
@@ -42,13 +43,18 @@ struct FrameHealth {
     }
     [[nodiscard]] bool isSettled(std::uint32_t vertex) const { return !settled.empty() && settled[vertex]; }
 
-    // Values on their own. Counted: vertices that triangles use.
-    Tally not_finite;          ///< tangent or w
-    Tally not_unit;            ///< and finite
-    double far_from_unit = 0;  ///< share of the surface with lengths below 0.9 or above 1.1
-    bool has_zero = false;     ///< some have no length at all
-    Tally not_orthogonal;      ///< finite, not zero, with a usable N
-    double parallel = 0;       ///< share of the surface with tangents nearly parallel to N
+    // Values on their own. Counted: all vertices, and for directions those that triangles use. Flags: of the latter.
+    Tally not_finite;             ///< tangent or w
+    bool has_not_finite = false;  ///< some
+    Tally not_unit;               ///< and finite
+    double far_from_unit = 0;     ///< share of the surface with lengths below 0.9 or above 1.1
+    bool has_zero = false;        ///< some have no length at all
+    Tally not_orthogonal;         ///< finite, not zero, with a usable N
+    Tally parallel;               ///< not among these: within 5 degrees of N or its opposite, so that there is no frame
+    /// They cover so little that the others that lean are another matter, and a warning: only they have the bit of
+    /// tangentsNotOrthogonal.
+    bool has_no_frame = false;  ///< some are within 1 degree of N or its opposite
+    bool parallel_apart = false;
     Tally sign_not_one;
     bool sign_vanishes = false;  ///< some |w| is below 0.5
     Tally signs_mixed;           ///< triangles that have UV area

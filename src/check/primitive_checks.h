@@ -20,12 +20,13 @@ struct PrimitiveFacts {
     const CheckOptions& options;
     bool is_gltf = true;     ///< others are seldom expected to hold tangents, and many cannot
     UvReading reading = {};  ///< what the tangents should follow
-    TangentView mesh = {};   ///< over `reading`
+    TangentView mesh = {};   ///< over `reading`; without UVs where these are no authority
     Surface surface = {};    ///< of `mesh`
     QuadReading quads = {};  ///< holds the corners of `mesh` where its tangents were made on quads
     std::vector<Finding> findings = {};
     std::vector<std::uint32_t> faults = {};  ///< of the tangents, as FrameHealth::faults; empty: none
     double wrong_sign_share = 0;             ///< as FrameHealth::wrong_sign_share
+    bool looked_at_values = false;           ///< there are tangents, and they were examined
 
     void fault(std::uint32_t vertex, FindingCode code) {
         if (faults.empty()) faults.resize(mesh.positions.size());
@@ -39,6 +40,8 @@ struct PrimitiveVerdict {
     std::vector<Finding> findings = {};
     std::vector<std::uint32_t> faults = {};  ///< as PrimitiveFacts::faults; empty: none
     double wrong_sign_share = 0;
+    /// Of the surface, where tangents were compared with what UVs say; 0 where their values alone were looked at.
+    double compared_share = 0;
 };
 
 /// Everything there is to say about a primitive, but for its images. Fails for lack of memory only.

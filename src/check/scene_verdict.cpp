@@ -30,7 +30,13 @@ std::string keyOf(const ScenePrimitive& primitive) {
     append(primitive.normals.data());
     append(primitive.tangents.data());
     for (const SharedArray<Vec2>& uvs : primitive.uv_sets) append(uvs.data());
+    append(primitive.position_step);
     append(primitive.packedAlone() != nullptr);
+    append(primitive.other_reader.empty());
+    for (const SceneTangentFault& fault : primitive.tangent_faults) {
+        append(fault.target);
+        key += fault.why;
+    }
     append(primitive.morph_targets.size());
     for (const SceneMorphTarget& target : primitive.morph_targets) {
         append(target.positions.data());
@@ -39,6 +45,7 @@ std::string keyOf(const ScenePrimitive& primitive) {
     }
     for (const TangentUse& use : primitive.uses) {
         key += use.needed_by;
+        append(use.has_texture);
         append(use.uv_set);
         append(use.transform.rotation);
         append(use.transform.scale);
@@ -69,7 +76,7 @@ using SharedFaults = std::shared_ptr<const std::vector<VertexFaults>>;
 struct Judged {
     std::vector<Finding> findings = {};
     SharedFaults faults = {};
-    double wrong_sign_share = 0;
+    double wrong_sign_share = 0, compared_share = 0;
 };
 
 SharedFaults keptFaults(const std::vector<std::uint32_t>& faults, const ScenePrimitive& primitive,
@@ -107,6 +114,7 @@ std::vector<Judged> judgeAll(const Scene& scene, const Work& work, const CheckOp
         PrimitiveVerdict verdict = valueOrThrow(judgePrimitive(primitiveAt(i), options, is_gltf));
         results[i].findings = std::move(verdict.findings);
         results[i].wrong_sign_share = verdict.wrong_sign_share;
+        results[i].compared_share = verdict.compared_share;
         if (with_faults) results[i].faults = keptFaults(verdict.faults, primitiveAt(i), scene.memory.get());
     });
     tell(results.size());
@@ -217,6 +225,7 @@ std::vector<PrimitiveJudgement> judgePrimitives(const Scene& scene, const CheckO
         }
         judgements[i].faults = results[number].faults;
         judgements[i].wrong_sign_share = results[number].wrong_sign_share;
+        judgements[i].compared_share = results[number].compared_share;
     }
     return judgements;
 }

@@ -31,6 +31,7 @@ struct PrimitiveJudgement {
     /// The vertices that findings above count, ascending; null: none, or not asked for.
     std::shared_ptr<const std::vector<VertexFaults>> faults = {};
     double wrong_sign_share = 0;  ///< of the surface whose signs were judged
+    double compared_share = 0;    ///< of the surface, where tangents were compared with what UVs say
     SignVerdict signs = SignVerdict::plain;
     /// Most signs are inverted and stay so: a normal map whose green points the other way makes that right, or may.
     bool signs_stay = false;

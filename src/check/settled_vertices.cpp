@@ -54,7 +54,7 @@ Result<Done> settleBy(const TangentOptions& how, const TangentView& mesh, const 
 Result<bool> settleVertices(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
                             FrameHealth& health) {
     const bool only_signs = health.all_signs_wrong && health.mirrored_seams.count == 0;
-    const std::uint64_t doubtful = health.not_orthogonal.count + health.signs_mixed.count +
+    const std::uint64_t doubtful = health.not_orthogonal.count + health.parallel.count + health.signs_mixed.count +
                                    health.mirrored_seams.count + health.uv_seams.count + health.directions_wrong.count +
                                    health.frames_differ.count + (only_signs ? 0 : health.signs_wrong.count);
     if (doubtful == 0) return false;

@@ -24,6 +24,16 @@ struct Tally {
         worst_deg = std::max(worst_deg, deg);
         if (vertices.size() < kMostVertices) vertices.push_back(vertex);
     }
+    /// What was met of another kind, of as many.
+    void include(const Tally& other) {
+        count += other.count;
+        area += other.area;
+        surface_share = std::min(1.0, surface_share + other.surface_share);
+        worst_deg = std::max(worst_deg, other.worst_deg);
+        vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
+        std::sort(vertices.begin(), vertices.end());
+        if (vertices.size() > kMostVertices) vertices.resize(kMostVertices);
+    }
     [[nodiscard]] double share() const {
         return total == 0 ? 0 : static_cast<double>(count) / static_cast<double>(total);
     }

@@ -20,6 +20,7 @@ constexpr double kSameDeg = 1;
 constexpr std::size_t kMostCompared = 64;
 /// Share of the surface from which wrong directions leave nothing that is right.
 constexpr double kNothingRight = 0.95;
+constexpr double kMostly = 0.5;
 
 enum class Cause { unknown, uvSeam, mirroredSeam };
 
@@ -95,11 +96,13 @@ void findUndecided(const TangentView& mesh, const Surface& surface, std::span<co
         wrong[patches.of(v)] += surface.known_areas[v];
         all_wrong += surface.known_areas[v];
     }
-    const double share = all_wrong >= kNothingRight * all_judged ? 0.5 : kNothingRight;
+    const double share = all_wrong >= kNothingRight * all_judged ? kMostly : kNothingRight;
     for (std::uint32_t v = 0; v < count; ++v) {
         if (directions[v] == kUnknownDirection || health.isSettled(v)) continue;
         const std::uint32_t patch = patches.of(v);
-        if (wrong[patch] > 0 && wrong[patch] >= share * judged[patch])
+        // Where most are wrong, those outside of their cones are too, if by less than would be said of them alone.
+        const double least = directions[v] > kInsideDeg ? kMostly : share;
+        if (wrong[patch] > 0 && wrong[patch] >= least * judged[patch])
             health.fault(v, FindingCode::directionsWrong, count);
     }
 }

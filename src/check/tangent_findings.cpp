@@ -37,16 +37,29 @@ void addValues(const FrameHealth& health, const CheckOptions& options, FindingLi
     const auto severity = [&](double bad_share) {
         return bad_share >= options.error_share ? Severity::error : Severity::warning;
     };
-    list.addWhole(FindingCode::tangentsNotFinite, Severity::error, health.not_finite,
+    list.addWhole(FindingCode::tangentsNotFinite, health.has_not_finite ? Severity::error : Severity::warning,
+                  health.not_finite,
                   "the tangents of " + countText(health.not_finite, kVertices) + " are NaN or infinite");
     list.addWhole(FindingCode::tangentsNotUnit, health.has_zero ? Severity::error : severity(health.far_from_unit),
                   health.not_unit,
                   "the tangents of " + countText(health.not_unit, kVertices) + " are not unit" +
                       (health.has_zero ? ", some have no length at all" : "") + onSurface(health.not_unit));
-    list.add(FindingCode::tangentsNotOrthogonal, severity(health.parallel), health.not_orthogonal, kVertices,
-             "the tangents of " + countText(health.not_orthogonal, kVertices) +
-                 " are not perpendicular to the normal, off by up to " + decimalText(health.not_orthogonal.worst_deg) +
-                 " degrees" + onSurface(health.not_orthogonal));
+    Tally leaning = health.not_orthogonal;
+    if (health.parallel_apart) {
+        list.addWhole(FindingCode::tangentsNotOrthogonal, Severity::error, health.parallel,
+                      "the tangents of " + countText(health.parallel, kVertices) +
+                          " lie along the normal, so that there is no bitangent" + onSurface(health.parallel));
+    } else {
+        leaning.include(health.parallel);
+    }
+    const bool is_parallel =
+        !health.parallel_apart && health.parallel.surface_share >= options.error_share && health.parallel.count != 0;
+    list.addWhole(FindingCode::tangentsNotOrthogonal, is_parallel ? Severity::error : Severity::warning, leaning,
+                  "the tangents of " + countText(leaning, kVertices) +
+                      " are not perpendicular to the normal, off by up to " + decimalText(leaning.worst_deg) +
+                      " degrees" +
+                      (is_parallel ? "; " + std::to_string(health.parallel.count) + " of them lie along it" : "") +
+                      onSurface(leaning));
     list.addWhole(FindingCode::signsNotOne, health.sign_vanishes ? Severity::error : Severity::warning,
                   health.sign_not_one,
                   "the sign (w) of " + countText(health.sign_not_one, kVertices) + " is neither +1 nor -1");

@@ -319,11 +319,10 @@ class FrameComputer {
         for (std::size_t v = 0; v < split.vertexCount(); ++v) {
             const std::uint32_t corner = split.source_corners[v];
             if (corner == kNoCorner && pool_.mends_tangents) {
-                frames.tangents.push_back(pool_.kept_tangents[split.source_vertices[v]]);
-                if (generates_bitangents_) {
-                    const Vec3 normal = pool_.normals[split.source_vertices[v]];
-                    frames.bitangents.push_back(bitangentOf(frames.tangents.back(), normal));
-                }
+                const Vec3 normal = pool_.normals[split.source_vertices[v]];
+                frames.tangents.push_back(withSoundValues(pool_.kept_tangents[split.source_vertices[v]],
+                                                          tangentFromNormal(normal, 1), normal));
+                if (generates_bitangents_) frames.bitangents.push_back(bitangentOf(frames.tangents.back(), normal));
                 continue;
             }
             if (corner == kNoCorner) {
@@ -337,10 +336,8 @@ class FrameComputer {
 
     /// The frame of a vertex that no corner uses: any that is orthonormal.
     void writeUnused(std::uint32_t vertex, PoolFrames& frames) const {
-        const float sign = signFactor(options_.tangents.convention);
         const Vec3 normal = generates_normals_ ? Vec3{0, 0, 1} : pool_.normals[vertex];
-        const Vec3 t = orthonormalize({.tangent = {}, .bitangent = {}, .normal = normal}).tangent;
-        frames.tangents.push_back({t.x, t.y, t.z, sign});
+        frames.tangents.push_back(tangentFromNormal(normal, signFactor(options_.tangents.convention)));
         if (generates_bitangents_) frames.bitangents.push_back(bitangentOf(frames.tangents.back(), normal));
     }
 

@@ -17,6 +17,7 @@
 #include "core/parallel.h"
 #include "generate_file/convert_maps.h"
 #include "generate_file/flip_maps.h"
+#include "generate_file/mend_values.h"
 #include "generate_file/repair_plan.h"
 
 namespace tspace::gltf {
@@ -86,13 +87,20 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     std::optional<MapConversion> maps;
     if (options.convert_maps) maps.emplace(document, primitives, options);
     report.input_bytes = document.input_bytes;
-    const bool will_edit = !plan.pools.empty() || !flips.images.empty() || options.pack.has_value();
+    std::vector<std::vector<std::size_t>> broken;
+    if (options.existing != ExistingTangents::keep) broken = findBrokenValues(document, primitives, plan);
+    const bool is_unreadable = std::any_of(primitives.begin(), primitives.end(), [](const Primitive& primitive) {
+        return !primitive.unreadable_tangents.empty();
+    });
+    const bool will_edit =
+        !plan.pools.empty() || !flips.images.empty() || options.pack.has_value() || !broken.empty() || is_unreadable;
     if (keeps_compression) convertContainer(document, target, will_edit, report.warnings);
     takeImagesIn(document, target, report.warnings);
     tell(options, "reading", 1, 1);
 
     Editor editor(document, new_file);
     if (removed) editor.touch();
+    if (is_unreadable) removeUnreadableTangents(editor, primitives, plan);
     std::uint64_t total = 0, done = 0;
     for (const Pool& pool : plan.pools) total += pool.corner_count;
     PoolComputer computer(document, primitives, options);
@@ -103,11 +111,15 @@ GenerateReport generate(const std::string& input, const std::string& output_path
         rest = rest.subspan(pools.size());
         std::vector<PoolElements> elements = computer.compute(pools, plan.reports);
         for (std::size_t i = 0; i < pools.size(); ++i) {
+            if (!elements[i].warning.empty())
+                report.warnings.push_back(primitives[pools[i].primitives[0]].place() + ": " + elements[i].warning);
             applyFrames(editor, document, primitives, pools[i], std::move(elements[i]), plan.reports);
             done += pools[i].corner_count;
         }
     }
     tell(options, "computing tangents", total, total);
+    mendBrokenValues(editor, document, primitives, broken, plan.reports);
+    if (is_unreadable) noteUnreadableTangents(primitives, plan.reports);
     if (options.bitangents) noteMissingBitangents(primitives, plan.reports);
     noteStalePackedFrames(document, primitives, options, plan.reports);
     stripTangents(editor, primitives, plan.reports);

@@ -3,12 +3,12 @@
 #include "generate_file/repair_plan.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "asset/file_error.h"
-#include "asset/gltf/compute_pools.h"
+#include "asset/gltf/primitive_notes.h"
 #include "asset/gltf/read_scene.h"
+#include "check/findings.h"
 #include "check/frame_health.h"
 #include "check/scene_verdict.h"
 
@@ -20,15 +20,15 @@ namespace {
 std::uint8_t partsOf(FindingCode code) {
     switch (code) {
         case FindingCode::tangentsNotFinite:
-        case FindingCode::tangentsNotOrthogonal:
         case FindingCode::uvSeamAveraged:
         case FindingCode::directionsWrong:
         case FindingCode::uvSetWrong:
             return mend::kWhole;
         case FindingCode::tangentsNotUnit:
-            return mend::kLength;
         case FindingCode::signsNotOne:
-            return mend::kSignSize;
+            return mend::kValues;
+        case FindingCode::tangentsNotOrthogonal:
+            return mend::kStraighten;
         case FindingCode::signsWrong:
         case FindingCode::signsInverted:
             return mend::kTurnSign;
@@ -45,24 +45,56 @@ std::uint8_t partsOf(FindingCode code) {
 /// What is wrong with one primitive.
 struct Verdict {
     Mends mends = {};
-    std::string why = {};  ///< empty: nothing
+    std::string why = {};   ///< empty: nothing
+    std::string kept = {};  ///< what was looked at, where nothing is wrong
+    bool is_free = false;   ///< no texture is read with its tangents
 };
 
-Verdict verdictOf(const PrimitiveJudgement& judgement) {
-    Verdict verdict;
+/// Whether vertices are mended that the finding counts. What the format forbids is, however little it matters.
+bool asksForMending(const Finding& finding) {
+    const std::uint8_t parts = partsOf(finding.code);
+    const bool is_of_values = parts == mend::kValues || finding.code == FindingCode::tangentsNotFinite;
+    return parts != 0 && (finding.severity == Severity::error || is_of_values);
+}
+
+/// Half a sentence about tangents that stay.
+std::string whyKept(const PrimitiveJudgement& judgement, bool is_free) {
+    constexpr double kNearlyAll = 0.99;
+    std::string warnings;
+    for (const Finding& finding : judgement.findings) {
+        const bool is_of_tangents = partsOf(finding.code) != 0 || finding.code == FindingCode::positionsRounded ||
+                                    finding.code == FindingCode::textureTransformIgnored ||
+                                    finding.code == FindingCode::splitFramesDiffer ||
+                                    finding.code == FindingCode::signsMixed;
+        if (is_of_tangents) warnings += (warnings.empty() ? "" : "; and ") + finding.message;
+    }
+    if (is_free) {
+        return "its tangents stay: no texture is read with them, so their values alone were looked at" +
+               (warnings.empty() ? "" : "; " + warnings);
+    }
+    if (!warnings.empty()) return "its tangents stay, since nothing in them is surely wrong; but " + warnings;
+    if (judgement.compared_share == 0)
+        return "its tangents stay: its UVs have no area, so their values alone were looked at";
+    if (judgement.compared_share >= kNearlyAll) return "its tangents are good";
+    return "nothing wrong was found in its tangents; on " + shareText(1 - judgement.compared_share) +
+           " of the surface the UVs have no area, and their values alone were looked at";
+}
+
+Verdict verdictOf(const PrimitiveJudgement& judgement, bool is_free) {
+    Verdict verdict{.kept = whyKept(judgement, is_free), .is_free = is_free};
     verdict.mends.inverted_signs = judgement.signs_stay;
     std::vector<std::pair<std::uint32_t, std::uint8_t>> rules;  // bits of faults, and what they ask for
     for (const Finding& finding : judgement.findings) {
-        const std::uint8_t parts = partsOf(finding.code);
-        if (finding.severity != Severity::error || parts == 0) continue;
+        if (!asksForMending(finding)) continue;
         const bool is_inverted = finding.code == FindingCode::signsInverted;
         rules.emplace_back(is_inverted ? faultBit(FindingCode::signsWrong) | kUndecidedSign : faultBit(finding.code),
-                           parts);
+                           partsOf(finding.code));
         // Where signs are turned no seam between them may be left, however short.
         if (is_inverted) rules.emplace_back(faultBit(FindingCode::mirroredSeamAveraged), mend::kSides);
         verdict.why += (verdict.why.empty() ? "" : "; and ") + finding.message;
     }
-    if (rules.empty() || !judgement.faults) return {};
+    // What was drawn is not computed anew: its values are mended on their own.
+    if (rules.empty() || !judgement.faults || is_free) return verdict;
     for (const VertexFaults& faults : *judgement.faults) {
         std::uint8_t parts = 0;
         for (const auto& [bits, asked] : rules) parts |= (faults.bits & bits) != 0 ? asked : 0;
@@ -75,7 +107,10 @@ Verdict verdictOf(const PrimitiveJudgement& judgement) {
 void readAsAsked(const GenerateOptions& options, Scene& scene) {
     for (ScenePrimitive& primitive : scene.primitives) {
         // As if something read these tangents.
-        if (primitive.uses.empty() && options.all) primitive.uses.push_back({.needed_by = "what was asked for"});
+        if (primitive.uses.empty() && options.all) {
+            primitive.uses.push_back(
+                {.needed_by = "what was asked for", .has_texture = primitive.other_reader.empty()});
+        }
         if (options.texture_transform == TextureTransform::apply) continue;
         for (TangentUse& use : primitive.uses) use.transform = {};
     }
@@ -98,20 +133,22 @@ std::vector<Verdict> judge(const Document& document, std::span<const Primitive> 
         weighImages(scene, check, images, judgements);
     }
     std::vector<Verdict> verdicts;
-    for (const PrimitiveJudgement& judgement : judgements) verdicts.push_back(verdictOf(judgement));
+    for (std::size_t i = 0; i < judgements.size(); ++i)
+        verdicts.push_back(verdictOf(judgements[i], scene.primitives[i].hasFreeTangents()));
     document.memory->giveBack(left);
     return verdicts;
 }
 
-void keep(PrimitiveReport& report) {
+void keep(const Verdict& verdict, PrimitiveReport& report) {
     report.action = PrimitiveAction::kept;
-    report.reason = "its tangents are good";
+    report.reason = verdict.kept;
+    // They were not computed, and may follow the transform or not.
+    std::erase_if(report.notes, [](const std::string& note) { return note.rfind(kTransformNote, 0) == 0; });
 }
 
-/// Whether its tangents, if it has any, have the shape that they must have.
-bool isVec4(const Document& document, const Primitive& primitive) {
-    const auto tangents = primitive.find("TANGENT");
-    return !tangents || readAccessor(document, *tangents).component_count == 4;
+/// It has tangents with normals, and they cannot be computed.
+bool hasOnlyItsOwn(const Primitive& primitive, const PrimitiveReport& report) {
+    return report.action == PrimitiveAction::impossible && primitive.find("TANGENT") && primitive.find("NORMAL");
 }
 
 /// The pool with some of its primitives, in groups that are mended alike. `mendsOf`: null for those to be left out.
@@ -146,30 +183,23 @@ Pool selected(const Pool& pool, std::span<const Primitive> primitives, const Men
 
 void planRepair(const Document& document, std::span<const Primitive> primitives, const GenerateOptions& options,
                 GeneratePlan& plan) {
-    if (std::none_of(plan.pools.begin(), plan.pools.end(), [](const Pool& pool) { return pool.has_tangents; })) return;
+    bool is_needed =
+        std::any_of(plan.pools.begin(), plan.pools.end(), [](const Pool& pool) { return pool.has_tangents; });
+    for (std::size_t i = 0; i < primitives.size(); ++i)
+        is_needed = is_needed || hasOnlyItsOwn(primitives[i], plan.reports[i]);
+    if (!is_needed) return;
     // All of them, since normal maps are weighed by what the whole file shows of them.
-    std::vector<Primitive> judged;
-    std::map<std::size_t, std::size_t> place_of;  // primitive -> number in `judged`
+    const std::vector<Verdict> verdicts = judge(document, primitives, options);
     for (std::size_t i = 0; i < primitives.size(); ++i) {
-        if (!isVec4(document, primitives[i])) continue;
-        place_of.emplace(i, judged.size());
-        judged.push_back(primitives[i]);
+        if (verdicts[i].is_free && hasOnlyItsOwn(primitives[i], plan.reports[i])) keep(verdicts[i], plan.reports[i]);
     }
-    const std::vector<Verdict> verdicts = judge(document, judged, options);
     std::vector<Pool> pools;
     for (Pool& pool : plan.pools) {
         if (!pool.has_tangents) {
             pools.push_back(std::move(pool));
             continue;
         }
-        if (!place_of.contains(pool.primitives[0])) {
-            for (const std::size_t number : pool.primitives) {
-                plan.reports[number].notes.emplace_back("its tangents were wrong: they do not have 4 components");
-            }
-            pools.push_back(std::move(pool));
-            continue;
-        }
-        const auto verdictOn = [&](std::size_t number) -> const Verdict& { return verdicts[place_of.at(number)]; };
+        const auto verdictOn = [&](std::size_t number) -> const Verdict& { return verdicts[number]; };
         static const Mends kNothing;
         Pool wrong = selected(pool, primitives, [&](std::size_t number) {
             const Verdict& verdict = verdictOn(number);
@@ -178,7 +208,7 @@ void planRepair(const Document& document, std::span<const Primitive> primitives,
         Pool good = selected(pool, primitives, [&](std::size_t number) {
             return verdictOn(number).mends.vertices.empty() ? &kNothing : nullptr;
         });
-        for (const std::size_t number : good.primitives) keep(plan.reports[number]);
+        for (const std::size_t number : good.primitives) keep(verdictOn(number), plan.reports[number]);
         for (const std::size_t number : wrong.primitives) {
             PrimitiveReport& report = plan.reports[number];
             report.mended_vertex_count = verdictOn(number).mends.vertices.size();

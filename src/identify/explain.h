@@ -15,13 +15,17 @@ inline constexpr double kTieShare = 0.005;
 /// The methods that are tried, the best known first.
 std::vector<Method> knownMethods();
 
+/// Whether the stored tangents are so much nearer to those of `a` that it is no matter of rounding: by less than half of
+/// the angle in the mean.
+bool isCloser(const Explanation& a, const Explanation& b);
+
 /// Every method with every UV set that has an area, in that order; then mikktspace on quads where that wins. The
 /// primitive has triangles, normals, tangents and a UV set.
 Result<std::vector<Explanation>> explainTangents(const ScenePrimitive& primitive, const IdentifyOptions& options);
 
 /// The best first: most near corners, where one that is near to another corner of its vertex counts half; then the order
-/// they came in. First of all comes, of those that cannot be told apart from the best, one along the texture's set, and
-/// of these the best known.
+/// they came in. First of all comes, of those that cannot be told apart from the best, by their corners or by isCloser, one
+/// along the texture's set, and of these the best known.
 void sortExplanations(std::vector<Explanation>& explanations);
 
 /// The best explanation along the texture's set, in one of its two readings; null: there is none.

@@ -15,6 +15,9 @@ namespace {
 
 std::string whyNot(const ScenePrimitive& primitive) {
     if (primitive.corners.empty()) return "it has no triangles";
+    for (const SceneTangentFault& fault : primitive.tangent_faults) {
+        if (fault.target < 0) return "its tangents cannot be read: " + fault.why;
+    }
     if (primitive.tangents.empty()) return primitive.tangents_not_read ? kNotRead : "it has no tangents";
     if (primitive.normals.empty()) return "it has no normals";
     const bool has_uvs = std::any_of(primitive.uv_sets.begin(), primitive.uv_sets.end(),

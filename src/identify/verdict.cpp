@@ -88,7 +88,7 @@ std::string tiesOf(const std::vector<Explanation>& explanations) {
     const Explanation& best = explanations.front();
     std::string ties;
     for (const Explanation& other : explanations) {
-        if (&other == &best || other.nearShare() + kTieShare < best.nearShare()) continue;
+        if (&other == &best || other.nearShare() + kTieShare < best.nearShare() || isCloser(best, other)) continue;
         ties += (ties.empty() ? "" : ", ") + makerOf(other);
     }
     return ties.empty() ? "" : " (so do " + ties + ")";

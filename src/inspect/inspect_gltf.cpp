@@ -57,6 +57,11 @@ void describeAttributes(const Document& document, const Primitive& primitive, Pr
         const Accessor found = readAccessor(document, accessor);
         info.attributes.push_back(name + " " + formatName(found) + " of " + std::to_string(found.count) + " elements");
     }
+    for (const UnreadableTangents& tangents : primitive.unreadable_tangents) {
+        if (tangents.target >= 0) continue;
+        const Accessor found = readAccessor(document, tangents.accessor);
+        info.attributes.push_back("TANGENT " + formatName(found) + " of " + std::to_string(found.count) + " elements");
+    }
     for (const StoredPacking& packing : findPacked(document, primitive)) {
         if (packing.fault.empty()) info.packed_frames.push_back(packing.layout->format);
     }

@@ -36,7 +36,7 @@ bool facesNormal(const SurfaceFrame& face, const Vec3& normal) {
     return normalize(n) && dot(n, toDouble(face.normal)) >= kLeastFacing;
 }
 
-SurfaceFrame describeFace(const std::array<Vec3, 3>& positions, const std::array<Vec2, 3>* uvs) {
+SurfaceFrame describeFace(const std::array<Vec3, 3>& positions, const std::array<Vec2, 3>* uvs, double position_error) {
     SurfaceFrame face;
     const auto& [a, b, c] = positions;
     DVec3 normal = cross(toDouble(b) - toDouble(a), toDouble(c) - toDouble(a));
@@ -49,6 +49,13 @@ SurfaceFrame describeFace(const std::array<Vec3, 3>& positions, const std::array
     const UvFrame frame = uvFrame(a, b, c, ua, ub, uc);
     if (!(std::fabs(frame.determinant) > kSmallestDeterminant) || !hasUvArea(frame.determinant)) return face;
     DVec3 tangent = (frame.determinant < 0 ? -1.0 : 1.0) * frame.tangent;
+    if (position_error > 0) {
+        // t2 (P1 - P0) - t1 (P2 - P0) is linear in the positions.
+        const double t1 = double{ub.y} - ua.y, t2 = double{uc.y} - ua.y;
+        const double off = position_error * (std::fabs(t2 - t1) + std::fabs(t2) + std::fabs(t1));
+        const double size = length(tangent);
+        face.tangent_error = static_cast<float>(off < size ? off / size : 1.0);
+    }
     if (!normalize(tangent)) return face;
     face.tangent = toFloat(tangent);
     if (isReliable(frame.determinant, ua, ub, uc)) face.orientation = frame.determinant < 0 ? -1 : 1;
@@ -57,6 +64,8 @@ SurfaceFrame describeFace(const std::array<Vec3, 3>& positions, const std::array
 
 Surface describeSurface(const TangentView& mesh) {
     Surface surface;
+    surface.rounding = roundingOf(mesh.positions, mesh.position_step);
+    const double off = surface.rounding.error;
     surface.faces.reserve(mesh.corners.size() / 3);
     surface.vertex_areas.assign(mesh.positions.size(), 0.0);
     surface.known_areas.assign(mesh.positions.size(), 0.0);
@@ -64,10 +73,10 @@ Surface describeSurface(const TangentView& mesh) {
         const std::uint32_t* const v = mesh.corners.data() + c;
         const std::array<Vec3, 3> positions{mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
         if (mesh.uvs.empty()) {
-            surface.faces.push_back(describeFace(positions, nullptr));
+            surface.faces.push_back(describeFace(positions, nullptr, off));
         } else {
             const std::array<Vec2, 3> uvs{mesh.uvs[v[0]], mesh.uvs[v[1]], mesh.uvs[v[2]]};
-            surface.faces.push_back(describeFace(positions, &uvs));
+            surface.faces.push_back(describeFace(positions, &uvs, off));
         }
         const double area = surface.faces.back().area;
         const double known = surface.faces.back().orientation == 0 ? 0 : area;

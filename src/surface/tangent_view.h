@@ -17,6 +17,7 @@ struct TangentView {
     std::span<const Vec4> tangents = {};          ///< w: the sign
     std::span<const Vec2> uvs = {};               ///< those that the texture is read with (after its transform)
     std::span<const std::uint32_t> corners = {};  ///< three per triangle, all smaller than positions.size()
+    double position_step = 0;  ///< of positions stored as whole numbers, in their units; 0: they are floats
 
     /// Its triangles, as the core takes them.
     [[nodiscard]] MeshView triangles() const {

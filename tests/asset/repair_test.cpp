@@ -168,6 +168,22 @@ TEST(Repair, AddsDeltasOfMorphTargetsToGoodTangents) {
     EXPECT_EQ(outcome.primitives[0].targets.at(0).size(), 2u) << "POSITION and TANGENT";
 }
 
+/// Kept tangents were not computed along the transform.
+TEST(Repair, DoesNotSayThatKeptTangentsFollowTheTransform) {
+    GltfBuilder builder = gridModel(Grid(4, false));
+    std::vector<float> tangents;
+    for (std::size_t i = 0; i < 25; ++i) tangents.insert(tangents.end(), {1, 0, 0, 1});
+    firstPrimitive(builder)["attributes"]["TANGENT"] = builder.addFloats(tangents, 4);
+    builder.json()["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"] = {{"rotation", 1.5}};
+    const TempFolder folder;
+    const auto result = generateFile(folder.write("in.glb", builder.glb()), folder.path("out.glb").string(), kRepair);
+    ASSERT_TRUE(result) << result.error().message;
+    const PrimitiveReport& report = result->primitives.at(0);
+    EXPECT_EQ(report.action, PrimitiveAction::kept);
+    EXPECT_TRUE(report.notes.empty()) << report.notes[0];
+    EXPECT_NE(report.reason.find("follow TEXCOORD_0 as it is"), std::string::npos) << report.reason;
+}
+
 TEST(Repair, JudgesByTheUvsAfterTheTextureTransform) {
     GltfBuilder builder = gridModel(Grid(6));
     Json& texture = builder.json()["materials"][0]["normalTexture"];
@@ -358,15 +374,154 @@ TEST(Repair, KeepsWhatTargetsAddToGoodTangents) {
     EXPECT_EQ(readTangents(document, after)[12], (Vec4{1, 0, 0, 1}));
 }
 
-TEST(Repair, ReplacesTangentsOfAnotherShape) {
-    GltfBuilder builder = gridModel(Grid(4, false));
-    firstPrimitive(builder)["attributes"]["TANGENT"] = 1;  // VEC3
+/// What the output of a run holds.
+std::vector<Vec4> tangentsAfter(const GltfBuilder& builder, const GenerateOptions& options, GenerateReport& report) {
     const TempFolder folder;
     const std::string output = folder.path("out.glb").string();
-    const auto report = generateFile(folder.write("in.glb", builder.glb()), output, kRepair);
-    ASSERT_TRUE(report) << report.error().message;
-    EXPECT_EQ(report->primitives.at(0).action, PrimitiveAction::replaced);
-    EXPECT_EQ(report->primitives.at(0).notes.at(0), "its tangents were wrong: they do not have 4 components");
+    const auto result = generateFile(folder.write("in.glb", builder.glb()), output, options);
+    EXPECT_TRUE(result) << result.error().message;
+    if (!result) return {};
+    report = *result;
+    const gltf::Document document = gltf::loadDocument(output, {});
+    const gltf::Primitive primitive = readPrimitives(document).at(0);
+    EXPECT_TRUE(primitive.unreadable_tangents.empty());
+    return primitive.find("TANGENT") ? readTangents(document, primitive) : std::vector<Vec4>{};
+}
+
+TEST(Repair, ReplacesTangentsThatCannotBeRead) {
+    const Grid grid(4, false);
+    GltfBuilder of_another_shape = gridModel(grid), of_another_mesh = gridModel(grid), of_bytes = gridModel(grid);
+    firstPrimitive(of_another_shape)["attributes"]["TANGENT"] = 1;  // VEC3
+    firstPrimitive(of_another_mesh)["attributes"]["TANGENT"] =
+        of_another_mesh.addFloats(std::vector<float>(4 * (grid.vertexCount() + 1), 0.5f), 4);
+    firstPrimitive(of_bytes)["attributes"]["TANGENT"] =
+        of_bytes.addAccessor(std::vector<std::uint8_t>(4 * grid.vertexCount(), 1), kU8, "VEC4", grid.vertexCount());
+    const std::vector<std::pair<GltfBuilder, std::string>> models{
+        {of_another_shape, "they do not have 4 components"},
+        {of_another_mesh, "there are 26 of them for 25 vertices"},
+        {of_bytes, "they are uint8x4, and must be floats or normalised signed integers"}};
+    for (const auto& [builder, why] : models) {
+        for (const ExistingTangents existing :
+             {ExistingTangents::keep, ExistingTangents::repair, ExistingTangents::replace}) {
+            GenerateReport report;
+            for (const Vec4& t : tangentsAfter(builder, {.existing = existing}, report))
+                EXPECT_EQ(t, (Vec4{1, 0, 0, 1}));
+            EXPECT_EQ(report.primitives.at(0).action, PrimitiveAction::replaced);
+            EXPECT_EQ(report.primitives.at(0).notes.at(0), "its tangents were wrong: " + why);
+        }
+        GltfBuilder unneeded = builder;
+        firstPrimitive(unneeded)["material"] = 1;
+        GenerateReport report;
+        EXPECT_TRUE(tangentsAfter(unneeded, {}, report).empty());
+        EXPECT_EQ(report.primitives.at(0).action, PrimitiveAction::removed);
+        const TempFolder folder;
+        const Result<CheckReport> checked = checkFile(folder.write("in.glb", builder.glb()));
+        ASSERT_TRUE(checked) << checked.error().message;
+        EXPECT_EQ(checked->findings.at(0).code, FindingCode::tangentsUnreadable);
+        EXPECT_NE(checked->findings.at(0).message.find(why), std::string::npos) << checked->findings[0].message;
+    }
+}
+
+/// A grid with one vertex that no triangle uses. `tangents`: one more than the grid has.
+GltfBuilder withUnusedVertex(const std::vector<Vec4>& tangents) {
+    Grid grid(4, false);
+    grid.positions.insert(grid.positions.end(), {9, 9, 0});
+    grid.normals.insert(grid.normals.end(), {0, 0, 1});
+    grid.uvs.insert(grid.uvs.end(), {0, 0});
+    GltfBuilder builder = gridModel(grid);
+    std::vector<float> floats;
+    for (const Vec4& t : tangents) floats.insert(floats.end(), {t.x, t.y, t.z, t.w});
+    firstPrimitive(builder)["attributes"]["TANGENT"] = builder.addFloats(floats, 4);
+    return builder;
+}
+
+TEST(Repair, MakesEverySignOneAndEveryLengthToo) {
+    const std::vector<Vec4> good(26, Vec4{1, 0, 0, 1});
+    for (const bool is_needed : {true, false}) {
+        for (const Vec4& value :
+             {Vec4{1, 0, 0, 0.998f}, Vec4{0.7f, 0, 0, 0.7f}, Vec4{NAN, 0, 0, 1}, Vec4{0, 0, 0, 0}}) {
+            for (const std::size_t broken : {std::size_t{7}, std::size_t{25}}) {
+                std::vector<Vec4> tangents = good;
+                tangents[broken] = value;
+                GltfBuilder builder = withUnusedVertex(tangents);
+                if (!is_needed) firstPrimitive(builder)["material"] = 1;
+                GenerateReport report;
+                EXPECT_EQ(tangentsAfter(builder, kRepair, report), good) << broken;
+                EXPECT_GE(report.primitives.at(0).mended_vertex_count, 1u);
+                for (const Vec4& t : tangentsAfter(builder, {.existing = ExistingTangents::replace}, report)) {
+                    EXPECT_EQ(std::fabs(t.w), 1);
+                    EXPECT_FLOAT_EQ(length(xyz(t)), 1);
+                }
+            }
+        }
+    }
+    std::vector<Vec4> all(26, Vec4{1, 0, 0, 0.998f});
+    GenerateReport report;
+    EXPECT_EQ(tangentsAfter(withUnusedVertex(all), kRepair, report), good);
+    EXPECT_EQ(tangentsAfter(withUnusedVertex(all), {}, report), all) << "nothing was asked for";
+}
+
+TEST(Repair, MendsValuesInTheFormatThatTheyHave) {
+    const std::size_t count = Grid(4, false).vertexCount();
+    std::vector<std::int16_t> numbers;
+    for (std::size_t v = 0; v < count; ++v)
+        numbers.insert(numbers.end(), {0, 32767, 0, std::int16_t(v == 3 ? 0 : -32767)});
+    GltfBuilder builder = gridModel(Grid(4, false));
+    const std::size_t accessor = builder.addAccessor(numbers, 5122, "VEC4", count);
+    builder.json()["accessors"][accessor]["normalized"] = true;
+    // Of two primitives that share them a material needs the tangents of none.
+    firstPrimitive(builder)["material"] = 1;
+    firstPrimitive(builder)["attributes"]["TANGENT"] = accessor;
+    Json& primitives = builder.json()["meshes"][0]["primitives"];
+    primitives.push_back(Json(primitives[0]));
+    const TempFolder folder;
+    const std::string output = folder.path("out.glb").string();
+    ASSERT_TRUE(generateFile(folder.write("in.glb", builder.glb()), output, kRepair));
+    const gltf::Document document = gltf::loadDocument(output, {});
+    const std::vector<gltf::Primitive> after = readPrimitives(document);
+    EXPECT_EQ(after[0].find("TANGENT"), after[1].find("TANGENT")) << "still shared";
+    EXPECT_EQ(gltf::readAccessor(document, *after[0].find("TANGENT")).component, gltf::ComponentType::i16);
+    for (std::size_t v = 0; v < count; ++v) {
+        EXPECT_EQ(readTangents(document, after[0])[v], (Vec4{0, 1, 0, v == 3 ? 1.0f : -1.0f})) << v;
+    }
+}
+
+/// Tangents along the strokes of brushed metal are no matter of UVs.
+TEST(Repair, LeavesTangentsThatNoTextureIsReadWith) {
+    for (const bool has_uvs : {true, false}) {
+        GltfBuilder builder = gridModel(Grid(4, false));
+        std::vector<float> tangents;
+        for (std::size_t v = 0; v < 25; ++v) tangents.insert(tangents.end(), {0.6f, 0.8f, 0, 1});
+        tangents[4 * 7] = NAN;
+        tangents[4 * 9 + 2] = 1;
+        tangents[4 * 9] = tangents[4 * 9 + 1] = 0;  // along N
+        firstPrimitive(builder)["attributes"]["TANGENT"] = builder.addFloats(tangents, 4);
+        if (!has_uvs) firstPrimitive(builder)["attributes"].erase("TEXCOORD_0");
+        builder.json()["materials"][0] =
+            Json::parse(R"({"extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":1}}})");
+        GenerateReport report;
+        for (const Vec4& t : tangentsAfter(builder, kRepair, report)) EXPECT_EQ(t, (Vec4{0.6f, 0.8f, 0, 1}));
+        EXPECT_EQ(report.primitives.at(0).mended_vertex_count, 2u);
+        EXPECT_NE(report.primitives.at(0).reason.find("no texture is read with them"), std::string::npos);
+    }
+}
+
+TEST(Repair, SaysWhatWasLookedAtWhereTangentsStay) {
+    Grid grid(4, false);
+    std::vector<float> tangents;
+    for (std::size_t v = 0; v < 25; ++v) tangents.insert(tangents.end(), {1, 0, 0, 1});
+    const auto reasonOf = [&] {
+        GltfBuilder builder = gridModel(grid);
+        firstPrimitive(builder)["attributes"]["TANGENT"] = builder.addFloats(tangents, 4);
+        GenerateReport report;
+        (void)tangentsAfter(builder, kRepair, report);
+        return report.primitives.at(0).reason;
+    };
+    EXPECT_EQ(reasonOf(), "its tangents are good");
+    for (std::size_t v = 0; v < 10; ++v) grid.uvs[v] = grid.uvs[v + 10];  // the first row has those of the second
+    EXPECT_NE(reasonOf().find("on 25.0 % of the surface"), std::string::npos) << reasonOf();
+    for (float& value : grid.uvs) value = 0;
+    EXPECT_NE(reasonOf().find("their values alone"), std::string::npos) << reasonOf();
 }
 
 TEST(Repair, KeepsGoodTangentsAlsoWhereGeometryIsPackedAnew) {

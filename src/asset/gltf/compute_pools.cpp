@@ -10,6 +10,7 @@
 
 #include "asset/file_error.h"
 #include "core/parallel.h"
+#include "surface/position_rounding.h"
 #include "tspace/arena.h"
 
 namespace tspace::gltf {
@@ -83,6 +84,24 @@ PoolView lendVertices(const Document& document, const Primitive& first, const Po
     return vertices;
 }
 
+/// Where frames are made from positions that rounding has moved too far. Half a sentence; empty: they are fine enough.
+std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGeometry> geometries) {
+    constexpr double kLimit = 10;
+    const PositionRounding rounding = roundingOf(vertices.positions);
+    if (rounding.error == 0) return {};
+    for (const PrimitiveGeometry& geometry : geometries) {
+        const TurnedTriangles turned = turnedBy(rounding, vertices.positions, geometry.indices, kLimit);
+        if (turned.share < kSomeTurned) continue;
+        return std::string(vertices.normals.empty() ? "normals and tangents" : "tangents") +
+               " were made over positions that are rounded too coarsely for it: at their distance from the origin "
+               "floats "
+               "are so far apart that triangles may be turned by over 10 degrees. Store positions relative to a point "
+               "near "
+               "the mesh, and put that point into the node";
+    }
+    return {};
+}
+
 /// The triangles of each geometry of a pool.
 std::vector<PrimitiveGeometry> readGeometries(const Document& document, std::span<const Primitive> primitives,
                                               const Pool& pool) {
@@ -151,7 +170,9 @@ PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& executi
             copyReport(computed[i], pool.keeps_tangents, reports[number]);
         }
     }
-    return packFrames(document_, primitives_, pool, std::move(frames), options.format);
+    PoolElements elements = packFrames(document_, primitives_, pool, std::move(frames), options.format);
+    if (!pool.keeps_tangents && !pool.mendsTangents()) elements.warning = warnOfRounding(vertices, geometries);
+    return elements;
 }
 
 std::vector<PoolElements> PoolComputer::compute(std::span<const Pool> pools, std::span<PrimitiveReport> reports) {

@@ -31,8 +31,8 @@ std::string needWords(const TangentUse& use) {
 }
 
 /// Whether nothing is to be computed because nobody asks for it. Fills action and reason then.
-bool isLeftAlone(PrimitiveReport& report, const Primitive& primitive, const std::vector<TangentUse>& uses,
-                 const GenerateOptions& options) {
+bool isLeftAlone(PrimitiveReport& report, const Document& document, const Primitive& primitive,
+                 const std::vector<TangentUse>& uses, const GenerateOptions& options) {
     std::string why;
     if (!hasTriangles(primitive.mode)) {
         report.action = PrimitiveAction::notTriangles;
@@ -43,7 +43,11 @@ bool isLeftAlone(PrimitiveReport& report, const Primitive& primitive, const std:
     } else {
         return false;
     }
-    if (options.strip && uses.empty() && canStripTangents(primitive)) {
+    const std::string reader =
+        primitive.find("TANGENT") && uses.empty() ? otherTangentReader(document, primitive) : std::string();
+    if (!reader.empty()) {
+        why += "; " + reader + " may be about its tangents";
+    } else if (options.strip && uses.empty() && canStripTangents(primitive)) {
         report.action = PrimitiveAction::removed;
         why = "nothing needs its tangents: " + why;
     } else if (options.strip && uses.empty() && primitive.find("TANGENT")) {
@@ -64,7 +68,7 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
         report.reason = std::move(reason);
         return false;
     };
-    if (isLeftAlone(report, primitive, uses, options)) return false;
+    if (isLeftAlone(report, document, primitive, uses, options)) return false;
     // What would be made in their place is less than what they were packed from.
     const bool can_overwrite = primitive.find("NORMAL") && options.existing == ExistingTangents::replace;
     if (const std::string packed = can_overwrite ? "" : packedAlone(document, primitive); !packed.empty())
@@ -144,7 +148,8 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
         const std::vector<TangentUse> uses = tangentUses(document, primitive);
         const bool computes = decide(report, document, primitive, uses, options);
         if (hasTriangles(primitive.mode))
-            report.notes = notesOf(uses, animated, options.texture_transform, computes && report.uv_set >= 0);
+            report.notes = notesOf(uses, animated, options.texture_transform,
+                                   computes && report.uv_set >= 0 && report.action != PrimitiveAction::kept);
         if (!computes) continue;
         if (primitive.find("TANGENT") && !hasUsableTangents(primitive))
             report.notes.emplace_back("the tangents that it had did not count, because it had no normals");

@@ -4,10 +4,12 @@
 #include "asset/gltf/material_needs.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <utility>
 
 #include "asset/file_error.h"
+#include "asset/gltf/packed_layout.h"
 #include "asset/gltf/texture_reference.h"
 
 namespace tspace::gltf {
@@ -15,6 +17,60 @@ namespace tspace::gltf {
 namespace {
 
 bool isUnlit(const Json& material) { return findExtension(material, "KHR_materials_unlit") != nullptr; }
+
+/// Extensions of materials that are known to read no tangents, or whose reading of them is known. Any other may read
+/// them.
+bool isKnownExtension(const std::string& name) {
+    static const std::set<std::string> kKnown{"KHR_materials_unlit",
+                                              "KHR_materials_clearcoat",
+                                              "KHR_materials_anisotropy",
+                                              "KHR_materials_sheen",
+                                              "KHR_materials_transmission",
+                                              "KHR_materials_volume",
+                                              "KHR_materials_ior",
+                                              "KHR_materials_specular",
+                                              "KHR_materials_emissive_strength",
+                                              "KHR_materials_iridescence",
+                                              "KHR_materials_dispersion",
+                                              "KHR_materials_diffuse_transmission",
+                                              "KHR_materials_volume_scatter",
+                                              "KHR_materials_pbrSpecularGlossiness",
+                                              "KHR_materials_common",
+                                              "KHR_techniques_webgl",
+                                              "KHR_xmp",
+                                              "KHR_xmp_json_ld"};
+    return kKnown.count(name) != 0;
+}
+
+std::vector<std::string> extensionsOf(const Json& object) {
+    std::vector<std::string> names;
+    const Json* extensions = findMember(object, "extensions");
+    if (extensions == nullptr || !extensions->is_object()) return names;
+    for (const auto& [name, value] : extensions->items()) names.push_back(name);
+    return names;
+}
+
+/// Whether a name is about directions that somebody drew on a surface.
+bool namesFlow(std::string name) {
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    static constexpr std::array kWords{"tangent", "flow", "aniso", "hair", "brush"};
+    return std::any_of(kWords.begin(), kWords.end(), [&](const char* word) {
+        // Not what tspace itself calls so.
+        return name.find(word) != std::string::npos && name.find("bitangent") == std::string::npos;
+    });
+}
+
+/// Whether the extras of an object name such directions: by a member, or by the text of one.
+bool speaksOfFlow(const Json& object) {
+    const Json* extras = findMember(object, "extras");
+    if (extras == nullptr || !extras->is_object()) return false;
+    for (const auto& [name, value] : extras->items()) {
+        const bool is_off = value.is_null() || (value.is_boolean() && !value.get<bool>());
+        if (!is_off && (namesFlow(name) || (value.is_string() && namesFlow(value.get<std::string>())))) return true;
+    }
+    return false;
+}
 
 /// Collects the uses of one material.
 class MaterialUses {
@@ -78,6 +134,7 @@ class MaterialUses {
         if (addTexture(anisotropy, place, "anisotropyTexture", "anisotropy")) return;
         if (readNumber(anisotropy, "anisotropyStrength", place, 0) == 0) return;
         TangentUse& use = add("anisotropy", place);
+        use.has_texture = false;
         // Without a texture of its own it has no UVs of its own either: it turns with the material's other tangents.
         if (uses_.size() - 1 == first_) return;
         use.uv_set = uses_[first_].uv_set;
@@ -118,7 +175,37 @@ std::vector<TangentUse> tangentUses(const Document& document, const Primitive& p
     for (const std::size_t material : variantMaterials(document, primitive)) {
         if (material != primitive.material) MaterialUses(document, material, true, uses).collect();
     }
+    // Textures decide where tangents point; a factor goes with them.
+    const auto texture = std::find_if(uses.begin(), uses.end(), [](const TangentUse& use) { return use.has_texture; });
+    if (texture == uses.end()) return uses;
+    for (auto use = uses.begin(); use != texture; ++use) {
+        use->uv_set = texture->uv_set;
+        use->transform = texture->transform;
+    }
     return uses;
+}
+
+std::string otherTangentReader(const Document& document, const Primitive& primitive) {
+    std::vector<std::size_t> materials = variantMaterials(document, primitive);
+    if (primitive.material) materials.insert(materials.begin(), *primitive.material);
+    for (const std::size_t material : materials) {
+        const Json& object = rootArray(document, "materials")[material];
+        for (const std::string& name : extensionsOf(object)) {
+            if (!isKnownExtension(name)) return "the material extension " + name;
+        }
+        if (speaksOfFlow(object)) return "extras of the material";
+    }
+    const Json& mesh = document.json["meshes"][primitive.mesh];
+    const Json& object = mesh["primitives"][primitive.index];
+    if (speaksOfFlow(object)) return "extras of the primitive";
+    if (speaksOfFlow(mesh)) return "extras of the mesh";
+    for (const auto& [name, accessor] : primitive.attributes) {
+        if (name[0] == '_' && !isPackedAttribute(name) && namesFlow(name)) return "the attribute " + name;
+    }
+    for (const std::string& name : extensionsOf(object)) {
+        if (namesFlow(name)) return "the extension " + name;
+    }
+    return {};
 }
 
 SurfaceKind surfaceKind(const Document& document, const Primitive& primitive) {

@@ -30,6 +30,7 @@ struct CarriedElements {
 };
 
 struct PoolElements {
+    std::string warning = {};  ///< about what frames were made from; may be empty
     std::size_t vertex_count = 0;
     bool was_split = false;
     bool normals_generated = false, bitangents_generated = false;

@@ -39,7 +39,7 @@ void addDifferences(const std::vector<TangentUse>& uses, TextureTransform readin
 void addTransform(const TangentUse& use, TextureTransform reading, std::vector<std::string>& notes) {
     const UvMatrix matrix = uvMatrixOf(use, TextureTransform::apply);
     if (matrix.isIdentity()) return;
-    notes.push_back("KHR_texture_transform " + std::string(matrix.mirrors() ? "mirrors " : "turns ") + nameOf(use) +
+    notes.push_back(kTransformNote + std::string(matrix.mirrors() ? "mirrors " : "turns ") + nameOf(use) +
                     (reading == TextureTransform::apply ? ": the tangents follow the transformed UVs"
                                                         : ": as asked for, the tangents follow the UVs before it"));
 }

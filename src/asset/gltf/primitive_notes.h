@@ -24,6 +24,9 @@ std::set<std::string> animatedPointers(const Document& document);
 
 /// Sentences about `uses`, those of one primitive: textures whose tangents would have to differ from the first's, and
 /// animated transforms. `computed`: also about the transform that the new tangents follow, or do not.
+/// The note on the transform that computed tangents follow begins so.
+inline constexpr const char* kTransformNote = "KHR_texture_transform ";
+
 std::vector<std::string> notesOf(const std::vector<TangentUse>& uses, const std::set<std::string>& animated,
                                  TextureTransform reading, bool computed);
 

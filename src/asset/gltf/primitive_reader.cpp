@@ -48,6 +48,34 @@ void setMiscountedApart(const Document& document, Primitive& primitive) {
     list.erase(bad, list.end());
 }
 
+/// Empty: the accessor can hold tangents (`is_base`), or what a morph target adds to them.
+std::string whyUnreadable(const Accessor& accessor, bool is_base, std::size_t vertex_count) {
+    const std::size_t wanted = is_base ? 4 : 3;
+    if (accessor.type != "VEC" + std::to_string(wanted))
+        return "they do not have " + std::to_string(wanted) + " components";
+    const bool is_signed = accessor.component == ComponentType::i8 || accessor.component == ComponentType::i16;
+    if (accessor.component != ComponentType::f32 && !(is_signed && (accessor.normalized || !is_base)))
+        return "they are " + formatName(accessor) + ", and must be floats or normalised signed integers";
+    if (accessor.count == vertex_count) return {};
+    return "there are " + std::to_string(accessor.count) + " of them for " + std::to_string(vertex_count) + " vertices";
+}
+
+/// A TANGENT that cannot be one is no reason to refuse a file either.
+void setUnreadableApart(const Document& document, Primitive& primitive) {
+    const auto setApart = [&](AttributeList& list, std::ptrdiff_t target) {
+        const auto entry =
+            std::find_if(list.begin(), list.end(), [](const auto& attribute) { return attribute.first == "TANGENT"; });
+        if (entry == list.end()) return;
+        std::string why = whyUnreadable(readAccessor(document, entry->second), target < 0, primitive.vertex_count);
+        if (why.empty()) return;
+        primitive.unreadable_tangents.push_back({target, entry->second, std::move(why)});
+        list.erase(entry);
+    };
+    setApart(primitive.attributes, -1);
+    for (std::size_t i = 0; i < primitive.targets.size(); ++i)
+        setApart(primitive.targets[i], static_cast<std::ptrdiff_t>(i));
+}
+
 std::size_t trianglesOf(Mode mode, std::size_t corners) {
     if (mode == Mode::triangles) return corners / 3;
     return hasTriangles(mode) && corners >= 3 ? corners - 2 : 0;
@@ -78,6 +106,7 @@ Primitive readPrimitive(const Document& document, const Json& object, std::uint3
         primitive.vertex_count = readAccessor(document, position.value_or(primitive.attributes[0].second)).count;
     }
     setMiscountedApart(document, primitive);
+    setUnreadableApart(document, primitive);
     checkCounts(document, primitive.attributes, primitive.vertex_count, join(place, "attributes"));
     for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
         checkCounts(document, primitive.targets[i], primitive.vertex_count, join(join(place, "targets"), i));

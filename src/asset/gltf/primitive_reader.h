@@ -39,6 +39,13 @@ inline bool movesFrames(const AttributeList& target) {
     return findAttribute(target, "POSITION").has_value() || findAttribute(target, "NORMAL").has_value();
 }
 
+/// A TANGENT that no reader can take for one.
+struct UnreadableTangents {
+    std::ptrdiff_t target = -1;  ///< of which morph target; -1: the primitive's own
+    std::size_t accessor = 0;
+    std::string why = {};  ///< "they do not have 4 components"
+};
+
 struct Primitive {
     std::uint32_t mesh = 0;
     std::uint32_t index = 0;  ///< in its mesh
@@ -50,6 +57,8 @@ struct Primitive {
     std::vector<AttributeList> targets = {};
     /// Attributes of packed frames that have not one element per vertex; not among `attributes`.
     AttributeList miscounted = {};
+    /// Neither among `attributes` nor in `targets`: they count as missing.
+    std::vector<UnreadableTangents> unreadable_tangents = {};
     std::size_t vertex_count = 0;
     std::size_t corner_count = 0;  ///< entries of the index list, or vertices
 
@@ -64,7 +73,7 @@ struct Primitive {
     [[nodiscard]] std::size_t triangleCount() const;
 };
 
-/// All primitives in file order. Checks that attributes exist and agree in length, but for `miscounted`.
+/// All primitives in file order. Checks that attributes exist and agree in length, but for `miscounted` and tangents.
 std::vector<Primitive> readPrimitives(const Document& document);
 
 /// Three vertices per triangle in file order; strips and fans as the specification cuts them. Incomplete

@@ -45,6 +45,22 @@ class VectorCache {
     std::map<std::size_t, SharedArray<Vec>> arrays_ = {};
 };
 
+/// Between neighbouring numbers of an accessor of whole numbers; 0 for floats.
+double stepOf(const Accessor& accessor) {
+    if (accessor.component == ComponentType::f32) return 0;
+    if (!accessor.normalized) return 1;
+    switch (accessor.component) {
+        case ComponentType::i8:
+            return 1.0 / 127;
+        case ComponentType::u8:
+            return 1.0 / 255;
+        case ComponentType::i16:
+            return 1.0 / 32767;
+        default:
+            return 1.0 / 65535;
+    }
+}
+
 class PrimitiveLoader {
   public:
     explicit PrimitiveLoader(const Document& document) : document_(document), budget_(*document.memory) {}
@@ -58,10 +74,13 @@ class PrimitiveLoader {
         result.material_name = materialName(document_, primitive);
         result.mode = modeName(primitive.mode);
         result.uses = tangentUses(document_, primitive);
+        result.other_reader = otherTangentReader(document_, primitive);
         const SurfaceKind kind = surfaceKind(document_, primitive);
         result.is_unlit = kind.is_unlit;
         result.is_double_sided = kind.is_double_sided;
         loadAttributes(primitive, result);
+        for (const UnreadableTangents& tangents : primitive.unreadable_tangents)
+            result.tangent_faults.push_back({tangents.target, tangents.why});
         result.tangents_not_read = result.tangents.empty() && document_.may_hide_tangents;
         for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
             const AttributeList& list = primitive.targets[i];
@@ -81,6 +100,8 @@ class PrimitiveLoader {
         const AttributeList& list = primitive.attributes;
         const std::string place = join(result.place, "attributes");
         result.positions = vec3(list, "POSITION", place);
+        if (const auto index = primitive.find("POSITION"))
+            result.position_step = stepOf(readAccessor(document_, *index));
         result.normals = vec3(list, "NORMAL", place);
         result.tangents = vec4_.read(document_, list, "TANGENT", place, budget_);
         for (std::size_t set = 0; set < kMaxUvSets; ++set) {

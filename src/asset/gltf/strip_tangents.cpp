@@ -3,6 +3,7 @@
 #include "asset/gltf/strip_tangents.h"
 
 #include <algorithm>
+#include <array>
 
 namespace tspace::gltf {
 
@@ -10,6 +11,12 @@ namespace {
 
 bool names(const AttributeList& list, const char* attribute) {
     return std::any_of(list.begin(), list.end(), [&](const auto& entry) { return entry.first == attribute; });
+}
+
+bool hasKnownType(const Json& accessor) {
+    static constexpr std::array kTypes{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+    const std::string type = accessor["type"].get<std::string>();
+    return std::any_of(kTypes.begin(), kTypes.end(), [&](const char* known) { return type == known; });
 }
 
 }  // namespace
@@ -46,6 +53,45 @@ void stripTangents(Editor& editor, std::span<const Primitive> primitives, std::s
                 editor.primitive(primitive.mesh, primitive.index)["targets"][t].erase("TANGENT");
                 editor.release(*deltas);
             }
+        }
+    }
+}
+
+void removeUnreadableTangents(Editor& editor, std::span<const Primitive> primitives, GeneratePlan& plan) {
+    std::vector<bool> is_computed(primitives.size(), false);
+    for (const Pool& pool : plan.pools) {
+        for (const std::size_t number : pool.primitives) is_computed[number] = true;
+    }
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const Primitive& primitive = primitives[i];
+        for (const UnreadableTangents& tangents : primitive.unreadable_tangents) {
+            const bool is_base = tangents.target < 0;
+            if (is_base) {
+                eraseAttribute(editor, primitive, "TANGENT");
+            } else {
+                Json& targets = editor.primitive(primitive.mesh, primitive.index)["targets"];
+                targets[static_cast<std::size_t>(tangents.target)].erase("TANGENT");
+            }
+            // Of a type that nobody knows nothing says how long its data are: they stay.
+            if (hasKnownType(editor.accessor(tangents.accessor))) editor.release(tangents.accessor);
+            if (!is_base || is_computed[i]) continue;
+            PrimitiveReport& report = plan.reports[i];
+            report.action = PrimitiveAction::removed;
+            report.reason = "its tangents could not be read, and none are computed: " + report.reason;
+        }
+    }
+}
+
+void noteUnreadableTangents(std::span<const Primitive> primitives, std::span<PrimitiveReport> reports) {
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        for (const UnreadableTangents& tangents : primitives[i].unreadable_tangents) {
+            const bool is_base = tangents.target < 0;
+            reports[i].notes.push_back((is_base ? "its tangents were wrong: "
+                                                : "what morph target " + std::to_string(tangents.target) +
+                                                      " added to its tangents was wrong: ") +
+                                       tangents.why);
+            if (is_base && reports[i].action == PrimitiveAction::generated)
+                reports[i].action = PrimitiveAction::replaced;
         }
     }
 }

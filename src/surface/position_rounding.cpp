@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "surface/position_rounding.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "core/angle.h"
+#include "core/vec_math.h"
+
+namespace tspace {
+
+namespace {
+
+/// The power of two that a float is a whole multiple of.
+int lowestBit(float value) {
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
+    const int exponent = static_cast<int>(bits >> 23 & 0xff);
+    const std::uint32_t digits = (bits & 0x7fffff) | (exponent != 0 ? 0x800000u : 0u);
+    return std::max(exponent, 1) - 150 + std::countr_zero(digits);
+}
+
+/// Steps along one axis.
+struct Axis {
+    float low = std::numeric_limits<float>::max(), high = -std::numeric_limits<float>::max();
+    int lowest_bit = 128;
+
+    void add(float value) {
+        if (!std::isfinite(value)) return;
+        low = std::min(low, value);
+        high = std::max(high, value);
+        if (value != 0) lowest_bit = std::min(lowest_bit, lowestBit(value));
+    }
+    [[nodiscard]] double far() const { return std::max(std::fabs(double{low}), std::fabs(double{high})); }
+    [[nodiscard]] double step() const {
+        // Models near the origin may lie on a grid on purpose. So many bits of an offset do not.
+        constexpr double kFar = 1 << 18;
+        if (!(high >= low) || far() == 0) return 0;
+        const double finest = std::ldexp(1.0, std::ilogb(far()) - 23), common = std::ldexp(1.0, lowest_bit);
+        return far() >= kFar * common ? std::max(finest, common) : finest;
+    }
+};
+
+}  // namespace
+
+PositionRounding roundingOf(StridedSpan<const Vec3> positions, double stored_step) {
+    constexpr double kManySteps = 1 << 16;
+    Axis axes[3];
+    for (std::size_t v = 0; v < positions.count; ++v) {
+        const Vec3 p = positions[v];
+        axes[0].add(p.x);
+        axes[1].add(p.y);
+        axes[2].add(p.z);
+    }
+    PositionRounding rounding;
+    double width = 0, squares = 0;
+    for (const Axis& axis : axes) {
+        const double step = std::max(axis.step(), stored_step);
+        rounding.step = std::max(rounding.step, step);
+        rounding.far = std::max(rounding.far, axis.high >= axis.low ? axis.far() : 0);
+        if (axis.high >= axis.low) width = std::max(width, double{axis.high} - axis.low);
+        squares += 0.25 * step * step;
+    }
+    if (width >= kManySteps * rounding.step) return {.far = rounding.far};
+    rounding.error = std::sqrt(squares);
+    return rounding;
+}
+
+TurnedTriangles turnedBy(const PositionRounding& rounding, StridedSpan<const Vec3> positions,
+                         std::span<const std::uint32_t> corners, double limit_deg) {
+    TurnedTriangles turned;
+    if (rounding.error == 0) return turned;
+    double area = 0, whole = 0;
+    for (std::size_t c = 0; c + 2 < corners.size(); c += 3) {
+        const DVec3 a = toDouble(positions[corners[c]]);
+        const DVec3 e = toDouble(positions[corners[c + 1]]) - a, f = toDouble(positions[corners[c + 2]]) - a;
+        const double size = length(cross(e, f));
+        if (!(size > 0) || !std::isfinite(size)) continue;
+        ++turned.total;
+        whole += size;
+        // A corner moves along N by a third of the largest error in the mean square, and the plane turns by that over the
+        // height of the triangle; two corners move.
+        const double longest = std::max({length(e), length(f), length(f - e)});
+        const double sine = std::sqrt(2.0) / 3 * rounding.error * longest / size;
+        const double deg = sine >= 1 ? 90 : polarAngle(std::sqrt(1 - sine * sine), sine) * 180 / kPi;
+        if (!(deg > limit_deg)) continue;
+        if (turned.count++ == 0) turned.first = corners[c];
+        turned.worst_deg = std::max(turned.worst_deg, deg);
+        area += size;
+    }
+    turned.share = whole > 0 ? area / whole : 0;
+    return turned;
+}
+
+}  // namespace tspace
