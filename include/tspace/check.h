@@ -58,8 +58,12 @@ enum class FindingCode : std::uint32_t {
     greenMixed = 30,              ///< a normal map whose green points down in one part and up in another
     packedFramesUnreadable = 31,  ///< an attribute of packed frames is not what its name promises (docs/pack.md)
     packedFramesDiffer = 32,      ///< packed frames are not those of NORMAL and TANGENT
+    normalSeam = 33,              ///< two primitives of one smooth surface, each with the normals of its own triangles
+    normalsFarFromFaces = 34,     ///< normals that differ much from all triangles at their vertices
+    morphNormalsMissing = 35,     ///< a morph target turns the surface and leaves the normals behind
+    morphNormalsWrong = 36,       ///< a morph target turns normals in another way than the surface
 };
-inline constexpr std::uint32_t kFindingCodeCount = 33;
+inline constexpr std::uint32_t kFindingCodeCount = 37;
 
 /// Stable lowerCamelCase name: the name of the enumerator.
 const char* findingName(FindingCode code);

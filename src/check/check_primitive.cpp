@@ -31,6 +31,7 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
     facts.surface = describeSurface(facts.mesh);
     checkPositions(facts);
     checkNormals(facts);
+    checkMorphNormals(facts);
     checkUvs(facts);
     checkTextures(facts);
     if (const Result<Done> done = checkTangents(facts); !done) return done.error();

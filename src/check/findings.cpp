@@ -73,6 +73,15 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
     {"packedFramesUnreadable", "Pack them anew, in the format that the attribute names: tspace generate --pack."},
     {"packedFramesDiffer",
      "Pack them anew from NORMAL and TANGENT, in the format that the attribute names: tspace generate --pack."},
+    {"normalSeam",
+     "Make the normals of the primitives together: tspace generate --overwrite-normals; or leave them if an edge is "
+     "meant."},
+    {"normalsFarFromFaces",
+     "Nothing needs to be done if that is meant. Else make normals with hard edges: tspace generate "
+     "--overwrite-normals "
+     "--crease 60."},
+    {"morphNormalsMissing", "Give the targets normals too: tspace generate --morph-normals missing."},
+    {"morphNormalsWrong", "Compute what the targets add to normals anew: tspace generate --morph-normals all."},
 }};
 
 }  // namespace
@@ -130,6 +139,10 @@ const char* findingSummary(FindingCode code) {
         "Green points down in one part of a normal map and up in another.",
         "Packed frames cannot be read.",
         "Packed frames are not those of the normals and tangents.",
+        "Two primitives of one smooth surface have different normals at their border.",
+        "Normals are far from all triangles around them.",
+        "Morph targets turn the surface and leave the normals behind.",
+        "What morph targets add to normals is wrong.",
     };
     static_assert(kSummaries.size() == kFindingCodeCount);
     const auto number = static_cast<std::size_t>(code);

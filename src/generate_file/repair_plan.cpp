@@ -146,7 +146,11 @@ Pool selected(const Pool& pool, std::span<const Primitive> primitives, const Men
 
 void planRepair(const Document& document, std::span<const Primitive> primitives, const GenerateOptions& options,
                 GeneratePlan& plan) {
-    if (std::none_of(plan.pools.begin(), plan.pools.end(), [](const Pool& pool) { return pool.has_tangents; })) return;
+    // Tangents of normals that are made anew are computed anew with them.
+    const auto isJudged = [](const Pool& pool) {
+        return pool.has_tangents && pool.makes_tangents && !pool.overwrites_normals;
+    };
+    if (std::none_of(plan.pools.begin(), plan.pools.end(), isJudged)) return;
     // All of them, since normal maps are weighed by what the whole file shows of them.
     std::vector<Primitive> judged;
     std::map<std::size_t, std::size_t> place_of;  // primitive -> number in `judged`
@@ -158,7 +162,7 @@ void planRepair(const Document& document, std::span<const Primitive> primitives,
     const std::vector<Verdict> verdicts = judge(document, judged, options);
     std::vector<Pool> pools;
     for (Pool& pool : plan.pools) {
-        if (!pool.has_tangents) {
+        if (!isJudged(pool)) {
             pools.push_back(std::move(pool));
             continue;
         }
@@ -187,7 +191,7 @@ void planRepair(const Document& document, std::span<const Primitive> primitives,
                                    std::to_string(report.vertices_before) + " vertices");
         }
         if (!wrong.primitives.empty()) pools.push_back(std::move(wrong));
-        if (!good.primitives.empty() && lacksDeltas(primitives[good.primitives[0]])) {
+        if (!good.primitives.empty() && (lacksDeltas(primitives[good.primitives[0]]) || !good.morph_normals.empty())) {
             good.keeps_tangents = true;
             pools.push_back(std::move(good));
         }
