@@ -125,6 +125,13 @@ enum class FlipGreen : std::uint32_t {
     all = 2,  ///< every normal map and clearcoat normal map
 };
 
+/// What morph targets that move the surface get to add to normals that stay (NORMAL of a target).
+enum class MorphNormals : std::uint32_t {
+    keep = 0,     ///< what they have, or nothing
+    missing = 1,  ///< targets without such offsets, or with zeros alone, get some
+    all = 2,      ///< all get new ones
+};
+
 struct GenerateOptions {
     bool all = false;    ///< also primitives whose material needs no tangents
     bool strip = false;  ///< take tangents away where no material needs them; not together with `all` (invalidOption)
@@ -170,6 +177,23 @@ struct GenerateOptions {
     /// tangents where these show it, else by shape. Polygons of an OBJ file are known: `quads` takes them as they are.
     /// `repair` keeps tangents that are right on either, whatever is asked for here.
     Faces faces = Faces::triangles;
+    /// Normals that are made, by any weighting but `flat`, are smooth over the border of two primitives of one mesh that are
+    /// one surface: they share edges, by equal positions, as neighbouring triangles do. Where the other primitive has normals
+    /// these stay, and new ones take them on at the border where they are within 30 degrees and within the crease angle.
+    /// Tangents are computed for each primitive alone, as bakers do it. true: so are normals, and the border is a seam. OBJ:
+    /// normals are smooth over the whole file, or, with true, over the faces of one object and material.
+    bool normals_per_primitive = false;
+    /// Normals that are there are made anew, by `normals`, in every primitive with triangles whose material is not unlit;
+    /// those that have none get some too, whether or not they need tangents. Vertices that differ in nothing but what is
+    /// computed (normals, tangents, what targets add to them) are one first, and are split where the new normals differ.
+    /// Tangents that are there are computed anew with them, also with ExistingTangents::keep, because they would not fit;
+    /// where that is impossible (no UVs) the normals stay. With `keep`, signs stay inverted where most were: normal maps may
+    /// be made for that. Not together with convert_maps (invalidOption).
+    bool overwrite_normals = false;
+    /// For normals that stay: where those are made, so is what targets add to them. The base's normal is turned as the
+    /// surface around the vertex turns. Offsets of tangents in these targets follow where the tangents are those that would
+    /// be computed. glTF only.
+    MorphNormals morph_normals = MorphNormals::keep;
 };
 
 /// What was done to one primitive.
@@ -203,12 +227,23 @@ struct PrimitiveReport {
     std::uint64_t triangle_count = 0;
     std::uint64_t vertices_before = 0;
     std::uint64_t vertices_after = 0;
-    std::uint64_t mended_vertex_count = 0;    ///< of vertices_before: those whose tangents were wrong (`repair`)
-    std::uint32_t morph_target_count = 0;     ///< morph targets that the primitive has
-    std::uint32_t morph_deltas_computed = 0;  ///< those whose tangent deltas were computed
+    std::uint64_t mended_vertex_count = 0;     ///< of vertices_before: those whose tangents were wrong (`repair`)
+    std::uint32_t morph_target_count = 0;      ///< morph targets that the primitive has
+    std::uint32_t morph_deltas_computed = 0;   ///< those whose tangent deltas were computed
+    std::uint32_t morph_normals_computed = 0;  ///< those whose normal deltas were, for normals that stay
     /// Corners, over all targets, at which the frame of the moved shape has the other sign, which glTF cannot morph.
     std::uint64_t morph_sign_flip_count = 0;
     NormalReport normals = {};
+    /// Positions at which its normals were made with triangles of other primitives of its mesh (glTF).
+    std::uint64_t normals_joined_count = 0;
+    /// Corners whose new normal points behind their own triangle (beyond 90 degrees), on the base.
+    std::uint64_t normals_behind_count = 0;
+    bool normals_replaced = false;  ///< there were normals, and they were made anew (overwrite_normals)
+    /// Triangles that are wound against most of those that they are connected with, over edges of two triangles. Counted
+    /// where normals are made, and where vertices were split; else 0. So is the next one.
+    std::uint64_t turned_triangle_count = 0;
+    /// Triangles of sheets with two sides: others with the same positions are wound the other way.
+    std::uint64_t two_sided_triangle_count = 0;
     TangentReport tangents = {};
     SanitizeReport sanitize = {};
     PackReport packing = {};         ///< frames that were mended before they were packed

@@ -60,8 +60,12 @@ enum class FindingCode : std::uint32_t {
     packedFramesDiffer = 32,      ///< packed frames are not those of NORMAL and TANGENT
     tangentsUnreadable = 33,      ///< TANGENT has a type or a number of elements that tangents cannot have
     positionsRounded = 34,        ///< positions are stored so coarsely that triangles do not say where tangents point
+    normalSeam = 35,              ///< two primitives of one smooth surface, each with the normals of its own triangles
+    normalsFarFromFaces = 36,     ///< normals that differ much from all triangles at their vertices
+    morphNormalsMissing = 37,     ///< a morph target turns the surface and leaves the normals behind
+    morphNormalsWrong = 38,       ///< a morph target turns normals in another way than the surface
 };
-inline constexpr std::uint32_t kFindingCodeCount = 35;
+inline constexpr std::uint32_t kFindingCodeCount = 39;
 
 /// Stable lowerCamelCase name: the name of the enumerator.
 const char* findingName(FindingCode code);

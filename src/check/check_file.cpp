@@ -8,6 +8,7 @@
 #include "asset/read/read_scene.h"
 #include "check/check_images.h"
 #include "check/check_packed.h"
+#include "check/check_seams.h"
 #include "check/findings.h"
 #include "check/scene_verdict.h"
 #include "tspace/check.h"
@@ -83,6 +84,7 @@ CheckReport check(const std::string& input, const CheckOptions& options) {
         report.tangents_count += !primitive.tangents.empty() && !primitive.corners.empty();
         std::move(judgements[i].findings.begin(), judgements[i].findings.end(), std::back_inserter(report.findings));
     }
+    for (Finding& seam : checkSeams(scene, options)) report.findings.push_back(std::move(seam));
     std::move(unused.begin(), unused.end(), std::back_inserter(report.findings));
     PackedFindings packed = checkPacked(scene, options);
     report.packed_frames = std::move(packed.infos);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Positions and normals: finite, unit, and on the front of their triangles.
+#include <algorithm>
 #include <cmath>
 
 #include "check/findings.h"
 #include "check/primitive_checks.h"
+#include "core/angle.h"
 #include "core/unit.h"
+#include "surface/equal_vertices.h"
 
 namespace tspace {
 
@@ -16,6 +19,10 @@ constexpr double kLeastFacing = -0.1;
 constexpr double kMostly = 0.5;
 constexpr double kNearlyAll = 0.95;
 constexpr double kSomeNormals = 0.01;
+/// Degrees between a normal and the nearest of its triangles: a normal that is the mean over an edge of a box is 45 from both.
+constexpr double kFarDeg = 40;
+/// From this share of the surface on it is said.
+constexpr double kSomeFar = 0.5;
 
 std::vector<bool> usedVertices(const TangentView& mesh) {
     std::vector<bool> used(mesh.positions.size(), false);
@@ -82,6 +89,35 @@ void checkWinding(PrimitiveFacts& facts) {
                   shareText(against.surface_share) + " of the surface)");
 }
 
+/// Normals over hard edges, of a whole tree on its leaves, or of another shape. Some are meant, so it is a note.
+void checkFarNormals(PrimitiveFacts& facts) {
+    const TangentView& mesh = facts.mesh;
+    const EqualVertices equal = findEqualVertices(mesh, false);
+    std::vector<float> least(equal.class_count, 180);
+    for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
+        const SurfaceFrame& face = facts.surface.faces[c / 3];
+        DVec3 normal = toDouble(mesh.normals[mesh.corners[c]]);
+        if (face.area == 0 || !normalize(normal)) continue;
+        float& angle = least[equal.class_of[mesh.corners[c]]];
+        angle = std::min(angle, static_cast<float>(angleBetween(normal, toDouble(face.normal)) * 180 / kPi));
+    }
+    Tally far;
+    const std::vector<bool> used = usedVertices(mesh);
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+        if (!used[v] || !isDirection(mesh.normals[v]) || facts.surface.vertex_areas[v] == 0) continue;
+        ++far.total;
+        // What points to the back is another finding.
+        const double angle = least[equal.class_of[v]];
+        if (angle > kFarDeg && angle <= 90) far.add(v, facts.surface.vertex_areas[v], angle);
+    }
+    far.finish(facts.surface.area);
+    if (far.surface_share < kSomeFar) return;
+    facts.add(FindingCode::normalsFarFromFaces, Severity::note, far, "vertices",
+              "the normals of " + countText(far, "vertices") + " are more than " + decimalText(kFarDeg) +
+                  " and up to " + decimalText(far.worst_deg) + " degrees from every triangle around them (" +
+                  shareText(far.surface_share) + " of the surface)");
+}
+
 }  // namespace
 
 void checkPositions(PrimitiveFacts& facts) {
@@ -108,6 +144,7 @@ void checkNormals(PrimitiveFacts& facts) {
     const std::size_t first = facts.findings.size();
     checkNormalValues(facts);
     checkWinding(facts);
+    checkFarNormals(facts);
     if (!facts.primitive.is_unlit) return;
     for (Finding& finding : std::span(facts.findings).subspan(first)) {
         finding.severity = Severity::note;

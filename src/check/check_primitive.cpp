@@ -67,6 +67,7 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
     checkPositions(facts);
     checkRounding(facts);
     checkNormals(facts);
+    checkMorphNormals(facts);
     checkUvs(facts);
     checkTextures(facts);
     if (const Result<Done> done = checkTangents(facts); !done) return done.error();

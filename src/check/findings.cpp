@@ -80,6 +80,15 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "Store the positions relative to a point near the mesh, and put that point into the node. Tangents that are there "
      "are "
      "better than what can be computed from these positions: keep them."},
+    {"normalSeam",
+     "Make the normals of the primitives together: tspace generate --overwrite-normals; or leave them if an edge is "
+     "meant."},
+    {"normalsFarFromFaces",
+     "Nothing needs to be done if that is meant. Else make normals with hard edges: tspace generate "
+     "--overwrite-normals "
+     "--crease 60."},
+    {"morphNormalsMissing", "Give the targets normals too: tspace generate --morph-normals missing."},
+    {"morphNormalsWrong", "Compute what the targets add to normals anew: tspace generate --morph-normals all."},
 }};
 
 }  // namespace
@@ -139,6 +148,10 @@ const char* findingSummary(FindingCode code) {
         "Packed frames are not those of the normals and tangents.",
         "Tangents are stored in a form that tangents cannot have.",
         "Positions are rounded too coarsely for directions.",
+        "Two primitives of one smooth surface have different normals at their border.",
+        "Normals are far from all triangles around them.",
+        "Morph targets turn the surface and leave the normals behind.",
+        "What morph targets add to normals is wrong.",
     };
     static_assert(kSummaries.size() == kFindingCodeCount);
     const auto number = static_cast<std::size_t>(code);

@@ -11,6 +11,8 @@
 #include "generate/morph_frames.h"
 #include "generate/morph_normals.h"
 #include "generate/primitive.h"
+#include "generate/surface_faults.h"
+#include "generate/surroundings.h"
 #include "generate/unit_lattice.h"
 #include "quads/choose_faces.h"
 #include "tspace/frame.h"
@@ -47,7 +49,7 @@ class FrameComputer {
           options_(options),
           reports_(reports),
           generates_normals_(pool.normals.empty()),
-          generates_tangents_(options.tangents.method == Method::basis || !pool.uvs.empty()),
+          generates_tangents_(pool.makes_tangents && (options.tangents.method == Method::basis || !pool.uvs.empty())),
           generates_bitangents_(options.bitangents && generates_tangents_ &&
                                 (pool.kept_tangents.empty() || pool.mends_tangents)),
           local_meshes_(pool_, primitives.size()),
@@ -120,7 +122,7 @@ class FrameComputer {
         NormalOptions options = options_.normals;
         options.smoothing_groups = primitive.smoothing_groups;
         normals.resize(mesh.indices.size());
-        Result<NormalReport> made = generateNormals(mesh.view(), options, normals);
+        Result<NormalReport> made = BorderedNormals(mesh, primitive.around.get(), options).base(normals);
         if (!made) return std::move(made).error();
         roundUnits(normals, options_.format);
         report.normals = *made;
@@ -394,7 +396,9 @@ Result<PoolFrames> computeWithMorphedNormals(const PoolView& pool, std::span<con
     if (Result<Done> done = generatePoolNormals(pool, primitives, options, reports, made); !done) {
         return std::move(done).error();
     }
-    Result<PoolFrames> frames = FrameComputer(made.pool, made.primitives, options, reports).compute();
+    PoolView with_normals = made.pool;
+    with_normals.makes_tangents = pool.makes_tangents;
+    Result<PoolFrames> frames = FrameComputer(with_normals, made.primitives, options, reports).compute();
     if (!frames) return frames;
     frames->normals_generated = true;
     frames->normals = gather(std::span<const Vec3>(made.pool.normals), frames->source_vertices);
@@ -404,6 +408,19 @@ Result<PoolFrames> computeWithMorphedNormals(const PoolView& pool, std::span<con
     for (std::uint32_t& source : frames->source_vertices) source = made.source_vertices[source];
     for (PrimitiveReport& report : reports) report.vertices_before = pool.positions.count;
     return frames;
+}
+
+/// Vertices that a split adds, from which on it is worth to look for what made it: one in so many.
+constexpr std::size_t kManySplit = 20;
+
+void countFaults(const PoolView& pool, const PoolFrames& frames, std::span<PrimitiveReport> reports) {
+    const std::size_t before = pool.positions.count, after = frames.source_vertices.size();
+    const bool counts_winding =
+        (after - before) * kManySplit > before || (frames.normals_generated && !frames.normals.empty());
+    if (!counts_winding) return;
+    const std::vector<Vec3> positions = gather(pool.positions, frames.source_vertices);
+    for (std::size_t p = 0; p < reports.size(); ++p)
+        countFaults(positions, frames.normals, frames.indices[p], true, reports[p]);
 }
 
 }  // namespace
@@ -420,10 +437,11 @@ Result<PoolFrames> computeFrames(const PoolView& pool, std::span<const Primitive
             turned.uv_matrix = {};
             return computeFrames(turned, primitives, given, reports);
         }
-        if (pool.normals.empty() && pool.targets.count != 0) {
-            return computeWithMorphedNormals(pool, primitives, options, reports);
-        }
-        return FrameComputer(pool, primitives, options, reports).compute();
+        Result<PoolFrames> frames = pool.normals.empty() && pool.targets.count != 0
+                                        ? computeWithMorphedNormals(pool, primitives, options, reports)
+                                        : FrameComputer(pool, primitives, options, reports).compute();
+        if (frames) countFaults(pool, *frames, reports);
+        return frames;
     });
 }
 

@@ -8,8 +8,8 @@
 #include "generate/local_mesh.h"
 #include "generate/morph_frames.h"
 #include "generate/morph_split.h"
+#include "generate/surroundings.h"
 #include "generate/unit_lattice.h"
-#include "normals/pose_normals.h"
 
 namespace tspace {
 
@@ -43,6 +43,8 @@ class PoolNormals {
   private:
     Result<Done> computeBase() {
         LocalMeshes local(pool_, primitives_.size());
+        meshes_.reserve(primitives_.size());  // the makers refer to them, and to their options
+        for (std::size_t p = 0; p < primitives_.size(); ++p) options_of_.push_back(optionsOf(p));
         for (std::size_t p = 0; p < primitives_.size(); ++p) {
             const std::vector<std::uint32_t>& corners = primitives_[p].indices;
             if (Result<Done> valid = validate(viewInPool(pool_, primitives_[p])); !valid) return valid;
@@ -54,9 +56,9 @@ class PoolNormals {
             indices_.insert(indices_.end(), corners.begin(), corners.end());
             normals_.resize(indices_.size());
             meshes_.push_back(local.make(primitives_[p]));
+            makers_.emplace_back(meshes_[p], primitives_[p].around.get(), options_of_[p]);
             if (corners.empty()) continue;
-            const Result<NormalReport> made =
-                generateNormals(meshes_[p].view(), optionsOf(p), std::span(normals_).subspan(first));
+            const Result<NormalReport> made = makers_[p].base(std::span(normals_).subspan(first));
             if (!made) return made.error();
             reports_[p].normals = *made;
             reports_[p].normals_generated = true;
@@ -76,10 +78,10 @@ class PoolNormals {
         std::vector<Vec3> offsets(normals_.size());
         std::size_t first = 0;
         for (std::size_t p = 0; p < meshes_.size(); first += primitives_[p++].indices.size()) {
-            if (!pose_.take(meshes_[p], *moved)) continue;
+            // What is around it may move alone.
+            if (!pose_.take(meshes_[p], *moved) && !primitives_[p].around) continue;
             const std::span<Vec3> own = std::span(offsets).subspan(first, primitives_[p].indices.size());
-            const Result<NormalReport> made =
-                generatePoseNormals(meshes_[p].view(), StridedSpan<const Vec3>(pose_.positions()), optionsOf(p), own);
+            const Result<NormalReport> made = makers_[p].pose(StridedSpan<const Vec3>(pose_.positions()), target, own);
             if (!made) return made.error();
             for (std::size_t c = 0; c < own.size(); ++c) own[c] = offsetBetween(normals_[first + c], own[c]);
         }
@@ -124,6 +126,8 @@ class PoolNormals {
     const GenerateOptions& options_;
     std::span<PrimitiveReport> reports_;
     std::vector<LocalMesh> meshes_ = {};
+    std::vector<NormalOptions> options_of_ = {};
+    std::vector<BorderedNormals> makers_ = {};
     std::vector<std::uint32_t> indices_ = {};  ///< corners of all primitives
     std::vector<Vec3> normals_ = {};           ///< of the base, one per corner
     std::vector<Vec3> written_ = {};           ///< the same as in the file; where nothing moves, offsets are 0

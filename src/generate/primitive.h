@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,12 +17,16 @@
 
 namespace tspace {
 
+struct Surroundings;
+
 /// One drawable piece over a pool of vertices: its corners, and per-face data.
 struct PrimitiveGeometry {
     std::vector<std::uint32_t> indices = {};     ///< one per corner, into the pool; not empty for a used primitive
     std::vector<std::uint32_t> face_sizes = {};  ///< empty: triangles
     std::vector<std::uint32_t> smoothing_groups = {};  ///< one per face, or empty
     Mends mends = {};                                  ///< see VertexPool::mends_tangents
+    /// Triangles of other primitives that its normals are made on too; null: none. Only for triangles.
+    std::shared_ptr<const Surroundings> around = {};
 };
 
 /// Vertices shared by one or more primitives (in glTF: the same attribute accessors).
@@ -50,6 +55,7 @@ struct PoolView {
     std::span<const Vec4> old_tangents = {};
     bool is_blenders = false;  ///< Blender wrote the file
     bool mends_tangents = false;
+    bool makes_tangents = true;  ///< false: normals alone are made
 
     PoolView() = default;
     PoolView(const VertexPool& pool)
@@ -84,6 +90,7 @@ struct PoolFrames {
 };
 
 /// Runs normals (if missing), tangents per primitive, sanitize, and one split over all primitives of the pool.
+/// Reports count what is odd about the triangles (surface_faults.h).
 /// Vertices that no corner uses get a frame from their normal, so that every tangent written is unit. With sanitize
 /// every bitangent is unit as well (mend_bitangents.h). `reports` has one entry per primitive; its normals, tangents,
 /// sanitize and count fields are filled (vertices are those of the pool). Morph targets: base + offset is the frame of

@@ -11,12 +11,14 @@
 #include "asset/gltf/compute_pools.h"
 #include "asset/gltf/container.h"
 #include "asset/gltf/generate_plan.h"
+#include "asset/gltf/plan_surroundings.h"
 #include "asset/gltf/read_packed.h"
 #include "asset/gltf/strip_tangents.h"
 #include "asset/gltf/write_packed.h"
 #include "core/parallel.h"
 #include "generate_file/convert_maps.h"
 #include "generate_file/flip_maps.h"
+#include "generate_file/generate_warnings.h"
 #include "generate_file/mend_values.h"
 #include "generate_file/repair_plan.h"
 
@@ -82,6 +84,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     if (unpacked) primitives = readPrimitives(document);
     GeneratePlan plan = planGenerate(document, primitives, options);
     if (options.existing == ExistingTangents::repair) planRepair(document, primitives, options, plan);
+    planSurroundings(document, primitives, options, plan);
     MapFlips flips;
     if (options.flip_green != FlipGreen::none) flips = planFlips(document, primitives, plan.reports, options);
     std::optional<MapConversion> maps;
@@ -152,6 +155,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     report.output_files = files.files();
     report.output_bytes = files.files().empty() ? document.input_bytes : files.byteCount();
     report.primitives = std::move(plan.reports);
+    addWarnings(requested, report);
     tell(options, "writing", 1, 1);
     // Nothing that can fail comes after it.
     files.commit();

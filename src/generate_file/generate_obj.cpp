@@ -11,8 +11,10 @@
 #include "asset/obj/read_scene.h"
 #include "check/judge_maps.h"
 #include "generate/local_mesh.h"
+#include "generate/surface_faults.h"
 #include "generate/unit_lattice.h"
 #include "generate_file/generate_obj.h"
+#include "generate_file/generate_warnings.h"
 #include "tspace/triangulate.h"
 
 namespace tspace {
@@ -92,8 +94,9 @@ void packWritten(const GenerateOptions& options, FinishedPrimitive& finished, Pr
     if (report.normals_dropped) finished.normals.clear();
 }
 
-FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, const GenerateOptions& options,
-                         PrimitiveReport& report) {
+/// `replaced`: its normals were there.
+FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool replaced,
+                         const GenerateOptions& options, PrimitiveReport& report) {
     const Material& material = model.materials[primitive.material];
     report.mesh = primitive.shape;
     report.mesh_name = model.shape_names[primitive.shape];
@@ -105,6 +108,8 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, cons
     FinishedPrimitive finished = computes ? finishWithFrames(std::move(geometry), options, report)
                                           : finishWithoutFrames(std::move(geometry), report);
     report.normals_generated = primitive.normals_generated;
+    report.normals_replaced = replaced;
+    if (primitive.normals_generated) countFaults(finished.positions, finished.normals, finished.indices, true, report);
     if (primitive.normals_generated) finished.normal_format = options.format;
     finished.tangent_format = options.format;
     if (options.pack) packWritten(options, finished, report);
@@ -155,6 +160,11 @@ GenerateReport generate(const std::string& input, const std::string& output, con
     Model model = readModel(input, file_options);
     std::vector<ObjPrimitive> primitives = collectPrimitives(model);
     tell(options, "computing normals", 0, 0);
+    std::vector<bool> had_normals;
+    for (const ObjPrimitive& primitive : primitives) had_normals.push_back(hasSomeNormals(model, primitive));
+    if (options.overwrite_normals) {
+        for (Corner& corner : model.corners) corner.normal = kNone;
+    }
     NormalReport normals = valueOrThrow(completeNormals(model, primitives, options));
 
     GenerateReport report;
@@ -164,7 +174,8 @@ GenerateReport generate(const std::string& input, const std::string& output, con
     for (const ObjPrimitive& primitive : primitives) {
         tell(options, "computing tangents", finished.size(), primitives.size());
         PrimitiveReport& entry = report.primitives.emplace_back();
-        finished.push_back(finish(model, primitive, options, entry));
+        const bool replaced = options.overwrite_normals && had_normals[finished.size()];
+        finished.push_back(finish(model, primitive, replaced, options, entry));
         entry.primitive = next_in_mesh[primitive.shape]++;
         // Normals are made for the whole file at once: the counts stand with the first primitive that got
         // some.
@@ -174,6 +185,7 @@ GenerateReport generate(const std::string& input, const std::string& output, con
     report.changed = true;
     report.input_bytes = model.input_bytes;
     report.warnings = model.warnings;
+    addWarnings(options, report);
     AtomicOutput files(
         {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
     writeScene(model, finished, output, files, report.warnings);

@@ -183,8 +183,11 @@ Pool selected(const Pool& pool, std::span<const Primitive> primitives, const Men
 
 void planRepair(const Document& document, std::span<const Primitive> primitives, const GenerateOptions& options,
                 GeneratePlan& plan) {
-    bool is_needed =
-        std::any_of(plan.pools.begin(), plan.pools.end(), [](const Pool& pool) { return pool.has_tangents; });
+    // Tangents of normals that are made anew are computed anew with them.
+    const auto isJudged = [](const Pool& pool) {
+        return pool.has_tangents && pool.makes_tangents && !pool.overwrites_normals;
+    };
+    bool is_needed = std::any_of(plan.pools.begin(), plan.pools.end(), isJudged);
     for (std::size_t i = 0; i < primitives.size(); ++i)
         is_needed = is_needed || hasOnlyItsOwn(primitives[i], plan.reports[i]);
     if (!is_needed) return;
@@ -195,7 +198,7 @@ void planRepair(const Document& document, std::span<const Primitive> primitives,
     }
     std::vector<Pool> pools;
     for (Pool& pool : plan.pools) {
-        if (!pool.has_tangents) {
+        if (!isJudged(pool)) {
             pools.push_back(std::move(pool));
             continue;
         }
@@ -217,7 +220,7 @@ void planRepair(const Document& document, std::span<const Primitive> primitives,
                                    std::to_string(report.vertices_before) + " vertices");
         }
         if (!wrong.primitives.empty()) pools.push_back(std::move(wrong));
-        if (!good.primitives.empty() && lacksDeltas(primitives[good.primitives[0]])) {
+        if (!good.primitives.empty() && (lacksDeltas(primitives[good.primitives[0]]) || !good.morph_normals.empty())) {
             good.keeps_tangents = true;
             pools.push_back(std::move(good));
         }

@@ -45,6 +45,11 @@ constexpr Named<std::optional<FrameFormat>> kPackFormats[] = {
     {"snorm16_pair", FrameFormat::snorm16_pair}, {"gltf_snorm8", FrameFormat::gltf_snorm8},
     {"gltf_snorm16", FrameFormat::gltf_snorm16},
 };
+constexpr Named<MorphNormals> kMorphNormals[] = {
+    {"keep", MorphNormals::keep},
+    {"missing", MorphNormals::missing},
+    {"all", MorphNormals::all},
+};
 constexpr Named<PackDrop> kPackDrops[] = {
     {"tangents", PackDrop::tangents},
     {"all", PackDrop::all},
@@ -178,14 +183,31 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
     Option& weighting =
         add(list, "Normals",
             choice("--normals", "NAME", kWeightings, options.normals.weighting,
-                   "How normals are made where they are missing: flat, uniform, area, angle, angle-area, max or "
+                   "How normals are made where they are missing (or all, with --overwrite-normals): flat, uniform, "
+                   "area, angle, angle-area, max or "
                    "best. Default: flat, as glTF asks for; for OBJ files with smoothing groups those decide, "
                    "with angle weights."));
     weighting.default_text.clear();
     add(list, "Normals",
         degrees("--crease", options.normals.crease_angle_deg, 180,
-                "For missing normals: edges sharper than this stay hard. In degrees, 0 to 180; 180 makes none "
+                "For normals that are made: edges sharper than this stay hard. In degrees, 0 to 180; 180 makes none "
                 "hard. Given without --normals it takes the weights of angle."));
+    add(list, "Normals",
+        flag("--normals-per-primitive", options.normals_per_primitive,
+             "Make the normals of each primitive from its own triangles. By default they are smooth over the border of "
+             "two "
+             "primitives of a mesh that are one surface (they share edges); --crease holds there too."));
+    add(list, "Normals",
+        flag("--overwrite-normals", options.overwrite_normals,
+             "Make normals anew where they are there, by --normals and --crease, and where they are missing, in every "
+             "primitive. Without --normals: with the weights of angle. Tangents that are there are computed anew with "
+             "them, because old ones would not fit."))
+        .excludes = {"--convert-maps"};
+    add(list, "Normals",
+        choice("--morph-normals", "WHICH", kMorphNormals, options.morph_normals,
+               "What morph targets add to normals that stay. keep: what is there; missing: targets without it get it; "
+               "all: "
+               "it is computed for all. The normal turns as the surface around it turns."));
     add(list, "Repair",
         setting("--no-sanitize", options.sanitize, false,
                 "Write what the method gives, even where it is not finite, zero, not unit, parallel to the "
@@ -224,7 +246,7 @@ std::string finish(const Given& given, GenerateOptions& options) {
     if (options.existing == ExistingTangents::repair && !given.has("--faces")) options.faces = Faces::automatic;
     if (given.has("--normals")) {
         options.use_smoothing_groups = false;
-    } else if (given.has("--crease")) {
+    } else if (given.has("--crease") || options.overwrite_normals) {
         options.normals.weighting = NormalWeighting::angle;
     }
     options.normals.refine = options.tangents.refine;

@@ -30,11 +30,13 @@ std::string nearestName(const std::string& word, const std::vector<std::string>&
     constexpr std::size_t kShortest = 3, kLongest = 64;  // "-q" is no mistyped "-h"
     if (word.size() < kShortest || word.size() > kLongest) return {};
     // One mistake in three letters, so that short words are not taken for each other.
-    std::size_t least = word.size() / 3 + 1;
+    const std::size_t most = word.size() / 3;
+    std::size_t least = 2 * most + 2;
     std::string nearest;
     for (const std::string& name : names) {
-        std::size_t distance = editDistance(word, name);
-        if (name.starts_with(word)) distance = std::min(distance, least - 1);
+        std::size_t distance = 2 * editDistance(word, name);
+        // A name that goes on is behind those that are as near as may be.
+        if (name.starts_with(word)) distance = std::min(distance, 2 * most + 1);
         if (distance < least) {
             least = distance;
             nearest = name;

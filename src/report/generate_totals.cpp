@@ -15,6 +15,8 @@ Totals totalsOf(const GenerateReport& report) {
         ++totals.primitive_count;
         ++totals.actions[static_cast<std::size_t>(primitive.action)];
         totals.normals_generated += primitive.normals_generated;
+        totals.normals_replaced += primitive.normals_replaced;
+        totals.morph_normals_computed += primitive.morph_normals_computed;
         totals.on_quads += primitive.faces == Faces::quads ? 1 : 0;
         totals.quad_count += primitive.quad_count;
         totals.bitangents_generated += primitive.bitangents_generated;

@@ -45,7 +45,8 @@ struct Totals {
     std::uint64_t triangle_count = 0;
     std::uint64_t vertices_before = 0;
     std::uint64_t vertices_after = 0;
-    std::uint64_t normals_generated = 0;
+    std::uint64_t normals_generated = 0, normals_replaced = 0;
+    std::uint64_t morph_normals_computed = 0;
     std::uint64_t on_quads = 0, quad_count = 0;  ///< primitives, and their quads
     std::uint64_t bitangents_generated = 0;
     std::uint64_t frames_packed = 0, packed_mended = 0;  ///< primitives, and their frames

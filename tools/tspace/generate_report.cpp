@@ -136,7 +136,12 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
         table.addRow({"mended", mendedText(totals.sanitize)});
     }
     if (totals.normals_generated != 0) {
-        table.addRow({"normals", "generated for " + counted(totals.normals_generated, "primitive")});
+        const std::string anew =
+            totals.normals_replaced == 0 ? "" : fmt::format(", {} of them anew", totals.normals_replaced);
+        table.addRow({"normals", "generated for " + counted(totals.normals_generated, "primitive") + anew});
+    }
+    if (totals.morph_normals_computed != 0) {
+        table.addRow({"morph targets", "normal deltas computed for " + std::to_string(totals.morph_normals_computed)});
     }
     if (totals.bitangents_generated != 0) {
         table.addRow({"bitangents", "written for " + counted(totals.bitangents_generated, "primitive")});
@@ -201,7 +206,8 @@ std::string primitiveRows(const GenerateReport& report) {
     table.addRow({"mesh", "prim", "name", "material", "tangents", "UV set", "triangles", "vertices", "why"});
     for (const PrimitiveReport& primitive : report.primitives) {
         std::string vertices = std::to_string(primitive.vertices_before);
-        if (primitive.vertices_after != primitive.vertices_before && wasComputed(primitive.action)) {
+        const bool may_differ = wasComputed(primitive.action) || primitive.normals_generated;
+        if (primitive.vertices_after != primitive.vertices_before && may_differ) {
             vertices += fmt::format(" -> {}", primitive.vertices_after);
         }
         table.addRow({std::to_string(primitive.mesh), std::to_string(primitive.primitive),

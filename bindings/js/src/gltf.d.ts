@@ -122,6 +122,12 @@ export interface GenerateOptions extends ModelOptions, ImageOptions, WatchOption
   normals?: "flat" | "uniform" | "area" | "angle" | "angle-area" | "max" | "best";
   /** Degrees. */
   crease?: number | string;
+  /** Normals of each primitive from its own triangles; else they are smooth over the borders of primitives of one mesh. */
+  normalsPerPrimitive?: boolean;
+  /** Normals that are there are made anew too, and the tangents that are there with them. */
+  overwriteNormals?: boolean;
+  /** What morph targets add to normals that stay. */
+  morphNormals?: "keep" | "missing" | "all";
   /** How geometry is packed: as it came (the default), not at all, or by a codec, which must be given. */
   compress?: "keep" | "none" | "meshopt" | "draco";
   /** Inverts the green channel of normal maps whose green points down, or of all of them. Needs decodeImage and encodeImage. */

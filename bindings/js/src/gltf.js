@@ -36,7 +36,8 @@ const watched = ["decodeImage", "onProgress", "convention", "faces"];
 const known = {
   generate: [
     "name", ...ofAll, ...watched, "all", "onlyMissing", "overwrite", "repair", "strip", "method", "pairing", "threshold", "frame", "refine",
-    "textureTransform", "bitangents", "format", "pack", "packDrop", "normals", "crease", "compress", "flipGreen", "flipGreenAll", "encodeImage",
+    "textureTransform", "bitangents", "format", "pack", "packDrop", "normals", "crease", "normalsPerPrimitive",
+    "overwriteNormals", "morphNormals", "compress", "flipGreen", "flipGreenAll", "encodeImage",
     "noSanitize", "orthogonalize", "dryRun",
   ],
   check: ["name", ...ofAll, ...watched, "failOn", "severity", "ignore", "angle", "noImages"],

@@ -2,6 +2,7 @@
 // From PoolElements to accessors.
 #include "asset/gltf/apply_frames.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "asset/gltf/set_attribute.h"
@@ -26,7 +27,7 @@ class Applier {
                 replaceIndices(pool_.geometries[i], std::move(elements_.indices[i]));
         }
         if (elements_.normals_generated) changed |= setAttribute(kBase, "NORMAL", std::move(elements_.normals));
-        changed |= setAttribute(kBase, "TANGENT", std::move(elements_.tangents));
+        if (elements_.tangents.count != 0) changed |= setAttribute(kBase, "TANGENT", std::move(elements_.tangents));
         if (elements_.bitangents_generated)
             changed |= setAttribute(kBase, "_BITANGENT", std::move(elements_.bitangents));
         changed |= setTargets();
@@ -35,6 +36,8 @@ class Applier {
 
     /// Targets whose deltas were computed.
     [[nodiscard]] std::uint32_t computedTargets() const { return computed_targets_; }
+    /// Those whose offsets of normals that stay were.
+    [[nodiscard]] std::uint32_t newNormals() const { return new_normals_; }
 
   private:
     Json& attributesOf(std::size_t number, std::ptrdiff_t target) {
@@ -81,18 +84,20 @@ class Applier {
         bool changed = false;
         for (std::size_t i = 0; i < elements_.morphs.size(); ++i) {
             if (!movesFrames(first.targets[i])) continue;
-            const bool has_tangents = findAttribute(first.targets[i], "TANGENT").has_value();
-            if (pool_.keeps_tangents && has_tangents) continue;
-            // New ones belong to tangents that would be computed.
-            if (pool_.mendsTangents() && elements_.differing_count != 0 && !has_tangents) continue;
-            ++computed_targets_;
             const auto target = static_cast<std::ptrdiff_t>(i);
             const auto elementsOf = [&](const VertexOffsets& offsets) {
                 return offsetElements(offsets, elements_.vertex_count);
             };
-            if (elements_.normals_generated) {
+            const bool turns_normals = !pool_.morph_normals.empty() && pool_.morph_normals[i];
+            if (elements_.normals_generated || turns_normals)
                 changed |= setAttribute(target, "NORMAL", elementsOf(elements_.morphs[i].normals));
-            }
+            new_normals_ += turns_normals ? 1U : 0U;
+            if (!elements_.has_tangent_deltas) continue;
+            const bool has_tangents = findAttribute(first.targets[i], "TANGENT").has_value();
+            if (pool_.keeps_tangents && has_tangents && !turns_normals) continue;
+            // New ones belong to tangents that would be computed.
+            if (pool_.mendsTangents() && elements_.differing_count != 0 && !has_tangents) continue;
+            ++computed_targets_;
             changed |= setAttribute(target, "TANGENT", elementsOf(elements_.morphs[i].tangents));
         }
         return changed;
@@ -117,15 +122,33 @@ class Applier {
     std::span<const Primitive> primitives_;
     const Pool& pool_;
     PoolElements& elements_;
-    std::uint32_t computed_targets_ = 0;
+    std::uint32_t computed_targets_ = 0, new_normals_ = 0;
 };
 
-std::string keptNote(const PoolElements& elements) {
-    if (elements.morphs.empty()) {
+bool anyHasTangents(const Primitive& primitive) {
+    return std::any_of(primitive.targets.begin(), primitive.targets.end(),
+                       [](const AttributeList& target) { return findAttribute(target, "TANGENT").has_value(); });
+}
+
+/// What became of offsets of normals that stay; empty: nothing.
+std::string morphNormalsNote(const Pool& pool, const PoolElements& elements, const Primitive& primitive,
+                             std::uint32_t count) {
+    if (count == 0) return {};
+    std::string note = "what " + std::to_string(count) + (count == 1 ? " morph target adds" : " morph targets add") +
+                       " to its normals was computed";
+    const bool left = !elements.has_tangent_deltas || (pool.mendsTangents() && elements.differing_count != 0);
+    if (left && anyHasTangents(primitive)) note += "; what they add to tangents stays, and may not fit it";
+    return note;
+}
+
+std::string keptNote(const PoolElements& elements, const Primitive& primitive) {
+    if (!elements.has_tangent_deltas) {
+        if (!lacksDeltas(primitive)) return {};
         return "; its morph targets lack tangent deltas and get none, because its tangents are not those that would be "
                "computed (" +
                std::to_string(elements.differing_count) + " corners differ)";
     }
+    if (!lacksDeltas(primitive)) return {};
     return "; tangent deltas were added to its morph targets that had none";
 }
 
@@ -138,13 +161,19 @@ void applyFrames(Editor& editor, const Document& document, std::span<const Primi
     for (const std::size_t number : pool.primitives) {
         PrimitiveReport& report = reports[number];
         report.morph_deltas_computed = applier.computedTargets();
+        report.morph_normals_computed = applier.newNormals();
+        std::string note = morphNormalsNote(pool, elements, primitives[number], applier.newNormals());
+        if (!note.empty()) report.notes.push_back(std::move(note));
         if (pool.keeps_tangents) {
-            report.reason += keptNote(elements);
+            report.reason += keptNote(elements, primitives[number]);
             continue;
         }
-        report.action = !pool.has_tangents ? PrimitiveAction::generated
-                        : changed          ? PrimitiveAction::replaced
-                                           : PrimitiveAction::unchanged;
+        report.normals_replaced = pool.overwrites_normals;
+        if (pool.makes_tangents) {
+            report.action = !pool.has_tangents ? PrimitiveAction::generated
+                            : changed          ? PrimitiveAction::replaced
+                                               : PrimitiveAction::unchanged;
+        }
         report.vertices_after = elements.vertex_count;
         report.normals_generated = elements.normals_generated;
         report.bitangents_generated = elements.bitangents_generated;

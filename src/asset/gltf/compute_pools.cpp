@@ -6,10 +6,16 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 #include "asset/file_error.h"
+#include "asset/gltf/weld_vertices.h"
 #include "core/parallel.h"
+#include "generate/local_mesh.h"
+#include "generate/morph_split.h"
+#include "generate/turned_normals.h"
 #include "surface/position_rounding.h"
 #include "tspace/arena.h"
 
@@ -49,6 +55,9 @@ MorphTargets targetsOf(const Document& document, const Primitive& first, bool wi
 
 void copyReport(const PrimitiveReport& computed, bool keeps_tangents, PrimitiveReport& report) {
     report.morph_sign_flip_count = computed.morph_sign_flip_count;
+    report.normals_behind_count = computed.normals_behind_count;
+    report.turned_triangle_count = computed.turned_triangle_count;
+    report.two_sided_triangle_count = computed.two_sided_triangle_count;
     if (keeps_tangents) return;
     report.normals = computed.normals;
     report.tangents = computed.tangents;
@@ -102,13 +111,82 @@ std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGe
     return {};
 }
 
+/// Leaves the first of the vertices that only their frames keep apart. `copies` as in lendVertices.
+void weld(const WeldedVertices& welded, std::vector<PrimitiveGeometry>& geometries, PoolView& vertices,
+          VertexPool& copies) {
+    copies.positions = gather(vertices.positions, welded.kept);
+    copies.uvs = gather(vertices.uvs, welded.kept);
+    vertices.positions = copies.positions;
+    vertices.uvs = copies.uvs;
+    for (PrimitiveGeometry& geometry : geometries) {
+        for (std::uint32_t& vertex : geometry.indices) vertex = welded.number_of[vertex];
+    }
+    vertices.targets.read = [read = vertices.targets.read, &welded](std::size_t target) -> Result<MorphOffsets> {
+        Result<MorphOffsets> offsets = read(target);
+        if (!offsets) return offsets;
+        offsets->positions = gather(std::span<const Vec3>(offsets->positions), welded.kept);
+        offsets->normals = {};
+        offsets->tangents = {};
+        return offsets;
+    };
+}
+
+/// What targets add to normals that stay, computed when it is first asked for.
+class NewMorphNormals {
+  public:
+    /// `vertices` and `geometries` must outlive this; its targets then have the new offsets.
+    NewMorphNormals(const std::vector<bool>& targets, PoolView& vertices, std::span<const PrimitiveGeometry> geometries)
+        : targets_(targets), turned_(vertices, geometries), made_(targets.size()) {
+        vertices.targets.read = [read = vertices.targets.read, this](std::size_t target) -> Result<MorphOffsets> {
+            Result<MorphOffsets> offsets = read(target);
+            if (!offsets || !targets_[target]) return offsets;
+            offsets->normals = turned_.offsets(offsets->positions);
+            made_[target] = sparse(offsets->normals);
+            return offsets;
+        };
+    }
+
+    /// Puts them into frames, for the vertices after a split.
+    void write(const PoolView& vertices, PoolFrames& frames) {
+        frames.morphs.resize(targets_.size());
+        for (std::size_t target = 0; target < targets_.size(); ++target) {
+            if (!targets_[target]) continue;
+            if (!made_[target]) valueOrThrow(vertices.targets.read(target));
+            frames.morphs[target].normals = spread(*made_[target], frames.source_vertices, vertices.positions.count);
+        }
+    }
+
+  private:
+    const std::vector<bool>& targets_;
+    TurnedNormals turned_;
+    std::vector<std::optional<VertexOffsets>> made_;
+};
+
+/// Whether most tangents that were there have the other sign, as files have it whose green points down.
+bool haveInvertedSigns(std::span<const Vec4> old, const PoolFrames& frames) {
+    if (old.empty() || frames.tangents.empty()) return false;
+    std::size_t inverted = 0;
+    for (std::size_t v = 0; v < frames.tangents.size(); ++v)
+        inverted += frames.tangents[v].w * old[frames.source_vertices[v]].w < 0 ? 1U : 0U;
+    return 3 * inverted >= 2 * frames.tangents.size();
+}
+
+/// The vertices as they are.
+PoolFrames asTheyAre(const PoolView& vertices) {
+    PoolFrames frames;
+    frames.source_vertices.resize(vertices.positions.count);
+    std::iota(frames.source_vertices.begin(), frames.source_vertices.end(), 0u);
+    return frames;
+}
+
 /// The triangles of each geometry of a pool.
 std::vector<PrimitiveGeometry> readGeometries(const Document& document, std::span<const Primitive> primitives,
                                               const Pool& pool) {
     std::vector<PrimitiveGeometry> geometries;
     for (const PoolGeometry& geometry : pool.geometries)
-        geometries.push_back(
-            {.indices = readTriangleCorners(document, primitives[geometry.primitives[0]]), .mends = geometry.mends});
+        geometries.push_back({.indices = readTriangleCorners(document, primitives[geometry.primitives[0]]),
+                              .mends = geometry.mends,
+                              .around = geometry.around});
     return geometries;
 }
 
@@ -152,17 +230,27 @@ PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& executi
     if (pool.keeps_tangents || pool.mendsTangents()) copies.kept_tangents = readTangents(document_, first);
     vertices.kept_tangents = copies.kept_tangents;
     std::vector<Vec4> old_tangents;
-    if (pool.tries_quads && pool.has_tangents && !pool.keeps_tangents) {
+    const bool keeps_signs = pool.overwrites_normals && options.existing == ExistingTangents::keep;
+    if ((pool.tries_quads || keeps_signs) && pool.has_tangents && !pool.keeps_tangents) {
         if (readAccessor(document_, *first.find("TANGENT")).component_count == 4)
             old_tangents = readTangents(document_, first);
     }
     vertices.old_tangents = old_tangents;
     vertices.is_blenders = pool.is_blenders;
-    const std::vector<PrimitiveGeometry> geometries = readGeometries(document_, primitives_, pool);
+    vertices.makes_tangents = pool.makes_tangents;
+    std::vector<PrimitiveGeometry> geometries = readGeometries(document_, primitives_, pool);
+    WeldedVertices welded;
+    if (pool.overwrites_normals) welded = weldVertices(document_, first);
+    const bool was_welded = welded.kept.size() != welded.number_of.size();
+    if (was_welded) weld(welded, geometries, vertices, copies);
+    std::optional<NewMorphNormals> morph_normals;
+    if (!pool.morph_normals.empty()) morph_normals.emplace(pool.morph_normals, vertices, geometries);
     std::vector<PrimitiveReport> computed;
     for (const PoolGeometry& geometry : pool.geometries) computed.push_back(reports[geometry.primitives[0]]);
-    PoolFrames frames = valueOrThrow(computeFrames(vertices, geometries, options, computed));
-    if (frames.tangents.size() != frames.source_vertices.size()) {
+    const bool computes = pool.makes_tangents || !pool.has_normals;
+    PoolFrames frames =
+        computes ? valueOrThrow(computeFrames(vertices, geometries, options, computed)) : asTheyAre(vertices);
+    if (pool.makes_tangents && frames.tangents.size() != frames.source_vertices.size()) {
         failFile(ErrorCode::internal, "no tangents were computed", first.place());
     }
     for (std::size_t i = 0; i < pool.geometries.size(); ++i) {
@@ -170,8 +258,24 @@ PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& executi
             copyReport(computed[i], pool.keeps_tangents, reports[number]);
         }
     }
-    PoolElements elements = packFrames(document_, primitives_, pool, std::move(frames), options.format);
-    if (!pool.keeps_tangents && !pool.mendsTangents()) elements.warning = warnOfRounding(vertices, geometries);
+    const bool has_tangent_deltas = pool.makes_tangents && !frames.morphs.empty();
+    if (morph_normals) morph_normals->write(vertices, frames);
+    if (was_welded) {
+        for (std::uint32_t& source : frames.source_vertices) source = welded.kept[source];
+    }
+    if (keeps_signs && haveInvertedSigns(old_tangents, frames)) {
+        for (Vec4& tangent : frames.tangents) tangent.w = -tangent.w;
+        for (const std::size_t number : pool.primitives) {
+            reports[number].notes.emplace_back(
+                "most signs of its tangents were inverted, and all are now: its normal map may be made for that "
+                "(--overwrite "
+                "makes them those of the UVs)");
+        }
+    }
+    PoolElements elements = packFrames(document_, primitives_, pool, std::move(frames),
+                                       {.format = options.format, .is_welded = was_welded});
+    elements.has_tangent_deltas = has_tangent_deltas;
+    if (computes && !pool.keeps_tangents && !pool.mendsTangents()) elements.warning = warnOfRounding(vertices, geometries);
     return elements;
 }
 

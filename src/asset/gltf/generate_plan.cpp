@@ -30,14 +30,63 @@ std::string needWords(const TangentUse& use) {
            use.needed_by;
 }
 
+bool tangentsGo(const Primitive& primitive, const std::vector<TangentUse>& uses, const GenerateOptions& options) {
+    return options.strip && uses.empty() && canStripTangents(primitive);
+}
+
+std::string uvsOf(const std::vector<TangentUse>& uses) { return uvName(uses.empty() ? 0 : uses[0].uv_set); }
+
+bool hasSurface(const Primitive& primitive) {
+    return hasTriangles(primitive.mode) && primitive.find("POSITION") && primitive.triangleCount() != 0;
+}
+
+/// Whether its normals are made anew, and so are the tangents that it has: they would not fit.
+bool makesNormalsAnew(PrimitiveReport& report, const Document& document, const Primitive& primitive,
+                      const std::vector<TangentUse>& uses, const GenerateOptions& options) {
+    if (!options.overwrite_normals || !hasSurface(primitive) || surfaceKind(document, primitive).is_unlit) return false;
+    if (!packedAlone(document, primitive).empty()) return false;
+    const bool can_follow = options.tangents.method == Method::basis || primitive.find(uvsOf(uses));
+    if (!primitive.find("TANGENT") || tangentsGo(primitive, uses, options) || can_follow) return true;
+    report.notes.push_back(
+        "its normals stay: its tangents would not fit new ones, and cannot be computed, because it has no " +
+        uvsOf(uses));
+    return false;
+}
+
+/// Whether a target leaves normals as they are.
+bool addsNothing(const Document& document, const Primitive& primitive, std::size_t target) {
+    if (!findAttribute(primitive.targets[target], "NORMAL")) return true;
+    const std::vector<Vec3> offsets = readOffsets(document, primitive, target, "NORMAL");
+    return std::all_of(offsets.begin(), offsets.end(), [](const Vec3& offset) { return offset == Vec3{}; });
+}
+
+/// Targets that get new offsets of normals that stay; empty: none does.
+std::vector<bool> morphNormals(const Document& document, const Primitive& primitive, MorphNormals which) {
+    std::vector<bool> targets;
+    if (which == MorphNormals::keep || !hasSurface(primitive) || !primitive.find("NORMAL")) return targets;
+    for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
+        const bool moves = findAttribute(primitive.targets[i], "POSITION").has_value();
+        targets.push_back(moves && (which == MorphNormals::all || addsNothing(document, primitive, i)));
+    }
+    if (std::count(targets.begin(), targets.end(), true) == 0) targets.clear();
+    return targets;
+}
+
+/// What is computed but for tangents.
+struct NormalsPlan {
+    bool anew = false;
+    std::vector<bool> morphs = {};
+};
+
 /// Whether nothing is to be computed because nobody asks for it. Fills action and reason then.
 bool isLeftAlone(PrimitiveReport& report, const Document& document, const Primitive& primitive,
-                 const std::vector<TangentUse>& uses, const GenerateOptions& options) {
+                 const std::vector<TangentUse>& uses, const GenerateOptions& options, const NormalsPlan& normals) {
+    const bool follows = normals.anew && primitive.find("TANGENT") && !tangentsGo(primitive, uses, options);
     std::string why;
     if (!hasTriangles(primitive.mode)) {
         report.action = PrimitiveAction::notTriangles;
         why = std::string("it draws ") + modeName(primitive.mode) + ", which have no tangents";
-    } else if (uses.empty() && !options.all) {
+    } else if (uses.empty() && !options.all && !follows) {
         report.action = PrimitiveAction::notNeeded;
         why = primitive.material ? "its material has no texture that needs tangents" : "it has no material";
     } else {
@@ -47,7 +96,7 @@ bool isLeftAlone(PrimitiveReport& report, const Document& document, const Primit
         primitive.find("TANGENT") && uses.empty() ? otherTangentReader(document, primitive) : std::string();
     if (!reader.empty()) {
         why += "; " + reader + " may be about its tangents";
-    } else if (options.strip && uses.empty() && canStripTangents(primitive)) {
+    } else if (tangentsGo(primitive, uses, options)) {
         report.action = PrimitiveAction::removed;
         why = "nothing needs its tangents: " + why;
     } else if (options.strip && uses.empty() && primitive.find("TANGENT")) {
@@ -62,19 +111,19 @@ constexpr const char* kKeptReason = "it has tangents, and overwriting was not as
 /// Fills action and reason. Returns true when tangents are to be computed; the action is then known only
 /// later, unless they are kept and only deltas of morph targets are computed.
 bool decide(PrimitiveReport& report, const Document& document, const Primitive& primitive,
-            const std::vector<TangentUse>& uses, const GenerateOptions& options) {
+            const std::vector<TangentUse>& uses, const GenerateOptions& options, const NormalsPlan& normals) {
     const auto leave = [&](PrimitiveAction action, std::string reason) {
         report.action = action;
         report.reason = std::move(reason);
         return false;
     };
-    if (isLeftAlone(report, document, primitive, uses, options)) return false;
+    if (isLeftAlone(report, document, primitive, uses, options, normals)) return false;
     // What would be made in their place is less than what they were packed from.
     const bool can_overwrite = primitive.find("NORMAL") && options.existing == ExistingTangents::replace;
     if (const std::string packed = can_overwrite ? "" : packedAlone(document, primitive); !packed.empty())
         return leave(PrimitiveAction::kept, "its frames are packed in " + packed);
-    const bool keeps = hasUsableTangents(primitive) && options.existing == ExistingTangents::keep;
-    if (keeps && !lacksDeltas(primitive)) return leave(PrimitiveAction::kept, kKeptReason);
+    const bool keeps = hasUsableTangents(primitive) && options.existing == ExistingTangents::keep && !normals.anew;
+    if (keeps && !lacksDeltas(primitive) && normals.morphs.empty()) return leave(PrimitiveAction::kept, kKeptReason);
     const auto cannot = [&](const std::string& reason) {
         if (!keeps) return leave(PrimitiveAction::impossible, reason);
         return leave(PrimitiveAction::kept,
@@ -83,28 +132,31 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
     if (!primitive.find("POSITION")) return cannot("it has no positions");
     if (primitive.triangleCount() == 0) return cannot("it has no triangle");
     if (options.tangents.method != Method::basis) {
-        const std::size_t uv_set = uses.empty() ? 0 : uses[0].uv_set;
-        if (!primitive.find(uvName(uv_set))) {
-            return cannot("it has no " + uvName(uv_set) + " for the tangents to follow");
-        }
-        report.uv_set = static_cast<std::int32_t>(uv_set);
+        if (!primitive.find(uvsOf(uses))) return cannot("it has no " + uvsOf(uses) + " for the tangents to follow");
+        report.uv_set = static_cast<std::int32_t>(uses.empty() ? 0 : uses[0].uv_set);
     }
-    report.reason = uses.empty() ? "all primitives were asked for" : needWords(uses[0]);
-    if (hasUsableTangents(primitive) && options.existing == ExistingTangents::replace)
+    report.reason = !uses.empty() ? needWords(uses[0])
+                    : options.all ? "all primitives were asked for"
+                                  : "it has tangents";
+    if (hasUsableTangents(primitive) && options.existing == ExistingTangents::replace) {
         report.reason += ", and overwriting was asked for";
+    } else if (hasUsableTangents(primitive) && normals.anew) {
+        report.reason += ", and old ones would not fit its new normals";
+    }
     if (keeps) leave(PrimitiveAction::kept, kKeptReason);
     return true;
 }
 
 /// Two primitives with the same key share every vertex.
-std::string poolKey(const Primitive& primitive, std::int32_t uv_set, const UvMatrix& matrix) {
+std::string poolKey(const Primitive& primitive, std::int32_t uv_set, const UvMatrix& matrix, bool makes_tangents,
+                    bool overwrites_normals) {
     const auto append = [](std::string& key, AttributeList list) {
         std::sort(list.begin(), list.end());
         for (const auto& [name, accessor] : list)
             key += std::to_string(name.size()) + name + ' ' + std::to_string(accessor) + ' ';
         key += '|';
     };
-    std::string key = std::to_string(uv_set);
+    std::string key = std::to_string(uv_set) + (makes_tangents ? "" : "without") + (overwrites_normals ? "anew" : "");
     for (const double entry : {matrix.uu, matrix.uv, matrix.vu, matrix.vv})
         key += ',' + std::to_string(std::bit_cast<std::uint64_t>(entry));
     // Plain triangles without indices need no split, so no other primitive may force one on them.
@@ -146,29 +198,37 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
         report.morph_target_count = static_cast<std::uint32_t>(primitive.targets.size());
         report.vertices_before = report.vertices_after = primitive.vertex_count;
         const std::vector<TangentUse> uses = tangentUses(document, primitive);
-        const bool computes = decide(report, document, primitive, uses, options);
-        if (hasTriangles(primitive.mode))
-            report.notes = notesOf(uses, animated, options.texture_transform,
-                                   computes && report.uv_set >= 0 && report.action != PrimitiveAction::kept);
-        if (!computes) continue;
-        if (primitive.find("TANGENT") && !hasUsableTangents(primitive))
+        NormalsPlan normals{.anew = makesNormalsAnew(report, document, primitive, uses, options)};
+        if (!normals.anew) normals.morphs = morphNormals(document, primitive, options.morph_normals);
+        const bool computes = decide(report, document, primitive, uses, options, normals);
+        if (hasTriangles(primitive.mode)) {
+            const bool follows = computes && report.uv_set >= 0 && report.action != PrimitiveAction::kept;
+            for (std::string& note : notesOf(uses, animated, options.texture_transform, follows))
+                report.notes.push_back(std::move(note));
+        }
+        if (!computes && !normals.anew && normals.morphs.empty()) continue;
+        if (computes && primitive.find("TANGENT") && !hasUsableTangents(primitive))
             report.notes.emplace_back("the tangents that it had did not count, because it had no normals");
 
         UvMatrix matrix;
-        if (report.uv_set >= 0 && !uses.empty()) matrix = uvMatrixOf(uses[0], options.texture_transform);
+        if (computes && report.uv_set >= 0 && !uses.empty()) matrix = uvMatrixOf(uses[0], options.texture_transform);
         const auto [pool_entry, is_new_pool] =
-            pool_of.try_emplace(poolKey(primitive, report.uv_set, matrix), plan.pools.size());
+            pool_of.try_emplace(poolKey(primitive, report.uv_set, matrix, computes, normals.anew), plan.pools.size());
         const std::size_t pool_number = pool_entry->second;
         if (is_new_pool) {
             Pool& created = plan.pools.emplace_back();
-            created.uses_uvs = report.uv_set >= 0;
+            created.makes_tangents = computes;
+            created.uses_uvs = computes && report.uv_set >= 0;
             created.uv_matrix = matrix;
             created.uv_set = created.uses_uvs ? static_cast<std::size_t>(report.uv_set) : 0;
             created.vertex_count = primitive.vertex_count;
-            created.has_normals = primitive.find("NORMAL").has_value();
+            created.overwrites_normals = normals.anew && primitive.find("NORMAL");
+            created.has_normals = primitive.find("NORMAL") && !normals.anew;
+            created.morph_normals = std::move(normals.morphs);
             created.has_tangents = hasUsableTangents(primitive);
-            created.keeps_tangents = report.action == PrimitiveAction::kept;
-            created.tries_quads = options.tangents.method == Method::mikktspace && options.faces != Faces::triangles;
+            created.keeps_tangents = computes && report.action == PrimitiveAction::kept;
+            created.tries_quads =
+                computes && options.tangents.method == Method::mikktspace && options.faces != Faces::triangles;
             created.is_blenders = is_blenders;
         }
         Pool& pool = plan.pools[pool_number];

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,12 +14,17 @@
 #include "surface/uv_matrix.h"
 #include "tspace/asset.h"
 
+namespace tspace {
+struct Surroundings;
+}
+
 namespace tspace::gltf {
 
 /// Primitives that draw the same triangles of one pool: computed once.
 struct PoolGeometry {
-    std::vector<std::size_t> primitives = {};  ///< numbers into the list of primitives; never empty
-    Mends mends = {};                          ///< where the tangents that are there are wrong
+    std::vector<std::size_t> primitives = {};         ///< numbers into the list of primitives; never empty
+    Mends mends = {};                                 ///< where the tangents that are there are wrong
+    std::shared_ptr<const Surroundings> around = {};  ///< see PrimitiveGeometry::around
 };
 
 /// Primitives over the same attribute accessors and morph targets whose tangents follow the same UV set, turned the
@@ -30,10 +36,14 @@ struct Pool {
     std::size_t uv_set = 0;
     UvMatrix uv_matrix = {};
     bool has_normals = false;
-    bool has_tangents = false;    ///< there are tangents with normals; others do not count
-    bool keeps_tangents = false;  ///< they stay, and morph targets without tangent deltas get some
-    bool tries_quads = false;     ///< tangents may be computed on quads, if those that are there show it
-    bool is_blenders = false;     ///< Blender wrote the file
+    bool has_tangents = false;  ///< there are tangents with normals; others do not count
+    /// Normals are made anew: has_normals is false, and vertices that only frames keep apart are one.
+    bool overwrites_normals = false;
+    bool makes_tangents = true;            ///< false: normals alone, or what targets add to them
+    bool keeps_tangents = false;           ///< they stay, and morph targets without tangent deltas get some
+    bool tries_quads = false;              ///< tangents may be computed on quads, if those that are there show it
+    bool is_blenders = false;              ///< Blender wrote the file
+    std::vector<bool> morph_normals = {};  ///< targets that get new offsets of normals that stay; empty: none
     std::uint64_t corner_count = 0;
     std::size_t vertex_count = 0;
 

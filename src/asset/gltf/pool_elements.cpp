@@ -67,9 +67,11 @@ ElementData indexElements(std::vector<std::uint32_t>&& indices, ComponentType na
     return data;
 }
 
-bool isReplaced(const std::string& name, std::ptrdiff_t target, const PoolFrames& frames) {
+bool isReplaced(const std::string& name, std::ptrdiff_t target, const Pool& pool, const PoolFrames& frames) {
     if (name == "_BITANGENT") return target == kBase && !frames.bitangents.empty();
-    return name == "TANGENT" || (name == "NORMAL" && frames.normals_generated);
+    if (name == "TANGENT") return !frames.tangents.empty();
+    const bool is_new = target != kBase && !pool.morph_normals.empty() && pool.morph_normals[std::size_t(target)];
+    return name == "NORMAL" && (frames.normals_generated || is_new);
 }
 
 /// Every other attribute, and those of morph targets, by accessor.
@@ -79,12 +81,12 @@ std::map<std::size_t, CarriedElements> carriedAttributes(std::span<const Primiti
     for (const std::size_t number : pool.primitives) {
         const Primitive& primitive = primitives[number];
         for (const auto& [name, accessor] : primitive.attributes) {
-            if (!isReplaced(name, kBase, frames)) carried[accessor].users.push_back({number, kBase, name});
+            if (!isReplaced(name, kBase, pool, frames)) carried[accessor].users.push_back({number, kBase, name});
         }
         for (std::size_t target = 0; target < primitive.targets.size(); ++target) {
             for (const auto& [name, accessor] : primitive.targets[target]) {
                 const auto place = static_cast<std::ptrdiff_t>(target);
-                if (isReplaced(name, place, frames) && movesFrames(primitive.targets[target])) continue;
+                if (isReplaced(name, place, pool, frames) && movesFrames(primitive.targets[target])) continue;
                 carried[accessor].users.push_back({number, place, name});
             }
         }
@@ -116,10 +118,11 @@ ElementData newIndices(const Document& document, const Primitive& first, std::ve
 }  // namespace
 
 PoolElements packFrames(const Document& document, std::span<const Primitive> primitives, const Pool& pool,
-                        PoolFrames&& frames, VectorFormat format) {
+                        PoolFrames&& frames, const PackingRule& rule) {
+    const VectorFormat format = rule.format;
     PoolElements elements;
     elements.vertex_count = frames.source_vertices.size();
-    elements.was_split = frames.wasSplit(primitives[pool.primitives[0]].vertex_count);
+    elements.was_split = rule.is_welded || frames.wasSplit(primitives[pool.primitives[0]].vertex_count);
     elements.normals_generated = frames.normals_generated;
     elements.bitangents_generated = !frames.bitangents.empty();
     elements.morphs = std::move(frames.morphs);
@@ -128,7 +131,7 @@ PoolElements packFrames(const Document& document, std::span<const Primitive> pri
     if (elements.was_split) {
         elements.carried = carriedAttributes(primitives, pool, frames);
         // Old vertices come first, as they were.
-        SplitSources sources{.kept = primitives[pool.primitives[0]].vertex_count};
+        SplitSources sources{.kept = rule.is_welded ? 0 : primitives[pool.primitives[0]].vertex_count};
         sources.copies = std::make_shared<const std::vector<std::uint32_t>>(
             frames.source_vertices.begin() + static_cast<std::ptrdiff_t>(sources.kept), frames.source_vertices.end());
         for (auto& [accessor, carried] : elements.carried)
@@ -140,7 +143,7 @@ PoolElements packFrames(const Document& document, std::span<const Primitive> pri
         }
     }
     if (frames.normals_generated) elements.normals = unitVectors(std::move(frames.normals), format);
-    elements.tangents = unitVectors(std::move(frames.tangents), format);
+    if (!frames.tangents.empty()) elements.tangents = unitVectors(std::move(frames.tangents), format);
     if (elements.bitangents_generated) elements.bitangents = unitVectors(std::move(frames.bitangents), format);
     return elements;
 }

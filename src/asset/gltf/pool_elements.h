@@ -39,12 +39,18 @@ struct PoolElements {
     std::map<std::size_t, CarriedElements> carried = {};
     std::vector<ElementData> indices = {};
     ElementData normals = {}, tangents = {}, bitangents = {};
+    bool has_tangent_deltas = false;       ///< `morphs` has those of tangents
     std::vector<MorphFrames> morphs = {};  ///< as in PoolFrames, like the next one
     std::uint64_t differing_count = 0;
 };
 
+struct PackingRule {
+    VectorFormat format = VectorFormat::float32;
+    bool is_welded = false;  ///< not all old vertices are there, or not in their order
+};
+
 PoolElements packFrames(const Document& document, std::span<const Primitive> primitives, const Pool& pool,
-                        PoolFrames&& frames, VectorFormat format);
+                        PoolFrames&& frames, const PackingRule& rule);
 
 /// Offsets as elements, one for each vertex.
 ElementData offsetElements(const VertexOffsets& offsets, std::size_t vertex_count);

@@ -187,7 +187,9 @@ void writePackedFrames(Editor& editor, const Document& document, const GenerateO
 void noteStalePackedFrames(const Document& document, std::span<const Primitive> primitives,
                            const GenerateOptions& options, std::span<PrimitiveReport> reports) {
     for (std::size_t i = 0; i < primitives.size(); ++i) {
-        if (reports[i].action != PrimitiveAction::generated && reports[i].action != PrimitiveAction::replaced) continue;
+        const bool is_new = reports[i].action == PrimitiveAction::generated ||
+                            reports[i].action == PrimitiveAction::replaced || reports[i].normals_replaced;
+        if (!is_new) continue;
         for (const StoredPacking& packing : findPacked(document, primitives[i])) {
             if (!packing.fault.empty() || packing.layout->format == options.pack) continue;
             reports[i].notes.push_back("its packed frames in " + packing.attribute + " are those of before (--pack " +

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <numeric>
+#include <span>
 
 #include "core/unique_index.h"
 
@@ -29,9 +31,9 @@ struct BareMesh {
     std::vector<std::uint32_t> smoothing_groups = {};
 };
 
-BareMesh collectBareFaces(const Model& model) {
+BareMesh collectBareFaces(const Model& model, std::span<const std::uint32_t> faces) {
     BareMesh mesh;
-    for (std::uint32_t i = 0; i < model.faces.size(); ++i) {
+    for (const std::uint32_t i : faces) {
         const Face& face = model.faces[i];
         if (hasNormals(model, face)) continue;
         mesh.faces.push_back(i);
@@ -53,7 +55,38 @@ NormalOptions normalOptions(const Model& model, const BareMesh& mesh, const Gene
     return result;
 }
 
+/// Normals for those of the faces that have none.
+Result<NormalReport> completeFaces(Model& model, std::span<const std::uint32_t> faces, const GenerateOptions& options) {
+    const BareMesh bare = collectBareFaces(model, faces);
+    if (bare.faces.empty()) return NormalReport{};
+    MeshView view;
+    view.positions = model.positions;
+    view.indices = std::span<const std::uint32_t>(bare.indices);
+    view.face_sizes = bare.face_sizes;
+    std::vector<Vec3> normals(bare.indices.size());
+    Result<NormalReport> report = generateNormals(view, normalOptions(model, bare, options), normals);
+    if (!report) return report;
+
+    std::size_t next = 0;
+    for (const std::uint32_t index : bare.faces) {
+        const Face& face = model.faces[index];
+        for (std::uint32_t c = 0; c < face.corner_count; ++c) {
+            model.corners[face.first_corner + c].normal = static_cast<std::uint32_t>(model.normals.size());
+            model.normals.push_back(normals[next++]);
+        }
+    }
+    return report;
+}
+
 }  // namespace
+
+bool hasSomeNormals(const Model& model, const ObjPrimitive& primitive) {
+    return std::any_of(primitive.faces.begin(), primitive.faces.end(), [&](std::uint32_t number) {
+        const auto corner = model.corners.begin() + model.faces[number].first_corner;
+        return std::any_of(corner, corner + model.faces[number].corner_count,
+                           [](const Corner& c) { return c.normal != kNone; });
+    });
+}
 
 std::vector<ObjPrimitive> collectPrimitives(const Model& model) {
     UniqueIndex<std::array<std::uint32_t, 3>> keys;
@@ -76,25 +109,20 @@ Result<NormalReport> completeNormals(Model& model, std::vector<ObjPrimitive>& pr
         primitive.normals_generated = !std::all_of(primitive.faces.begin(), primitive.faces.end(),
                                                    [&](auto face) { return hasNormals(model, model.faces[face]); });
     }
-    const BareMesh bare = collectBareFaces(model);
-    if (bare.faces.empty()) return NormalReport{};
-    MeshView view;
-    view.positions = model.positions;
-    view.indices = std::span<const std::uint32_t>(bare.indices);
-    view.face_sizes = bare.face_sizes;
-    std::vector<Vec3> normals(bare.indices.size());
-    Result<NormalReport> report = generateNormals(view, normalOptions(model, bare, options), normals);
-    if (!report) return report;
-
-    std::size_t next = 0;
-    for (const std::uint32_t index : bare.faces) {
-        const Face& face = model.faces[index];
-        for (std::uint32_t c = 0; c < face.corner_count; ++c) {
-            model.corners[face.first_corner + c].normal = static_cast<std::uint32_t>(model.normals.size());
-            model.normals.push_back(normals[next++]);
-        }
+    if (!options.normals_per_primitive) {
+        std::vector<std::uint32_t> all(model.faces.size());
+        std::iota(all.begin(), all.end(), 0u);
+        return completeFaces(model, all, options);
     }
-    return report;
+    NormalReport sum;
+    for (const ObjPrimitive& primitive : primitives) {
+        const Result<NormalReport> made = completeFaces(model, primitive.faces, options);
+        if (!made) return made;
+        sum.face_count += made->face_count;
+        sum.degenerate_face_count += made->degenerate_face_count;
+        sum.fallback_corner_count += made->fallback_corner_count;
+    }
+    return sum;
 }
 
 MeshView ObjGeometry::view() const {

@@ -20,11 +20,14 @@ struct ObjPrimitive {
     std::vector<std::uint32_t> faces = {};  ///< into Model::faces, in file order
 };
 
+/// Whether any of its corners has a normal.
+bool hasSomeNormals(const Model& model, const ObjPrimitive& primitive);
+
 /// In order of first face.
 std::vector<ObjPrimitive> collectPrimitives(const Model& model);
 
 /// Gives every corner a normal: faces that lack one on any corner get new ones. Smoothing goes across shapes
-/// and materials, as smoothing groups do. Adds to model.normals, marks the primitives, and returns what was
+/// and materials, as smoothing groups do, but not with normals_per_primitive. Adds to model.normals, marks the primitives, and returns what was
 /// met.
 Result<NormalReport> completeNormals(Model& model, std::vector<ObjPrimitive>& primitives,
                                      const GenerateOptions& options);
