@@ -58,8 +58,15 @@ enum class FindingCode : std::uint32_t {
     greenMixed = 30,              ///< a normal map whose green points down in one part and up in another
     packedFramesUnreadable = 31,  ///< an attribute of packed frames is not what its name promises (docs/pack.md)
     packedFramesDiffer = 32,      ///< packed frames are not those of NORMAL and TANGENT
+    normalMapTwoChannels = 33,    ///< a normal map with x and y alone: blue says nothing of z
+    normalMapUnsigned = 34,       ///< blue is z itself, and not (z + 1) / 2
+    normalMapChannels = 35,       ///< x, y and z are in other channels, or inverted: z in red, x in alpha, ...
+    normalMapIsSrgb = 36,         ///< the sRGB curve was put on the vectors, or taken off
+    normalMapInObjectSpace = 37,  ///< directions in the coordinates of the mesh, or of the scene
+    normalMapIsHeight = 38,       ///< the image is grey
+    normalMapScale = 39,          ///< normalTexture.scale is 0 or below
 };
-inline constexpr std::uint32_t kFindingCodeCount = 33;
+inline constexpr std::uint32_t kFindingCodeCount = 40;
 
 /// Stable lowerCamelCase name: the name of the enumerator.
 const char* findingName(FindingCode code);
@@ -145,7 +152,8 @@ struct CheckReport {
     std::uint64_t note_count = 0;
     std::uint64_t primitive_count = 0;                 ///< in the file
     std::uint64_t tangents_count = 0;                  ///< primitives of those whose tangents were examined
-    std::uint64_t image_count = 0;                     ///< normal maps that were looked at
+    std::uint64_t image_count = 0;                     ///< normal maps that were looked at: what their channels hold
+    std::uint64_t green_count = 0;                     ///< those of them whose relief says which way green points
     std::vector<PackedFramesInfo> packed_frames = {};  ///< in file order
 };
 

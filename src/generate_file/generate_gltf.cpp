@@ -15,6 +15,7 @@
 #include "asset/gltf/strip_tangents.h"
 #include "asset/gltf/write_packed.h"
 #include "core/parallel.h"
+#include "generate_file/cancelled_signs.h"
 #include "generate_file/convert_maps.h"
 #include "generate_file/flip_maps.h"
 #include "generate_file/repair_plan.h"
@@ -80,11 +81,15 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     GeneratePlan plan = planGenerate(document, primitives, options);
     if (options.existing == ExistingTangents::repair) planRepair(document, primitives, options, plan);
     MapFlips flips;
-    if (options.flip_green != FlipGreen::none) flips = planFlips(document, primitives, plan.reports, options);
+    if (options.flip_green != FlipGreen::none || options.mend_maps)
+        flips = planFlips(document, primitives, plan.reports, options);
+    if (const std::string warning = warnOfCancelledSigns(document, primitives, plan, flips, options); !warning.empty())
+        report.warnings.push_back(warning);
     std::optional<MapConversion> maps;
     if (options.convert_maps) maps.emplace(document, primitives, options);
     report.input_bytes = document.input_bytes;
-    const bool will_edit = !plan.pools.empty() || !flips.images.empty() || options.pack.has_value();
+    const bool will_edit =
+        !plan.pools.empty() || !flips.images.empty() || !flips.mended.empty() || options.pack.has_value();
     if (keeps_compression) convertContainer(document, target, will_edit, report.warnings);
     takeImagesIn(document, target, report.warnings);
     tell(options, "reading", 1, 1);
@@ -112,7 +117,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     if (maps) report.converted_maps = maps->run(editor, target, plan.reports);
     if (options.pack) writePackedFrames(editor, document, options, plan.reports);
     report.normal_maps = std::move(flips.reports);
-    if (!flips.images.empty()) applyFlips(document, editor, target, std::move(flips));
+    if (!flips.images.empty() || !flips.mended.empty()) applyFlips(document, editor, target, std::move(flips));
     editor.finish();
     const bool packed = packGeometry(document, options.compression, new_file);
 

@@ -16,6 +16,14 @@ namespace {
 
 bool isUnlit(const Json& material) { return findExtension(material, "KHR_materials_unlit") != nullptr; }
 
+/// Microsoft Flight Simulator's models say of the file, in `asset`, or of a material whose convention normal maps follow.
+bool declaresGreenDown(const Json& object) {
+    const Json* extension = findExtension(object, "ASOBO_normal_map_convention");
+    const Json* convention =
+        extension == nullptr || !extension->is_object() ? nullptr : findMember(*extension, "tangent_space_convention");
+    return convention != nullptr && convention->is_string() && convention->text() == "DirectX";
+}
+
 /// Collects the uses of one material.
 class MaterialUses {
   public:
@@ -71,6 +79,9 @@ class MaterialUses {
         // What is no number counts for nothing, as in viewers: tangents do not depend on it.
         if (const Json* scale = findMember(*texture, "scale"); scale != nullptr && scale->is_number())
             use.scale = scale->get<double>();
+        use.is_declared_down = declaresGreenDown(rootArray(document_, "materials")[material_]);
+        if (const Json* asset = findMember(document_.json, "asset"); asset != nullptr && !use.is_declared_down)
+            use.is_declared_down = declaresGreenDown(*asset);
         return true;
     }
 
