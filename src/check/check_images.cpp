@@ -161,6 +161,19 @@ std::vector<std::uint8_t> alphaOf(const Scene& scene, const SceneImage& image, s
     return decodeAlpha(image.bytes);
 }
 
+/// Which of the two channels beside z is x: the derivatives of a height go together (GreenBlocks) the right way only.
+void chooseXAndY(const RgbImage& image, const TexelMask& inside, MapLayout& layout) {
+    constexpr double kClear = 0.2;
+    const auto agreement = [&](const MapLayout& chosen) {
+        RgbImage read = image;
+        readByLayout(read, {}, chosen);
+        return std::fabs(GreenBlocks(read, inside).all().correlation);
+    };
+    MapLayout other = layout;
+    std::swap(other.x, other.y);
+    if (agreement(other) > agreement(layout) + kClear) layout = other;
+}
+
 /// Finds out what the image holds, and makes it one that glTF reads.
 void lookAtContent(const Scene& scene, const TexelMask& inside, NormalMap& map, RgbImage& image) {
     std::vector<TexelBytes> texels = sampleTexels(image, {}, inside);
@@ -169,6 +182,7 @@ void lookAtContent(const Scene& scene, const TexelMask& inside, NormalMap& map, 
     std::vector<TexelOnSurface> surface;
     for (const MapPart& part : map.parts) showPoints(part, image, surface);
     map.look = lookAtTexels(texels, !alpha.empty(), surface);
+    if (map.look.content == MapContent::exchanged) chooseXAndY(image, inside, map.look.layout);
     if (holdsNormals(map.look.content) && !(map.look.layout == MapLayout{}))
         readByLayout(image, alpha, map.look.layout);
 }

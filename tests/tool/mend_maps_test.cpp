@@ -92,6 +92,10 @@ const Kind kKinds[] = {
      [](const Vec3& t) {
          return Vec3{t.z, t.y, t.x};
      }},
+    {"normalMapChannels", "--channels brg.",
+     [](const Vec3& t) {
+         return Vec3{t.y, t.z, t.x};
+     }},
     {"normalMapChannels", "--channels rgB.",
      [](const Vec3& t) {
          return Vec3{t.x, t.y, 1 - t.z};
