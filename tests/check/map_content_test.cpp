@@ -113,15 +113,15 @@ TEST(MapContent, TellsExchangedAndInvertedChannels) {
         int order[3];
         bool is_inverted;
     };
-    for (const auto& [order, is_inverted] :
+    for (const Case& one :
          {Case{{2, 1, 0}, false}, Case{{0, 2, 1}, false}, Case{{0, 1, 2}, true}, Case{{2, 1, 0}, true}}) {
         const RgbImage map = changed(sound(), [&](std::uint8_t* texel) {
-            if (is_inverted) texel[2] ^= 0xff;
+            if (one.is_inverted) texel[2] ^= 0xff;
             const std::uint8_t old[3] = {texel[0], texel[1], texel[2]};
-            for (int k = 0; k < 3; ++k) texel[k] = old[order[k]];
+            for (int k = 0; k < 3; ++k) texel[k] = old[one.order[k]];
         });
         const MapLook look = lookAt(map);
-        ASSERT_EQ(look.content, MapContent::exchanged) << order[0] << order[1] << order[2];
+        ASSERT_EQ(look.content, MapContent::exchanged) << one.order[0] << one.order[1] << one.order[2];
         RgbImage read = map;
         readByLayout(read, {}, look.layout);
         EXPECT_EQ(read.rgb, sound().rgb);
