@@ -175,7 +175,9 @@ TEST(MapContent, TellsObjectSpaceByTheMesh) {
 TEST(MapContent, OfAnyReliefIsToldFromAllOtherKinds) {
     EXPECT_TRUE(rc::check([] {
         const double a = *rc::gen::inRange(5, 40), b = *rc::gen::inRange(5, 40), c = *rc::gen::inRange(-20, 20);
-        const auto height = [&](double x, double y) { return 0.6 / a * std::sin(a * x + c * y) * std::cos(b * y); };
+        const auto height = [&](double x, double y) {
+            return 1.0 / (a + b + std::abs(c)) * std::sin(a * x + c * y) * std::cos(b * y);
+        };
         const RgbImage map = normalMapOf(64, height);
         RC_ASSERT(lookAt(map).content == MapContent::normals);
         RC_ASSERT(lookAt(changed(map, [](std::uint8_t* t) { t[2] = 0; })).content == MapContent::twoChannels);
