@@ -154,6 +154,10 @@ struct GenerateOptions {
     /// well, such as a base colour, stays, and the normal maps get one of their own; files beside a .gltf stay too, and
     /// the output names new ones.
     FlipGreen flip_green = FlipGreen::none;
+    /// Normal maps (PNG, JPEG) that hold something else than glTF reads are written anew as PNG, with the bits that they have:
+    /// those with two channels or channels exchanged, with x in alpha, encoded as colours, and in object space, as
+    /// checkFile finds them. Together with flip_green the new ones are inverted where they need it.
+    bool mend_maps = false;
     /// Normal maps follow the tangents that are computed: with the new ones they show what they showed with the old. Missing
     /// tangents count as those that viewers make: mikktspace. New maps are PNGs with the bits of the old ones; a map or a
     /// material whose primitives need different ones is copied. glTF only, in its own convention, and neither with
@@ -256,7 +260,9 @@ struct NormalMapReport {
     std::uint32_t image = 0;  ///< index in the input's images; for OBJ a running number
     std::string name = {};    ///< name or URI; may be empty
     bool flipped = false;     ///< its green channel was inverted
-    std::string reason = {};  ///< why not: half a sentence for a person
+    /// It was written anew, because it held something else than glTF reads (mend_maps), or, from OBJ, heights.
+    bool mended = false;
+    std::string reason = {};  ///< why nothing was done, or what it held: half a sentence for a person
 };
 
 /// What became of one normal map as some primitives show it (`convert_maps`).
@@ -278,7 +284,7 @@ struct ConvertedMapReport {
 
 struct GenerateReport {
     std::vector<PrimitiveReport> primitives = {};         ///< in file order
-    std::vector<NormalMapReport> normal_maps = {};        ///< where flip_green is not none
+    std::vector<NormalMapReport> normal_maps = {};        ///< with flip_green or mend_maps; from OBJ height maps too
     std::vector<ConvertedMapReport> converted_maps = {};  ///< of maps whose primitives got tangents (convert_maps)
     bool changed = false;                                 ///< false: the output is byte for byte the input
     std::uint64_t input_bytes = 0;                        ///< the model file and what it loads

@@ -64,8 +64,15 @@ enum class FindingCode : std::uint32_t {
     normalsFarFromFaces = 36,     ///< normals that differ much from all triangles at their vertices
     morphNormalsMissing = 37,     ///< a morph target turns the surface and leaves the normals behind
     morphNormalsWrong = 38,       ///< a morph target turns normals in another way than the surface
+    normalMapTwoChannels = 39,    ///< a normal map with x and y alone: blue says nothing of z
+    normalMapUnsigned = 40,       ///< blue is z itself, and not (z + 1) / 2
+    normalMapChannels = 41,       ///< x, y and z are in other channels, or inverted: z in red, x in alpha, ...
+    normalMapIsSrgb = 42,         ///< the sRGB curve was put on the vectors, or taken off
+    normalMapInObjectSpace = 43,  ///< directions in the coordinates of the mesh, or of the scene
+    normalMapIsHeight = 44,       ///< the image is grey
+    normalMapScale = 45,          ///< normalTexture.scale is 0 or below
 };
-inline constexpr std::uint32_t kFindingCodeCount = 39;
+inline constexpr std::uint32_t kFindingCodeCount = 46;
 
 /// Stable lowerCamelCase name: the name of the enumerator.
 const char* findingName(FindingCode code);
@@ -151,7 +158,8 @@ struct CheckReport {
     std::uint64_t note_count = 0;
     std::uint64_t primitive_count = 0;                 ///< in the file
     std::uint64_t tangents_count = 0;                  ///< primitives of those whose tangents were examined
-    std::uint64_t image_count = 0;                     ///< normal maps that were looked at
+    std::uint64_t image_count = 0;                     ///< normal maps that were looked at: what their channels hold
+    std::uint64_t green_count = 0;                     ///< those of them whose relief says which way green points
     std::vector<PackedFramesInfo> packed_frames = {};  ///< in file order
 };
 

@@ -7,6 +7,7 @@
 
 #include "tspace/asset.h"
 #include "tspace/map_convert.h"
+#include "tspace/map_layout.h"
 
 namespace tspace {
 
@@ -26,6 +27,9 @@ struct ConvertMapFileOptions {
     std::uint32_t tile = 0;  ///< takes the triangles of this UDIM tile, whose file the map is: 1001 and on; 0: all
     MapFileSpace from = MapFileSpace::tangent, to = MapFileSpace::tangent;
     MapReading from_reading = {}, to_reading = {};
+    /// Where `input` keeps its vectors: it is read by this first. The output always has x, y and z in red, green and blue,
+    /// and alpha only where that was none of them.
+    MapLayout layout = {};
     /// Of a channel: 8 or 16 in a PNG; 16 (half) or 32 (float) in an EXR. 0: the most that the format has.
     unsigned bits = 0;
     std::uint32_t padding = 0;  ///< ConvertMapOptions::padding

@@ -6,6 +6,8 @@
 #include "tspace/map_bake.h"
 #include "tspace/map_convert.h"
 #include "tspace/map_error.h"
+#include "tspace/map_height.h"
 #include "tspace/map_image.h"
+#include "tspace/map_layout.h"
 #include "tspace/map_reading.h"
 #include "tspace/texture_wrap.h"

@@ -19,7 +19,9 @@ struct TangentUse {
     UvTransform transform = {};
     std::optional<std::size_t> image = {};  ///< index into the file's images
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
-    double scale = 1;  ///< of a normal map: what x and y are multiplied by
+    double scale = 1;               ///< of a normal map: what x and y are multiplied by
+    bool is_declared_down = false;  ///< the file says that green of its normal maps points down, as its readers know
+    bool may_be_heights = false;    ///< the format takes a grey image for a height map there (map_bump of OBJ)
     std::size_t material = 0;
     bool only_in_variant = false;  ///< the material is one of KHR_materials_variants, not the primitive's own
 };

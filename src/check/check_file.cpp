@@ -75,6 +75,7 @@ CheckReport check(const std::string& input, const CheckOptions& options) {
     ImageFindings images;
     if (options.images) images = checkImages(scene, options);
     report.image_count = images.looked_at;
+    report.green_count = images.green_told;
     weighImages(scene, options, images, judgements);
     adviseOn(scene, options, judgements);
     std::vector<Finding> unused;
@@ -90,6 +91,7 @@ CheckReport check(const std::string& input, const CheckOptions& options) {
     report.packed_frames = std::move(packed.infos);
     std::move(packed.findings.begin(), packed.findings.end(), std::back_inserter(report.findings));
     for (Finding& finding : images.findings) report.findings.push_back(std::move(finding));
+    for (Finding& finding : checkMapScales(scene)) report.findings.push_back(std::move(finding));
     for (const std::string& warning : scene.warnings) report.findings.push_back(fileRemark(warning));
     std::stable_sort(report.findings.begin(), report.findings.end(),
                      [](const Finding& a, const Finding& b) { return a.severity > b.severity; });

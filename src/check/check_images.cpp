@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Green channels that point down, throughout or in parts.
+// What normal maps hold, and green channels that point down, throughout or in parts.
 #include "check/check_images.h"
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 
 #include "asset/work_together.h"
 #include "check/findings.h"
+#include "check/map_content.h"
+#include "check/map_findings.h"
 #include "check/uv_reading.h"
+#include "core/unit.h"
+#include "maps/texture_sample.h"
 #include "maps/uv_coverage.h"
 
 namespace tspace {
@@ -28,6 +34,7 @@ struct MapPart {
 struct NormalMap {
     std::size_t image = 0;
     std::vector<MapPart> parts = {};
+    MapLook look = {};
     std::optional<GreenTest> test = {};
     std::string why_not = {};
 };
@@ -99,6 +106,87 @@ void lookAtParts(const GreenBlocks& blocks, TexelMask&& mask, NormalMap& map) {
     }
 }
 
+/// Whether green of the file is green of the normals: then inverting the one inverts the other.
+bool hasOwnGreen(const MapLayout& layout) { return layout.y == MapLayout{}.y && layout.curve == MapCurve::none; }
+
+/// What a triangle shows at a point, and the normal there.
+void showPoint(const ScenePrimitive& primitive, const MapPart& part, std::span<const Vec2> uvs, const RgbImage& image,
+               const std::uint32_t* corners, const std::array<double, 3>& weights, double area,
+               std::vector<TexelOnSurface>& surface) {
+    double u = 0, v = 0;
+    DVec3 normal{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        u += weights[k] * static_cast<double>(uvs[corners[k]].x);
+        v += weights[k] * static_cast<double>(uvs[corners[k]].y);
+        normal = normal + weights[k] * toDouble(primitive.normals[corners[k]]);
+    }
+    const double column = std::floor(u * image.width), row = std::floor(v * image.height);
+    if (!normalize(normal) || !(std::fabs(column) < 1e9) || !(std::fabs(row) < 1e9)) return;
+    const std::size_t x = wrappedTexel(static_cast<std::int64_t>(column), image.width, part.use->wrap_u);
+    const std::size_t y = wrappedTexel(static_cast<std::int64_t>(row), image.height, part.use->wrap_v);
+    const std::uint8_t* rgb = image.rgb.data() + 3 * (y * image.width + x);
+    surface.push_back({toFloat(normal), {rgb[0], rgb[1], rgb[2], 255}, area});
+}
+
+/// What the triangles of a part show at some points, and the normals there.
+void showPoints(const MapPart& part, const RgbImage& image, std::vector<TexelOnSurface>& surface) {
+    constexpr std::size_t kMostOfAPart = 4096, kMostRows = 32;
+    const ScenePrimitive& primitive = *part.primitive;
+    const std::size_t set = part.use->uv_set;
+    if (set >= primitive.uv_sets.size() || primitive.uv_sets[set].empty() || primitive.normals.empty()) return;
+    const std::vector<Vec2> uvs = textureUvs(primitive.uv_sets[set].span(), part.use->transform);
+    const std::size_t triangles = primitive.corners.size() / 3, step = triangles / kMostOfAPart + 1;
+    // Of few triangles many points, since relief hides what single ones say.
+    std::uint32_t rows = 1;
+    while (rows < kMostRows && triangles / step * rows * rows < kMostOfAPart) ++rows;
+    for (std::size_t t = step / 2; t < triangles; t += step) {
+        const std::uint32_t* const corners = primitive.corners.data() + 3 * t;
+        const auto at = [&](std::size_t k) { return toDouble(primitive.positions[corners[k]]); };
+        const double area = length(cross(at(1) - at(0), at(2) - at(0)));
+        if (!(area > 0)) continue;
+        for (std::uint32_t i = 0; i < rows; ++i) {
+            for (std::uint32_t j = 0; i + j < rows; ++j) {
+                const double b = (i + 1.0 / 3) / rows, c = (j + 1.0 / 3) / rows;
+                showPoint(primitive, part, uvs, image, corners, {1 - b - c, b, c}, area, surface);
+            }
+        }
+    }
+}
+
+/// Alpha is decoded only where x may be in it.
+std::vector<std::uint8_t> alphaOf(const Scene& scene, const SceneImage& image, std::span<const TexelBytes> texels) {
+    if (!mayHaveXInAlpha(texels)) return {};
+    const std::uint64_t bytes = imageWorkBytes(image.bytes) + 5 * claimedSize(image.bytes).pixels();
+    if (scene.memory && !scene.memory->has(bytes)) return {};
+    return decodeAlpha(image.bytes);
+}
+
+/// Which of the two channels beside z is x: the derivatives of a height go together (GreenBlocks) the right way only.
+void chooseXAndY(const RgbImage& image, const TexelMask& inside, MapLayout& layout) {
+    constexpr double kClear = 0.2;
+    const auto agreement = [&](const MapLayout& chosen) {
+        RgbImage read = image;
+        readByLayout(read, {}, chosen);
+        return std::fabs(GreenBlocks(read, inside).all().correlation);
+    };
+    MapLayout other = layout;
+    std::swap(other.x, other.y);
+    if (agreement(other) > agreement(layout) + kClear) layout = other;
+}
+
+/// Finds out what the image holds, and makes it one that glTF reads.
+void lookAtContent(const Scene& scene, const TexelMask& inside, NormalMap& map, RgbImage& image) {
+    std::vector<TexelBytes> texels = sampleTexels(image, {}, inside);
+    const std::vector<std::uint8_t> alpha = alphaOf(scene, scene.images[map.image], texels);
+    if (!alpha.empty()) texels = sampleTexels(image, alpha, inside);
+    std::vector<TexelOnSurface> surface;
+    for (const MapPart& part : map.parts) showPoints(part, image, surface);
+    map.look = lookAtTexels(texels, !alpha.empty(), surface);
+    if (map.look.content == MapContent::exchanged) chooseXAndY(image, inside, map.look.layout);
+    if (holdsNormals(map.look.content) && !(map.look.layout == MapLayout{}))
+        readByLayout(image, alpha, map.look.layout);
+}
+
 void lookAt(const Scene& scene, const CheckOptions& options, NormalMap& map) {
     const SceneImage& image = scene.images[map.image];
     if (image.bytes.empty()) {
@@ -110,11 +198,14 @@ void lookAt(const Scene& scene, const CheckOptions& options, NormalMap& map) {
         map.why_not = "it " + scene.memory->whyNot(bytes);
         return;
     }
-    const std::optional<RgbImage> decoded = decodeImage(image.bytes, options.most_pixels, map.why_not);
+    std::optional<RgbImage> decoded = decodeImage(image.bytes, options.most_pixels, map.why_not);
     if (!decoded) return;
     TexelMask inside(decoded->width, decoded->height);
     std::uint64_t steps = kCoverSteps;
     for (const MapPart& part : map.parts) cover(part, inside, steps);
+    lookAtContent(scene, inside, map, *decoded);
+    map.test = GreenTest{};
+    if (!holdsNormals(map.look.content)) return;
     const GreenBlocks blocks(*decoded, inside);
     map.test = blocks.all();
     lookAtParts(blocks, std::move(inside), map);
@@ -150,7 +241,8 @@ Finding unreadable(const std::string& name, const std::string& why_not) {
 Finding flipped(const std::string& name, const GreenTest& test) {
     const Tally blocks{.count = test.down_block_count, .total = test.block_count};
     return makeFinding(FindingCode::greenFlipped, Severity::warning, blocks, "blocks",
-                       "green seems to point down in the normal map " + name + ", as DirectX has it: so say " +
+                       "red or green is inverted in the normal map " + name +
+                           "; nearly always that is green, which points down, as DirectX has it. So say " +
                            countText(blocks, "blocks") + " of 16 x 16 pixels with relief");
 }
 
@@ -163,34 +255,70 @@ Finding mixed(const std::string& name, const GreenTest& test) {
                            " of 16 x 16 pixels with relief, " + shareText(blocks.share()));
 }
 
-std::optional<Finding> describe(const Scene& scene, const NormalMap& map) {
-    const std::string name = imageName(scene, map.image);
-    std::optional<Finding> finding;
-    if (!map.test) {
-        finding = unreadable(name, map.why_not);
-    } else if (map.test->verdict == GreenVerdict::down) {
-        finding = flipped(name, *map.test);
-    } else if (map.test->verdict == GreenVerdict::mixed) {
-        finding = mixed(name, *map.test);
-    } else {
-        return {};
-    }
-    if (map.test) finding->confidence = map.test->confidence();
-    const MapPart& part = partOf(map);
-    finding->place = part.use->place;
-    finding->mesh = part.primitive->mesh;
-    finding->primitive = part.primitive->primitive;
-    finding->mesh_name = part.primitive->mesh_name;
-    finding->material_name = part.primitive->material_name;
-    return finding;
+/// What a command line calls the image.
+std::string commandName(const Scene& scene, std::size_t image) {
+    const std::string& uri = scene.images[image].uri;
+    const bool is_word = uri.find_first_of(" '\"%\\$`&;|<>()*?[]{}~#!") == std::string::npos;
+    return uri.empty() || !is_word ? "MAP" : uri;
 }
 
-GreenSide sideOf(const GreenTest& test) {
+bool isDown(const NormalMap& map) { return map.test && map.test->verdict == GreenVerdict::down; }
+
+void placeAt(const MapPart& part, Finding& finding) {
+    finding.place = part.use->place;
+    finding.mesh = part.primitive->mesh;
+    finding.primitive = part.primitive->primitive;
+    finding.mesh_name = part.primitive->mesh_name;
+    finding.material_name = part.primitive->material_name;
+}
+
+/// Readers of the file know that green points down, and turn it.
+bool isDeclared(const NormalMap& map) {
+    return std::all_of(map.parts.begin(), map.parts.end(),
+                       [](const MapPart& part) { return part.use->is_declared_down; });
+}
+
+bool mayBeHeights(const NormalMap& map) {
+    return std::all_of(map.parts.begin(), map.parts.end(),
+                       [](const MapPart& part) { return part.use->may_be_heights; });
+}
+
+/// Of what the channels hold, and of green.
+std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
+    const std::string name = imageName(scene, map.image);
+    std::vector<Finding> findings;
+    if (!map.test) {
+        findings.push_back(unreadable(name, map.why_not));
+    } else {
+        const bool has_own_green = hasOwnGreen(map.look.layout);
+        std::optional<Finding> content =
+            contentFinding(name, commandName(scene, map.image), map.look, isDown(map) && !has_own_green);
+        if (content && map.look.content == MapContent::height && mayBeHeights(map)) {
+            content->severity = Severity::note;
+            content->message = "the image " + name + " is a height map (map_bump), and no normal map";
+            content->remedy =
+                "Nothing needs to be done: generate makes a normal map of it, with -bm as its height in units of "
+                "the model. For the image alone: tspace height-to-normal.";
+        }
+        if (content) findings.push_back(*std::move(content));
+        if (has_own_green && isDown(map) && !isDeclared(map)) findings.push_back(flipped(name, *map.test));
+        if (map.test->verdict == GreenVerdict::mixed) findings.push_back(mixed(name, *map.test));
+        for (Finding& finding : findings) {
+            if (finding.unit == "blocks") finding.confidence = map.test->confidence();
+        }
+    }
+    for (Finding& finding : findings) placeAt(partOf(map), finding);
+    return findings;
+}
+
+GreenSide sideOf(const NormalMap& map, const GreenTest& test) {
+    if (!hasOwnGreen(map.look.layout)) return GreenSide::unknown;
+    const bool is_declared = isDeclared(map);
     switch (test.verdict) {
         case GreenVerdict::up:
-            return GreenSide::up;
+            return is_declared ? GreenSide::down : GreenSide::up;
         case GreenVerdict::down:
-            return GreenSide::down;
+            return is_declared ? GreenSide::up : GreenSide::down;
         case GreenVerdict::mixed:
             return GreenSide::mixed;
         case GreenVerdict::unknown:
@@ -210,20 +338,45 @@ ImageFindings checkImages(const Scene& scene, const CheckOptions& options) {
     ImageFindings result;
     result.image_green.assign(scene.images.size(), GreenSide::noMap);
     result.primitive_green.assign(scene.primitives.size(), GreenSide::noMap);
+    result.looks.resize(scene.images.size());
+    result.is_y_inverted.resize(scene.images.size());
+    result.is_declared.resize(scene.images.size());
     for (const NormalMap& map : maps) {
         result.looked_at += map.test.has_value();
-        result.image_green[map.image] = map.test ? sideOf(*map.test) : GreenSide::unread;
+        result.green_told += map.test && map.test->verdict != GreenVerdict::unknown;
+        result.looks[map.image] = map.look;
+        result.is_y_inverted[map.image] = isDown(map) && !hasOwnGreen(map.look.layout);
+        result.is_declared[map.image] = isDeclared(map);
+        result.image_green[map.image] = map.test ? sideOf(map, *map.test) : GreenSide::unread;
         for (const MapPart& part : map.parts) {
             for (const std::size_t primitive : part.followers) {
-                result.primitive_green[primitive] = map.test ? sideOf(part.test) : GreenSide::unread;
+                result.primitive_green[primitive] = map.test ? sideOf(map, part.test) : GreenSide::unread;
             }
         }
-        std::optional<Finding> finding = describe(scene, map);
-        if (!finding) continue;
-        result.findings.push_back(*std::move(finding));
-        result.images.push_back(map.image);
+        for (Finding& finding : describe(scene, map)) {
+            result.findings.push_back(std::move(finding));
+            result.images.push_back(map.image);
+        }
     }
     return result;
+}
+
+std::vector<Finding> checkMapScales(const Scene& scene) {
+    std::vector<Finding> findings;
+    std::set<std::string> places;
+    for (const ScenePrimitive& primitive : scene.primitives) {
+        for (const TangentUse& use : primitive.uses) {
+            if (use.needed_by == "anisotropy" || use.scale > 0 || !places.insert(use.place).second) continue;
+            const Tally one{.count = 1, .total = 1};
+            findings.push_back(makeFinding(
+                FindingCode::normalMapScale, Severity::note, one, "textures",
+                use.scale == 0 ? "the scale of the normal map is 0, so nothing of it shows"
+                               : "the scale of the normal map is below 0: it inverts red and green, so bumps are "
+                                 "dents"));
+            placeAt({.primitive = &primitive, .use = &use}, findings.back());
+        }
+    }
+    return findings;
 }
 
 }  // namespace tspace

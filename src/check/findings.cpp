@@ -62,8 +62,11 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "Give both textures the same UV set and the same rotation and mirroring; a mesh can hold only one tangent per "
      "vertex."},
     {"greenFlipped",
-     "Look at the map: if it was made for DirectX, invert its green channel: tspace generate --flip-green. Where the "
-     "high poly is at hand, tspace map-error MAP MODEL --high HIGH says which way it points, in degrees."},
+     "If it was made for DirectX, invert its green channel: tspace generate --flip-green. If bumps are dents then, it "
+     "was "
+     "red: tspace convert-map MAP -o OUT.png --flip-red. The map alone does not tell the two apart; where the high "
+     "poly "
+     "is at hand, tspace map-error MAP MODEL --high HIGH does, in degrees."},
     {"normalMapUnreadable", "Convert the image to PNG, JPEG or WebP to have it looked at."},
     {"fileRemark", "Mend the file where that matters. The rest of this report is about what could be read."},
     {"greenMixed",
@@ -89,6 +92,22 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "--crease 60."},
     {"morphNormalsMissing", "Give the targets normals too: tspace generate --morph-normals missing."},
     {"morphNormalsWrong", "Compute what the targets add to normals anew: tspace generate --morph-normals all."},
+    {"normalMapTwoChannels",
+     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --channels rg."},
+    {"normalMapUnsigned",
+     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --channels rg."},
+    {"normalMapChannels",
+     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --channels, with "
+     "the channels that x, y and z are in."},
+    {"normalMapIsSrgb",
+     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --srgb (or "
+     "--linearised)."},
+    {"normalMapInObjectSpace",
+     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --from object "
+     "--mesh "
+     "MODEL."},
+    {"normalMapIsHeight", "Make a normal map of it: tspace height-to-normal MAP -o OUT.png --strength S."},
+    {"normalMapScale", "Give the texture a scale above 0, or take the normal map away, if that is what is meant."},
 }};
 
 }  // namespace
@@ -152,6 +171,13 @@ const char* findingSummary(FindingCode code) {
         "Normals are far from all triangles around them.",
         "Morph targets turn the surface and leave the normals behind.",
         "What morph targets add to normals is wrong.",
+        "Blue of a normal map says nothing of z.",
+        "Blue of a normal map is z itself.",
+        "Channels of a normal map are exchanged or inverted.",
+        "A normal map was stored as a picture, by the sRGB curve.",
+        "A normal map is not in tangent space.",
+        "A grey image is used as a normal map.",
+        "The scale of a normal map is 0 or below.",
     };
     static_assert(kSummaries.size() == kFindingCodeCount);
     const auto number = static_cast<std::size_t>(code);

@@ -33,7 +33,8 @@ std::vector<bool> findCancelled(const Scene& scene, ImageFindings& found, const 
 }
 
 /// Why a map stays as it is, where FlipGreen::down is asked for; empty: it does not.
-std::string whyItStays(GreenSide side, bool is_cancelled, const Convention& convention) {
+std::string whyItStays(GreenSide side, bool is_cancelled, bool is_declared, const Convention& convention) {
+    if (is_declared) return "the file declares that green points down, and its readers turn it";
     switch (side) {
         case GreenSide::up:
             return "green points up already";
@@ -100,8 +101,11 @@ std::vector<JudgedMap> judgeMaps(const Scene& scene, const std::vector<bool>& ke
         map.image = i;
         map.report = {.image = static_cast<std::uint32_t>(i), .name = image.uri.empty() ? image.name : image.uri};
         std::string& why = map.report.reason;
+        map.look = found.looks[i];
+        map.is_y_inverted = found.is_y_inverted[i];
+        if (options.flip_green == FlipGreen::none) continue;
         if (options.flip_green == FlipGreen::down)
-            why = whyItStays(found.image_green[i], cancelled[i], options.tangents.convention);
+            why = whyItStays(found.image_green[i], cancelled[i], found.is_declared[i], options.tangents.convention);
         if (why.empty()) map.flipped = flipSceneImage(scene, i, why);
         map.report.flipped = !map.flipped.empty();
     }

@@ -7,13 +7,16 @@
 
 #include "asset/file_io.h"
 #include "asset/scene.h"
+#include "check/map_content.h"
 
 namespace tspace {
 
 /// One image that is a normal map.
 struct JudgedMap {
     std::size_t image = 0;
-    Bytes flipped = {};  ///< the image file with green inverted; empty: it stays as it is
+    Bytes flipped = {};          ///< the image file with green inverted; empty: it stays as it is
+    MapLook look = {};           ///< what it holds
+    bool is_y_inverted = false;  ///< y is, which is not in green
     NormalMapReport report = {};
 };
 
@@ -21,7 +24,8 @@ struct JudgedMap {
 /// possible.
 Bytes flipImage(std::span<const std::uint8_t> bytes, const MemoryBudget& budget, std::string& why);
 
-/// Looks at the normal maps of the scene, which has its images, and inverts those that FlipGreen says.
+/// Looks at the normal maps of the scene, which has its images, and inverts those that FlipGreen says (all stay with
+/// FlipGreen::none).
 ///
 /// keeps_tangents    per primitive of the scene: its tangents stay, or a repair leaves what a normal map cancels. Where
 ///                   their signs are inverted too, the two cancel out, and FlipGreen::down leaves the map alone

@@ -10,6 +10,7 @@
 #include "asset/gltf/read_scene.h"
 #include "asset/uri.h"
 #include "check/judge_maps.h"
+#include "generate_file/mend_maps.h"
 #include "generate_file/place_image.h"
 #include "generate_file/texture_sources.h"
 #include "maps/image.h"
@@ -109,7 +110,7 @@ class Alternatives {
 
     void decide() {
         for (const NormalMapReport& report : flips_.reports) {
-            if (report.flipped && !is_settled_.contains(report.image)) settle(together(report.image));
+            if (report.flipped && !report.mended && !is_settled_.contains(report.image)) settle(together(report.image));
         }
     }
 
@@ -163,6 +164,21 @@ class Alternatives {
     std::set<std::size_t> is_settled_ = {};
 };
 
+/// Writes the map anew, inverted where it is to be, if nothing but PNG and JPEG stands beside it.
+void mendInPlace(Document& document, const Scene& scene, const GenerateOptions& options, JudgedMap& map,
+                 MapFlips& flips) {
+    if (!TextureUses(document).alternatives(map.image).empty()) {
+        if (!map.report.flipped) map.report.reason = "the same map is there in another format too";
+        return;
+    }
+    const std::string why_not_flipped = map.report.reason;
+    Bytes mended = mendMap(scene, map.flipped.empty() ? ByteSpan(scene.images[map.image].bytes) : ByteSpan(map.flipped),
+                           options, map);
+    if (!mended.empty()) flips.mended[map.image] = std::move(mended);
+    if (!map.report.mended && map.report.flipped) map.report.reason.clear();
+    if (!map.report.mended && !why_not_flipped.empty()) map.report.reason = why_not_flipped;
+}
+
 }  // namespace
 
 MapFlips planFlips(Document& document, std::span<const Primitive> primitives, std::span<const PrimitiveReport> reports,
@@ -177,32 +193,39 @@ MapFlips planFlips(Document& document, std::span<const Primitive> primitives, st
     Scene scene = sceneOf(document, primitives);
     readImages(document, scene);
     std::vector<JudgedMap> maps = judgeMaps(scene, keeps_tangents, options);
-    document.memory->giveBack(left);
     for (JudgedMap& map : maps) {
-        if (map.report.flipped) flips.images[map.image] = std::move(map.flipped);
+        if (options.mend_maps) mendInPlace(document, scene, options, map, flips);
+        if (map.report.flipped && !map.report.mended) flips.images[map.image] = std::move(map.flipped);
         flips.reports.push_back(std::move(map.report));
     }
+    document.memory->giveBack(left);
     for (const auto& [image, bytes] : flips.images) document.memory->take(bytes.size(), join("/images", image));
+    for (const auto& [image, bytes] : flips.mended) document.memory->take(bytes.size(), join("/images", image));
     Alternatives(document, flips).decide();
     for (const auto& [image, bytes] : flips.images) noteInputFile(document, image);
+    for (const auto& [image, bytes] : flips.mended) noteInputFile(document, image);
     return flips;
 }
 
 void applyFlips(Document& document, Editor& editor, const OutputTarget& target, MapFlips&& flips) {
     TextureUses uses(document);
-    ImagePlacer placer(document, editor, target, "-green-up");
-    for (auto& [image, bytes] : flips.images) {
-        if (!uses.isOther(image)) {
-            placer.place(image, std::move(bytes), false);
-            continue;
+    const auto placeAll = [&](std::map<std::size_t, Bytes>& made, const char* ending) {
+        ImagePlacer placer(document, editor, target, ending);
+        for (auto& [image, bytes] : made) {
+            if (!uses.isOther(image)) {
+                placer.place(image, std::move(bytes), false);
+                continue;
+            }
+            Json& images = document.json["images"];
+            Json copy = images[image];
+            images.push_back(std::move(copy));
+            const std::size_t own = images.size() - 1;
+            placer.place(own, std::move(bytes), true);
+            uses.redirect(image, own);
         }
-        Json& images = document.json["images"];
-        Json copy = images[image];
-        images.push_back(std::move(copy));
-        const std::size_t own = images.size() - 1;
-        placer.place(own, std::move(bytes), true);
-        uses.redirect(image, own);
-    }
+    };
+    placeAll(flips.images, "-green-up");
+    placeAll(flips.mended, "-mended");
     uses.applyRedirections();
 }
 

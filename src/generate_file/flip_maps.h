@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normal maps of a glTF file whose green channel is inverted: where they lie, who else reads them, and putting the new
+// Normal maps of a glTF file whose green channel is inverted, or that are written anew: where they lie, who else reads them, and putting the new
 // ones in their place.
 #pragma once
 
@@ -15,6 +15,7 @@ namespace tspace::gltf {
 
 struct MapFlips {
     std::map<std::size_t, Bytes> images = {};  ///< image files with green inverted, by number of their image
+    std::map<std::size_t, Bytes> mended = {};  ///< the same of images that are written anew, green inverted or not
     std::vector<NormalMapReport> reports = {};
 };
 

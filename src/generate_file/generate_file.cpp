@@ -15,6 +15,7 @@ std::string whyMapsStay(const std::string& input, const GenerateOptions& options
     if (!options.convert_maps) return {};
     if (options.overwrite_normals) return "maps are converted for new tangents, but not for new normals";
     if (options.flip_green != FlipGreen::none) return "maps are converted or inverted, one after the other";
+    if (options.mend_maps) return "maps are mended or converted, one after the other";
     if (options.existing == ExistingTangents::repair)
         return "maps stay where tangents are repaired: what was wrong is to look right";
     if (options.texture_transform == TextureTransform::ignore)

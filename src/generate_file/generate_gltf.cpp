@@ -16,6 +16,7 @@
 #include "asset/gltf/strip_tangents.h"
 #include "asset/gltf/write_packed.h"
 #include "core/parallel.h"
+#include "generate_file/cancelled_signs.h"
 #include "generate_file/convert_maps.h"
 #include "generate_file/flip_maps.h"
 #include "generate_file/generate_warnings.h"
@@ -86,7 +87,10 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     if (options.existing == ExistingTangents::repair) planRepair(document, primitives, options, plan);
     planSurroundings(document, primitives, options, plan);
     MapFlips flips;
-    if (options.flip_green != FlipGreen::none) flips = planFlips(document, primitives, plan.reports, options);
+    if (options.flip_green != FlipGreen::none || options.mend_maps)
+        flips = planFlips(document, primitives, plan.reports, options);
+    if (const std::string warning = warnOfCancelledSigns(document, primitives, plan, flips, options); !warning.empty())
+        report.warnings.push_back(warning);
     std::optional<MapConversion> maps;
     if (options.convert_maps) maps.emplace(document, primitives, options);
     report.input_bytes = document.input_bytes;
@@ -96,7 +100,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
         return !primitive.unreadable_tangents.empty();
     });
     const bool will_edit =
-        !plan.pools.empty() || !flips.images.empty() || options.pack.has_value() || !broken.empty() || is_unreadable;
+        !plan.pools.empty() || !flips.images.empty() || !flips.mended.empty() || options.pack.has_value() || !broken.empty() || is_unreadable;
     if (keeps_compression) convertContainer(document, target, will_edit, report.warnings);
     takeImagesIn(document, target, report.warnings);
     tell(options, "reading", 1, 1);
@@ -129,7 +133,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     if (maps) report.converted_maps = maps->run(editor, target, plan.reports);
     if (options.pack) writePackedFrames(editor, document, options, plan.reports);
     report.normal_maps = std::move(flips.reports);
-    if (!flips.images.empty()) applyFlips(document, editor, target, std::move(flips));
+    if (!flips.images.empty() || !flips.mended.empty()) applyFlips(document, editor, target, std::move(flips));
     editor.finish();
     const bool packed = packGeometry(document, options.compression, new_file);
 

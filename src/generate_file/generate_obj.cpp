@@ -8,13 +8,12 @@
 #include "asset/obj/obj_primitives.h"
 #include "asset/obj/obj_reader.h"
 #include "asset/obj/obj_writer.h"
-#include "asset/obj/read_scene.h"
-#include "check/judge_maps.h"
 #include "generate/local_mesh.h"
 #include "generate/surface_faults.h"
 #include "generate/unit_lattice.h"
 #include "generate_file/generate_obj.h"
 #include "generate_file/generate_warnings.h"
+#include "generate_file/obj_maps.h"
 #include "tspace/triangulate.h"
 
 namespace tspace {
@@ -118,29 +117,6 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     return finished;
 }
 
-/// Inverts normal maps. All tangents are new, so none are made for a green that points down.
-std::vector<NormalMapReport> flipMaps(std::span<const ObjPrimitive> primitives, const GenerateOptions& options,
-                                      Model& model) {
-    std::vector<NormalMapReport> reports;
-    if (options.flip_green == FlipGreen::none) return reports;
-    const std::int64_t left = model.memory->left();
-    const Scene scene = sceneOf(model, primitives, true);
-    std::vector<const Texture*> textures(scene.images.size());
-    for (const ScenePrimitive& primitive : scene.primitives) {
-        for (const TangentUse& use : primitive.uses)
-            textures[*use.image] = &model.materials[use.material].normal_texture;
-    }
-    std::vector<JudgedMap> maps = judgeMaps(scene, std::vector<bool>(scene.primitives.size()), options);
-    model.memory->giveBack(left);
-    for (JudgedMap& map : maps) {
-        reports.push_back(std::move(map.report));
-        if (map.flipped.empty()) continue;
-        model.memory->take(map.flipped.size(), "material");
-        model.flipped_maps[textures[map.image]->path()] = std::move(map.flipped);
-    }
-    return reports;
-}
-
 void tell(const GenerateOptions& options, const char* what, std::uint64_t done, std::uint64_t total) {
     if (options.progress) options.progress(what, done, total);
 }
@@ -168,7 +144,7 @@ GenerateReport generate(const std::string& input, const std::string& output, con
     NormalReport normals = valueOrThrow(completeNormals(model, primitives, options));
 
     GenerateReport report;
-    report.normal_maps = flipMaps(primitives, options, model);
+    report.normal_maps = prepareMaps(primitives, options, model);
     std::vector<FinishedPrimitive> finished;
     std::vector<std::uint32_t> next_in_mesh(model.shape_names.size(), 0);
     for (const ObjPrimitive& primitive : primitives) {

@@ -37,7 +37,7 @@ void ImagePlacer::put(std::size_t image, Bytes&& bytes, bool keeps_old, bool is_
         }
     }
     Json& entry = document_.json["images"][image];
-    if (!is_of_all && entry.contains("mimeType")) entry["mimeType"] = type;
+    if (entry.contains("mimeType")) entry["mimeType"] = type;
     editor_.touch();
 }
 

@@ -6,45 +6,17 @@
 #include "asset/atomic_output.h"
 #include "asset/file_error.h"
 #include "asset/file_io.h"
-#include "asset/memory_budget.h"
-#include "map_files/map_mesh.h"
-#include "maps/float_image.h"
+#include "map_files/map_image_file.h"
+#include "maps/shading.h"
 
 namespace tspace {
 
 namespace {
 
-/// What decoding, converting and writing hold per pixel, without the decoder's own.
-constexpr std::uint64_t kPixelBytes = 72;
-constexpr std::uint64_t kMostMapPixels = std::uint64_t{1} << 28;
-
-FloatImage readImage(const std::string& input, const ConvertMapFileOptions& options) {
-    Bytes read;
-    ByteSpan bytes = options.content;
-    if (bytes.data() == nullptr) {
-        read = readFile(input);
-        bytes = read;
-    }
-    if (const char* why_not = whyNotRead(imageFormat(bytes))) failFile(ErrorCode::unsupportedFile, why_not);
-    if (options.file.memory_limit_bytes != 0) {
-        MemoryBudget budget(options.file.memory_limit_bytes);
-        budget.require(bytes.size() + imageWorkBytes(bytes) + kPixelBytes * claimedSize(bytes).pixels(), {});
-    }
-    std::string why;
-    std::optional<FloatImage> image = decodeFloatImage(bytes, kMostMapPixels, why);
-    if (!image) failFile(ErrorCode::invalidFile, why);
-    return *std::move(image);
-}
-
 std::string angleText(double degrees) {
     char text[32];
     const auto end = std::to_chars(text, text + sizeof text, degrees, std::chars_format::general, 2);
     return {text, end.ptr};
-}
-
-std::string fileNameOf(const std::string& path) {
-    const std::size_t folder = path.find_last_of("/\\");
-    return folder == std::string::npos ? path : path.substr(folder + 1);
 }
 
 /// The mesh of each side that needs one.
@@ -56,13 +28,7 @@ Meshes readMeshes(const std::string& input, const ConvertMapFileOptions& options
     const bool in_world = options.from == MapFileSpace::world || options.to == MapFileSpace::world;
     const MapMeshChoice choice{options.material, fileNameOf(input), in_world, options.tile};
     const auto read = [&](const std::string& model) {
-        try {
-            return readMapMesh(model, choice, options.tangents, options.file);
-        } catch (FileError& failure) {
-            // Errors are printed with the name of the image.
-            failure.error.message = "the model " + pathInQuotes(model) + ": " + failure.error.message;
-            throw;
-        }
+        return readNamedMapMesh(model, choice, options.tangents, options.file);
     };
     const bool from_tangent = options.from == MapFileSpace::tangent, to_tangent = options.to == MapFileSpace::tangent;
     const std::string& to_mesh = options.to_mesh.empty() ? options.mesh : options.to_mesh;
@@ -158,6 +124,36 @@ unsigned outputBits(ImageFormat format, unsigned bits) {
     return bits;
 }
 
+/// Reads the image by its layout. Returns the texels as they were, where that is another than the default.
+std::vector<Vec3> applyLayout(const MapLayout& layout, FloatImage& image) {
+    if (layout == MapLayout{}) return {};
+    const bool takes_alpha = layout.x.channel == MapChannel::alpha || layout.y.channel == MapChannel::alpha ||
+                             layout.z.channel == MapChannel::alpha;
+    if (takes_alpha && image.alpha.empty())
+        failFile(ErrorCode::invalidOption, "a vector is to be read from alpha, which the image does not have");
+    std::vector<Vec3> before = image.texels;
+    for (std::size_t i = 0; i < before.size(); ++i)
+        image.texels[i] = readTexel(before[i], image.alpha.empty() ? 1 : image.alpha[i], layout);
+    if (takes_alpha) image.alpha.clear();
+    return before;
+}
+
+/// What the layout changed counts too. `is_alone`: no mesh turns vectors, so that angles can be told.
+void countLayout(std::span<const Vec3> before, std::span<const Vec3> after, bool is_alone, ConvertMapReport& texels) {
+    texels.changed = 0;
+    double sum = 0, most = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        texels.changed += before[i] == after[i] ? 0 : 1;
+        const double change = degreesBetween(decodeTexel(before[i], {}), decodeTexel(after[i], {}));
+        sum += change;
+        most = std::max(most, change);
+    }
+    texels.is_below_half_step = false;
+    if (!is_alone) return;
+    texels.mean_change_deg = sum / static_cast<double>(before.size());
+    texels.max_change_deg = most;
+}
+
 ConvertMapFileReport convert(const std::string& input, const std::string& output,
                              const ConvertMapFileOptions& requested) {
     InputFiles inputs;
@@ -166,7 +162,8 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     if (options.content.data() == nullptr) inputs.add(input);
     const ImageFormat format = outputFormat(output, options);
     const unsigned bits = outputBits(format, options.bits);
-    FloatImage image = readImage(input, options);
+    FloatImage image = readMapImage(input, options.content, options.file);
+    const std::vector<Vec3> before = applyLayout(options.layout, image);
     const Meshes meshes = readMeshes(input, options);
     const MapMesh* const from = meshes.from ? &*meshes.from : nullptr;
     const MapMesh* const to = meshes.to ? &*meshes.to : nullptr;
@@ -189,6 +186,7 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
                                    .progress = options.progress};
     const MapSides sides = sidesOf(meshes, options);
     report.texels = valueOrThrow(convertMap(map, sides.from, sides.to, image.texels, chosen));
+    if (!before.empty()) countLayout(before, image.texels, any == nullptr, report.texels);
     if (image.not_finite > 0)
         report.warnings.push_back(std::to_string(image.not_finite) +
                                   " texels of the image are not finite; they become grey, which has no direction");

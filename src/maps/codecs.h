@@ -24,6 +24,8 @@ ImageClaim claimOfWebp(ByteSpan bytes);
 ImageClaim claimOfExr(ByteSpan bytes);
 
 std::optional<RgbImage> decodePng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
+/// Four channels; nothing where it is broken or has no alpha.
+std::vector<std::uint8_t> decodePngRgba(ByteSpan bytes);
 std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 std::optional<RgbImage> decodeWebp(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 

@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "maps/carried_error.h"
 #include "maps/convert_texel.h"
+#include "maps/corner_triangles.h"
 #include "maps/map_stop.h"
 #include "maps/matched_triangles.h"
 #include "maps/solve_texels.h"
@@ -18,27 +19,6 @@ namespace tspace {
 namespace {
 
 constexpr std::size_t kTexelsOfTask = 4096, kTasksOfStep = 64;
-
-/// UVs of corners as a list of triangles.
-struct CornerTriangles {
-    CornerTriangles(const MapSide& side, const Allocator* allocator)
-        : uvs(allocator, side.uvs.count), corners(allocator, side.uvs.count) {
-        for (std::size_t i = 0; i < uvs.size(); ++i) {
-            uvs[i] = side.uvs[i];
-            corners[i] = static_cast<std::uint32_t>(i);
-        }
-    }
-
-    [[nodiscard]] UvTriangles triangles(const MapImage& map) const {
-        return {.corners = {corners.data(), corners.size()},
-                .uvs = {uvs.data(), uvs.size()},
-                .wrap_u = map.wrap_u,
-                .wrap_v = map.wrap_v};
-    }
-
-    Buffer<Vec2> uvs;
-    Buffer<std::uint32_t> corners;
-};
 
 /// What counts in object space.
 MapReading readingOf(const MapSide& side) {

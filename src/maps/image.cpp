@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <string_view>
 
+#include "asset/file_error.h"
 #include "maps/codecs.h"
+#include "maps/flip_green.h"
 
 namespace tspace {
 
@@ -131,6 +133,25 @@ std::optional<RgbImage> decodeImage(ByteSpan bytes, std::uint64_t most_pixels, s
     if (codec.decode != nullptr) return codec.decode(bytes, most_pixels, why);
     why = codec.why_not;
     return {};
+}
+
+std::vector<std::uint8_t> decodeAlpha([[maybe_unused]] ByteSpan bytes) {
+    std::vector<std::uint8_t> pixels;
+#ifdef TSPACE_HAS_IMAGES
+    if (imageFormat(bytes) == ImageFormat::png) pixels = decodePngRgba(bytes);
+#endif
+#ifdef TSPACE_HAS_WEBP
+    if (imageFormat(bytes) == ImageFormat::webp) {
+        tryFile([&] {
+            ChannelImage image = readWebpPixels(bytes);
+            if (image.channels == 4) pixels = std::move(image.pixels);
+        });
+    }
+#endif
+    // In place: entry i lies before 4 i + 3.
+    for (std::size_t i = 0; 4 * i < pixels.size(); ++i) pixels[i] = pixels[4 * i + 3];
+    pixels.resize(pixels.size() / 4);
+    return pixels;
 }
 
 }  // namespace tspace

@@ -45,4 +45,8 @@ ImageSize claimedSize(ByteSpan bytes);
 /// formats, broken files, more than `most_pixels` pixels, and images that are out of proportion to their bytes.
 std::optional<RgbImage> decodeImage(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 
+/// The alpha channel of an image that decodeImage decodes, rounded to 8 bits; empty where it has none, or is no PNG or WebP.
+/// Holds 4 bytes a pixel beside what decodeImage holds.
+std::vector<std::uint8_t> decodeAlpha(ByteSpan bytes);
+
 }  // namespace tspace

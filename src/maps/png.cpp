@@ -28,4 +28,20 @@ std::optional<RgbImage> decodePng(ByteSpan bytes, std::uint64_t most_pixels, std
     return image;
 }
 
+std::vector<std::uint8_t> decodePngRgba(ByteSpan bytes) {
+    const PngContext context(spng_ctx_new(0));
+    spng_ihdr header{};
+    spng_trns transparency{};
+    std::size_t byte_count = 0;
+    if (!context || spng_set_png_buffer(context.get(), bytes.data(), bytes.size()) != 0 ||
+        spng_get_ihdr(context.get(), &header) != 0 ||
+        ((header.color_type & 4) == 0 && spng_get_trns(context.get(), &transparency) != 0) ||
+        spng_decoded_image_size(context.get(), SPNG_FMT_RGBA8, &byte_count) != 0) {
+        return {};
+    }
+    std::vector<std::uint8_t> pixels(byte_count);
+    if (spng_decode_image(context.get(), pixels.data(), byte_count, SPNG_FMT_RGBA8, SPNG_DECODE_TRNS) != 0) return {};
+    return pixels;
+}
+
 }  // namespace tspace

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How a normal map is converted.
+#include <string_view>
+
 #include "options/file_options.h"
 #include "options/request.h"
 
@@ -16,6 +18,22 @@ constexpr Named<BitangentPlace> kBitangents[] = {
     {"vertex", BitangentPlace::perVertex},
 };
 constexpr Named<unsigned> kBitCounts[] = {{"8", 8}, {"16", 16}, {"32", 32}};
+
+/// "bgr": z, y and x. A capital letter is an inverted channel. Of two letters z is made.
+std::string takeChannels(const std::string& letters, MapLayout& layout) {
+    constexpr const char* kWrong =
+        "must be two or three of r, g, b and a, such as rg, ag or bgr; a capital letter stands for an inverted channel";
+    constexpr std::string_view kLetters = "rgbaRGBAxyzwXYZW";
+    if (letters.size() != 2 && letters.size() != 3) return kWrong;
+    MapComponent* const components[] = {&layout.x, &layout.y, &layout.z};
+    layout.z = {MapChannel::none, false};
+    for (std::size_t i = 0; i < letters.size(); ++i) {
+        const std::size_t at = kLetters.find(letters[i]);
+        if (at == std::string_view::npos || letters.find(letters[i], i + 1) != std::string::npos) return kWrong;
+        *components[i] = {static_cast<MapChannel>(at % 4), at % 8 >= 4};
+    }
+    return {};
+}
 
 }  // namespace
 
@@ -58,6 +76,25 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
         .default_text.clear();
     add(list, group,
         option(
+            "--channels", "LETTERS",
+            [&options](const std::string& value) { return takeChannels(value, options.layout); },
+            "The channels of IN that x, y and z are in: bgr for red and blue exchanged. Of two letters z is made of x "
+            "and y: rg for maps whose blue says nothing, ag for DXT5nm. A capital letter stands for an inverted "
+            "channel. "
+            "Default: rgb."));
+    add(list, group,
+        setting("--srgb", options.layout.curve, MapCurve::srgb,
+                "The values of IN were stored as colors, with the sRGB curve; it is taken off."));
+    add(list, group,
+        setting("--linearised", options.layout.curve, MapCurve::linearised,
+                "The values of IN were taken for colors, and their sRGB curve taken off; it is put on again."))
+        .excludes = {"--srgb"};
+    add(list, group,
+        option(
+            "--flip-red", "", [](const std::string&) { return std::string(); },
+            "Red of the output points the other way: for maps whose x was inverted."));
+    add(list, group,
+        option(
             "--flip-green", "", [](const std::string&) { return std::string(); },
             "Green of the output points the other way than --to-convention says."));
     add(list, group,
@@ -86,6 +123,7 @@ std::string finish(const Given& given, ConvertMapFileOptions& options) {
         const std::string& name = item.option->name();
         if (name == "--from-bitangent" || name == "--to-bitangent") item.option->take(item.value);
     }
+    if (given.has("--flip-red")) options.layout.x.is_inverted = !options.layout.x.is_inverted;
     if (given.has("--flip-green")) {
         options.to_reading.green = options.to_reading.green == Green::up ? Green::down : Green::up;
     }

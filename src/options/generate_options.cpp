@@ -172,11 +172,16 @@ void addMapOptions(OptionList& list, GenerateOptions& options) {
                 "Invert the green channel of every normal map, whichever way it points."))
         .excludes = {"--flip-green"};
     add(list, group,
+        flag("--mend-maps", options.mend_maps,
+             "Write normal maps anew that hold something else than glTF reads, as check finds them: two channels, "
+             "exchanged channels, x in alpha, colors (sRGB), object space. Height maps stay: their strength is not "
+             "known (tspace height-to-normal)."));
+    add(list, group,
         flag("--convert-maps", options.convert_maps,
              "Write normal maps anew for the tangents that are computed, so that the picture stays as it was. Maps and "
              "materials that several primitives share are copied where they need different ones. Images beside a .gltf "
              "stay as they are, and the output gets new ones."))
-        .excludes = {"--flip-green", "--flip-green-all", "--repair"};
+        .excludes = {"--flip-green", "--flip-green-all", "--mend-maps", "--repair"};
 }
 
 void addOtherOptions(OptionList& list, GenerateOptions& options) {

@@ -14,6 +14,7 @@
 #include "tspace/flip_green.h"
 #include "tspace/identify.h"
 #include "tspace/map_convert_file.h"
+#include "tspace/map_height_file.h"
 #include "tspace/render.h"
 
 namespace tspace::options {
@@ -40,6 +41,7 @@ OptionList renderOptions(RenderOptions& options);
 OptionList bakeOptions(BakeFileOptions& options);
 OptionList mapErrorOptions(MapErrorFileOptions& options);
 OptionList convertMapOptions(ConvertMapFileOptions& options);
+OptionList heightToNormalOptions(HeightToNormalFileOptions& options);
 
 /// What options of generate mean together, once all are given. Returns what makes no sense, or nothing.
 std::string finish(const Given& given, GenerateOptions& options);

@@ -96,7 +96,9 @@ std::string fileHtml(const report::CheckOutcome& outcome, std::size_t number, co
     const CheckReport& report = *outcome.result;
     html += "<p>" + severityCounts(report) + " in " + counted(report.primitive_count, "primitive") + ", " +
             std::to_string(report.tangents_count) + " of them with tangents; looked at " +
-            counted(report.image_count, "normal map") + "</p>\n";
+            counted(report.image_count, "normal map") +
+            ": what the channels hold, and which way green points (told by " + std::to_string(report.green_count) +
+            ")</p>\n";
     if (!report.generator.empty()) html += "<p class=\"dim\">made by " + htmlText(report.generator) + "</p>\n";
     PictureSource pictures(outcome.input, file, room);
     for (const Finding& finding : report.findings) html += findingHtml(finding, pictures);

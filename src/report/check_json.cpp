@@ -54,6 +54,7 @@ Json checkedJson(const CheckOutcome& outcome) {
     json["primitives"] = report.primitive_count;
     json["primitivesWithTangents"] = report.tangents_count;
     json["normalMaps"] = report.image_count;
+    json["normalMapsWithGreen"] = report.green_count;
     json["counts"] =
         Json::object({{"error", report.error_count}, {"warning", report.warning_count}, {"note", report.note_count}});
     json["packedFrames"] = listJson(report.packed_frames, packedJson);

@@ -4,8 +4,6 @@
 
 namespace tspace::report {
 
-namespace {
-
 Json mapMeshJson(const MapMeshReport& mesh) {
     if (mesh.triangle_count == 0) return nullptr;
     return {{"primitives", mesh.primitive_count},
@@ -14,8 +12,6 @@ Json mapMeshJson(const MapMeshReport& mesh) {
             {"tangentsMade", mesh.tangents_made},
             {"scale", mesh.scale}};
 }
-
-}  // namespace
 
 std::string convertMapJson(const Outcome<ConvertMapFileReport>& outcome, ExitCode exit_code) {
     const Result<ConvertMapFileReport>& result = outcome.result;

@@ -78,7 +78,11 @@ Json totalsJson(const GenerateReport& report) {
 }
 
 Json normalMapJson(const NormalMapReport& map) {
-    return Json::object({{"image", map.image}, {"name", map.name}, {"flipped", map.flipped}, {"reason", map.reason}});
+    return Json::object({{"image", map.image},
+                         {"name", map.name},
+                         {"flipped", map.flipped},
+                         {"mended", map.mended},
+                         {"reason", map.reason}});
 }
 
 Json convertedMapJson(const ConvertedMapReport& map) {

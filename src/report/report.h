@@ -14,6 +14,7 @@
 #include "tspace/flip_green.h"
 #include "tspace/identify.h"
 #include "tspace/map_convert_file.h"
+#include "tspace/map_height_file.h"
 #include "tspace/render.h"
 #include "view/view_page.h"
 
@@ -48,10 +49,13 @@ std::string mapErrorJson(const Outcome<MapErrorFileReport>& outcome, const std::
 std::string flipGreenJson(const Outcome<FlipGreenReport>& outcome, ExitCode exit_code);
 std::string renderJson(const Outcome<RenderReport>& outcome, ExitCode exit_code);
 std::string convertMapJson(const Outcome<ConvertMapFileReport>& outcome, ExitCode exit_code);
+std::string heightToNormalJson(const Outcome<HeightToNormalFileReport>& outcome, ExitCode exit_code);
 std::string viewJson(const Outcome<ViewReport>& outcome, ExitCode exit_code);
 
 /// null, or the error as docs/json.md describes it.
 Json errorJson(const Error* error);
+/// null where there is no mesh.
+Json mapMeshJson(const MapMeshReport& mesh);
 /// How every document begins.
 Json documentJson(const char* schema, bool is_ok, ExitCode exit_code);
 /// How what is said of a file begins: its name, and the error if there is one.

@@ -103,6 +103,17 @@ TEST(JsonOutput, OfConvertMapIsAsDocumented) {
     expectFieldsDocumented(documents, "tspace.convert-map/1");
 }
 
+TEST(JsonOutput, OfHeightToNormalIsAsDocumented) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "a.obj");
+    folder.write("bump.png", pngFile(normalMapOf(8, bumps)));
+    std::vector<Json> documents;
+    for (const std::string arguments : {"bump.png --mesh a.obj", "bump.png", "none.png"}) {
+        documents.push_back(Json::parse(runTool(folder, "height-to-normal --json -o b.png " + arguments).out));
+    }
+    expectFieldsDocumented(documents, "tspace.height-to-normal/1");
+}
+
 TEST(JsonOutput, OfInspectIsAsDocumented) { expectDocumented("inspect in --json", "tspace.inspect/1"); }
 
 TEST(JsonOutput, OfDiffIsAsDocumented) {

@@ -46,9 +46,10 @@ ExitCode runHelp(const ToolTable& tool, const std::string& topic) {
 
 Arguments parseArguments(int argc, char** argv) {
     AllArguments all;
-    for (FileOptions* file : {&all.generate.options.file, &all.diff.request.options.file, &all.identify.options.file,
-                              &all.inspect.file, &all.check.request.options.file, &all.render.options.file,
-                              &all.convert_map.options.file, &all.bake.options.file, &all.map_error.options.file}) {
+    for (FileOptions* file :
+         {&all.generate.options.file, &all.diff.request.options.file, &all.identify.options.file, &all.inspect.file,
+          &all.check.request.options.file, &all.render.options.file, &all.convert_map.options.file,
+          &all.height_to_normal.options.file, &all.bake.options.file, &all.map_error.options.file}) {
         file->importer = importerPath();
     }
     const ToolTable tool = toolTable(all);
@@ -68,6 +69,7 @@ Arguments parseArguments(int argc, char** argv) {
     if (command->name == "flip-green") return std::move(all.flip_green);
     if (command->name == "render") return std::move(all.render);
     if (command->name == "convert-map") return std::move(all.convert_map);
+    if (command->name == "height-to-normal") return std::move(all.height_to_normal);
     if (command->name == "view") return std::move(all.view);
     if (command->name == "bake") return std::move(all.bake);
     if (command->name == "map-error") return std::move(all.map_error);

@@ -109,6 +109,14 @@ struct ConvertMapArguments {
     bool quiet = false;
 };
 
+struct HeightToNormalArguments {
+    std::string input = {};
+    std::string output = {};
+    HeightToNormalFileOptions options = {};
+    bool json = false;
+    bool quiet = false;
+};
+
 struct ViewArguments {
     std::string input = {};
     std::string output = {};
@@ -135,7 +143,7 @@ struct MapErrorArguments {
 /// Nothing to run: help was printed, or the command line is wrong and the error line was printed.
 using Arguments = std::variant<ExitCode, GenerateArguments, InspectArguments, CheckArguments, DiffArguments,
                                IdentifyArguments, FlipGreenArguments, RenderArguments, ConvertMapArguments,
-                               ViewArguments, BakeArguments, MapErrorArguments>;
+                               HeightToNormalArguments, ViewArguments, BakeArguments, MapErrorArguments>;
 
 Arguments parseArguments(int argc, char** argv);
 

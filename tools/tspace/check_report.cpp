@@ -17,6 +17,15 @@ std::string countsText(std::uint64_t errors, std::uint64_t warnings, std::uint64
     return fmt::format("{}, {}, {}", counted(errors, "error"), counted(warnings, "warning"), counted(notes, "note"));
 }
 
+/// What was looked at of normal maps. Flat ones have no relief that says which way green points.
+std::string lookedText(const CheckReport& report) {
+    if (report.image_count == 0) return {};
+    std::string text = fmt::format("; looked at {}: what the channels hold", counted(report.image_count, "normal map"));
+    if (report.green_count == report.image_count) return text + ", which way green points";
+    if (report.green_count == 0) return text + "; which way green points does not show";
+    return text + fmt::format(", which way green points in {}", report.green_count);
+}
+
 std::string summaryLine(const CheckOutcome& outcome) {
     const CheckReport& report = *outcome.result;
     const std::string what = report.findings.empty()
@@ -24,8 +33,7 @@ std::string summaryLine(const CheckOutcome& outcome) {
                                  : countsText(report.error_count, report.warning_count, report.note_count);
     std::string text = fmt::format("{}: {} in {}, {} of them with tangents", printable(outcome.input), what,
                                    counted(report.primitive_count, "primitive"), report.tangents_count);
-    if (report.image_count > 0) text += fmt::format("; looked at {}", counted(report.image_count, "normal map"));
-    return text + "\n";
+    return text + lookedText(report) + "\n";
 }
 
 /// What packed frames of one format are worth, over all primitives that could be compared.

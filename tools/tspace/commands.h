@@ -16,6 +16,7 @@ ExitCode runMapError(const MapErrorArguments& arguments);
 ExitCode runFlipGreen(const FlipGreenArguments& arguments);
 ExitCode runRender(const RenderArguments& arguments);
 ExitCode runConvertMap(const ConvertMapArguments& arguments);
+ExitCode runHeightToNormal(const HeightToNormalArguments& arguments);
 ExitCode runView(const ViewArguments& arguments);
 
 }  // namespace tspace::tool

@@ -103,6 +103,9 @@ std::string convertedMapText(const ConvertedMapReport& map) {
 
 std::string normalMapText(const NormalMapReport& map) {
     const std::string name = imageText(map.image, map.name);
+    if (map.mended)
+        return fmt::format("{}: written anew: {}{}", name, printable(map.reason),
+                           map.flipped ? "; green inverted" : "");
     if (map.flipped) return name + ": green inverted";
     return fmt::format("{}: left as it is: {}", name, printable(map.reason));
 }

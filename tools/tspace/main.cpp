@@ -49,6 +49,7 @@ ExitCode run(int argc, char** argv) {
     if (const auto* flip = std::get_if<FlipGreenArguments>(&arguments)) return runFlipGreen(*flip);
     if (const auto* render = std::get_if<RenderArguments>(&arguments)) return runRender(*render);
     if (const auto* convert = std::get_if<ConvertMapArguments>(&arguments)) return runConvertMap(*convert);
+    if (const auto* heights = std::get_if<HeightToNormalArguments>(&arguments)) return runHeightToNormal(*heights);
     if (const auto* view = std::get_if<ViewArguments>(&arguments)) return runView(*view);
     if (const auto* bake = std::get_if<BakeArguments>(&arguments)) return runBake(*bake);
     if (const auto* measure = std::get_if<MapErrorArguments>(&arguments)) return runMapError(*measure);

@@ -88,17 +88,24 @@ Command identifyCommand(IdentifyArguments& arguments) {
 
 ToolTable toolTable(AllArguments& arguments) {
     ToolTable tool;
-    for (Execution* execution : {&arguments.generate.options.tangents.execution,
-                                 &arguments.check.request.options.execution, &arguments.identify.options.execution,
-                                 &arguments.render.options.execution, &arguments.convert_map.options.tangents.execution,
-                                 &arguments.bake.options.map.execution, &arguments.map_error.options.map.execution}) {
+    for (Execution* execution :
+         {&arguments.generate.options.tangents.execution, &arguments.check.request.options.execution,
+          &arguments.identify.options.execution, &arguments.render.options.execution,
+          &arguments.convert_map.options.tangents.execution, &arguments.height_to_normal.options.tangents.execution,
+          &arguments.bake.options.map.execution, &arguments.map_error.options.map.execution}) {
         execution->thread_count = kAllThreads;
     }
-    tool.commands = {generateCommand(arguments.generate), diffCommand(arguments.diff),
-                     identifyCommand(arguments.identify), inspectCommand(arguments.inspect),
-                     checkCommand(arguments.check),       flipGreenCommand(arguments.flip_green),
-                     renderCommand(arguments.render),     convertMapCommand(arguments.convert_map),
-                     viewCommand(arguments.view),         bakeCommand(arguments.bake),
+    tool.commands = {generateCommand(arguments.generate),
+                     diffCommand(arguments.diff),
+                     identifyCommand(arguments.identify),
+                     inspectCommand(arguments.inspect),
+                     checkCommand(arguments.check),
+                     flipGreenCommand(arguments.flip_green),
+                     renderCommand(arguments.render),
+                     convertMapCommand(arguments.convert_map),
+                     heightToNormalCommand(arguments.height_to_normal),
+                     viewCommand(arguments.view),
+                     bakeCommand(arguments.bake),
                      mapErrorCommand(arguments.map_error)};
     tool.commands.push_back(helpCommand(arguments.help_topic, tool.commands));
     Option help = helpOption();

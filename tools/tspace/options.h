@@ -18,6 +18,7 @@ struct AllArguments {
     FlipGreenArguments flip_green = {};
     RenderArguments render = {};
     ConvertMapArguments convert_map = {};
+    HeightToNormalArguments height_to_normal = {};
     ViewArguments view = {};
     BakeArguments bake = {};
     MapErrorArguments map_error = {};
@@ -34,6 +35,7 @@ Command mapErrorCommand(MapErrorArguments& arguments);
 Command flipGreenCommand(FlipGreenArguments& arguments);
 Command renderCommand(RenderArguments& arguments);
 Command convertMapCommand(ConvertMapArguments& arguments);
+Command heightToNormalCommand(HeightToNormalArguments& arguments);
 Command viewCommand(ViewArguments& arguments);
 
 /// All commands, in the order in which help lists them.

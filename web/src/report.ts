@@ -27,6 +27,8 @@ export interface CheckFile {
   primitives: number;
   primitivesWithTangents: number;
   normalMaps: number;
+  /** Those of them whose relief says which way green points. */
+  normalMapsWithGreen: number;
   counts: Record<Severity, number>;
   findings: Finding[];
 }
@@ -78,6 +80,7 @@ export interface JudgedMap {
   image: number;
   name: string;
   flipped: boolean;
+  mended: boolean;
   reason: string;
 }
 

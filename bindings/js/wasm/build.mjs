@@ -25,7 +25,7 @@ const fileRooms = [
 const notHere = new Set([
   "core/parallel.cpp", "core/arena.cpp", "asset/atomic_output_disk.cpp", "asset/file_io.cpp", "asset/resolve_uri.cpp",
   "asset/system_files_posix.cpp", "asset/system_files_windows.cpp", "asset/temporary_name.cpp", "asset/obj/tiny_obj_loader.cpp",
-  "asset/gltf/codecs/draco_library.cpp", "asset/gltf/codecs/meshopt_library.cpp", "generate_file/convert_maps.cpp",
+  "asset/gltf/codecs/draco_library.cpp", "asset/gltf/codecs/meshopt_library.cpp", "generate_file/convert_maps.cpp", "generate_file/mend_maps.cpp",
   "maps/exr.cpp", "maps/float_image.cpp", "maps/jpeg.cpp", "maps/png.cpp", "maps/png_pixels.cpp", "maps/rays.cpp",
   "maps/webp.cpp", "report/diff_text.cpp",
 ]);

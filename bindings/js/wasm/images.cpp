@@ -127,6 +127,15 @@ ImageClaim claimOfWebp(ByteSpan bytes) {
 std::optional<RgbImage> decodePng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
     return decode(bytes, most_pixels, why);
 }
+std::vector<std::uint8_t> decodePngRgba(ByteSpan bytes) {
+    constexpr std::size_t kColorAt = 25;
+    const ImageSize size = claimedSize(bytes);
+    if (bytes.size() <= kColorAt || (bytes[kColorAt] & PngHeader::kHasAlpha) == 0) return {};
+    if (!faultOf(bytes, size, ~std::uint64_t{0}).empty()) return {};
+    std::vector<std::uint8_t> pixels(4 * size.pixels());
+    if (!decodeInto(bytes, size, 4, 1, pixels.data()).empty()) return {};
+    return pixels;
+}
 std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
     return decode(bytes, most_pixels, why);
 }

@@ -10,6 +10,7 @@
 #include "asset/import/import_document.h"
 #include "asset/uri.h"
 #include "generate_file/convert_maps.h"
+#include "generate_file/mend_maps.h"
 #include "tspace/arena.h"
 
 namespace tspace {
@@ -52,6 +53,12 @@ Arena::Arena()
                      ::operator delete(memory, std::align_val_t(alignment));
                  }} {}
 Arena::~Arena() = default;
+
+Bytes mendMap(const Scene&, ByteSpan, const GenerateOptions&, JudgedMap& map) {
+    map.report.reason = "images are not written anew in JavaScript";
+    return {};
+}
+MadeOfHeights makeOfHeights(const Scene&, std::size_t, std::size_t, double, const GenerateOptions&) { return {}; }
 
 gltf::MapConversion::MapConversion(gltf::Document& document, std::span<const gltf::Primitive>, const GenerateOptions& options)
     : document_(document), options_(options) {

@@ -21,7 +21,8 @@ bool isUnlit(const Json& material) { return findExtension(material, "KHR_materia
 /// Extensions of materials that are known to read no tangents, or whose reading of them is known. Any other may read
 /// them.
 bool isKnownExtension(const std::string& name) {
-    static const std::set<std::string> kKnown{"KHR_materials_unlit",
+    static const std::set<std::string> kKnown{"ASOBO_normal_map_convention",
+                                              "KHR_materials_unlit",
                                               "KHR_materials_clearcoat",
                                               "KHR_materials_anisotropy",
                                               "KHR_materials_sheen",
@@ -70,6 +71,14 @@ bool speaksOfFlow(const Json& object) {
         if (!is_off && (namesFlow(name) || (value.is_string() && namesFlow(value.get<std::string>())))) return true;
     }
     return false;
+}
+
+/// Microsoft Flight Simulator's models say of the file, in `asset`, or of a material whose convention normal maps follow.
+bool declaresGreenDown(const Json& object) {
+    const Json* extension = findExtension(object, "ASOBO_normal_map_convention");
+    const Json* convention =
+        extension == nullptr || !extension->is_object() ? nullptr : findMember(*extension, "tangent_space_convention");
+    return convention != nullptr && convention->is_string() && convention->text() == "DirectX";
 }
 
 /// Collects the uses of one material.
@@ -127,6 +136,9 @@ class MaterialUses {
         // What is no number counts for nothing, as in viewers: tangents do not depend on it.
         if (const Json* scale = findMember(*texture, "scale"); scale != nullptr && scale->is_number())
             use.scale = scale->get<double>();
+        use.is_declared_down = declaresGreenDown(rootArray(document_, "materials")[material_]);
+        if (const Json* asset = findMember(document_.json, "asset"); asset != nullptr && !use.is_declared_down)
+            use.is_declared_down = declaresGreenDown(*asset);
         return true;
     }
 

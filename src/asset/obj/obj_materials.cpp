@@ -85,6 +85,7 @@ Material toMaterial(const tinyobj::material_t& source, const fs::path& folder, b
     material.roughness = roughnessOf(source);
     const bool has_norm = !source.normal_texname.empty();
     material.normal_texture = {plainPath(has_norm ? source.normal_texname : source.bump_texname), folder};
+    material.normal_is_bump = !has_norm && !source.bump_texname.empty();
     const float scale = (has_norm ? source.normal_texopt : source.bump_texopt).bump_multiplier;
     if (std::isfinite(scale)) material.normal_scale = scale;
     return material;

@@ -53,7 +53,10 @@ struct Material {
     float roughness = 1;
     Texture base_color_texture = {};
     Texture normal_texture = {};
-    float normal_scale = 1;
+    bool normal_is_bump = false;  ///< it is named by map_bump, which takes height maps too
+    float normal_scale = 1;       ///< -bm: of a normal map its scale, of heights how high white is
+    /// What the output has in place of the normal texture; null: that itself.
+    std::shared_ptr<const Bytes> made_normal_map = {};
 };
 
 struct Model {

@@ -152,6 +152,12 @@ class ImageBuilder {
         if (entry->second >= 0) material[key] = {{"index", entry->second}};
     }
 
+    /// The same for an image that was made.
+    void addMade(const Texture& like, const Bytes& bytes, Json& material, const char* key) {
+        images_.push_back(imageJson(fs::path(Path(like.file)), bytes, mimeType(imageFormat(bytes)), false));
+        material[key] = {{"index", images_.size() - 1}};
+    }
+
     [[nodiscard]] const Json& images() const { return images_; }
 
   private:
@@ -169,7 +175,7 @@ class ImageBuilder {
                 return;
             }
             images_.push_back(flipped == nullptr ? imageJson(path, bytes, mimeType(format), names_by_uri_)
-                                                 : imageJson(path, *flipped, mimeType(format), false));
+                                                 : imageJson(path, *flipped, mimeType(imageFormat(*flipped)), false));
             is_added = true;
         });
         if (failure) warnings_.push_back("a texture was left out: " + failure->message);
@@ -214,7 +220,11 @@ Json materialJson(const Material& material, ImageBuilder& images) {
     surface["metallicFactor"] = material.metallic;
     surface["roughnessFactor"] = material.roughness;
     json["pbrMetallicRoughness"] = std::move(surface);
-    images.addReference(material.normal_texture, json, "normalTexture");
+    if (material.made_normal_map) {
+        images.addMade(material.normal_texture, *material.made_normal_map, json, "normalTexture");
+    } else {
+        images.addReference(material.normal_texture, json, "normalTexture");
+    }
     if (material.normal_scale != 1 && json.contains("normalTexture")) {
         json["normalTexture"]["scale"] = material.normal_scale;
     }

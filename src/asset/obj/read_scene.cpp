@@ -73,6 +73,7 @@ ScenePrimitive loadPrimitive(const Model& model, const ObjPrimitive& primitive, 
         result.uses.push_back({.needed_by = "normalTexture",
                                .place = result.place,
                                .image = maps.indexOf(material.normal_texture),
+                               .may_be_heights = material.normal_is_bump,
                                .material = primitive.material});
     }
     return result;

@@ -22,6 +22,16 @@ constexpr const char* kQuad =
     "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
 constexpr const char* kPng = "\x89PNG\r\n\x1a\nnot really";
 
+/// One pixel of a flat normal map: what map_bump names is decoded, to tell it from a height map.
+std::string flatPng() {
+    constexpr unsigned char kBytes[] = {
+        0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00,
+        0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00, 0x00, 0x90, 0x77, 0x53, 0xde, 0x00, 0x00, 0x00,
+        0x0c, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x68, 0x68, 0xf8, 0x0f, 0x00, 0x03, 0x83, 0x02, 0x00, 0x00,
+        0xa5, 0xfb, 0x89, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+    return {reinterpret_cast<const char*>(kBytes), sizeof kBytes};
+}
+
 /// The result of generating from an OBJ text, read back.
 struct Made {
     GenerateReport report = {};
@@ -219,7 +229,7 @@ TEST(Obj, TangentsAreMadeWhereTheMaterialHasANormalMap) {
     for (const char* keyword : {"map_Bump", "map_bump", "bump", "norm"}) {
         const TempFolder folder;
         folder.write("in/m.mtl", std::string("newmtl plain\nnewmtl rough\n") + keyword + " -bm 0.5 n.png\n");
-        folder.write("in/n.png", kPng);
+        folder.write("in/n.png", flatPng());
         const Made made = make(
             folder,
             "mtllib m.mtl\n" + std::string(kQuad) + "usemtl plain\nf 1/1 2/2 3/3\nusemtl rough\nf 1/1 3/3 4/4\n", {});
@@ -239,13 +249,22 @@ TEST(Obj, OptionsOfTexturesDoNotSwallowTheName) {
             for (const char* name : {"n.png", "my n.png", "7"}) {
                 const TempFolder folder;
                 folder.write("in/m.mtl", std::string("newmtl a\n") + keyword + ' ' + options + ' ' + name + "\n");
-                folder.write(std::string("in/") + name, kPng);
+                folder.write(std::string("in/") + name, flatPng());
                 const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
                 EXPECT_EQ(made.report.primitives[0].action, PrimitiveAction::generated) << keyword << options << name;
                 EXPECT_TRUE(made.document.json.contains("images")) << keyword << options << name;
             }
         }
     }
+}
+
+TEST(Obj, ABrokenHeightMapIsLeftOutWithAWarning) {
+    const TempFolder folder;
+    folder.write("in/m.mtl", "newmtl a\nmap_bump -bm 0.5 n.png\n");
+    folder.write("in/n.png", kPng);
+    const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
+    EXPECT_FALSE(made.document.json["materials"][0].contains("normalTexture"));
+    EXPECT_TRUE(mentions(made.report.warnings, "'n.png' was left out, and no normal map was made of it"));
 }
 
 TEST(Obj, TexturesThatAreMovedGiveAWarning) {

@@ -40,7 +40,7 @@ export class FindingsView {
       const n = file.counts[severity];
       summary.append(el("span", { class: `badge ${severity}${n === 0 ? " none" : ""}` }, plural(n, severity)));
     }
-    const looked = `${plural(file.primitives, "primitive")}, ${count(file.primitivesWithTangents)} with tangents; looked at ${plural(file.normalMaps, "normal map")}.`;
+    const looked = `${plural(file.primitives, "primitive")}, ${count(file.primitivesWithTangents)} with tangents; looked at ${plural(file.normalMaps, "normal map")}: what the channels hold, and which way green points (told by ${count(file.normalMapsWithGreen)}).`;
     replaceChildren(this.#list, summary, el("p", { class: "quiet" }, looked));
     if (findings.length === 0) this.#list.append(el("p", { class: "fine" }, "Nothing is wrong."));
     for (const severity of ["error", "warning", "note"] as const) {

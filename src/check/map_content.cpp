@@ -1,0 +1,427 @@
+// SPDX-License-Identifier: MIT
+#include "check/map_content.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/angle.h"
+#include "core/unit.h"
+
+namespace tspace {
+
+namespace {
+
+/// How far from 1 a vector of 8 bits may be, compressed and filtered.
+constexpr double kLengthSlack = 0.1;
+/// A channel that varies less (root of the mean square, of 255) is constant: compression adds as much.
+constexpr double kConstant = 2.5;
+/// x^2 + y^2 of texels that lean: by 11 degrees or more.
+constexpr double kLeastLean = 0.04;
+constexpr double kStep = 1.0 / 127.5;
+
+double signedValue(std::uint8_t channel) { return static_cast<double>(channel) * kStep - 1; }
+
+struct Spread {
+    double mean = 0, deviation = 0;
+};
+
+template <class ValueOf>
+Spread spreadOf(std::span<const TexelBytes> texels, const ValueOf& valueOf) {
+    double sum = 0, squares = 0;
+    for (const TexelBytes& texel : texels) {
+        const double value = valueOf(texel);
+        sum += value;
+        squares += value * value;
+    }
+    const auto count = static_cast<double>(texels.size());
+    const double mean = sum / count;
+    return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean))};
+}
+
+template <class Test>
+double shareOf(std::span<const TexelBytes> texels, const Test& test) {
+    return static_cast<double>(std::count_if(texels.begin(), texels.end(), test)) / static_cast<double>(texels.size());
+}
+
+/// Texels as a layout reads them. Each of the 256 values of a channel is computed once.
+class Reader {
+  public:
+    explicit Reader(const MapLayout& layout) : layout_(layout) {
+        for (unsigned i = 0; i < values_.size(); ++i) {
+            const float c = static_cast<float>(i) / 255.0F;
+            values_[i] = 2 * static_cast<double>(readTexel({c, 0, 0}, 1, {.curve = layout.curve}).x) - 1;
+        }
+    }
+
+    [[nodiscard]] DVec3 vector(const TexelBytes& texel) const {
+        DVec3 v{component(texel, layout_.x), component(texel, layout_.y), 0};
+        v.z = layout_.z.channel == MapChannel::none ? std::sqrt(std::max(0.0, 1 - v.x * v.x - v.y * v.y))
+                                                    : component(texel, layout_.z);
+        return v;
+    }
+
+  private:
+    [[nodiscard]] double component(const TexelBytes& texel, const MapComponent& component) const {
+        const std::uint8_t channel = texel[static_cast<std::size_t>(component.channel)];
+        const double value = component.channel == MapChannel::alpha ? signedValue(channel) : values_[channel];
+        return component.is_inverted ? -value : value;
+    }
+
+    MapLayout layout_;
+    std::array<double, 256> values_ = {};
+};
+
+/// How well texels are unit vectors, and where those that are point: what was never painted or baked says nothing.
+struct Fit {
+    double unit_share = 0;
+    DVec3 mean = {};
+    std::array<double, 3> below_share = {};  ///< of each component: unit vectors where it is negative
+};
+
+Fit fitOf(std::span<const TexelBytes> texels, const MapLayout& layout) {
+    const Reader reader(layout);
+    Fit fit;
+    std::array<std::uint64_t, 3> below = {};
+    std::uint64_t unit = 0;
+    for (const TexelBytes& texel : texels) {
+        const DVec3 v = reader.vector(texel);
+        if (std::fabs(length(v) - 1) >= kLengthSlack) continue;
+        ++unit;
+        fit.mean = fit.mean + v;
+        // A step of rounding below 0 is none.
+        below[0] += v.x < -kStep;
+        below[1] += v.y < -kStep;
+        below[2] += v.z < -kStep;
+    }
+    if (unit == 0) return fit;
+    const auto count = static_cast<double>(unit);
+    fit.unit_share = count / static_cast<double>(texels.size());
+    fit.mean = (1 / count) * fit.mean;
+    for (std::size_t i = 0; i < 3; ++i) fit.below_share[i] = static_cast<double>(below[i]) / count;
+    return fit;
+}
+
+/// x^2 + y^2 of two channels.
+double squareOf(const TexelBytes& texel, std::size_t x, std::size_t y) {
+    const double a = signedValue(texel[x]), b = signedValue(texel[y]);
+    return a * a + b * b;
+}
+
+/// z of a unit vector with x and y in red and green.
+double expectedZ(const TexelBytes& texel) { return std::sqrt(std::max(0.0, 1 - squareOf(texel, 0, 1))); }
+
+/// Whether two channels can be x and y of unit vectors: nearly nowhere are they longer than 1, and in the mean they are 0.
+bool canBeXy(std::span<const TexelBytes> texels, std::size_t x, std::size_t y) {
+    constexpr double kLongest = 1.03, kMostLong = 0.01, kMostMean = 0.25;
+    const auto meanOf = [&](std::size_t channel) {
+        return spreadOf(texels, [&](const TexelBytes& texel) { return signedValue(texel[channel]); }).mean;
+    };
+    return shareOf(texels, [&](const TexelBytes& texel) { return squareOf(texel, x, y) > kLongest; }) < kMostLong &&
+           std::fabs(meanOf(x)) < kMostMean && std::fabs(meanOf(y)) < kMostMean;
+}
+
+bool isGrey(std::span<const TexelBytes> texels) {
+    constexpr int kApart = 4;
+    return shareOf(texels, [](const TexelBytes& texel) {
+               const auto [least, most] = std::minmax({texel[0], texel[1], texel[2]});
+               return most - least <= kApart;
+           }) > 0.98;
+}
+
+class Looker {
+  public:
+    Looker(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface)
+        : texels_(texels), has_alpha_(has_alpha), surface_(surface), plain_(fitOf(texels, {})) {
+        for (std::size_t i = 0; i < channels_.size(); ++i) {
+            channels_[i] = spreadOf(texels, [i](const TexelBytes& texel) { return static_cast<double>(texel[i]); });
+        }
+    }
+
+    [[nodiscard]] MapLook look() const {
+        if (const auto found = xInAlpha()) return *found;
+        if (isGrey(texels_)) return made(MapContent::height, {}, 1);
+        if (const auto found = twoChannels()) return *found;
+        if (const auto found = encoded()) return *found;
+        if (const auto found = objectSpace()) return *found;
+        if (const auto found = exchanged()) return *found;
+        if (const auto found = unsignedZ()) return *found;
+        return made(MapContent::normals, {}, 1);
+    }
+
+  private:
+    [[nodiscard]] MapLook made(MapContent content, const MapLayout& layout, double share) const {
+        const std::uint64_t total = texels_.size();
+        const auto count = static_cast<std::uint64_t>(share * static_cast<double>(total) + 0.5);
+        return {.content = content, .layout = layout, .count = count, .total = total};
+    }
+
+    /// Red says nothing (it is constant, or a copy of green), and alpha varies as x does. Grey with any other alpha is a
+    /// height map with a mask.
+    [[nodiscard]] std::optional<MapLook> xInAlpha() const {
+        if (!has_alpha_ || channels_[3].deviation <= kConstant || channels_[1].deviation <= kConstant) return {};
+        const bool says_nothing = channels_[0].deviation <= kConstant || isGrey(texels_);
+        if (!says_nothing || plain_.unit_share > 0.5 || !canBeXy(texels_, 3, 1)) return {};
+        MapLayout layout;
+        layout.x.channel = MapChannel::alpha;
+        layout.z.channel = MapChannel::none;
+        return made(MapContent::xInAlpha, layout, 1);
+    }
+
+    /// Blue is the same everywhere, and not what z would be: over all texels, or over those that lean. Maps that are flat
+    /// nearly everywhere are left alone: Khronos' Lantern has one with blue 255, which is 0.15 degrees off in the mean.
+    [[nodiscard]] std::optional<MapLook> twoChannels() const {
+        constexpr double kFar = 0.3, kNearlyConstant = 16, kMostCorrelation = 0.5;
+        constexpr double kSeenDeg = 0.5;
+        constexpr std::uint64_t kLeastCount = 16;
+        const Spread& blue = channels_[2];
+        if (blue.deviation > kNearlyConstant || !canBeXy(texels_, 0, 1)) return {};
+        double off = 0, wanted = 0, error = 0, product = 0, angle = 0;
+        const Spread up = spreadOf(texels_, [](const TexelBytes& texel) { return expectedZ(texel); });
+        std::uint64_t count = 0;
+        for (const TexelBytes& texel : texels_) {
+            const double z = expectedZ(texel);
+            const double stored = signedValue(texel[2]), across = std::sqrt(squareOf(texel, 0, 1));
+            error += std::fabs(stored - z);
+            angle += std::fabs(std::atan2(across, stored) - std::atan2(across, z)) * 180 / kPi;
+            product += (texel[2] - blue.mean) * (z - up.mean);
+            if (squareOf(texel, 0, 1) < kLeastLean) continue;
+            ++count;
+            off += (texel[2] - blue.mean) * (texel[2] - blue.mean);
+            wanted += (127.5 * (z + 1) - blue.mean) * (127.5 * (z + 1) - blue.mean);
+        }
+        // Far from z, and going with it in no way: what varies is compression.
+        const auto total = static_cast<double>(texels_.size());
+        const bool goes_with_z =
+            blue.deviation > kConstant && std::fabs(product) > kMostCorrelation * total * blue.deviation * up.deviation;
+        const bool is_far = error / total > kFar && !goes_with_z;
+        const bool is_constant = blue.deviation <= kConstant && count >= kLeastCount &&
+                                 off <= kConstant * kConstant * static_cast<double>(count) && wanted >= 4 * off &&
+                                 angle >= kSeenDeg * total;
+        if (!is_far && !is_constant) return {};
+        MapLayout layout;
+        layout.z.channel = MapChannel::none;
+        return made(MapContent::twoChannels, layout, 1);
+    }
+
+    [[nodiscard]] std::optional<MapLook> encoded() const {
+        for (const MapCurve curve : {MapCurve::srgb, MapCurve::linearised}) {
+            const MapLayout layout{.curve = curve};
+            const Fit fit = fitOf(texels_, layout);
+            const bool points_up = fit.mean.z > 0.5 && std::fabs(fit.mean.x) < 0.25 && std::fabs(fit.mean.y) < 0.25;
+            if (points_up && fit.unit_share > 0.8 && fit.unit_share > plain_.unit_share + 0.4)
+                return made(MapContent::encoded, layout, fit.unit_share);
+        }
+        return {};
+    }
+
+    /// The axis that the vectors point along in the mean, 0 to 2, and to which side; nothing where they do not.
+    struct Up {
+        std::size_t axis = 2;
+        bool is_inverted = false;
+    };
+    [[nodiscard]] std::optional<Up> upAxis() const {
+        constexpr double kLeastMean = 0.6, kMostMean = 0.3, kMostBelow = 0.02;
+        const std::array<double, 3> mean{plain_.mean.x, plain_.mean.y, plain_.mean.z};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double below = mean[axis] < 0 ? 1 - plain_.below_share[axis] : plain_.below_share[axis];
+            if (std::fabs(mean[axis]) < kLeastMean || below > kMostBelow) continue;
+            if (std::fabs(mean[(axis + 1) % 3]) > kMostMean || std::fabs(mean[(axis + 2) % 3]) > kMostMean) continue;
+            return Up{axis, mean[axis] < 0};
+        }
+        return {};
+    }
+
+    [[nodiscard]] std::optional<MapLook> objectSpace() const;
+
+    [[nodiscard]] std::optional<MapLook> exchanged() const {
+        const std::optional<Up> up = upAxis();
+        if (plain_.unit_share < 0.7 || !up || (up->axis == 2 && !up->is_inverted)) return {};
+        MapLayout layout;
+        if (up->axis == 0) std::swap(layout.x, layout.z);
+        if (up->axis == 1) std::swap(layout.y, layout.z);
+        layout.z.is_inverted = up->is_inverted;
+        const double below = plain_.below_share[up->axis];
+        return made(MapContent::exchanged, layout, up->is_inverted ? below : 1 - below);
+    }
+
+    /// Over texels that lean, blue grows with z as z does, not half as fast: 255 b = 255 z + c.
+    [[nodiscard]] std::optional<MapLook> unsignedZ() const {
+        constexpr std::uint64_t kLeastCount = 64;
+        if (!canBeXy(texels_, 0, 1)) return {};
+        double z = 0, b = 0, zz = 0, zb = 0, bb = 0, off = 0;
+        std::uint64_t count = 0;
+        for (const TexelBytes& texel : texels_) {
+            const double square = squareOf(texel, 0, 1);
+            if (square < kLeastLean || square > 1) continue;
+            const double wanted = std::sqrt(1 - square), blue = texel[2] / 255.0;
+            ++count;
+            z += wanted;
+            b += blue;
+            zz += wanted * wanted;
+            zb += wanted * blue;
+            bb += blue * blue;
+            off += (blue - wanted) * (blue - wanted);
+        }
+        if (count < kLeastCount) return {};
+        const auto n = static_cast<double>(count);
+        const double var_z = zz / n - z * z / n / n, var_b = bb / n - b * b / n / n, cov = zb / n - z * b / n / n;
+        if (var_z < 1e-5 || var_b < 1e-5 || std::sqrt(off / n) > 0.03) return {};
+        const double slope = cov / var_z, agreement = cov * cov / var_z / var_b;
+        if (slope < 0.85 || slope > 1.15 || agreement < 0.8) return {};
+        MapLayout layout;
+        layout.z.channel = MapChannel::none;
+        MapLook look = made(MapContent::unsignedZ, layout, 1);
+        look.count = count;
+        return look;
+    }
+
+    std::span<const TexelBytes> texels_;
+    bool has_alpha_;
+    std::span<const TexelOnSurface> surface_;
+    Fit plain_;
+    std::array<Spread, 4> channels_ = {};
+};
+
+/// The mean of n v^T over the surface; n is the mesh's normal, v the direction in the map.
+struct Moments {
+    std::array<std::array<double, 3>, 3> sum = {};
+    double weight = 0;
+};
+
+Moments momentsOf(std::span<const TexelOnSurface> surface) {
+    const Reader reader({});
+    Moments moments;
+    for (const TexelOnSurface& point : surface) {
+        DVec3 v = reader.vector(point.texel);
+        if (!normalize(v)) continue;
+        const std::array<double, 3> from{point.normal.x, point.normal.y, point.normal.z}, to{v.x, v.y, v.z};
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) moments.sum[i][k] += point.weight * from[i] * to[k];
+        }
+        moments.weight += point.weight;
+    }
+    return moments;
+}
+
+/// The largest mean cosine that any rotation or reflection of the map's axes gives: the sum of the singular values.
+double bestAgreement(const Moments& moments) {
+    // Of the symmetric matrix S = M^T M the eigenvalues, by the roots of its characteristic polynomial (Smith 1961).
+    std::array<std::array<double, 3>, 3> s{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            for (const auto& row : moments.sum) s[i][k] += row[i] * row[k] / moments.weight / moments.weight;
+        }
+    }
+    const double mean = (s[0][0] + s[1][1] + s[2][2]) / 3;
+    for (std::size_t i = 0; i < 3; ++i) s[i][i] -= mean;
+    double squares = 0;
+    for (const auto& row : s) squares += row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
+    const double p = std::sqrt(squares / 6);
+    const double det = s[0][0] * (s[1][1] * s[2][2] - s[1][2] * s[2][1]) -
+                       s[0][1] * (s[1][0] * s[2][2] - s[1][2] * s[2][0]) +
+                       s[0][2] * (s[1][0] * s[2][1] - s[1][1] * s[2][0]);
+    const double angle = p > 0 ? std::acos(std::clamp(det / (2 * p * p * p), -1.0, 1.0)) / 3 : 0;
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) sum += std::sqrt(std::max(0.0, mean + 2 * p * std::cos(angle + k * 2 * kPi / 3)));
+    return sum;
+}
+
+/// Which signed channels the mesh's x, y and z are in, and the mean cosine between its normals and the map's then.
+struct Axes {
+    MapLayout layout = {};
+    double agreement = -1;
+};
+
+Axes bestAxes(const Moments& moments) {
+    constexpr std::array<std::array<std::size_t, 3>, 6> kOrders{
+        {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+    Axes best;
+    for (const auto& order : kOrders) {
+        double agreement = 0;
+        std::array<MapComponent, 3> components;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double part = moments.sum[i][order[i]];
+            agreement += std::fabs(part) / moments.weight;
+            components[i] = {static_cast<MapChannel>(order[i]), part < 0};
+        }
+        if (agreement > best.agreement + 1e-9)
+            best = {{.x = components[0], .y = components[1], .z = components[2]}, agreement};
+    }
+    return best;
+}
+
+std::optional<MapLook> Looker::objectSpace() const {
+    constexpr std::size_t kLeastPoints = 8;
+    constexpr double kLeastAgreement = 0.5, kSureAgreement = 0.9, kOfTheBest = 0.97, kOfTheRest = 0.4, kMuchBelow = 0.2;
+    if (plain_.unit_share < 0.7) return {};
+    const std::optional<Up> up = upAxis();
+    const bool is_up = up && up->axis == 2 && !up->is_inverted;
+    const Moments moments = momentsOf(surface_);
+    if (surface_.size() >= kLeastPoints && moments.weight > 0) {
+        // The mesh's own axes, as they are, or in other channels.
+        const double plain = (moments.sum[0][0] + moments.sum[1][1] + moments.sum[2][2]) / moments.weight;
+        const Axes axes = bestAxes(moments);
+        const std::array<double, 3> mean{plain_.mean.x, plain_.mean.y, plain_.mean.z};
+        const double constant = std::fabs(up ? mean[up->axis] : plain_.mean.z);
+        const bool is_plain = plain >= kLeastAgreement && plain > axes.agreement - 0.05;
+        const double agreement = is_plain ? plain : axes.agreement;
+        // Where any other rotation fits better, it is that of a node, or of another program, which nobody knows here.
+        const bool is_clear = agreement >= kLeastAgreement && agreement >= kOfTheBest * bestAgreement(moments) &&
+                              1 - agreement < kOfTheRest * (1 - constant);
+        const bool is_wall = !is_up && up && is_plain && plain >= kSureAgreement;
+        if (is_clear || is_wall) {
+            MapLook look = made(MapContent::objectSpace, is_plain ? MapLayout{} : axes.layout, plain_.unit_share);
+            look.follows_mesh = true;
+            return look;
+        }
+    }
+    if (up || plain_.below_share[2] < kMuchBelow) return {};
+    return made(MapContent::objectSpace, {}, plain_.below_share[2]);
+}
+
+}  // namespace
+
+std::vector<TexelBytes> sampleTexels(const RgbImage& image, std::span<const std::uint8_t> alpha,
+                                     const TexelMask& inside) {
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 18;
+    std::uint32_t step = 1;
+    while (std::uint64_t{image.width} * image.height / step / step > kMost) ++step;
+    std::vector<TexelBytes> texels;
+    for (std::uint32_t y = step / 2; y < image.height; y += step) {
+        for (std::uint32_t x = step / 2; x < image.width; x += step) {
+            if (!inside.has(x, y)) continue;
+            const std::size_t pixel = std::size_t{y} * image.width + x;
+            const std::uint8_t* rgb = image.rgb.data() + 3 * pixel;
+            texels.push_back({rgb[0], rgb[1], rgb[2], alpha.empty() ? std::uint8_t{255} : alpha[pixel]});
+        }
+    }
+    return texels;
+}
+
+MapLook lookAtTexels(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface) {
+    if (texels.empty()) return {};
+    return Looker(texels, has_alpha, surface).look();
+}
+
+bool mayHaveXInAlpha(std::span<const TexelBytes> texels) {
+    if (texels.empty()) return false;
+    const Spread red = spreadOf(texels, [](const TexelBytes& texel) { return static_cast<double>(texel[0]); });
+    return red.deviation <= kConstant || isGrey(texels);
+}
+
+void readByLayout(RgbImage& image, std::span<const std::uint8_t> alpha, const MapLayout& layout) {
+    const Reader reader(layout);
+    const auto byteOf = [](double value) {
+        return static_cast<std::uint8_t>(std::clamp(127.5 * (value + 1) + 0.5, 0.0, 255.0));
+    };
+    for (std::size_t pixel = 0; 3 * pixel < image.rgb.size(); ++pixel) {
+        std::uint8_t* rgb = image.rgb.data() + 3 * pixel;
+        const DVec3 v = reader.vector({rgb[0], rgb[1], rgb[2], alpha.empty() ? std::uint8_t{255} : alpha[pixel]});
+        rgb[0] = byteOf(v.x);
+        rgb[1] = byteOf(v.y);
+        rgb[2] = byteOf(v.z);
+    }
+}
+
+}  // namespace tspace

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "map_files/map_image_file.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "asset/file_error.h"
+#include "asset/file_io.h"
+#include "asset/memory_budget.h"
+
+namespace tspace {
+
+namespace {
+
+/// What decoding, converting and writing hold per pixel, without the decoder's own.
+constexpr std::uint64_t kPixelBytes = 72;
+constexpr std::uint64_t kMostMapPixels = std::uint64_t{1} << 28;
+
+}  // namespace
+
+FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOptions& file) {
+    Bytes read;
+    ByteSpan bytes = content;
+    if (bytes.data() == nullptr) {
+        read = readFile(input);
+        bytes = read;
+    }
+    if (const char* why_not = whyNotRead(imageFormat(bytes))) failFile(ErrorCode::unsupportedFile, why_not);
+    if (file.memory_limit_bytes != 0) {
+        MemoryBudget budget(file.memory_limit_bytes);
+        budget.require(bytes.size() + imageWorkBytes(bytes) + kPixelBytes * claimedSize(bytes).pixels(), {});
+    }
+    std::string why;
+    std::optional<FloatImage> image = decodeFloatImage(bytes, kMostMapPixels, why);
+    if (!image) failFile(ErrorCode::invalidFile, why);
+    return *std::move(image);
+}
+
+MapMesh readNamedMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
+                         const FileOptions& file) {
+    try {
+        return readMapMesh(model, choice, tangents, file);
+    } catch (FileError& failure) {
+        failure.error.message = "the model " + pathInQuotes(model) + ": " + failure.error.message;
+        throw;
+    }
+}
+
+std::string fileNameOf(const std::string& path) {
+    const std::size_t folder = path.find_last_of("/\\");
+    return folder == std::string::npos ? path : path.substr(folder + 1);
+}
+
+bool isGreyImage(const FloatImage& image) {
+    // What compressing colors adds.
+    constexpr float kApart = 4.5F / 255;
+    const auto is_grey = [](const Vec3& texel) {
+        const auto [least, most] = std::minmax({texel.x, texel.y, texel.z});
+        return most - least <= kApart;
+    };
+    const auto grey = std::count_if(image.texels.begin(), image.texels.end(), is_grey);
+    return static_cast<double>(grey) > 0.98 * static_cast<double>(image.texels.size());
+}
+
+std::vector<float> heightsOf(const FloatImage& image) {
+    std::vector<float> heights;
+    heights.reserve(image.texels.size());
+    for (const Vec3& texel : image.texels) {
+        const bool is_one = texel.x == texel.y && texel.y == texel.z;
+        heights.push_back(is_one ? texel.x : (texel.x + texel.y + texel.z) / 3);
+    }
+    return heights;
+}
+
+MapSide tangentSide(const MapMesh& mesh) {
+    return {.uvs = mesh.uvs, .normals = mesh.normals, .tangents = mesh.tangents, .positions = mesh.positions};
+}
+
+}  // namespace tspace

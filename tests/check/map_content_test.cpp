@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// What an image holds that is used as a normal map: each kind is told, and sound maps are none of them.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "check/map_content.h"
+#include "maps/images.h"
+
+namespace tspace::test {
+namespace {
+
+MapLook lookAt(const RgbImage& image, std::span<const std::uint8_t> alpha = {},
+               std::span<const TexelOnSurface> surface = {}) {
+    TexelMask all(image.width, image.height);
+    all.fillAll();
+    return lookAtTexels(sampleTexels(image, alpha, all), !alpha.empty(), surface);
+}
+
+/// change(texel) is called for the three bytes of each texel.
+template <class Change>
+RgbImage changed(RgbImage image, const Change& change) {
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) change(image.rgb.data() + i);
+    return image;
+}
+
+const RgbImage& sound() {
+    static const RgbImage map = normalMapOf(128, [](double x, double y) { return 2 * bumps(x, y); });
+    return map;
+}
+
+std::uint8_t byteOf(double part) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(part, 0.0, 1.0))); }
+std::uint8_t withSrgb(std::uint8_t c) {
+    const double part = c / 255.0;
+    return byteOf(part <= 0.0031308 ? 12.92 * part : 1.055 * std::pow(part, 1 / 2.4) - 0.055);
+}
+std::uint8_t withoutSrgb(std::uint8_t c) {
+    const double part = c / 255.0;
+    return byteOf(part <= 0.04045 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4));
+}
+
+TEST(MapContent, IsNormalsForSoundMaps) {
+    const auto flat = [](double, double) { return 0.0; };
+    const auto stripes = [](double x, double) { return 0.02 * std::sin(40 * x); };
+    const auto steep = [](double x, double y) { return 10 * bumps(x, y); };
+    for (const RgbImage& map : {sound(), normalMapOf(1, flat), normalMapOf(4, flat), normalMapOf(64, flat),
+                                normalMapOf(64, stripes), normalMapOf(64, steep), normalMapOf(128, bumps, true)}) {
+        EXPECT_EQ(lookAt(map).content, MapContent::normals) << map.width;
+        std::string why;
+        for (const int quality : {50, 90}) {
+            const std::string file = jpegFile(map, quality);
+            EXPECT_EQ(lookAt(*decodeImage(bytesOf(file), 1 << 20, why)).content, MapContent::normals) << quality;
+        }
+    }
+}
+
+TEST(MapContent, IsNormalsForLengthsThatFilteringShortened) {
+    for (const double shortest : {0.7, 0.9}) {
+        const RgbImage map = changed(sound(), [&](std::uint8_t* texel) {
+            const double lean = (255 - texel[2]) / 40.0, size = 1 - (1 - shortest) * std::min(1.0, lean);
+            for (int k = 0; k < 3; ++k) texel[k] = byteOf(0.5 + size * (texel[k] / 255.0 - 0.5));
+        });
+        EXPECT_EQ(lookAt(map).content, MapContent::normals) << shortest;
+    }
+}
+
+/// Flat but for a few texels: blue is constant nearly everywhere.
+TEST(MapContent, IsNormalsForMapsThatAreFlatNearlyEverywhere) {
+    const auto rivet = [](double x, double y) {
+        return 0.02 * std::exp(-900 * ((x - .5) * (x - .5) + (y - .5) * (y - .5)));
+    };
+    EXPECT_EQ(lookAt(normalMapOf(256, rivet)).content, MapContent::normals);
+}
+
+TEST(MapContent, TellsTwoChannels) {
+    for (const int blue : {0, 127, 255}) {
+        const MapLook look =
+            lookAt(changed(sound(), [&](std::uint8_t* texel) { texel[2] = static_cast<std::uint8_t>(blue); }));
+        EXPECT_EQ(look.content, MapContent::twoChannels) << blue;
+        EXPECT_EQ(look.layout.z.channel, MapChannel::none);
+    }
+    const RgbImage flat{8, 8, std::vector<std::uint8_t>(192, 128)};
+    EXPECT_EQ(lookAt(changed(flat, [](std::uint8_t* texel) { texel[2] = 0; })).content, MapContent::twoChannels);
+}
+
+TEST(MapContent, TellsZFromZeroToOne) {
+    const RgbImage map = changed(sound(), [](std::uint8_t* texel) { texel[2] = byteOf(texel[2] / 127.5 - 1); });
+    EXPECT_EQ(lookAt(map).content, MapContent::unsignedZ);
+}
+
+TEST(MapContent, TellsXInAlphaFromHeightsWithAMask) {
+    std::vector<std::uint8_t> alpha;
+    for (std::size_t i = 0; i < sound().rgb.size(); i += 3) alpha.push_back(sound().rgb[i]);
+    for (const int other : {0, 255, -1}) {
+        const RgbImage map = changed(sound(), [&](std::uint8_t* texel) {
+            texel[0] = texel[2] = other < 0 ? texel[1] : static_cast<std::uint8_t>(other);
+        });
+        const MapLook look = lookAt(map, alpha);
+        EXPECT_EQ(look.content, MapContent::xInAlpha) << other;
+        EXPECT_EQ(look.layout.x.channel, MapChannel::alpha);
+    }
+    const RgbImage heights = changed(sound(), [](std::uint8_t* texel) { texel[0] = texel[2] = texel[1]; });
+    EXPECT_EQ(lookAt(heights).content, MapContent::height);
+    std::vector<std::uint8_t> mask(alpha.size(), 255);
+    std::fill(mask.begin(), mask.begin() + 1000, 0);
+    EXPECT_EQ(lookAt(heights, mask).content, MapContent::height);
+}
+
+TEST(MapContent, TellsExchangedAndInvertedChannels) {
+    struct Case {
+        int order[3];
+        bool is_inverted;
+    };
+    for (const Case& one :
+         {Case{{2, 1, 0}, false}, Case{{0, 2, 1}, false}, Case{{0, 1, 2}, true}, Case{{2, 1, 0}, true}}) {
+        const RgbImage map = changed(sound(), [&](std::uint8_t* texel) {
+            if (one.is_inverted) texel[2] ^= 0xff;
+            const std::uint8_t old[3] = {texel[0], texel[1], texel[2]};
+            for (int k = 0; k < 3; ++k) texel[k] = old[one.order[k]];
+        });
+        const MapLook look = lookAt(map);
+        ASSERT_EQ(look.content, MapContent::exchanged) << one.order[0] << one.order[1] << one.order[2];
+        RgbImage read = map;
+        readByLayout(read, {}, look.layout);
+        EXPECT_EQ(read.rgb, sound().rgb);
+    }
+}
+
+TEST(MapContent, TellsColors) {
+    const auto encode = [](const auto& curve) {
+        return [&curve](std::uint8_t* texel) {
+            for (int k = 0; k < 3; ++k) texel[k] = curve(texel[k]);
+        };
+    };
+    const MapLook on = lookAt(changed(sound(), encode(withSrgb))), off = lookAt(changed(sound(), encode(withoutSrgb)));
+    EXPECT_EQ(on.content, MapContent::encoded);
+    EXPECT_EQ(on.layout.curve, MapCurve::srgb);
+    EXPECT_EQ(off.content, MapContent::encoded);
+    EXPECT_EQ(off.layout.curve, MapCurve::linearised);
+}
+
+/// A map of the normals of a ball, as they are and with other axes.
+TEST(MapContent, TellsObjectSpaceByTheMesh) {
+    constexpr std::uint32_t kSize = 64;
+    for (const bool is_z_up : {false, true}) {
+        RgbImage map{kSize, kSize, {}};
+        std::vector<TexelOnSurface> surface;
+        for (std::uint32_t row = 0; row < kSize; ++row) {
+            for (std::uint32_t column = 0; column < kSize; ++column) {
+                const double u = 6.2831853 * (column + .5) / kSize, v = 3.1415926 * (row + .5) / kSize;
+                const double n[3] = {std::sin(v) * std::cos(u), std::cos(v), std::sin(v) * std::sin(u)};
+                const double stored[3] = {n[0], is_z_up ? -n[2] : n[1], is_z_up ? n[1] : n[2]};
+                TexelBytes texel{0, 0, 0, 255};
+                for (std::size_t k = 0; k < 3; ++k) {
+                    texel[k] = byteOf(0.5 + 0.5 * stored[k]);
+                    map.rgb.push_back(texel[k]);
+                }
+                surface.push_back({{float(n[0]), float(n[1]), float(n[2])}, texel, std::sin(v)});
+            }
+        }
+        const MapLook look = lookAt(map, {}, surface);
+        ASSERT_EQ(look.content, MapContent::objectSpace);
+        EXPECT_TRUE(look.follows_mesh);
+        EXPECT_EQ(look.layout == MapLayout{}, !is_z_up);
+        const MapLook elsewhere = lookAt(map);
+        EXPECT_EQ(elsewhere.content, MapContent::objectSpace) << "the vectors point all around";
+        EXPECT_FALSE(elsewhere.follows_mesh);
+        for (TexelOnSurface& point : surface) point.texel = {128, 128, 255, 255};
+        EXPECT_EQ(lookAt(sound(), {}, surface).content, MapContent::normals);
+    }
+}
+
+TEST(MapContent, OfAnyReliefIsToldFromAllOtherKinds) {
+    EXPECT_TRUE(rc::check([] {
+        const double a = *rc::gen::inRange(5, 40), b = *rc::gen::inRange(5, 40), c = *rc::gen::inRange(-20, 20);
+        const auto height = [&](double x, double y) {
+            return 1.0 / (a + b + std::abs(c)) * std::sin(a * x + c * y) * std::cos(b * y);
+        };
+        const RgbImage map = normalMapOf(64, height);
+        RC_ASSERT(lookAt(map).content == MapContent::normals);
+        RC_ASSERT(lookAt(changed(map, [](std::uint8_t* t) { t[2] = 0; })).content == MapContent::twoChannels);
+        RC_ASSERT(lookAt(changed(map, [](std::uint8_t* t) { std::swap(t[0], t[2]); })).content ==
+                  MapContent::exchanged);
+        RC_ASSERT(lookAt(changed(map, [](std::uint8_t* t) {
+                      for (int k = 0; k < 3; ++k) t[k] = withSrgb(t[k]);
+                  })).content == MapContent::encoded);
+    }));
+}
+
+}  // namespace
+}  // namespace tspace::test

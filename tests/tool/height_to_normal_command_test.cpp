@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// tspace height-to-normal, and height maps of OBJ files.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "maps/float_image.h"
+#include "maps/images.h"
+#include "maps/shading.h"
+#include "run_tool.h"
+
+namespace tspace::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::uint32_t kSize = 128;
+
+/// Heights from 0 to 1 that repeat at the borders.
+double hill(double x, double y) {
+    return .5 + .25 * std::sin(12.566370614 * x) * std::cos(6.283185307 * y) + .2 * std::cos(12.566370614 * y);
+}
+
+void writeHeights(const TempFolder& folder, unsigned bits) {
+    FloatImage image{kSize, kSize, bits, {}, {}};
+    for (std::uint32_t row = 0; row < kSize; ++row) {
+        for (std::uint32_t column = 0; column < kSize; ++column) {
+            const auto h = static_cast<float>(hill((column + .5) / kSize, 1 - (row + .5) / kSize));
+            image.texels.push_back({h, h, h});
+        }
+    }
+    const auto file = encodePng(image, bits);
+    ASSERT_TRUE(file);
+    folder.write("height.png", std::string(file->begin(), file->end()));
+}
+
+/// A square of two units, whose material has the height map.
+void writeWall(const TempFolder& folder) {
+    folder.write("wall.mtl", "newmtl a\nmap_bump -bm 0.1 height.png\n");
+    folder.write("wall.obj",
+                 "mtllib wall.mtl\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                 "vn 0 0 1\nusemtl a\nf 1/1/1 2/2/1 3/3/1 4/4/1\n");
+}
+
+/// Mean degrees to the normals of the hill, white being as high as that in widths of the image.
+double errorOf(const std::string& file, double height) {
+    std::string why;
+    const auto image = decodeFloatImage(bytesOf(file), 1 << 22, why);
+    EXPECT_TRUE(image) << why;
+    if (!image || image->width != kSize) return 180;
+    double sum = 0;
+    constexpr double kStep = 1e-4;
+    for (std::uint32_t row = 0; row < kSize; ++row) {
+        for (std::uint32_t column = 0; column < kSize; ++column) {
+            const double x = (column + .5) / kSize, y = 1 - (row + .5) / kSize;
+            const DVec3 wanted{-height * (hill(x + kStep, y) - hill(x - kStep, y)) / (2 * kStep),
+                               -height * (hill(x, y + kStep) - hill(x, y - kStep)) / (2 * kStep), 1};
+            sum += degreesBetween(decodeTexel(image->texels[row * kSize + column], {}), wanted);
+        }
+    }
+    return sum / kSize / kSize;
+}
+
+TEST(HeightToNormalCommand, MakesANormalMapOfEightAndSixteenBits) {
+    for (const unsigned bits : {8U, 16U}) {
+        const TempFolder folder;
+        writeHeights(folder, bits);
+        const ToolRun run =
+            runTool(folder, "height-to-normal height.png -o n.png --strength 6.4 --bits " + std::to_string(bits));
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_NE(run.out.find("6.4 texels"), std::string::npos) << run.out;
+        EXPECT_LT(errorOf(folder.read("n.png"), 0.05), bits == 8 ? 0.6 : 0.06);
+        ASSERT_EQ(runTool(folder, "height-to-normal - -o - --strength 6.4 --bits " + std::to_string(bits) +
+                                      " < height.png > piped.png")
+                      .exit_code,
+                  0);
+    }
+}
+
+TEST(HeightToNormalCommand, TakesTheStrengthInUnitsOfTheMesh) {
+    const TempFolder folder;
+    writeHeights(folder, 16);
+    writeWall(folder);
+    const ToolRun run = runTool(folder, "height-to-normal height.png -o n.png --strength 0.1 --mesh wall.obj");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_LT(errorOf(folder.read("n.png"), 0.05), 0.06);
+    ASSERT_EQ(
+        runTool(folder, "height-to-normal height.png -o dx.png --strength 0.1 --mesh wall.obj --convention directx")
+            .exit_code,
+        0);
+    EXPECT_GT(errorOf(folder.read("dx.png"), 0.05), 3);
+    ASSERT_EQ(runTool(folder, "flip-green dx.png -o up.png").exit_code, 0);
+    EXPECT_LT(errorOf(folder.read("up.png"), 0.05), 0.06);
+}
+
+TEST(HeightToNormalCommand, SaysWhatIsOdd) {
+    const TempFolder folder;
+    writeHeights(folder, 8);
+    EXPECT_NE(runTool(folder, "height-to-normal height.png -o n.png --strength 1e6").out.find("warning"),
+              std::string::npos);
+    EXPECT_NE(runTool(folder, "height-to-normal height.png -o n.png --strength 0").out.find("warning"),
+              std::string::npos);
+    folder.write("color.png", pngFile(normalMapOf(16, bumps)));
+    EXPECT_NE(runTool(folder, "height-to-normal color.png -o n.png").out.find("has colors"), std::string::npos);
+    EXPECT_EQ(runTool(folder, "height-to-normal height.png -o n.jpg").exit_code, 3);
+    EXPECT_EQ(runTool(folder, "height-to-normal height.png -o n.png --strength x").exit_code, 2);
+    EXPECT_EQ(runTool(folder, "height-to-normal none.png -o n.png").exit_code, 4);
+}
+
+/// The image in the GLB that generate made.
+std::string normalMapIn(const TempFolder& folder, const std::string& name) {
+    const std::string glb = folder.read(name);
+    const std::size_t json_size = static_cast<unsigned char>(glb[12]) + 256U * static_cast<unsigned char>(glb[13]);
+    const Json json = Json::parse(glb.substr(20, json_size));
+    EXPECT_FALSE(json["materials"][0]["normalTexture"].contains("scale"));
+    const Json& view = json["bufferViews"][json["images"][0]["bufferView"].get<std::size_t>()];
+    return glb.substr(28 + json_size + view.value("byteOffset", 0U), view["byteLength"].get<std::size_t>());
+}
+
+TEST(HeightToNormalCommand, GenerateConvertsMapBumpOfObj) {
+    const TempFolder folder;
+    writeHeights(folder, 8);
+    writeWall(folder);
+    const ToolRun check = runTool(folder, "check wall.obj --fail-on warning");
+    EXPECT_EQ(check.exit_code, 0) << check.out;
+    EXPECT_NE(check.out.find("normalMapIsHeight"), std::string::npos);
+    const ToolRun run = runTool(folder, "generate --json wall.obj -o wall.glb");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const Json map = Json::parse(run.out)["files"][0]["normalMaps"][0];
+    EXPECT_EQ(map["mended"], true);
+    EXPECT_NE(map["reason"].get<std::string>().find("it held heights"), std::string::npos);
+    EXPECT_LT(errorOf(normalMapIn(folder, "wall.glb"), 0.05), 0.6);
+    EXPECT_EQ(runTool(folder, "check wall.glb --fail-on note").exit_code, 0);
+    // A normal map that map_bump names stays.
+    folder.write("height.png", pngFile(normalMapOf(16, bumps)));
+    ASSERT_EQ(runTool(folder, "generate -q wall.obj -o own.glb").exit_code, 0);
+    EXPECT_NE(folder.read("own.glb").find(R"("uri":"height.png")"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tspace::test

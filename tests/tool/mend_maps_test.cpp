@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+// Each command that check names for a map is run, and then there is no finding left, and the right normals are there.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "maps/float_image.h"
+#include "maps/images.h"
+#include "maps/shading.h"
+#include "run_tool.h"
+#include "tspace/map_layout.h"
+
+namespace tspace::test {
+namespace {
+
+using Json = nlohmann::json;
+
+RgbImage soundMap(bool green_down = false) {
+    return normalMapOf(
+        128, [](double x, double y) { return 2 * bumps(x, y); }, green_down);
+}
+
+FloatImage floatsOf(const RgbImage& map) {
+    FloatImage image{map.width, map.height, 8, {}, {}};
+    for (std::size_t i = 0; i < map.rgb.size(); i += 3)
+        image.texels.push_back({map.rgb[i] / 255.0F, map.rgb[i + 1] / 255.0F, map.rgb[i + 2] / 255.0F});
+    return image;
+}
+
+void writeImage(const TempFolder& folder, const std::string& name, const FloatImage& image) {
+    const auto file = encodePng(image, 8);
+    ASSERT_TRUE(file);
+    folder.write(name, std::string(file->begin(), file->end()));
+}
+
+FloatImage imageIn(const TempFolder& folder, const std::string& name) {
+    std::string why;
+    const std::string file = folder.read(name);
+    const std::optional<FloatImage> image = decodeFloatImage(bytesOf(file), 1 << 22, why);
+    EXPECT_TRUE(image) << name << ": " << why;
+    return image ? *image : FloatImage{};
+}
+
+double meanError(const FloatImage& a, const FloatImage& b) {
+    double sum = 0;
+    if (a.texels.size() != b.texels.size()) return 180;
+    for (std::size_t i = 0; i < a.texels.size(); ++i)
+        sum += degreesBetween(decodeTexel(a.texels[i], {}), decodeTexel(b.texels[i], {}));
+    return sum / static_cast<double>(a.texels.size());
+}
+
+/// A square that shows NAME.png, as NAME.gltf.
+void writeSquare(const TempFolder& folder, const std::string& name) {
+    folder.write(name + ".mtl", "newmtl a\nnorm " + name + ".png\n");
+    folder.write(name + ".obj", "mtllib " + name +
+                                    ".mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                                    "vn 0 0 1\nusemtl a\nf 1/1/1 2/2/1 3/3/1 4/4/1\n");
+    ASSERT_EQ(runTool(folder, "generate -q " + name + ".obj -o " + name + ".gltf").exit_code, 0);
+}
+
+Json findingsOf(const TempFolder& folder, const std::string& file) {
+    const Json json = Json::parse(runTool(folder, "check --json " + file).out, nullptr, false);
+    return json.is_object() ? json["files"][0]["findings"] : Json::array({"not read"});
+}
+
+struct Kind {
+    const char* code;
+    const char* options;  ///< that the remedy names
+    Vec3 (*store)(const Vec3& texel);
+    float (*alpha)(const Vec3& texel) = nullptr;
+};
+
+float curved(float c) {
+    return static_cast<float>(c <= 0.0031308F ? 12.92F * c : 1.055 * std::pow(static_cast<double>(c), 1 / 2.4) - 0.055);
+}
+
+const Kind kKinds[] = {
+    {"normalMapTwoChannels", "--channels rg.",
+     [](const Vec3& t) {
+         return Vec3{t.x, t.y, 0};
+     }},
+    {"normalMapTwoChannels", "--channels rg.",
+     [](const Vec3& t) {
+         return Vec3{t.x, t.y, 1};
+     }},
+    {"normalMapUnsigned", "--channels rg.",
+     [](const Vec3& t) {
+         return Vec3{t.x, t.y, 2 * t.z - 1};
+     }},
+    {"normalMapChannels", "--channels bgr.",
+     [](const Vec3& t) {
+         return Vec3{t.z, t.y, t.x};
+     }},
+    {"normalMapChannels", "--channels brg.",
+     [](const Vec3& t) {
+         return Vec3{t.y, t.z, t.x};
+     }},
+    {"normalMapChannels", "--channels rgB.",
+     [](const Vec3& t) {
+         return Vec3{t.x, t.y, 1 - t.z};
+     }},
+    {"normalMapChannels", "--channels ag.",
+     [](const Vec3& t) {
+         return Vec3{1, t.y, 1};
+     },
+     [](const Vec3& t) { return t.x; }},
+    {"normalMapIsSrgb", "--srgb.",
+     [](const Vec3& t) {
+         return Vec3{curved(t.x), curved(t.y), curved(t.z)};
+     }},
+};
+
+TEST(MendMaps, WhatCheckNamesMendsTheModelAndTheImage) {
+    const FloatImage right = floatsOf(soundMap());
+    for (const Kind& kind : kKinds) {
+        const TempFolder folder;
+        FloatImage wrong = right;
+        for (std::size_t i = 0; i < right.texels.size(); ++i) {
+            wrong.texels[i] = kind.store(right.texels[i]);
+            if (kind.alpha != nullptr) wrong.alpha.push_back(kind.alpha(right.texels[i]));
+        }
+        writeImage(folder, "map.png", wrong);
+        writeSquare(folder, "map");
+        const std::string old_file = folder.read("map.png");
+        const Json found = findingsOf(folder, "map.gltf");
+        ASSERT_EQ(found.size(), 1U) << kind.code << found.dump(1);
+        EXPECT_EQ(found[0]["code"], kind.code);
+        const std::string remedy = found[0]["remedy"];
+        EXPECT_NE(remedy.find("tspace generate --mend-maps."), std::string::npos) << remedy;
+        const std::string command = "convert-map map.png -o OUT.png " + std::string(kind.options);
+        ASSERT_NE(remedy.find("tspace " + command), std::string::npos) << remedy;
+
+        ASSERT_EQ(runTool(folder, "generate --mend-maps map.gltf -o mended.gltf").exit_code, 0);
+        EXPECT_EQ(findingsOf(folder, "mended.gltf"), Json::array()) << kind.code;
+        EXPECT_LT(meanError(imageIn(folder, "map-mended.png"), right), 1) << kind.code;
+        EXPECT_TRUE(folder.read("map.png") == old_file) << "the old one stays";
+
+        ASSERT_EQ(runTool(folder, command.substr(0, command.size() - 1)).exit_code, 0) << command;
+        EXPECT_LT(meanError(imageIn(folder, "OUT.png"), right), 1) << kind.code;
+        writeSquare(folder, "OUT");
+        EXPECT_EQ(findingsOf(folder, "OUT.gltf"), Json::array()) << kind.code;
+    }
+}
+
+TEST(MendMaps, TakesAMapOutOfObjectSpace) {
+    const TempFolder folder;
+    writeImage(folder, "map.png", floatsOf(soundMap()));
+    folder.write("map.mtl", "newmtl a\nnorm map.png\n");
+    // A quarter of a tube.
+    std::string obj = "mtllib map.mtl\nusemtl a\n";
+    constexpr int kSteps = 8;
+    for (int i = 0; i <= kSteps; ++i) {
+        const double angle = 3.0 * i / kSteps;
+        for (const int y : {0, 2}) {
+            obj += "v " + std::to_string(std::sin(angle)) + " " + std::to_string(y) + " " +
+                   std::to_string(std::cos(angle)) + "\n";
+            obj += "vt " + std::to_string(double(i) / kSteps) + " " + std::to_string(y / 2) + "\n";
+            obj += "vn " + std::to_string(std::sin(angle)) + " 0 " + std::to_string(std::cos(angle)) + "\n";
+        }
+    }
+    for (int i = 1; i < 2 * kSteps; i += 2) {
+        const auto corner = [](int at) {
+            const std::string n = std::to_string(at);
+            return " " + n + "/" + n + "/" + n;
+        };
+        obj += "f" + corner(i) + corner(i + 2) + corner(i + 3) + corner(i + 1) + "\n";
+    }
+    folder.write("tube.obj", obj);
+    ASSERT_EQ(runTool(folder, "generate -q tube.obj -o tube.gltf").exit_code, 0);
+    ASSERT_EQ(findingsOf(folder, "tube.gltf"), Json::array());
+    const FloatImage right = imageIn(folder, "map.png");
+    ASSERT_EQ(runTool(folder, "convert-map map.png --mesh tube.gltf --to object --bits 8 -o object.png").exit_code, 0);
+    folder.write("map.png", folder.read("object.png"));
+    const Json found = findingsOf(folder, "tube.gltf");
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0]["code"], "normalMapInObjectSpace");
+    EXPECT_NE(found[0]["remedy"].get<std::string>().find("convert-map map.png -o OUT.png --from object --mesh MODEL."),
+              std::string::npos);
+    ASSERT_EQ(runTool(folder, "generate --mend-maps tube.gltf -o mended.gltf").exit_code, 0);
+    EXPECT_EQ(findingsOf(folder, "mended.gltf"), Json::array());
+    EXPECT_LT(meanError(imageIn(folder, "map-mended.png"), right), 1);
+    ASSERT_EQ(runTool(folder, "convert-map map.png -o OUT.png --from object --mesh tube.gltf").exit_code, 0);
+    EXPECT_LT(meanError(imageIn(folder, "OUT.png"), right), 1);
+}
+
+TEST(MendMaps, NamesBothCausesOfACurlTheWrongWayRound) {
+    for (const bool is_red : {false, true}) {
+        const TempFolder folder;
+        const FloatImage right = floatsOf(soundMap());
+        FloatImage wrong = right;
+        for (Vec3& texel : wrong.texels) (is_red ? texel.x : texel.y) = 1 - (is_red ? texel.x : texel.y);
+        writeImage(folder, "map.png", wrong);
+        writeSquare(folder, "map");
+        const Json found = findingsOf(folder, "map.gltf");
+        ASSERT_EQ(found.size(), 1U);
+        EXPECT_EQ(found[0]["code"], "greenFlipped");
+        EXPECT_NE(found[0]["message"].get<std::string>().find("red or green is inverted"), std::string::npos);
+        const std::string remedy = found[0]["remedy"];
+        EXPECT_NE(remedy.find("tspace generate --flip-green"), std::string::npos);
+        EXPECT_NE(remedy.find("tspace convert-map MAP -o OUT.png --flip-red"), std::string::npos);
+        ASSERT_EQ(runTool(folder, std::string("convert-map map.png --bits 8 -o OUT.png ") +
+                                      (is_red ? "--flip-red" : "--flip-green"))
+                      .exit_code,
+                  0);
+        EXPECT_LT(meanError(imageIn(folder, "OUT.png"), right), .1);
+        writeSquare(folder, "OUT");
+        EXPECT_EQ(findingsOf(folder, "OUT.gltf"), Json::array());
+    }
+}
+
+TEST(MendMaps, ReadsWhatTheFileDeclares) {
+    const TempFolder folder;
+    writeImage(folder, "map.png", floatsOf(soundMap(true)));
+    writeSquare(folder, "map");
+    EXPECT_EQ(findingsOf(folder, "map.gltf").size(), 1U);
+    Json json = Json::parse(folder.read("map.gltf"));
+    json["extensionsUsed"] = {"ASOBO_normal_map_convention"};
+    json["asset"]["extensions"]["ASOBO_normal_map_convention"]["tangent_space_convention"] = "DirectX";
+    folder.write("declared.gltf", json.dump());
+    EXPECT_EQ(findingsOf(folder, "declared.gltf"), Json::array());
+    const ToolRun run = runTool(folder, "generate --json --flip-green declared.gltf -o out/out.gltf");
+    const Json map = Json::parse(run.out)["files"][0]["normalMaps"][0];
+    EXPECT_EQ(map["flipped"], false);
+    EXPECT_NE(map["reason"].get<std::string>().find("declares"), std::string::npos);
+}
+
+TEST(MendMaps, NotesAScaleThatIsNotAboveZero) {
+    for (const double scale : {1.0, 0.0, -1.0}) {
+        const TempFolder folder;
+        writeImage(folder, "map.png", floatsOf(soundMap()));
+        writeSquare(folder, "map");
+        Json json = Json::parse(folder.read("map.gltf"));
+        json["materials"][0]["normalTexture"]["scale"] = scale;
+        folder.write("map.gltf", json.dump());
+        const Json found = findingsOf(folder, "map.gltf");
+        ASSERT_EQ(found.size(), scale > 0 ? 0U : 1U);
+        if (scale <= 0) {
+            EXPECT_EQ(found[0]["code"], "normalMapScale");
+        }
+    }
+}
+
+double pictureDifference(const FloatImage& a, const FloatImage& b) {
+    double sum = 0;
+    if (a.texels.size() != b.texels.size() || a.texels.empty()) return 1;
+    for (std::size_t i = 0; i < a.texels.size(); ++i) {
+        sum += std::fabs(a.texels[i].x - b.texels[i].x) + std::fabs(a.texels[i].y - b.texels[i].y) +
+               std::fabs(a.texels[i].z - b.texels[i].z);
+    }
+    return sum / static_cast<double>(a.texels.size());
+}
+
+TEST(MendMaps, OverwriteWarnsWhereSignsAndGreenCancel) {
+    const TempFolder folder;
+    writeImage(folder, "map.png", floatsOf(soundMap(true)));
+    writeSquare(folder, "map");
+    const auto picture = [&](const std::string& model) {
+        EXPECT_EQ(runTool(folder, "render -q " + model + " -o " + model + ".png --size 200").exit_code, 0);
+        return imageIn(folder, model + ".png");
+    };
+    ASSERT_EQ(runTool(folder, "generate -q --overwrite --convention opengl map.gltf -o before.glb").exit_code, 0);
+    const FloatImage before = picture("before.glb");
+    const auto run = [&](const std::string& arguments) {
+        const ToolRun done = runTool(folder, "generate --json before.glb " + arguments);
+        EXPECT_EQ(done.exit_code, 0) << done.err;
+        return Json::parse(done.out)["files"][0]["warnings"];
+    };
+    const Json warnings = run("-o alone.glb --overwrite");
+    ASSERT_EQ(warnings.size(), 1U) << warnings.dump();
+    for (const char* text : {"cancelled out", "--flip-green", "without --overwrite"})
+        EXPECT_NE(warnings[0].get<std::string>().find(text), std::string::npos) << warnings[0];
+    EXPECT_NE(runTool(folder, "generate before.glb -o alone.glb --overwrite").out.find("cancelled out"),
+              std::string::npos);
+    EXPECT_EQ(run("-o both.glb --overwrite --flip-green"), Json::array());
+    EXPECT_LT(pictureDifference(before, picture("both.glb")), 0.002);
+    EXPECT_GT(pictureDifference(before, picture("alone.glb")), 0.02);
+    EXPECT_EQ(runTool(folder, "check --fail-on note both.glb").exit_code, 0);
+    ASSERT_EQ(runTool(folder, "generate -q --overwrite both.glb -o again.glb").exit_code, 0);
+    EXPECT_EQ(
+        Json::parse(runTool(folder, "generate --json both.glb -o again.glb --overwrite").out)["files"][0]["warnings"],
+        Json::array());
+}
+
+}  // namespace
+}  // namespace tspace::test
