@@ -50,6 +50,10 @@ struct FileOptions {
     /// Gives the files that `content` names; only those in the model's own folder (and below), unless `allow_external`.
     /// Without it they are an error (invalidFile) where they are needed.
     FindFile find_file = {};
+    /// OBJ and PLY: coordinates so far from the origin (metres of a map) that 32-bit floats would not hold the shape are
+    /// read in double, and an offset is taken out of them before they become floats. In glTF it is the translation of the
+    /// nodes. true: no offset; the shape then loses what floats lose, and a warning says so.
+    bool keep_coordinates = false;
 };
 
 /// Takes bytes of an output, in their order. Returns false when it can take no more.
@@ -243,6 +247,9 @@ struct GenerateReport {
     std::vector<std::string> input_files = {};   ///< everything that was read, the model first
     std::vector<std::string> output_files = {};  ///< everything that was written, the model first
     std::vector<std::string> warnings = {};
+    /// What was taken out of the coordinates of an OBJ or PLY file far from the origin, in double, and is the translation
+    /// of the output's nodes (FileOptions::keep_coordinates).
+    double coordinate_offset[3] = {0, 0, 0};
 };
 
 /// Reads `input`, adds or replaces normals and tangents, and writes `output` (.glb or .gltf; may be the same file).
@@ -314,6 +321,7 @@ struct Inspection {
     std::vector<std::string> variants = {};      ///< names of KHR_materials_variants
     std::vector<PrimitiveInfo> primitives = {};  ///< in file order
     std::vector<std::string> warnings = {};      ///< about the file as a whole: one sentence each
+    double coordinate_offset[3] = {0, 0, 0};     ///< as in GenerateReport: what generate would take out
 };
 
 /// Removes the temporary files that killed runs of generateFile left in a folder and below it. Their names tell which

@@ -13,11 +13,13 @@ struct Imported {
     std::string error = {};        ///< one sentence; empty: it was read
     bool has_no_tangents = false;  ///< the file has none, as far as its text says
     std::vector<std::string> warnings = {};
+    double offset[3] = {0, 0, 0};  ///< taken out of the coordinates, and the translation of the root
 };
 
 /// Meshes are neither joined nor split: one primitive per mesh of the file, polygons cut by tspace's own rule, vertices
 /// joined only when all their attributes have the same bits. Nodes, materials (base colour and normal map), all UV
-/// sets, colours, skins, morph targets and animations go along. UVs are turned so that v runs down.
-Imported importScene(const std::string& path);
+/// sets, colours, skins, morph targets and animations go along. UVs are turned so that v runs down. Of PLY with more than
+/// floats an offset is taken out where floats do not hold the shape, unless `keep_coordinates`.
+Imported importScene(const std::string& path, bool keep_coordinates);
 
 }  // namespace tspace::import

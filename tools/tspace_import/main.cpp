@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// tspace-import IN MAX_BYTES MAX_PROCESSOR_SECONDS MAX_SECONDS PARENT: reads FBX, PLY, STL, DAE, 3DS and what else Assimp
+// tspace-import IN MAX_BYTES MAX_PROCESSOR_SECONDS MAX_SECONDS PARENT [keep-coordinates]:
+// reads FBX, PLY, STL, DAE, 3DS and what else Assimp
 // knows, and writes to stdout a GLB that tspace goes on with. A program of its own, because Assimp's parsers may crash or
 // run away on broken files: memory and time are limited, and whatever happens ends with this process. It writes no file,
 // and ends when the process PARENT does. Not meant to be called by hand.
@@ -75,8 +76,8 @@ int takeStdout() {
     return result;
 }
 
-int run(const char* input, std::FILE* output) {
-    const tspace::import::Imported imported = tspace::import::importScene(input);
+int run(const char* input, bool keep_coordinates, std::FILE* output) {
+    const tspace::import::Imported imported = tspace::import::importScene(input, keep_coordinates);
     if (!imported.error.empty()) {
         std::fprintf(stderr, "%s\n", imported.error.c_str());
         return kBadInput;
@@ -89,6 +90,9 @@ int run(const char* input, std::FILE* output) {
     }
     // importDocument takes these lines from others that a library may print.
     if (imported.has_no_tangents) std::fprintf(stderr, "tangents: none\n");
+    const double* const offset = imported.offset;
+    if (offset[0] != 0 || offset[1] != 0 || offset[2] != 0)
+        std::fprintf(stderr, "offset: %.17g %.17g %.17g\n", offset[0], offset[1], offset[2]);
     for (const std::string& warning : imported.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     return 0;
 }
@@ -96,10 +100,11 @@ int run(const char* input, std::FILE* output) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 6) {
+    const bool keep_coordinates = argc == 7 && std::string(argv[6]) == "keep-coordinates";
+    if (argc != 6 && !keep_coordinates) {
         std::fprintf(stderr,
-                     "usage: tspace-import IN MAX_BYTES MAX_PROCESSOR_SECONDS MAX_SECONDS PARENT (a helper of "
-                     "tspace)\n");
+                     "usage: tspace-import IN MAX_BYTES MAX_PROCESSOR_SECONDS MAX_SECONDS PARENT [keep-coordinates] (a "
+                     "helper of tspace)\n");
         return 2;
     }
     const auto number = [argv](int i) { return std::strtoull(argv[i], nullptr, 10); };
@@ -107,7 +112,7 @@ int main(int argc, char** argv) {
     closeOtherFiles();
     limitAll(number(2), number(3), static_cast<unsigned>(number(4)));
     try {
-        return run(argv[1], fdopen(takeStdout(), "wb"));
+        return run(argv[1], keep_coordinates, fdopen(takeStdout(), "wb"));
     } catch (const std::bad_alloc&) {
         std::fprintf(stderr, "reading it takes more memory than is allowed (--memory-limit allows more)\n");
         return kOutOfMemory;

@@ -36,7 +36,7 @@ const known = {
   generate: [
     "name", ...ofAll, ...watched, "all", "onlyMissing", "overwrite", "repair", "strip", "method", "pairing", "threshold", "frame", "refine",
     "textureTransform", "bitangents", "format", "pack", "packDrop", "normals", "crease", "compress", "flipGreen", "flipGreenAll", "encodeImage",
-    "noSanitize", "orthogonalize", "dryRun",
+    "noSanitize", "orthogonalize", "keepCoordinates", "dryRun",
   ],
   check: ["name", ...ofAll, ...watched, "failOn", "severity", "ignore", "angle", "noImages"],
   inspect: ["name", ...ofAll],

@@ -37,6 +37,10 @@ struct PoolElements {
     /// list of each geometry.
     std::map<std::size_t, CarriedElements> carried = {};
     std::vector<ElementData> indices = {};
+    /// After a split, where an extension may name vertices (vertex_numbers.h): the old vertex that each was, and the corners
+    /// of each geometry.
+    std::vector<std::uint32_t> sources = {};
+    std::vector<std::vector<std::uint32_t>> corners = {};
     ElementData normals = {}, tangents = {}, bitangents = {};
     std::vector<MorphFrames> morphs = {};  ///< as in PoolFrames, like the next one
     std::uint64_t differing_count = 0;
@@ -44,6 +48,9 @@ struct PoolElements {
 
 PoolElements packFrames(const Document& document, std::span<const Primitive> primitives, const Pool& pool,
                         PoolFrames&& frames, VectorFormat format);
+
+/// Numbers of vertices. u8 and u16 keep their width while every vertex fits below the primitive restart value.
+ElementData indexElements(std::vector<std::uint32_t>&& indices, ComponentType narrowest, std::size_t vertex_count);
 
 /// Offsets as elements, one for each vertex.
 ElementData offsetElements(const VertexOffsets& offsets, std::size_t vertex_count);

@@ -215,6 +215,35 @@ TEST(Obj, FacesWithoutTextureCoordinatesAreAPrimitiveOfTheirOwn) {
     EXPECT_TRUE(make(folder, std::string(kQuad) + "f 1 3 4\n", options).primitives[0].find("TANGENT"));
 }
 
+/// Every texture of every primitive's material is on a UV set that the primitive has.
+void expectTexturesToHaveUvs(const Json& json) {
+    for (const Json& mesh : json["meshes"]) {
+        for (const Json& primitive : mesh["primitives"]) {
+            if (!primitive.contains("material") || primitive["attributes"].contains("TEXCOORD_0")) continue;
+            const std::string material = json["materials"][primitive["material"].get<std::size_t>()].dump();
+            EXPECT_EQ(material.find("Texture\""), std::string::npos) << material;
+        }
+    }
+}
+
+TEST(Obj, FacesWithoutTextureCoordinatesGetTheirMaterialWithoutTextures) {
+    const TempFolder folder;
+    folder.write("in/m.mtl", "newmtl a\nmap_Kd n.png\nnorm n.png\nNs 10\nd 0.5\nnewmtl b\nmap_Kd n.png\n");
+    folder.write("in/n.png", kPng);
+    const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) +
+                                       "usemtl a\nf 1/1 2/2 3/3\nf 1 3 4\nusemtl b\nf 1 2 4\nf 2 3 4\n");
+    const Json& json = made.document.json;
+    expectTexturesToHaveUvs(json);
+    ASSERT_EQ(json["materials"].size(), 3U) << "b is shown without textures alone, and needs no second one";
+    EXPECT_TRUE(json["materials"][0].contains("normalTexture"));
+    EXPECT_EQ(json["materials"][2]["name"], "a");
+    EXPECT_EQ(json["materials"][2]["alphaMode"], "BLEND");
+    EXPECT_EQ(json["materials"][2]["pbrMetallicRoughness"]["roughnessFactor"],
+              json["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"]);
+    EXPECT_TRUE(mentions(made.report.warnings, "'a' has textures, but 1 triangles"));
+    EXPECT_TRUE(mentions(made.report.warnings, "'b' has textures, but 2 triangles"));
+}
+
 TEST(Obj, TangentsAreMadeWhereTheMaterialHasANormalMap) {
     for (const char* keyword : {"map_Bump", "map_bump", "bump", "norm"}) {
         const TempFolder folder;

@@ -25,7 +25,7 @@ _LIMITS = "allow_external memory_limit import_seconds"
 _OPTIONS = {
     "generate": "all only_missing overwrite repair strip method faces pairing threshold frame refine texture_transform"
     " bitangents convention format pack pack_drop normals crease compress flip_green flip_green_all convert_maps"
-    f" no_sanitize orthogonalize dry_run threads {_LIMITS}",
+    f" no_sanitize orthogonalize keep_coordinates dry_run threads {_LIMITS}",
     "check": f"fail_on severity ignore angle convention faces no_images threads {_LIMITS}",
     "inspect": _LIMITS,
     "identify": f"tolerance threads {_LIMITS}",
