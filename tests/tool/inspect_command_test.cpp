@@ -26,7 +26,7 @@ TEST(Inspect, BeginsWithASummaryLine) {
 TEST(Inspect, SeesTheTangentsThatGenerateWrote) {
     const TempFolder folder;
     writeFoldedObj(folder, "a.obj");
-    folder.write("bump.png", "\x89PNG\r\n\x1a\n");
+    writeBumpMap(folder);
     ASSERT_EQ(runTool(folder, "generate a.obj -o a.glb").exit_code, 0);
     const ToolRun run = runTool(folder, "inspect a.glb");
     EXPECT_EQ(run.exit_code, 0) << run.err;

@@ -14,6 +14,7 @@
 #include "asset/file_error.h"
 #include "asset/uri.h"
 #include "generate/unit_lattice.h"
+#include "maps/codecs.h"
 #include "maps/image.h"
 
 namespace tspace::obj {
@@ -166,6 +167,12 @@ class ImageBuilder {
             const ImageFormat format = imageFormat(bytes);
             if (format != ImageFormat::png && format != ImageFormat::jpeg) {
                 warnings_.push_back("the texture '" + texture.file + "' was left out: it is neither PNG nor JPEG");
+                return;
+            }
+            // The rest of a broken image may be shown by some; without a size it is none.
+            const ImageClaim claim = format == ImageFormat::png ? claimOfPng(bytes) : claimOfJpeg(bytes);
+            if (claim.size.pixels() == 0) {
+                warnings_.push_back("the texture '" + texture.file + "' was left out: its head is broken");
                 return;
             }
             images_.push_back(flipped == nullptr ? imageJson(path, bytes, mimeType(format), names_by_uri_)

@@ -21,7 +21,7 @@ namespace {
 using gltf::Json;
 
 constexpr int kSide = 12;
-constexpr double kStep = 0.1;
+constexpr double kStep = 0.15;
 
 /// 4 decimals, and no locale.
 std::string decimals(double value) {

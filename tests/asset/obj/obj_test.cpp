@@ -20,7 +20,10 @@ using gltf::Json;
 constexpr const char* kQuad =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
     "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
-constexpr const char* kPng = "\x89PNG\r\n\x1a\nnot really";
+/// As far as its size: two by one.
+const std::string kPng("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\2\0\0\0\1 not really", 35);
+/// The same as JPEG.
+const std::string kJpeg("\xff\xd8\xff\xc0\0\x0b\x08\0\1\0\2\3 not really", 23);
 
 /// The result of generating from an OBJ text, read back.
 struct Made {
@@ -277,6 +280,17 @@ TEST(Obj, OptionsOfTexturesDoNotSwallowTheName) {
     }
 }
 
+TEST(Obj, ImagesWithoutASizeAreLeftOut) {
+    for (const std::string bytes : {"\x89PNG\r\n\x1a\nnot really", "\xff\xd8\xff not really"}) {
+        const TempFolder folder;
+        folder.write("in/m.mtl", "newmtl a\nnorm n.png\n");
+        folder.write("in/n.png", bytes);
+        const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
+        EXPECT_FALSE(made.document.json.contains("images"));
+        EXPECT_TRUE(mentions(made.report.warnings, "its head is broken"));
+    }
+}
+
 TEST(Obj, TexturesThatAreMovedGiveAWarning) {
     for (const bool moves : {true, false}) {
         const TempFolder folder;
@@ -295,7 +309,7 @@ TEST(Obj, ImagesBesideTheOutputAreNamedAndOthersAreEmbedded) {
     const TempFolder folder;
     folder.write("in/m.mtl", "newmtl a\nmap_Kd maps\\base color.png\nnorm n.jpg\n");
     folder.write("in/maps/base color.png", kPng);
-    folder.write("in/n.jpg", "\xff\xd8\xff");
+    folder.write("in/n.jpg", kJpeg);
     const std::string obj = "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n";
     const Made embedded = make(folder, obj, {});
     ASSERT_EQ(embedded.document.json["images"].size(), 2U);
