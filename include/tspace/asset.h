@@ -55,6 +55,10 @@ struct FileOptions {
     /// A written file is on the disk, and not in its cache alone, before it takes its name: after a power cut the old file is
     /// there or the new one, and never half of one. false: for many small files, where that takes most of the time.
     bool sync = true;
+    /// OBJ and PLY: coordinates so far from the origin (metres of a map) that 32-bit floats would not hold the shape are
+    /// read in double, and an offset is taken out of them before they become floats. In glTF it is the translation of the
+    /// nodes. true: no offset; the shape then loses what floats lose, and a warning says so.
+    bool keep_coordinates = false;
 };
 
 /// Takes bytes of an output, in their order. Returns false when it can take no more. Called by one thread at a time, which
@@ -292,6 +296,9 @@ struct GenerateReport {
     std::vector<std::string> input_files = {};   ///< everything that was read, the model first
     std::vector<std::string> output_files = {};  ///< everything that was written, the model first
     std::vector<std::string> warnings = {};
+    /// What was taken out of the coordinates of an OBJ or PLY file far from the origin, in double, and is the translation
+    /// of the output's nodes (FileOptions::keep_coordinates).
+    double coordinate_offset[3] = {0, 0, 0};
 };
 
 /// Reads `input`, adds or replaces normals and tangents, and writes `output` (.glb or .gltf; may be the same file).
@@ -363,6 +370,7 @@ struct Inspection {
     std::vector<std::string> variants = {};      ///< names of KHR_materials_variants
     std::vector<PrimitiveInfo> primitives = {};  ///< in file order
     std::vector<std::string> warnings = {};      ///< about the file as a whole: one sentence each
+    double coordinate_offset[3] = {0, 0, 0};     ///< as in GenerateReport: what generate would take out
 };
 
 /// Removes the temporary files that killed runs of any call that writes left in a folder, and below it where that is asked

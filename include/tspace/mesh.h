@@ -55,7 +55,9 @@ struct IndexView {
     }
 };
 
-/// A mesh. Only positions are always needed; each function says what else it uses.
+/// A mesh. Only positions are always needed; each function says what else it uses. Positions are floats: of doubles
+/// far from the origin (metres of a map) subtract an offset in double first, such as the middle of the model, and put
+/// it into the model's place; normals and tangents do not depend on it.
 struct MeshView {
     StridedSpan<const Vec3> positions = {};  ///< one per vertex
     StridedSpan<const Vec3> normals = {};    ///< one per vertex, used as given (never normalised), or empty

@@ -137,7 +137,9 @@ typedef struct tspace_Indices {
 /* Most corners (and so vertices and indices) that one mesh may have: corner ids are 32 bit with room for marks. */
 #define TSPACE_MAX_CORNERS 0x7fffffff
 
-/* A mesh. Only positions are always needed; each function says what else it uses. */
+/* A mesh. Only positions are always needed; each function says what else it uses. Positions are floats: of doubles
+ * far from the origin (metres of a map) subtract an offset in double first, such as the middle of the model, and put
+ * it into the model's place; normals and tangents do not depend on it. */
 typedef struct tspace_Mesh {
     uint32_t struct_size;
     uint32_t face_size;         /* corners of every face when face_sizes is empty; at least 1. In C: 0 means 3. */

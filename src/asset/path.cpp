@@ -25,4 +25,11 @@ std::string lowerExtension(const Path& path) {
     return extension;
 }
 
+bool isGlbName(const Path& path) {
+    const std::string extension = lowerExtension(path);
+    return extension == ".glb" || extension == ".vrm";
+}
+
+bool isGltfName(const Path& path) { return isGlbName(path) || lowerExtension(path) == ".gltf"; }
+
 }  // namespace tspace

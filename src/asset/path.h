@@ -51,4 +51,9 @@ std::string stemOf(const Path& file);
 /// The extension in lower case with its dot, or "".
 std::string lowerExtension(const Path& path);
 
+/// Names of GLB files end in .glb, and those of avatars in .vrm.
+bool isGlbName(const Path& path);
+/// isGlbName, or .gltf.
+bool isGltfName(const Path& path);
+
 }  // namespace tspace

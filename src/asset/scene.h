@@ -14,6 +14,7 @@
 
 #include "asset/memory_budget.h"
 #include "asset/tangent_use.h"
+#include "core/vec_math.h"
 #include "tspace/asset.h"
 #include "tspace/vec.h"
 
@@ -124,6 +125,7 @@ struct Scene {
     std::vector<ScenePrimitive> primitives = {};  ///< in file order
     std::vector<SceneImage> images = {};          ///< TangentUse::image points here
     std::vector<std::string> warnings = {};       ///< what reading had to say
+    DVec3 offset = {};                            ///< what reading took out of all positions (OBJ)
     std::shared_ptr<MemoryBudget> memory = {};    ///< what looking at it may still take
 };
 

@@ -91,8 +91,7 @@ class FileBaking {
     /// A model that is written reads the map as glTF says.
     void checkOutMesh() const {
         if (options_.out_mesh.empty()) return;
-        const std::string ending = lowerExtension(options_.out_mesh);
-        if (ending != ".glb" && ending != ".gltf")
+        if (!isGltfName(options_.out_mesh))
             failFile(ErrorCode::unsupportedFile,
                      "the output " + pathInQuotes(options_.out_mesh) + " is neither .glb nor .gltf");
         if (options_.udim) failFile(ErrorCode::invalidOption, "a glTF model has one image per material, and no tiles");

@@ -11,6 +11,7 @@
 #include "check/uv_reading.h"
 #include "core/unit.h"
 #include "maps/map_surfaces.h"
+#include "surface/float_loss.h"
 
 namespace tspace {
 
@@ -132,6 +133,23 @@ Affine firstPlace(const DrawnScene& drawn, std::size_t primitive) {
     return {};
 }
 
+/// Where the models stand, if that is so far from the origin that floats would not hold their shapes there.
+DVec3 farPlace(const DrawnScene& drawn) {
+    return offsetForFloats([&](const auto& visit) {
+        for (const ScenePlacement& placement : drawn.placements) {
+            const ScenePrimitive& primitive = drawn.scene.primitives[placement.primitive];
+            const auto at = [&](std::size_t corner) {
+                return placement.to_world.point(toDouble(primitive.positions[primitive.corners[corner]]));
+            };
+            for (std::size_t i = 0; i < primitive.corners.size(); ++i) visit(at(i), at(i - i % 3 + (i + 1) % 3));
+        }
+    });
+}
+
+void moveBy(const DVec3& offset, DrawnScene& drawn) {
+    for (ScenePlacement& placement : drawn.placements) placement.to_world.origin = placement.to_world.origin - offset;
+}
+
 void addPrimitive(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const Affine& place, std::uint32_t group,
                   LowPart& part) {
     for (std::size_t i = 0; i < primitive.corners.size(); ++i) {
@@ -246,7 +264,7 @@ HighModel highModel(const DrawnScene& drawn, const MeshNames* names, const std::
     std::size_t made = 0;
     // What glTF and OBJ leave out is flat; meshes of scanners and sculptors are meant to be smooth.
     const std::string extension = lowerExtension(path);
-    const bool is_flat = extension == ".glb" || extension == ".gltf" || extension == ".obj";
+    const bool is_flat = isGltfName(path) || extension == ".obj";
     for (const ScenePlacement& placement : drawn.placements) {
         const ScenePrimitive& primitive = drawn.scene.primitives[placement.primitive];
         const Affine& place = placement.to_world;
@@ -318,7 +336,8 @@ std::size_t LowModel::triangleCount() const {
 
 std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOptions& options, Faces faces,
                                     const LowModel& known) {
-    const DrawnScene scene = readGlb(generatedGlb(low, options, ExistingTangents::replace, faces), options);
+    DrawnScene scene = readGlb(generatedGlb(low, options, ExistingTangents::replace, faces), options);
+    moveBy(known.origin, scene);
     LowModel model = lowModel(scene, nullptr, nullptr);
     bool fits = model.images.size() == known.images.size();
     for (std::size_t i = 0; fits && i < model.images.size(); ++i)
@@ -328,7 +347,7 @@ std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOption
 
 BakeModels readBakeModels(const std::string& low, const std::string& high, const BakeFileOptions& options) {
     BakeModels models;
-    const DrawnScene low_scene = aboutInput(BakeInput::low, [&] { return readWithFrames(low, options, models); });
+    DrawnScene low_scene = aboutInput(BakeInput::low, [&] { return readWithFrames(low, options, models); });
     const bool frames_made = models.low.frames_made;
     DrawnScene cage_scene;
     if (!options.cage.empty()) {
@@ -338,14 +357,17 @@ BakeModels readBakeModels(const std::string& low, const std::string& high, const
             return read;
         });
     }
-    const DrawnScene high_scene =
-        aboutInput(BakeInput::high, [&] { return readDrawnScene(high, options.file, false); });
+    DrawnScene high_scene = aboutInput(BakeInput::high, [&] { return readDrawnScene(high, options.file, false); });
+    const DVec3 of_high = farPlace(high_scene);
+    const DVec3 origin = length(of_high) > 0 ? of_high : farPlace(low_scene);
+    for (DrawnScene* const scene : {&low_scene, &cage_scene, &high_scene}) moveBy(origin, *scene);
     MeshNames names;
     models.matched_by_name = matchNames(low_scene.scene, high_scene.scene, names);
     const MeshNames* const used = models.matched_by_name ? &names : nullptr;
     models.low = aboutInput(BakeInput::low,
                             [&] { return lowModel(low_scene, options.cage.empty() ? nullptr : &cage_scene, used); });
     models.low.frames_made = frames_made;
+    models.low.origin = origin;
     models.high = aboutInput(BakeInput::high, [&] { return highModel(high_scene, used, high, options); });
     const std::string why = misplacement(models.lowBox(), PositionBox(models.high.view().positions));
     if (!why.empty()) models.high.warnings.push_back(why);

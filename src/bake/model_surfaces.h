@@ -57,6 +57,7 @@ struct LowModel {
     std::vector<Image> images = {};
     std::vector<std::string> warnings = {};
     bool frames_made = false;
+    DVec3 origin = {};  ///< of the positions, in the world: not zero where both models are far from it
 
     [[nodiscard]] std::size_t triangleCount() const;
     [[nodiscard]] bool hasCage() const { return !images.empty() && !images.front().part.cage.empty(); }

@@ -14,6 +14,7 @@
 #include "asset/gltf/plan_surroundings.h"
 #include "asset/gltf/read_packed.h"
 #include "asset/gltf/strip_tangents.h"
+#include "asset/gltf/vertex_numbers.h"
 #include "asset/gltf/write_packed.h"
 #include "core/parallel.h"
 #include "generate_file/cancelled_signs.h"
@@ -75,13 +76,14 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     const OutputTarget target = outputTarget(document, output_path, options.sink != nullptr);
     checkRequiredExtensions(document);
     report.warnings = document.warnings;
+    std::copy_n(document.coordinate_offset.begin(), 3, report.coordinate_offset);
     std::vector<Primitive> primitives = readPrimitives(document);
     const bool removed = removeMiscounted(document, primitives, options.pack);
     const bool converted = target.container != document.container || document.imported;
     const bool keeps_compression = options.compression == Compression::keep;
     if (!keeps_compression) convertContainer(document, target, true, report.warnings);
     const std::string new_file = freeFileName(document, target, ".tspace.bin");
-    const bool unpacked = unpackGeometry(document, options.compression, new_file);
+    const bool unpacked = unpackGeometry(document, options.compression, new_file, report.warnings);
     if (unpacked) primitives = readPrimitives(document);
     GeneratePlan plan = planGenerate(document, primitives, options);
     if (options.existing == ExistingTangents::repair) planRepair(document, primitives, options, plan);
@@ -108,6 +110,7 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     Editor editor(document, new_file);
     if (removed) editor.touch();
     if (is_unreadable) removeUnreadableTangents(editor, primitives, plan);
+    VertexNumbers numbers(document, editor);
     std::uint64_t total = 0, done = 0;
     for (const Pool& pool : plan.pools) total += pool.corner_count;
     PoolComputer computer(document, primitives, options);
@@ -120,13 +123,14 @@ GenerateReport generate(const std::string& input, const std::string& output_path
         for (std::size_t i = 0; i < pools.size(); ++i) {
             if (!elements[i].warning.empty())
                 report.warnings.push_back(primitives[pools[i].primitives[0]].place() + ": " + elements[i].warning);
-            applyFrames(editor, document, primitives, pools[i], std::move(elements[i]), plan.reports);
+            applyFrames(editor, document, primitives, pools[i], std::move(elements[i]), numbers, plan.reports);
             done += pools[i].corner_count;
         }
     }
     tell(options, "computing tangents", total, total);
     mendBrokenValues(editor, document, primitives, broken, plan.reports);
     if (is_unreadable) noteUnreadableTangents(primitives, plan.reports);
+    for (std::string& warning : numbers.warnings()) report.warnings.push_back(std::move(warning));
     if (options.bitangents) noteMissingBitangents(primitives, plan.reports);
     noteStalePackedFrames(document, primitives, options, plan.reports);
     stripTangents(editor, primitives, plan.reports);

@@ -22,9 +22,8 @@ namespace {
 using namespace obj;
 
 void checkOutput(const std::string& output) {
-    const std::string extension = lowerExtension(output);
-    if (extension != ".glb" && extension != ".gltf") {
-        failFile(ErrorCode::invalidOption, "the output must end in .glb or .gltf: " + output);
+    if (!isGltfName(output)) {
+        failFile(ErrorCode::invalidOption, "the output must end in .glb, .vrm or .gltf: " + output);
     }
 }
 
@@ -123,8 +122,7 @@ void tell(const GenerateOptions& options, const char* what, std::uint64_t done, 
 
 GenerateReport generate(const std::string& input, const std::string& output, const GenerateOptions& options) {
     checkOutput(output);
-    if (options.sink && lowerExtension(output) != ".glb")
-        failFile(ErrorCode::invalidOption, "only a GLB is one stream of bytes");
+    if (options.sink && !isGlbName(output)) failFile(ErrorCode::invalidOption, "only a GLB is one stream of bytes");
     if (options.compression == Compression::meshopt || options.compression == Compression::draco) {
         failFile(ErrorCode::invalidOption,
                  "what is made from OBJ is not compressed in the same run; compress the result in a second one");
@@ -161,6 +159,9 @@ GenerateReport generate(const std::string& input, const std::string& output, con
     report.changed = true;
     report.input_bytes = model.input_bytes;
     report.warnings = model.warnings;
+    report.coordinate_offset[0] = model.offset.x;
+    report.coordinate_offset[1] = model.offset.y;
+    report.coordinate_offset[2] = model.offset.z;
     addWarnings(options, report);
     AtomicOutput files(
         {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});

@@ -198,6 +198,7 @@ Inspection inspectGltf(const std::string& input, const FileOptions& options) {
     result.extensions_required = readNames(document.json, "extensionsRequired");
     checkRequiredExtensions(document);
     result.warnings = document.warnings;
+    std::copy_n(document.coordinate_offset.begin(), 3, result.coordinate_offset);
     result.variants = variantNames(document);
     const std::vector<MeshDraws> draws = meshDraws(document);
     for (const Primitive& primitive : readPrimitives(document)) {

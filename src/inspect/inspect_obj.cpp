@@ -68,6 +68,9 @@ Inspection inspectObj(const std::string& input, const FileOptions& options) {
     for (const Material& material : model.materials) result.material_count += material.found;
     result.image_count = imageCount(model);
     result.warnings = model.warnings;
+    result.coordinate_offset[0] = model.offset.x;
+    result.coordinate_offset[1] = model.offset.y;
+    result.coordinate_offset[2] = model.offset.z;
     std::vector<std::uint32_t> next_in_mesh(model.shape_names.size(), 0);
     for (const ObjPrimitive& primitive : collectPrimitives(model)) {
         PrimitiveInfo info = describePrimitive(model, primitive);

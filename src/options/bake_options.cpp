@@ -90,9 +90,10 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
 
 OptionList bakeOptions(BakeFileOptions& options) {
     OptionList list;
-    Option out_mesh = fileOption("--out-mesh", "OUT", options.out_mesh,
-                                 "Also write the low poly to this .glb or .gltf, with the frames that were used and "
-                                 "the map as its normal texture.");
+    Option out_mesh =
+        fileOption("--out-mesh", "OUT", options.out_mesh,
+                   "Also write the low poly to this .glb, .vrm or .gltf, with the frames that were used and "
+                   "the map as its normal texture.");
     out_mesh.excludes = {"--udim"};
     add(list, kInputAndOutput, std::move(out_mesh));
     add(list, kInputAndOutput,

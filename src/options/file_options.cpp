@@ -44,6 +44,15 @@ void addAllowExternal(OptionList& list, FileOptions& file) {
             "and URLs are refused."));
 }
 
+void addKeepCoordinates(OptionList& list, FileOptions& file) {
+    add(list, kInputAndOutput,
+        flag("--keep-coordinates", file.keep_coordinates,
+             "For OBJ and PLY: write coordinates as they are. By default an offset is taken out of those that are too "
+             "far from "
+             "the origin for the 32-bit floats of glTF, such as metres of a map, and becomes the translation of the "
+             "nodes."));
+}
+
 void addThreads(OptionList& list, Execution& execution, HelpText help) {
     const auto store = [&execution](std::uint64_t given) {
         execution.thread_count = given == 0 ? kAllThreads : static_cast<std::uint32_t>(given);

@@ -34,6 +34,7 @@ inline constexpr const char* kRunning = "Running";
 /// A program whose reading of normal maps is meant: the names of findMapReading.
 Option readingOption(const char* names, MapReading& target, HelpText help);
 void addAllowExternal(OptionList& list, FileOptions& file);
+void addKeepCoordinates(OptionList& list, FileOptions& file);
 void addThreads(OptionList& list, Execution& execution, HelpText help);
 /// Only the first of the limits: for what needs no importer.
 void addMemoryLimit(OptionList& list, std::uint64_t& memory_limit_bytes);

@@ -65,6 +65,7 @@ void addOutput(OptionList& list, GenerateOptions& options) {
                "everything is unpacked; meshopt: EXT_meshopt_compression, which changes no value; draco: "
                "KHR_draco_mesh_compression, which rounds positions, normals and UVs that were not in it "
                "before."));
+    addKeepCoordinates(list, options.file);
     addAllowExternal(list, options.file);
 }
 

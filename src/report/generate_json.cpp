@@ -115,6 +115,7 @@ Json generatedJson(const GenerateOutcome& outcome) {
     json["outputBytes"] = report.output_bytes;
     json["outputFiles"] = report.output_files;
     json["warnings"] = report.warnings;
+    json["coordinateOffset"] = report.coordinate_offset;
     json["totals"] = totalsJson(report);
     json["normalMaps"] = listJson(report.normal_maps, normalMapJson);
     json["convertedMaps"] = listJson(report.converted_maps, convertedMapJson);

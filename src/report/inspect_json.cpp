@@ -69,6 +69,7 @@ Json inspectedJson(const InspectOutcome& outcome) {
     json["extensionsRequired"] = file.extensions_required;
     json["variants"] = file.variants;
     json["warnings"] = file.warnings;
+    json["coordinateOffset"] = file.coordinate_offset;
     json["primitives"] = listJson(file.primitives, inspectedPrimitiveJson);
     return json;
 }

@@ -25,10 +25,9 @@ struct EmbeddedFile {
 
 /// The model, then each file that it names. A GLB made of it asks for all of them.
 std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options, InputFiles& inputs) {
-    const std::string extension = lowerExtension(input);
-    if (extension != ".glb" && extension != ".gltf" && extension != ".obj") {
+    if (!isGltfName(input) && lowerExtension(input) != ".obj") {
         failFile(ErrorCode::unsupportedFile,
-                 "the page shows .glb, .gltf and .obj; make a GLB of it first, by tspace generate IN -o OUT.glb");
+                 "the page shows .glb, .vrm, .gltf and .obj; make a GLB of it first, by tspace generate IN -o OUT.glb");
     }
     const std::string& path = input.string();
     std::vector<EmbeddedFile> files;

@@ -4,8 +4,11 @@
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <assimp/Exporter.hpp>
 #include <assimp/Importer.hpp>
+#include <cstring>
 
 #include "asset/gltf/primitive_reader.h"
 #include "asset/import/import_document.h"
@@ -193,6 +196,96 @@ TEST(Import, WhatIsNotFiniteIsMendedAndReported) {
     const Scene scene = sceneOf(path);
     ASSERT_EQ(scene.primitives[0].positions.size(), 1U) << "all three are at the origin now";
     EXPECT_EQ(scene.primitives[0].positions[0], (Vec3{0, 0, 0}));
+}
+
+/// A sheet of 3 x 3 vertices, `step` apart, with its corner at (x, y): as STL, whose text has more digits than floats.
+std::string stlSheet(double x, double y, double step) {
+    std::string text = "solid sheet\n";
+    for (const int a : {0, 1, 3, 4}) {
+        for (const std::array<int, 3>& face : {std::array{a, a + 1, a + 4}, std::array{a, a + 4, a + 3}}) {
+            text += "facet normal 0 0 1\nouter loop\n";
+            for (const int i : face)
+                text +=
+                    "vertex " + std::to_string(x + step * (i % 3)) + " " + std::to_string(y + step * (i / 3)) + " 0\n";
+            text += "endloop\nendfacet\n";
+        }
+    }
+    return text + "endsolid sheet\n";
+}
+
+/// The same as PLY. `type`: of the coordinates; `format`: "ascii", or binary with doubles.
+std::string plySheet(double x, double y, double step, const std::string& format, const std::string& type = "double") {
+    std::string text = "ply\nformat " + format + " 1.0\nelement vertex 9\nproperty uchar tag\n";
+    for (const char* axis : {"x", "y", "z"}) text += "property " + type + " " + axis + "\n";
+    text += "element face 8\nproperty list uchar int vertex_indices\nend_header\n";
+    const bool is_text = format == "ascii", is_big = format == "binary_big_endian";
+    const auto append = [&](auto value) {
+        std::array<char, sizeof value> bytes;
+        std::memcpy(bytes.data(), &value, sizeof value);
+        if (is_big) std::reverse(bytes.begin(), bytes.end());
+        is_text ? text += std::to_string(value) + " " : text.append(bytes.data(), bytes.size());
+    };
+    for (int i = 0; i < 9; ++i) {
+        append(static_cast<std::uint8_t>(9));
+        for (const double value : {x + step * (i % 3), y + step * (i / 3), 0.25}) append(value);
+        if (is_text) text += "\n";
+    }
+    for (const int a : {0, 1, 3, 4}) {
+        for (const std::array<int, 3>& face : {std::array{a, a + 1, a + 4}, std::array{a, a + 4, a + 3}}) {
+            append(static_cast<std::uint8_t>(3));
+            for (const int i : face) append(i);
+            if (is_text) text += "\n";
+        }
+    }
+    return text;
+}
+
+TEST(Import, PositionsThatFloatsDoNotHoldAreWarnedOf) {
+    const TempFolder folder;
+    const auto warns = [&](const std::string& stl) {
+        const std::string path = folder.write("sheet.stl", stl);
+        const gltf::Document document = readable([&] { return importDocument(path, kWithImporter); });
+        return !document.warnings.empty() && document.warnings[0].find("far from the origin") != std::string::npos;
+    };
+    EXPECT_TRUE(warns(stlSheet(456123, 5261789, 0.7)));
+    EXPECT_FALSE(warns(stlSheet(456123, 5261789, 1000.3))) << "the steps are small for edges of this length";
+    EXPECT_FALSE(warns(stlSheet(456128, 5261824, 64))) << "whole numbers are not rounded";
+    EXPECT_FALSE(warns(stlSheet(3, 7, 0.7)));
+}
+
+TEST(Import, PlyFarFromTheOriginKeepsItsShape) {
+    const TempFolder folder;
+    constexpr double kX = 456123.4, kY = 5261789.3, kStep = 0.05;
+    for (const std::string format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+        const std::string path = folder.write(format + ".ply", plySheet(kX, kY, kStep, format));
+        const Result<GenerateReport> report = generate(path, folder.path("out.glb").string());
+        ASSERT_TRUE(report) << report.error().message;
+        ASSERT_EQ(report->warnings.size(), 1U) << format;
+        EXPECT_NE(report->warnings[0].find("was taken out"), std::string::npos);
+        const DrawnScene drawn = readable([&] { return readDrawnScene(folder.path("out.glb").string(), {}, false); });
+        const Affine& place = drawn.placements[0].to_world;
+        EXPECT_EQ(place.origin.y, report->coordinate_offset[1]);
+        EXPECT_NEAR(place.origin.y, kY, 0.2);
+        const std::span<const Vec3> positions = drawn.scene.primitives[0].positions.span();
+        ASSERT_EQ(positions.size(), 9U);
+        DVec3 least{1e9, 1e9, 1e9}, most{-1e9, -1e9, -1e9};
+        for (const Vec3& position : positions) {
+            const DVec3 p = place.point(toDouble(position));
+            least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
+            most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
+        }
+        EXPECT_LT(length(least - DVec3{kX, kY, 0.25}), 1e-6) << format;
+        EXPECT_LT(length(most - DVec3{kX + 2 * kStep, kY + 2 * kStep, 0.25}), 1e-6) << format;
+        EXPECT_EQ(inspectFile(path, kWithImporter)->coordinate_offset[1], place.origin.y);
+    }
+    FileOptions keep = kWithImporter;
+    keep.keep_coordinates = true;
+    const Result<GenerateReport> kept =
+        generate(folder.path("ascii.ply").string(), folder.path("k.glb").string(), keep);
+    EXPECT_EQ(kept->coordinate_offset[1], 0);
+    EXPECT_NE(kept->warnings[0].find("do not hold the shape"), std::string::npos);
+    const std::string near = folder.write("near.ply", plySheet(3, 7, 0.7, "ascii"));
+    EXPECT_TRUE(generate(near, folder.path("n.glb").string())->warnings.empty());
 }
 
 /// A triangle without UVs as COLLADA.

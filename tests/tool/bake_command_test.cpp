@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "maps/float_image.h"
 #include "maps/images.h"
@@ -101,6 +102,46 @@ TEST_F(BakeCommand, DirectxIsGreenTurnedRound) {
     ASSERT_EQ(runTool(folder, common + "dx.png --convention directx").exit_code, 0);
     const FloatImage gl = imageOf(folder, "gl.png"), dx = imageOf(folder, "dx.png");
     for (std::size_t i = 0; i < gl.texels.size(); ++i) EXPECT_NEAR(gl.texels[i].y, 1 - dx.texels[i].y, 2e-5F);
+}
+
+/// The same OBJ text with all vertices moved.
+std::string moved(const std::string& obj, double x, double y) {
+    std::istringstream lines(obj);
+    std::string text;
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string keyword;
+        double at[3] = {};
+        if (words >> keyword && keyword == "v" && words >> at[0] >> at[1] >> at[2]) {
+            line = "v " + std::to_string(at[0] + x) + " " + std::to_string(at[1] + y) + " " + std::to_string(at[2]);
+        }
+        text += line + "\n";
+    }
+    return text;
+}
+
+TEST_F(BakeCommand, FarFromTheOriginTheMapIsTheSame) {
+    constexpr double kX = 456123, kY = 5261789;
+    const std::string low = sheet(4, 0, true), high = sheet(40, 0.02, false);
+    folder.write("far_low.obj", moved(low, kX, kY));
+    // Another sheet beside it, so that the offset that is taken out is another one.
+    folder.write("far_high.obj", moved(high, kX, kY) + moved(sheet(40, 0.02, false, "other", 0, 41 * 41), kX + 30, kY));
+    ASSERT_EQ(runTool(folder, "generate -q far_high.obj -o far_high.glb").exit_code, 0);
+    ASSERT_EQ(runTool(folder, "bake -q low.obj --high high.obj -o near.png --size 32 --bits 16").exit_code, 0);
+    const FloatImage near = imageOf(folder, "near.png");
+    for (const std::string far_high : {"far_high.obj", "far_high.glb"}) {
+        const ToolRun run =
+            runTool(folder, "bake far_low.obj --high " + far_high + " -o far.png --size 32 --bits 16 --report r.json");
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(nlohmann::json::parse(folder.read("r.json"))["files"][0]["texels"]["missed"], 0);
+        const FloatImage far = imageOf(folder, "far.png");
+        double sum = 0;
+        for (std::size_t i = 0; i < near.texels.size(); ++i) {
+            const Vec3 &a = near.texels[i], &b = far.texels[i];
+            sum += std::fabs(double{a.x} - b.x) + std::fabs(double{a.y} - b.y) + std::fabs(double{a.z} - b.z);
+        }
+        EXPECT_LT(sum / static_cast<double>(near.texels.size()), 1e-3) << far_high;
+    }
 }
 
 TEST_F(BakeCommand, MatchesMeshesByName) {

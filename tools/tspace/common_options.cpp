@@ -41,7 +41,7 @@ Option operand(const char* value_name, std::vector<std::string>& target, HelpTex
 void addInputs(Command& command, std::vector<std::string>& inputs) {
     command.add(kInputAndOutput,
                 operand("IN...", inputs,
-                        "Model files (.glb, .gltf, .obj; also .fbx, .ply, .stl, .dae, .3ds and more where "
+                        "Model files (.glb, .vrm, .gltf, .obj; also .fbx, .ply, .stl, .dae, .3ds and more where "
                         "tspace-import is installed), folders, and patterns in quotes ('models/**/*.glb'). Of a folder "
                         "all model files in it and below are taken. '-': a GLB on stdin."));
 }

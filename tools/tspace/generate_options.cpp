@@ -15,11 +15,12 @@ void addOutputOptions(Command& command, GenerateArguments& arguments) {
     const char* group = kInputAndOutput;
     addInputs(command, arguments.inputs);
     command
-        .add(group, text("-o, --output", "OUT", arguments.output,
-                         "Where to write: a file that ends in .glb or .gltf, or a folder. With several inputs, or a "
-                         "folder as input, it is a folder: it is made if it is not there, and files keep their paths "
-                         "relative to the input folder. Where a.glb and a.obj would both become a.glb, the later one "
-                         "becomes a.obj.glb. '-': the model, a GLB, goes to stdout, and the report to stderr."))
+        .add(group,
+             text("-o, --output", "OUT", arguments.output,
+                  "Where to write: a file that ends in .glb, .vrm or .gltf, or a folder. With several inputs, or a "
+                  "folder as input, it is a folder: it is made if it is not there, and files keep their paths "
+                  "relative to the input folder. Where a.glb and a.obj would both become a.glb, the later one "
+                  "becomes a.obj.glb. '-': the model, a GLB, goes to stdout, and the report to stderr."))
         .is_file = true;
     command.add(group, flag("--in-place", arguments.in_place,
                             "Write over the input files. Each is replaced only when its result is complete. Without "

@@ -105,9 +105,10 @@ std::vector<Found> findInputs(const std::vector<std::string>& inputs, const std:
 }
 
 const char* extensionFor(Container container, const Path& input) {
-    if (container == Container::glb) return ".glb";
+    const std::string extension = lowerExtension(input);
     if (container == Container::gltf) return ".gltf";
-    return lowerExtension(input) == ".gltf" ? ".gltf" : ".glb";
+    if (extension == ".vrm") return ".vrm";
+    return container == Container::sameAsInput && extension == ".gltf" ? ".gltf" : ".glb";
 }
 
 Error usage(std::string message) { return {ErrorCode::invalidOption, std::move(message)}; }
@@ -116,10 +117,9 @@ Result<std::vector<Job>> jobsInPlace(const GenerateArguments& arguments) {
     std::vector<Job> jobs = inputJobs(arguments.inputs);
     for (Job& job : jobs) {
         job.output = job.input;
-        const std::string extension = lowerExtension(job.input);
         if (job.input == "-") return usage("--in-place needs files, not standard input");
-        if (extension != ".glb" && extension != ".gltf" && job.error.code == ErrorCode::ok && !extension.empty()) {
-            job.error = usage("only .glb and .gltf files can be changed in place; write a .glb with -o");
+        if (!isGltfName(job.input) && job.error.code == ErrorCode::ok && !lowerExtension(job.input).empty()) {
+            job.error = usage("only .glb, .vrm and .gltf files can be changed in place; write a .glb with -o");
         }
     }
     return jobs;
@@ -132,9 +132,10 @@ Result<std::vector<Job>> jobWithNamedOutput(const GenerateArguments& arguments) 
         job.output += extensionFor(arguments.container, job.input);
         job.remark = "the output has no extension, so it is the file " + job.output + "; a folder would be " +
                      arguments.output + "/";
-    } else if (extension != ".glb" && extension != ".gltf") {
-        return usage("the output must end in .glb or .gltf: " + job.output);
-    } else if (arguments.container != Container::sameAsInput && extension != extensionFor(arguments.container, "")) {
+    } else if (!isGltfName(job.output)) {
+        return usage("the output must end in .glb, .vrm or .gltf: " + job.output);
+    } else if (arguments.container != Container::sameAsInput &&
+               isGlbName(job.output) != (arguments.container == Container::glb)) {
         return usage("--container says otherwise than the name of the output: " + job.output);
     }
     if (identityOf(job.output) == identityOf(job.input))
@@ -197,7 +198,7 @@ std::string importerPath() {
 
 bool isModelFile(const std::string& path) {
     const std::string extension = lowerExtension(path);
-    if (extension == ".glb" || extension == ".gltf" || extension == ".obj") return true;
+    if (isGltfName(path) || extension == ".obj") return true;
     static const bool has_importer = !importerPath().empty();
     constexpr std::array kImported = {".fbx", ".ply", ".stl", ".dae", ".3ds"};
     return has_importer && std::find(kImported.begin(), kImported.end(), extension) != kImported.end();
@@ -232,8 +233,7 @@ Result<std::vector<Job>> generateJobs(const GenerateArguments& arguments) {
     const bool several = arguments.inputs.size() > 1 || isFolder(first) || isPatternInput(first);
     if (output == "-") return jobToStandardOutput(arguments, several);
     const bool is_file = isThere(output) && !isFolder(output);
-    const std::string extension = lowerExtension(output);
-    if (several && (is_file || ((extension == ".glb" || extension == ".gltf") && !isFolder(output)))) {
+    if (several && (is_file || (isGltfName(output) && !isFolder(output)))) {
         return usage("several inputs need a folder as output, not " + output);
     }
     if (several || isFolder(output) || fs::path(Path(output)).filename().empty()) return jobsIntoFolder(arguments);

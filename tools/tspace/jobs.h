@@ -21,7 +21,7 @@ struct Job {
 /// The program that reads other formats: beside this one. Empty: it is not there.
 std::string importerPath();
 
-/// true for names that end in .glb, .gltf or .obj, in any case; also .fbx, .ply, .stl, .dae and .3ds where the importer
+/// true for names that end in .glb, .vrm, .gltf or .obj, in any case; also .fbx, .ply, .stl, .dae and .3ds where the importer
 /// is there. (Files that are named may be of any format that it reads.)
 bool isModelFile(const std::string& path);
 

@@ -22,7 +22,8 @@ Command viewCommand(ViewArguments& arguments) {
             },
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input, "A model: .glb, .gltf or .obj; what it names goes in too."));
+    command.add(group,
+                operand("IN", arguments.input, "A model: .glb, .vrm, .gltf or .obj; what it names goes in too."));
     command.add(group, text("-o, --output", "OUT", arguments.output, "Where to write the page.")).is_file = true;
     command.add(inspectOptions(arguments.file));
     addReporting(command, arguments.json, arguments.quiet);

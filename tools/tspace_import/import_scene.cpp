@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <optional>
 
@@ -16,6 +18,7 @@
 #include "mend.h"
 #include "meshes.h"
 #include "model_files.h"
+#include "ply_offset.h"
 #include "stored_tangents.h"
 
 namespace tspace::import {
@@ -24,7 +27,8 @@ namespace {
 
 class SceneWriter {
   public:
-    SceneWriter(const aiScene& scene, bool takes_tangents) : scene_(scene), takes_tangents_(takes_tangents) {}
+    SceneWriter(const aiScene& scene, bool takes_tangents, const DVec3& offset)
+        : scene_(scene), takes_tangents_(takes_tangents), offset_(offset) {}
 
     std::vector<std::uint8_t> write() {
         aiString generator;
@@ -42,7 +46,7 @@ class SceneWriter {
         return builder_.finish();
     }
 
-    [[nodiscard]] std::vector<std::string> warnings() { return builder_.mended().warnings(); }
+    [[nodiscard]] Mended& mended() { return builder_.mended(); }
 
   private:
     /// Breadth first, so that depth costs no stack.
@@ -78,6 +82,8 @@ class SceneWriter {
         } else if (matrix != columnsOf(aiMatrix4x4(), builder_.mended())) {
             json["matrix"] = matrix;
         }
+        // Of PLY, whose root is where the file is.
+        if (i == 0 && length(offset_) > 0) json["translation"] = {offset_.x, offset_.y, offset_.z};
         return json;
     }
 
@@ -256,6 +262,7 @@ class SceneWriter {
 
     const aiScene& scene_;
     bool takes_tangents_;
+    DVec3 offset_;
     GlbBuilder builder_;
     std::vector<const aiNode*> nodes_ = {};
     std::vector<std::size_t> first_child_ = {};
@@ -264,12 +271,41 @@ class SceneWriter {
     std::map<std::string, std::size_t> reduced_materials_ = {};  ///< by their JSON
 };
 
+bool endsInPly(const std::string& path) {
+    std::string end = path.substr(path.size() - std::min<std::size_t>(path.size(), 4));
+    std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
+    return end == ".ply";
+}
+
+/// Reads a PLY file once more, near the origin, where that helps.
+void readNearOrigin(const std::string& path, Assimp::Importer& importer, Imported& imported) {
+    const std::optional<NearPly> moved = nearOrigin(path);
+    if (!moved) return;
+    const aiScene* scene = importer.ReadFileFromMemory(moved->bytes.data(), moved->bytes.size(), 0, "ply");
+    if (scene == nullptr || scene->mRootNode == nullptr) return;
+    SceneWriter writer(*scene, false, moved->offset);
+    std::vector<std::uint8_t> glb = writer.write();
+    if (writer.mended().isCoarse()) return;
+    imported.glb = std::move(glb);
+    imported.warnings = writer.mended().warnings();
+    const double offset[3] = {moved->offset.x, moved->offset.y, moved->offset.z};
+    std::copy_n(offset, 3, imported.offset);
+    char text[400];
+    std::snprintf(
+        text, sizeof text,
+        "the coordinates are so far from the origin that 32-bit floats would change the shape; (%.15g, %.15g, "
+        "%.15g) was taken out of them first, and is the translation of the root node in glTF "
+        "(generate --keep-coordinates leaves it in)",
+        offset[0], offset[1], offset[2]);
+    imported.warnings.emplace_back(text);
+}
+
 }  // namespace
 
-Imported importScene(const std::string& path, bool anywhere) {
+Imported importScene(const std::string& path, const ImportRules& rules) {
     std::vector<std::string> refused;
     Assimp::Importer importer;
-    importer.SetIOHandler(new ModelFiles(path, anywhere, refused));  // which the importer owns
+    importer.SetIOHandler(new ModelFiles(path, rules.anywhere, refused));  // which the importer owns
     // No step after reading: seams, duplicates and polygons stay as the file has them.
     const aiScene* scene = importer.ReadFile(path, 0);
     std::vector<std::string> not_read;
@@ -287,9 +323,11 @@ Imported importScene(const std::string& path, bool anywhere) {
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) has_faces = has_faces || scene->mMeshes[i]->HasFaces();
     if (!has_faces) return {.error = not_read.empty() ? "it has no faces" : "it has no faces; " + not_read[0]};
     const StoredTangents stored = storedTangents(path);
-    SceneWriter writer(*scene, stored == StoredTangents::withBitangents);
+    SceneWriter writer(*scene, stored == StoredTangents::withBitangents, {});
     Imported imported{.glb = writer.write()};
-    imported.warnings = writer.warnings();
+    imported.warnings = writer.mended().warnings();
+    if (writer.mended().isCoarse() && endsInPly(path) && !rules.keep_coordinates)
+        readNearOrigin(path, importer, imported);
     imported.warnings.insert(imported.warnings.end(), not_read.begin(), not_read.end());
     imported.has_no_tangents = stored == StoredTangents::none;
     return imported;

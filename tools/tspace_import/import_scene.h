@@ -13,12 +13,18 @@ struct Imported {
     std::string error = {};        ///< one sentence; empty: it was read
     bool has_no_tangents = false;  ///< the file has none, as far as its text says
     std::vector<std::string> warnings = {};
+    double offset[3] = {0, 0, 0};  ///< taken out of the coordinates, and the translation of the root
+};
+
+/// What decides about reading.
+struct ImportRules {
+    bool anywhere = false;          ///< files that it names are read wherever they are; else where the URIs of glTF may lead (src/asset/folder_rule.h)
+    bool keep_coordinates = false;  ///< else an offset is taken out of PLY with more than floats where floats do not hold the shape
 };
 
 /// Meshes are neither joined nor split: one primitive per mesh of the file, polygons cut by tspace's own rule, vertices
 /// joined only when all their attributes have the same bits. Nodes, materials (base colour and normal map), all UV
-/// sets, colours, skins, morph targets and animations go along. UVs are turned so that v runs down. Files that it names are
-/// read where the URIs of glTF may lead (src/asset/folder_rule.h); `anywhere`: all.
-Imported importScene(const std::string& path, bool anywhere);
+/// sets, colours, skins, morph targets and animations go along. UVs are turned so that v runs down.
+Imported importScene(const std::string& path, const ImportRules& rules);
 
 }  // namespace tspace::import

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// tspace-import IN MAX_BYTES MAX_PROCESSOR_SECONDS MAX_SECONDS PARENT WHERE: reads FBX, PLY, STL, DAE, 3DS and what else
-// Assimp knows, and writes to stdout a GLB that tspace goes on with. A program of its own, because Assimp's parsers may
-// crash, run away or do worse on broken files: memory and time are limited, and so is what it may do (confine.h). WHERE:
-// "folder", the files that it may read are those in the model's folder, or "anywhere". It ends when the process PARENT
-// does. Not meant to be called by hand.
+// tspace-import IN MAX_BYTES MAX_PROCESSOR_SECONDS MAX_SECONDS PARENT WHERE COORDINATES: reads FBX, PLY, STL, DAE, 3DS and
+// what else Assimp knows, and writes to stdout a GLB that tspace goes on with. A program of its own, because Assimp's
+// parsers may crash, run away or do worse on broken files: memory and time are limited, and so is what it may do
+// (confine.h). WHERE: "folder", the files that it may read are those in the model's folder, or "anywhere". COORDINATES:
+// "near-origin", an offset may be taken out, or "as-they-are". It ends when the process PARENT does. Not meant to be called
+// by hand.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -86,10 +87,10 @@ int takeStdout() {
     return result;
 }
 
-int run(const char* input, bool anywhere, std::FILE* output) {
+int run(const char* input, const tspace::import::ImportRules& rules, std::FILE* output) {
     const std::string folder = std::filesystem::path(input).parent_path().string();
-    tspace::import::confine({input, anywhere ? "/" : folder.empty() ? "." : folder});
-    const tspace::import::Imported imported = tspace::import::importScene(input, anywhere);
+    tspace::import::confine({input, rules.anywhere ? "/" : folder.empty() ? "." : folder});
+    const tspace::import::Imported imported = tspace::import::importScene(input, rules);
     if (!imported.error.empty()) {
         std::fprintf(stderr, "%s\n", imported.error.c_str());
         return kBadInput;
@@ -102,6 +103,9 @@ int run(const char* input, bool anywhere, std::FILE* output) {
     }
     // importDocument takes these lines from others that a library may print.
     if (imported.has_no_tangents) std::fprintf(stderr, "tangents: none\n");
+    const double* const offset = imported.offset;
+    if (offset[0] != 0 || offset[1] != 0 || offset[2] != 0)
+        std::fprintf(stderr, "offset: %.17g %.17g %.17g\n", offset[0], offset[1], offset[2]);
     for (const std::string& warning : imported.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     return 0;
 }
@@ -110,10 +114,10 @@ int run(const char* input, bool anywhere, std::FILE* output) {
 
 int main(int argc, char** argv) {
     openStandardStreams();
-    if (argc != 7) {
+    if (argc != 8) {
         std::fprintf(stderr,
                      "usage: tspace-import IN MAX_BYTES MAX_PROCESSOR_SECONDS MAX_SECONDS PARENT folder|anywhere "
-                     "(a helper of tspace)\n");
+                     "near-origin|as-they-are (a helper of tspace)\n");
         return 2;
     }
     const auto number = [argv](int i) { return std::strtoull(argv[i], nullptr, 10); };
@@ -121,7 +125,9 @@ int main(int argc, char** argv) {
     closeOtherFiles();
     limitAll(number(2), number(3), static_cast<unsigned>(number(4)));
     try {
-        return run(argv[1], std::string_view(argv[6]) == "anywhere", fdopen(takeStdout(), "wb"));
+        const tspace::import::ImportRules rules{.anywhere = std::string_view(argv[6]) == "anywhere",
+                                                .keep_coordinates = std::string_view(argv[7]) == "as-they-are"};
+        return run(argv[1], rules, fdopen(takeStdout(), "wb"));
     } catch (const std::bad_alloc&) {
         std::fprintf(stderr, "reading it takes more memory than is allowed (--memory-limit allows more)\n");
         return kOutOfMemory;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 namespace tspace::import {
 
@@ -44,6 +46,14 @@ std::vector<std::string> Mended::warnings() const {
     add(normals, "normals that are zero or not finite and were taken from a face");
     add(tangents, "tangents that are not finite and were set to 0");
     add(transforms, "matrices of nodes or joints that are not finite and were left out");
+    if (isCoarse()) {
+        list.push_back(
+            "positions are so far from the origin that 32-bit floats, which this format is read as, do not hold "
+            "the shape: " +
+            std::to_string(coarse_edges) + " of " + std::to_string(edges) +
+            " edges of triangles; move the model to the origin before it is exported, or export OBJ, whose "
+            "coordinates are read in double");
+    }
     return list;
 }
 
@@ -92,6 +102,31 @@ std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& p
         }
     }
     return count;
+}
+
+void countCoarseEdges(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles,
+                      Mended& mended) {
+    constexpr double kLeastSteps = 500;
+    // Whole numbers and the like have zeros there; what was rounded seldom has.
+    constexpr std::uint32_t kLastBits = 63;
+    const auto isRound = [](float value) { return (std::bit_cast<std::uint32_t>(value) & kLastBits) == 0; };
+    const auto stepAt = [](float value) {
+        const float size = std::fabs(value);
+        return double{std::nextafter(size, std::numeric_limits<float>::infinity())} - double{size};
+    };
+    for (std::size_t c = 0; c < triangles.size(); ++c) {
+        const float* const a = &positions[std::size_t{3} * triangles[c]];
+        const float* const b = &positions[std::size_t{3} * triangles[c - c % 3 + (c + 1) % 3]];
+        const double length = lengthOf({double{b[0]} - a[0], double{b[1]} - a[1], double{b[2]} - a[2]});
+        if (!(length > 0)) continue;
+        ++mended.edges;
+        bool is_coarse = false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double step = std::max(stepAt(a[k]), stepAt(b[k]));
+            is_coarse = is_coarse || (step * kLeastSteps > length && !(isRound(a[k]) && isRound(b[k])));
+        }
+        mended.coarse_edges += is_coarse;
+    }
 }
 
 std::vector<float> columnsOf(const aiMatrix4x4& matrix, Mended& mended) {

@@ -14,7 +14,10 @@ namespace tspace::import {
 /// How many were mended.
 struct Mended {
     std::size_t positions = 0, uvs = 0, normals = 0, tangents = 0, transforms = 0;
+    std::size_t edges = 0, coarse_edges = 0;  ///< of triangles; countCoarseEdges
 
+    /// Whether so many edges are coarse that it shows: one in twenty, as for OBJ.
+    [[nodiscard]] bool isCoarse() const { return coarse_edges != 0 && 20 * coarse_edges >= edges; }
     /// A sentence for each kind that occurred.
     [[nodiscard]] std::vector<std::string> warnings() const;
 };
@@ -31,6 +34,10 @@ std::size_t zeroNotFinite(std::vector<float>& values, std::size_t components);
 /// (0, 0, 1) where none has. Returns how many had none. `triangles`: three vertices each.
 std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& positions,
                         const std::vector<std::uint32_t>& triangles);
+
+/// Counts the edges of triangles, and among them those too far from the origin: rounding to floats, which Assimp reads all
+/// numbers as, may change them by a five-hundredth of their length along an axis.
+void countCoarseEdges(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles, Mended& mended);
 
 /// Column by column, as glTF wants it; Assimp stores rows. The last row is exactly 0 0 0 1. The identity, counted,
 /// where a number is not finite.

@@ -231,6 +231,7 @@ std::optional<Json> addPrimitive(GlbBuilder& builder, const aiMesh& mesh, const 
     std::vector<std::uint32_t> triangles = trianglesOf(mesh);
     if (triangles.empty()) return {};
     const std::vector<Attribute> attributes = attributesOf(mesh, joints, triangles, takes_tangents, builder.mended());
+    countCoarseEdges(attributes.front().values, triangles, builder.mended());
     const Joined joined = joinEqual(attributes, mesh.mNumVertices);
     for (std::uint32_t& vertex : triangles) vertex = joined.place[vertex];
 

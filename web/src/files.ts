@@ -14,7 +14,7 @@ export class Refusal extends Error {}
 
 const kMostBytes = 1 << 30;
 const kMostFiles = 2000;
-const kModel = /\.(glb|gltf|obj)$/i;
+const kModel = /\.(glb|vrm|gltf|obj)$/i;
 
 interface Named {
   path: string;
@@ -80,14 +80,14 @@ export async function chooseModel(named: Named[]): Promise<ModelFiles> {
   const depth = (path: string) => path.split("/").length;
   const models = named.filter(({ path }) => kModel.test(path)).sort((a, b) => depth(a.path) - depth(b.path) || a.path.localeCompare(b.path, "en"));
   if (models.length === 0) {
-    throw new Refusal(named.length === 1 ? `${named[0].path} is no model that this page reads: it reads .glb, .gltf and .obj.` : "There is no .glb, .gltf or .obj among these files.");
+    throw new Refusal(named.length === 1 ? `${named[0].path} is no model that this page reads: it reads .glb, .vrm, .gltf and .obj.` : "There is no .glb, .vrm, .gltf or .obj among these files.");
   }
   const total = named.reduce((sum, { file }) => sum + file.size, 0);
   if (models[0].file.size > kMostBytes || total > 2 * kMostBytes) throw new Refusal(`${models[0].path} is too large for this page, which reads models of up to 1 GB. The tool has no such limit.`);
   const folder = models[0].path.slice(0, models[0].path.lastIndexOf("/") + 1);
   const others = new Map<string, Uint8Array<ArrayBuffer>>();
   const read = async (file: File) => new Uint8Array(await file.arrayBuffer());
-  const isGlb = /\.glb$/i.test(models[0].path);
+  const isGlb = /\.(glb|vrm)$/i.test(models[0].path);
   for (const { path, file } of named) {
     if (path !== models[0].path && path.startsWith(folder) && !(isGlb && kModel.test(path))) others.set(path.slice(folder.length), await read(file));
   }

@@ -69,7 +69,7 @@ const sampleButtons = samples.map(({ name, file, bytes, hint }) =>
 
 const header = el("header", { class: "bar" },
   el("h1", {}, "tspace ", el("span", {}, "view")),
-  el("div", { class: "open" }, picker("Open model…", { accept: ".glb,.gltf,.obj,.bin,.mtl,image/*", "aria-label": "Open model" }), picker("Folder…", { webkitdirectory: true, "aria-label": "Open folder" })),
+  el("div", { class: "open" }, picker("Open model…", { accept: ".glb,.vrm,.gltf,.obj,.bin,.mtl,image/*", "aria-label": "Open model" }), picker("Folder…", { webkitdirectory: true, "aria-label": "Open folder" })),
   el("nav", { class: "samples", "aria-label": "Samples" }, el("span", { class: "quiet" }, "Samples"), ...sampleButtons),
   title);
 const inspector = el("aside", { class: "inspector", "aria-label": "Inspector" }, look.element, texel.element, uvMap.element, mend.element);

@@ -4,7 +4,7 @@ export { TspaceError } from "./types.js";
 /** Resolves when calls can be made. */
 export const ready: Promise<void>;
 
-/** A file: .glb, .gltf or, where `name` ends in .obj, OBJ. Read during the call only, and never changed. */
+/** A file: .glb, .vrm, .gltf or, where `name` ends in .obj, OBJ. Read during the call only, and never changed. */
 export type Bytes = Uint8Array | ArrayBuffer;
 
 /**
@@ -137,6 +137,8 @@ export interface GenerateOptions extends ModelOptions, ImageOptions, WatchOption
   encodeImage?: (pixels: PixelsToEncode, type: ImageType) => Uint8Array;
   noSanitize?: boolean;
   orthogonalize?: boolean;
+  /** For OBJ: no offset is taken out of coordinates far from the origin. */
+  keepCoordinates?: boolean;
   /** Nothing is made, but the report says what would be. */
   dryRun?: boolean;
 }

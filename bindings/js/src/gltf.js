@@ -38,7 +38,7 @@ const known = {
     "name", ...ofAll, ...watched, "all", "onlyMissing", "overwrite", "repair", "strip", "method", "pairing", "threshold", "frame", "refine",
     "textureTransform", "bitangents", "format", "pack", "packDrop", "normals", "crease", "normalsPerPrimitive",
     "overwriteNormals", "morphNormals", "compress", "flipGreen", "flipGreenAll", "encodeImage",
-    "noSanitize", "orthogonalize", "dryRun",
+    "noSanitize", "orthogonalize", "keepCoordinates", "dryRun",
   ],
   check: ["name", ...ofAll, ...watched, "failOn", "severity", "ignore", "angle", "noImages"],
   inspect: ["name", ...ofAll],

@@ -141,6 +141,16 @@ std::string morphNormalsNote(const Pool& pool, const PoolElements& elements, con
     return note;
 }
 
+/// What extensions say about vertices, where they were split.
+void carryNumbers(std::span<const Primitive> primitives, const Pool& pool, const PoolElements& elements,
+                  VertexNumbers& numbers) {
+    for (std::size_t i = 0; i < elements.corners.size(); ++i) {
+        std::vector<const Primitive*> list;
+        for (const std::size_t number : pool.geometries[i].primitives) list.push_back(&primitives[number]);
+        numbers.carry(list, {elements.sources, elements.corners[i], list.front()->vertex_count});
+    }
+}
+
 std::string keptNote(const PoolElements& elements, const Primitive& primitive) {
     if (!elements.has_tangent_deltas) {
         if (!lacksDeltas(primitive)) return {};
@@ -155,9 +165,10 @@ std::string keptNote(const PoolElements& elements, const Primitive& primitive) {
 }  // namespace
 
 void applyFrames(Editor& editor, const Document& document, std::span<const Primitive> primitives, const Pool& pool,
-                 PoolElements&& elements, std::span<PrimitiveReport> reports) {
+                 PoolElements&& elements, VertexNumbers& numbers, std::span<PrimitiveReport> reports) {
     Applier applier(editor, document, primitives, pool, elements);
     const bool changed = applier.run();
+    carryNumbers(primitives, pool, elements, numbers);
     for (const std::size_t number : pool.primitives) {
         PrimitiveReport& report = reports[number];
         report.morph_deltas_computed = applier.computedTargets();

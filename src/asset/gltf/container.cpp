@@ -214,11 +214,10 @@ std::span<const std::uint8_t> bytesOf(const std::string& text) {
 OutputTarget outputTarget(const Document& document, const Path& path, bool is_stream) {
     OutputTarget target;
     target.path = path;
-    const std::string extension = lowerExtension(path);
-    if (extension != ".glb" && extension != ".gltf") {
+    if (!isGltfName(path)) {
         failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(path) + " is neither .glb nor .gltf");
     }
-    target.container = extension == ".glb" ? Container::glb : Container::gltf;
+    target.container = isGlbName(path) ? Container::glb : Container::gltf;
     target.takes_images_in =
         target.container == Container::glb && (document.container == Container::gltf || document.imported);
     if (is_stream) {

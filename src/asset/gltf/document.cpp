@@ -215,7 +215,7 @@ Document parseDocument(Bytes file_bytes, const Path& path, const FileOptions& op
         }
     } else {
         constexpr std::size_t kGlbHeaderBytes = 12;
-        if (lowerExtension(path) == ".glb" && !text.empty() && text.size() < kGlbHeaderBytes)
+        if (isGlbName(path) && !text.empty() && text.size() < kGlbHeaderBytes)
             failFile(ErrorCode::invalidFile, "the GLB header is cut short", "byte " + std::to_string(text.size()));
         checkLooksLikeJson(text);
     }

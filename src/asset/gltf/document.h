@@ -3,6 +3,7 @@
 // FileError.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <set>
@@ -70,6 +71,7 @@ struct Document {
     bool imported = false;                      ///< made from a file of another format: `file_bytes` is not that file
     bool may_hide_tangents = false;             ///< that file may have tangents which the importer did not read
     std::string source_generator = {};          ///< what made that file; may be empty
+    std::array<double, 3> coordinate_offset{};  ///< what the importer took out of its coordinates
     FileOptions options = {};
     /// Images that the output has beside itself, by the path that their URIs stand for.
     std::map<std::string, Bytes> new_files = {};

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "asset/gltf/gather_elements.h"
+#include "asset/gltf/vertex_numbers.h"
 #include "generate/unit_lattice.h"
 
 namespace tspace::gltf {
@@ -46,25 +47,6 @@ Bytes narrow(const std::vector<std::uint32_t>& indices) {
         std::memcpy(bytes.data() + i * sizeof index, &index, sizeof index);
     }
     return bytes;
-}
-
-/// u8 and u16 keep their width while every vertex fits below the primitive restart value.
-ElementData indexElements(std::vector<std::uint32_t>&& indices, ComponentType narrowest, std::size_t vertex_count) {
-    ElementData data;
-    data.target = kIndexTarget;
-    data.component = narrowest;
-    if (data.component == ComponentType::u8 && vertex_count > 255) data.component = ComponentType::u16;
-    if (data.component == ComponentType::u16 && vertex_count > 65535) data.component = ComponentType::u32;
-    data.count = indices.size();
-    data.element_bytes = bytesOf(data.component);
-    if (data.element_bytes == 1) {
-        data.bytes = narrow<std::uint8_t>(indices);
-    } else if (data.element_bytes == 2) {
-        data.bytes = narrow<std::uint16_t>(indices);
-    } else {
-        data.later = std::make_shared<KeptBytes<std::uint32_t>>(std::move(indices));
-    }
-    return data;
 }
 
 bool isReplaced(const std::string& name, std::ptrdiff_t target, const Pool& pool, const PoolFrames& frames) {
@@ -117,6 +99,24 @@ ElementData newIndices(const Document& document, const Primitive& first, std::ve
 
 }  // namespace
 
+ElementData indexElements(std::vector<std::uint32_t>&& indices, ComponentType narrowest, std::size_t vertex_count) {
+    ElementData data;
+    data.target = kIndexTarget;
+    data.component = narrowest;
+    if (data.component == ComponentType::u8 && vertex_count > 255) data.component = ComponentType::u16;
+    if (data.component == ComponentType::u16 && vertex_count > 65535) data.component = ComponentType::u32;
+    data.count = indices.size();
+    data.element_bytes = bytesOf(data.component);
+    if (data.element_bytes == 1) {
+        data.bytes = narrow<std::uint8_t>(indices);
+    } else if (data.element_bytes == 2) {
+        data.bytes = narrow<std::uint16_t>(indices);
+    } else {
+        data.later = std::make_shared<KeptBytes<std::uint32_t>>(std::move(indices));
+    }
+    return data;
+}
+
 PoolElements packFrames(const Document& document, std::span<const Primitive> primitives, const Pool& pool,
                         PoolFrames&& frames, const PackingRule& rule) {
     const VectorFormat format = rule.format;
@@ -129,6 +129,13 @@ PoolElements packFrames(const Document& document, std::span<const Primitive> pri
     elements.differing_count = frames.differing_count;
     if (pool.keeps_tangents) return elements;
     if (elements.was_split) {
+        const bool names_vertices =
+            std::any_of(pool.primitives.begin(), pool.primitives.end(),
+                        [&](std::size_t number) { return mayNameVertices(document, primitives[number]); });
+        if (names_vertices) {
+            elements.sources = frames.source_vertices;
+            elements.corners = frames.indices;
+        }
         elements.carried = carriedAttributes(primitives, pool, frames);
         // Old vertices come first, as they were.
         SplitSources sources{.kept = rule.is_welded ? 0 : primitives[pool.primitives[0]].vertex_count};

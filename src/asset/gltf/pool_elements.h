@@ -38,6 +38,10 @@ struct PoolElements {
     /// list of each geometry.
     std::map<std::size_t, CarriedElements> carried = {};
     std::vector<ElementData> indices = {};
+    /// After a split, where an extension may name vertices (vertex_numbers.h): the old vertex that each was, and the corners
+    /// of each geometry.
+    std::vector<std::uint32_t> sources = {};
+    std::vector<std::vector<std::uint32_t>> corners = {};
     ElementData normals = {}, tangents = {}, bitangents = {};
     bool has_tangent_deltas = false;       ///< `morphs` has those of tangents
     std::vector<MorphFrames> morphs = {};  ///< as in PoolFrames, like the next one
@@ -51,6 +55,9 @@ struct PackingRule {
 
 PoolElements packFrames(const Document& document, std::span<const Primitive> primitives, const Pool& pool,
                         PoolFrames&& frames, const PackingRule& rule);
+
+/// Numbers of vertices. u8 and u16 keep their width while every vertex fits below the primitive restart value.
+ElementData indexElements(std::vector<std::uint32_t>&& indices, ComponentType narrowest, std::size_t vertex_count);
 
 /// Offsets as elements, one for each vertex.
 ElementData offsetElements(const VertexOffsets& offsets, std::size_t vertex_count);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <locale>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -47,6 +48,20 @@ std::vector<std::string> warningsIn(const std::string& messages) {
         if (line.starts_with(kMark)) warnings.push_back(firstLine(line.substr(kMark.size())));
     }
     return warnings;
+}
+
+/// What the importer took out of the coordinates: three numbers in its line that begins with "offset: ".
+std::array<double, 3> offsetIn(const std::string& messages) {
+    constexpr std::string_view kMark = "offset: ";
+    std::array<double, 3> offset{};
+    std::istringstream lines(messages);
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with(kMark)) continue;
+        std::istringstream numbers(line.substr(kMark.size()));
+        numbers.imbue(std::locale::classic());
+        for (double& number : offset) numbers >> number;
+    }
+    return offset;
 }
 
 /// What a file of this size may take. A small one has no use for much; one that claims much is stopped early.
@@ -111,10 +126,10 @@ gltf::Document importDocument(const Path& path, const FileOptions& options, cons
                                                  std::to_string(options.import_max_file_bytes >> 20) + " MiB");
     }
     const ImportLimits limits = limitsFor(size, options);
-    ImportResult result =
-        runImporter(options.importer, Path(fs::absolute(fs::path(path))).string(), limits, [&progress] {
-            if (progress) progress("reading", 0, 1);
-        });
+    ImportResult result = runImporter(options.importer, Path(fs::absolute(fs::path(path))).string(),
+                                      options.keep_coordinates, limits, [&progress] {
+                                          if (progress) progress("reading", 0, 1);
+                                      });
     checkEnd(result, limits);
     gltf::Document document = gltf::parseDocument(std::move(result.glb), path, options);
     document.input_bytes = static_cast<std::uint64_t>(size);
@@ -123,6 +138,7 @@ gltf::Document importDocument(const Path& path, const FileOptions& options, cons
     document.imported = true;
     document.json["asset"]["generator"] = "tspace";
     document.may_hide_tangents = result.messages.find(kNoTangents) == std::string::npos;
+    document.coordinate_offset = offsetIn(result.messages);
     for (std::string& warning : warningsIn(result.messages)) document.warnings.push_back(std::move(warning));
     return document;
 }

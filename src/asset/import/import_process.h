@@ -33,9 +33,9 @@ struct ImportResult {
     std::string messages = {};  ///< lines; at most 64 KiB of them
 };
 
-/// Runs `program` on a file, with its result and its messages in pipes. `tick` is called twenty times a second; what it
-/// throws ends the child. Fails with unsupportedFile where the program cannot be started.
-ImportResult runImporter(const std::string& program, const std::string& path, const ImportLimits& limits,
-                         const std::function<void()>& tick);
+/// Runs `program` on a file, with its result and its messages in pipes. `keep_coordinates` as in FileOptions. `tick` is called
+/// twenty times a second; what it throws ends the child. Fails with unsupportedFile where the program cannot be started.
+ImportResult runImporter(const std::string& program, const std::string& path, bool keep_coordinates,
+                         const ImportLimits& limits, const std::function<void()>& tick);
 
 }  // namespace tspace

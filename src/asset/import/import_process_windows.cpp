@@ -5,7 +5,7 @@
 
 namespace tspace {
 
-ImportResult runImporter(const std::string& program, const std::string&, const ImportLimits&,
+ImportResult runImporter(const std::string& program, const std::string&, bool, const ImportLimits&,
                          const std::function<void()>&) {
     failFile(ErrorCode::unsupportedFile,
              "the importer " + pathInQuotes(program) + " is not used on Windows: only glTF and OBJ are read there");

@@ -31,18 +31,20 @@ std::string plainPath(std::string text) {
     return text;
 }
 
-float inUnitRange(float value, float otherwise) {
+float inUnitRange(double number, float otherwise) {
+    const auto value = static_cast<float>(number);
     return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : otherwise;
 }
 
-Vec3 color(const float rgb[3]) { return {inUnitRange(rgb[0], 1), inUnitRange(rgb[1], 1), inUnitRange(rgb[2], 1)}; }
+Vec3 color(const double rgb[3]) { return {inUnitRange(rgb[0], 1), inUnitRange(rgb[1], 1), inUnitRange(rgb[2], 1)}; }
 
 /// Blinn-Phong exponent to roughness: alpha = sqrt(2 / (n + 2)), roughness = sqrt(alpha) (Walter et al. 2007;
 /// glTF squares its roughness).
 float roughnessOf(const tinyobj::material_t& source) {
     if (source.roughness > 0) return inUnitRange(source.roughness, 1);
-    if (!(source.shininess > 0)) return 1;
-    return inUnitRange(std::sqrt(std::sqrt(2.0f / (source.shininess + 2.0f))), 1);
+    const auto shininess = static_cast<float>(source.shininess);
+    if (!(shininess > 0)) return 1;
+    return inUnitRange(std::sqrt(std::sqrt(2.0f / (shininess + 2.0f))), 1);
 }
 
 /// The words of a line.
@@ -86,7 +88,7 @@ Material toMaterial(const tinyobj::material_t& source, const fs::path& folder, b
     const bool has_norm = !source.normal_texname.empty();
     material.normal_texture = {plainPath(has_norm ? source.normal_texname : source.bump_texname), folder};
     material.normal_is_bump = !has_norm && !source.bump_texname.empty();
-    const float scale = (has_norm ? source.normal_texopt : source.bump_texopt).bump_multiplier;
+    const auto scale = static_cast<float>((has_norm ? source.normal_texopt : source.bump_texopt).bump_multiplier);
     if (std::isfinite(scale)) material.normal_scale = scale;
     return material;
 }

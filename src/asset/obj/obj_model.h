@@ -12,7 +12,7 @@
 #include "asset/memory_budget.h"
 #include "asset/named_files.h"
 #include "asset/path.h"
-#include "tspace/vec.h"
+#include "core/vec_math.h"
 
 namespace tspace::obj {
 
@@ -61,7 +61,8 @@ struct Material {
 
 struct Model {
     NamedFiles files = {};             ///< what it names
-    std::vector<Vec3> positions = {};  ///< all finite
+    std::vector<Vec3> positions = {};  ///< all finite; without `offset`
+    DVec3 offset = {};                 ///< what was taken out of the file's coordinates; zero near the origin
     std::vector<Vec2> uvs = {};        ///< v runs down, as in glTF
     std::vector<Vec3> normals = {};    ///< unit or zero; corners never refer to zero ones
     std::vector<Corner> corners = {};  ///< every index is in range

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "asset/disk_paths.h"
 #include "asset/file_error.h"
 #include "asset/file_io.h"
+#include "asset/obj/far_coordinates.h"
 #include "asset/obj/obj_lines.h"
 #include "asset/obj/tiny_obj_loader.h"
 #include "tspace/mesh.h"
@@ -32,7 +34,8 @@ struct DeadIndices {
 struct Build {
     Model* model = nullptr;
     const LineNotes* notes = nullptr;
-    std::size_t face_line = 0;  // the next of notes->faces
+    std::vector<DVec3> positions = {};  // not finite where floats would not be
+    std::size_t face_line = 0;          // the next of notes->faces
     std::string object = {}, group = {};
     std::map<std::pair<std::string, std::string>, std::uint32_t> shapes = {};
     std::uint32_t shape = kNone;  // kNone: looked up by the next face
@@ -53,20 +56,21 @@ std::string currentPlace(const Build& build) {
     return "line " + std::to_string(build.notes->faces[build.face_line].line);
 }
 
-void addPosition(void* user, float x, float y, float z, float) {
+void addPosition(void* user, double x, double y, double z, double) {
     Build& build = buildOf(user);
-    Vec3 position{x, y, z};
-    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
-        position = {};  // glTF has no way to write these
+    DVec3 position{x, y, z};
+    if (!isFinite(toFloat(position))) {
+        constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+        position = {kNaN, kNaN, kNaN};
         ++build.bad_position_count;
     }
-    build.model->positions.push_back(position);
+    build.positions.push_back(position);
 }
 
-void addUv(void* user, float u, float v, float) {
+void addUv(void* user, double u, double v, double) {
     Build& build = buildOf(user);
-    Vec2 uv{u, 1.0f - v};
-    if (!std::isfinite(u) || !std::isfinite(v)) {
+    Vec2 uv{static_cast<float>(u), 1.0f - static_cast<float>(v)};
+    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
         uv = {};
         ++build.bad_uv_count;
     }
@@ -75,14 +79,16 @@ void addUv(void* user, float u, float v, float) {
 
 /// OBJ does not ask for unit normals, glTF does. Those that are unit by the validator's tolerance keep their
 /// bits.
-void addNormal(void* user, float x, float y, float z) {
+void addNormal(void* user, double x, double y, double z) {
     Build& build = buildOf(user);
-    const double length = std::sqrt(double{x} * x + double{y} * y + double{z} * z);
+    const Vec3 given = toFloat({x, y, z});
+    const double size = length(toDouble(given));
     Vec3 normal{};
-    if (std::isfinite(length) && length > 1e-30) {
-        normal = std::abs(length - 1) <= 5e-4 ? Vec3{x, y, z}
-                                              : Vec3{static_cast<float>(x / length), static_cast<float>(y / length),
-                                                     static_cast<float>(z / length)};
+    if (std::isfinite(size) && size > 1e-30) {
+        normal = std::abs(size - 1) <= 5e-4
+                     ? given
+                     : Vec3{static_cast<float>(given.x / size), static_cast<float>(given.y / size),
+                            static_cast<float>(given.z / size)};
     } else {
         ++build.bad_normal_count;
     }
@@ -98,7 +104,7 @@ std::uint32_t resolveIndex(int index, std::size_t count_so_far) {
 }
 
 std::uint32_t resolvePosition(const Build& build, int index) {
-    const std::size_t count_so_far = build.model->positions.size();
+    const std::size_t count_so_far = build.positions.size();
     const std::uint32_t position = resolveIndex(index, count_so_far);
     if (position == kNone) {
         failFile(ErrorCode::invalidFile,
@@ -225,10 +231,10 @@ void checkIndices(Build& build) {
     for (const Face& face : model.faces) {
         for (std::uint32_t i = 0; i < face.corner_count; ++i) {
             Corner& corner = model.corners[face.first_corner + i];
-            if (corner.position >= model.positions.size()) {
+            if (corner.position >= build.positions.size()) {
                 failFile(ErrorCode::invalidFile,
                          "a face refers to vertex " + std::to_string(std::uint64_t{corner.position} + 1) + " of " +
-                             std::to_string(model.positions.size()),
+                             std::to_string(build.positions.size()),
                          "line " + std::to_string(face.line));
             }
             if (corner.uv != kNone && corner.uv >= model.uvs.size()) {
@@ -324,6 +330,7 @@ Model readModel(const Path& path, const FileOptions& options) {
     if (model.faces.empty()) failFile(ErrorCode::invalidFile, "the OBJ file has no faces");
     requireFaces(model);
     addWarnings(build, model);
+    takePositions(std::move(build.positions), options, model);
     fillMaterials(model, readMaterials(notes.material_libraries, model));
     return model;
 }

@@ -14,6 +14,7 @@
 #include "asset/file_error.h"
 #include "asset/uri.h"
 #include "generate/unit_lattice.h"
+#include "maps/codecs.h"
 #include "maps/image.h"
 
 namespace tspace::obj {
@@ -174,6 +175,12 @@ class ImageBuilder {
                 warnings_.push_back("the texture '" + texture.file + "' was left out: it is neither PNG nor JPEG");
                 return;
             }
+            // The rest of a broken image may be shown by some; without a size it is none.
+            const ImageClaim claim = format == ImageFormat::png ? claimOfPng(bytes) : claimOfJpeg(bytes);
+            if (claim.size.pixels() == 0) {
+                warnings_.push_back("the texture '" + texture.file + "' was left out: its head is broken");
+                return;
+            }
             images_.push_back(flipped == nullptr ? imageJson(path, bytes, mimeType(format), names_by_uri_)
                                                  : imageJson(path, *flipped, mimeType(imageFormat(*flipped)), false));
             is_added = true;
@@ -207,7 +214,8 @@ class ImageBuilder {
 
 Json rgb(const Vec3& color) { return {color.x, color.y, color.z}; }
 
-Json materialJson(const Material& material, ImageBuilder& images) {
+/// `images` null: without textures.
+Json materialJson(const Material& material, ImageBuilder* images) {
     Json json = Json::object();
     if (!material.name.empty()) json["name"] = material.name;
     if (!material.found) return json;
@@ -216,14 +224,14 @@ Json materialJson(const Material& material, ImageBuilder& images) {
     if (material.opacity < 1 || !(color == Vec3{1, 1, 1})) {
         surface["baseColorFactor"] = {color.x, color.y, color.z, material.opacity};
     }
-    images.addReference(material.base_color_texture, surface, "baseColorTexture");
+    if (images != nullptr) images->addReference(material.base_color_texture, surface, "baseColorTexture");
     surface["metallicFactor"] = material.metallic;
     surface["roughnessFactor"] = material.roughness;
     json["pbrMetallicRoughness"] = std::move(surface);
-    if (material.made_normal_map) {
-        images.addMade(material.normal_texture, *material.made_normal_map, json, "normalTexture");
-    } else {
-        images.addReference(material.normal_texture, json, "normalTexture");
+    if (images != nullptr && material.made_normal_map) {
+        images->addMade(material.normal_texture, *material.made_normal_map, json, "normalTexture");
+    } else if (images != nullptr) {
+        images->addReference(material.normal_texture, json, "normalTexture");
     }
     if (material.normal_scale != 1 && json.contains("normalTexture")) {
         json["normalTexture"]["scale"] = material.normal_scale;
@@ -233,19 +241,52 @@ Json materialJson(const Material& material, ImageBuilder& images) {
     return json;
 }
 
-/// Materials of the file; those of the faces before any `usemtl` stay the default and are not written.
-std::vector<int> addMaterials(const Model& model, ImageBuilder& images, Json& materials) {
-    std::vector<int> numbers;
-    for (const Material& material : model.materials) {
-        if (material.name.empty() && !material.found) {
-            numbers.push_back(-1);
-            continue;
+/// Materials of the file; those of the faces before any `usemtl` stay the default and are not written. Primitives without
+/// UVs get theirs without textures, because glTF has no texture without UVs.
+class MaterialNumbers {
+  public:
+    /// In the order of the file; second ones, without textures, follow.
+    MaterialNumbers(const Model& model, const std::vector<FinishedPrimitive>& primitives, ImageBuilder& images,
+                    std::vector<std::string>& warnings)
+        : numbers_(model.materials.size(), -1), bare_numbers_(numbers_) {
+        std::vector<std::uint64_t> bare_triangles(model.materials.size(), 0);
+        std::vector<bool> has_uvs(model.materials.size(), false);
+        for (const FinishedPrimitive& primitive : primitives) {
+            if (!primitive.uvs.empty()) has_uvs[primitive.material] = true;
+            if (primitive.uvs.empty()) bare_triangles[primitive.material] += primitive.indices.size() / 3;
         }
-        numbers.push_back(static_cast<int>(materials.size()));
-        materials.push_back(materialJson(material, images));
+        for (std::size_t i = 0; i < model.materials.size(); ++i) {
+            if (isDefault(model.materials[i])) continue;
+            numbers_[i] = bare_numbers_[i] = add(materialJson(model.materials[i], has_uvs[i] ? &images : nullptr));
+        }
+        for (std::size_t i = 0; i < model.materials.size(); ++i) {
+            const Material& material = model.materials[i];
+            const bool has_textures = material.base_color_texture.used() || material.normal_texture.used();
+            if (bare_triangles[i] == 0 || !has_textures || isDefault(material)) continue;
+            warnings.push_back("the material '" + material.name + "' has textures, but " +
+                               std::to_string(bare_triangles[i]) +
+                               " triangles with it have no texture coordinates: they get it without textures");
+            if (has_uvs[i]) bare_numbers_[i] = add(materialJson(material, nullptr));
+        }
     }
-    return numbers;
-}
+
+    /// -1: the default.
+    [[nodiscard]] int of(const FinishedPrimitive& primitive) const {
+        return (primitive.uvs.empty() ? bare_numbers_ : numbers_)[primitive.material];
+    }
+    [[nodiscard]] const Json& materials() const { return materials_; }
+
+  private:
+    static bool isDefault(const Material& material) { return material.name.empty() && !material.found; }
+
+    int add(Json material) {
+        materials_.push_back(std::move(material));
+        return static_cast<int>(materials_.size()) - 1;
+    }
+
+    std::vector<int> numbers_, bare_numbers_;  ///< by Model::materials
+    Json materials_ = Json::array();
+};
 
 Json primitiveJson(const FinishedPrimitive& primitive, int material, BufferBuilder& buffer) {
     Json attributes = {{"POSITION", buffer.addPositions(primitive.positions)}};
@@ -264,22 +305,25 @@ Json primitiveJson(const FinishedPrimitive& primitive, int material, BufferBuild
 }
 
 /// A mesh and a node per shape that has faces, in the order of the file.
-void addMeshes(const Model& model, const std::vector<FinishedPrimitive>& primitives, const std::vector<int>& materials,
+void addMeshes(const Model& model, const std::vector<FinishedPrimitive>& primitives, const MaterialNumbers& materials,
                BufferBuilder& buffer, Json& root) {
     Json meshes = Json::array();
     Json nodes = Json::array();
     Json roots = Json::array();
+    Json translation = Json::array();
+    const DVec3& offset = model.offset;
+    if (offset.x != 0 || offset.y != 0 || offset.z != 0) translation = {offset.x, offset.y, offset.z};
     for (const std::string& name : model.shape_names) {
         const std::size_t number = meshes.size();
         roots.push_back(number);
         nodes.push_back({{"mesh", number}});
         meshes.push_back(Json::object());
         if (!name.empty()) nodes.back()["name"] = meshes.back()["name"] = name;
+        if (!translation.empty()) nodes.back()["translation"] = translation;
         meshes.back()["primitives"] = Json::array();
     }
     for (const FinishedPrimitive& primitive : primitives) {
-        meshes[primitive.shape]["primitives"].push_back(
-            primitiveJson(primitive, materials[primitive.material], buffer));
+        meshes[primitive.shape]["primitives"].push_back(primitiveJson(primitive, materials.of(primitive), buffer));
     }
     root["scene"] = 0;
     root["scenes"] = {{{"nodes", std::move(roots)}}};
@@ -297,7 +341,7 @@ void addTextures(const ImageBuilder& images, Json& root) {
 
 void writeFiles(Json& root, const Bytes& bytes, const fs::path& output, AtomicOutput& files) {
     root["buffers"] = {{{"byteLength", bytes.size()}}};
-    const bool is_glb = lowerExtension(output) == ".glb";
+    const bool is_glb = isGlbName(output);
     fs::path bin = output;
     bin.replace_extension(".bin");
     if (!is_glb) root["buffers"][0]["uri"] = percentEncode(Path(bin.filename()).string());
@@ -319,10 +363,9 @@ void writeScene(const Model& model, const std::vector<FinishedPrimitive>& primit
     BufferBuilder buffer;
     ImageBuilder images(model, output, buffer, files, warnings);
     Json root = {{"asset", {{"version", "2.0"}, {"generator", "tspace"}}}};
-    Json materials = Json::array();
-    const std::vector<int> material_numbers = addMaterials(model, images, materials);
-    addMeshes(model, primitives, material_numbers, buffer, root);
-    if (!materials.empty()) root["materials"] = std::move(materials);
+    const MaterialNumbers materials(model, primitives, images, warnings);
+    addMeshes(model, primitives, materials, buffer, root);
+    if (!materials.materials().empty()) root["materials"] = materials.materials();
     addTextures(images, root);
     root["accessors"] = buffer.accessors();
     root["bufferViews"] = buffer.views();

@@ -89,6 +89,7 @@ Scene loadScene(const Model& model, std::span<const ObjPrimitive> primitives, Im
     scene.format = "obj";
     scene.memory = model.memory;
     scene.warnings = model.warnings;
+    scene.offset = model.offset;
     std::vector<std::uint32_t> next_in_mesh(model.shape_names.size(), 0);
     for (const ObjPrimitive& primitive : primitives) {
         scene.primitives.push_back(loadPrimitive(model, primitive, files));
@@ -122,7 +123,7 @@ DrawnScene drawnSceneOf(const Model& model, std::span<const ObjPrimitive> primit
     ImageFiles files(model.files, with_images, *model.memory);
     DrawnScene drawn{.scene = loadScene(model, primitives, files)};
     for (const ObjPrimitive& primitive : primitives) {
-        drawn.placements.push_back({drawn.looks.size(), {}});
+        drawn.placements.push_back({drawn.looks.size(), {.origin = model.offset}});
         drawn.looks.push_back(lookOf(model.materials[primitive.material], files));
     }
     drawn.scene.images = std::move(files.images);

@@ -2,6 +2,8 @@
 // The parser of the tinyobjloader package on text in memory.
 #pragma once
 
+// Coordinates of maps do not fit into floats.
+#define TINYOBJLOADER_USE_DOUBLE
 #include <tiny_obj_loader.h>
 
 #include <string>

@@ -20,7 +20,10 @@ using gltf::Json;
 constexpr const char* kQuad =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
     "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
-constexpr const char* kPng = "\x89PNG\r\n\x1a\nnot really";
+/// As far as its size: two by one.
+const std::string kPng("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\2\0\0\0\1 not really", 35);
+/// The same as JPEG.
+const std::string kJpeg("\xff\xd8\xff\xc0\0\x0b\x08\0\1\0\2\3 not really", 23);
 
 /// One pixel of a flat normal map: what map_bump names is decoded, to tell it from a height map.
 std::string flatPng() {
@@ -225,6 +228,35 @@ TEST(Obj, FacesWithoutTextureCoordinatesAreAPrimitiveOfTheirOwn) {
     EXPECT_TRUE(make(folder, std::string(kQuad) + "f 1 3 4\n", options).primitives[0].find("TANGENT"));
 }
 
+/// Every texture of every primitive's material is on a UV set that the primitive has.
+void expectTexturesToHaveUvs(const Json& json) {
+    for (const Json& mesh : json["meshes"]) {
+        for (const Json& primitive : mesh["primitives"]) {
+            if (!primitive.contains("material") || primitive["attributes"].contains("TEXCOORD_0")) continue;
+            const std::string material = json["materials"][primitive["material"].get<std::size_t>()].dump();
+            EXPECT_EQ(material.find("Texture\""), std::string::npos) << material;
+        }
+    }
+}
+
+TEST(Obj, FacesWithoutTextureCoordinatesGetTheirMaterialWithoutTextures) {
+    const TempFolder folder;
+    folder.write("in/m.mtl", "newmtl a\nmap_Kd n.png\nnorm n.png\nNs 10\nd 0.5\nnewmtl b\nmap_Kd n.png\n");
+    folder.write("in/n.png", kPng);
+    const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) +
+                                       "usemtl a\nf 1/1 2/2 3/3\nf 1 3 4\nusemtl b\nf 1 2 4\nf 2 3 4\n");
+    const Json& json = made.document.json;
+    expectTexturesToHaveUvs(json);
+    ASSERT_EQ(json["materials"].size(), 3U) << "b is shown without textures alone, and needs no second one";
+    EXPECT_TRUE(json["materials"][0].contains("normalTexture"));
+    EXPECT_EQ(json["materials"][2]["name"], "a");
+    EXPECT_EQ(json["materials"][2]["alphaMode"], "BLEND");
+    EXPECT_EQ(json["materials"][2]["pbrMetallicRoughness"]["roughnessFactor"],
+              json["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"]);
+    EXPECT_TRUE(mentions(made.report.warnings, "'a' has textures, but 1 triangles"));
+    EXPECT_TRUE(mentions(made.report.warnings, "'b' has textures, but 2 triangles"));
+}
+
 TEST(Obj, TangentsAreMadeWhereTheMaterialHasANormalMap) {
     for (const char* keyword : {"map_Bump", "map_bump", "bump", "norm"}) {
         const TempFolder folder;
@@ -267,6 +299,17 @@ TEST(Obj, ABrokenHeightMapIsLeftOutWithAWarning) {
     EXPECT_TRUE(mentions(made.report.warnings, "'n.png' was left out, and no normal map was made of it"));
 }
 
+TEST(Obj, ImagesWithoutASizeAreLeftOut) {
+    for (const std::string bytes : {"\x89PNG\r\n\x1a\nnot really", "\xff\xd8\xff not really"}) {
+        const TempFolder folder;
+        folder.write("in/m.mtl", "newmtl a\nnorm n.png\n");
+        folder.write("in/n.png", bytes);
+        const Made made = make(folder, "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n", {});
+        EXPECT_FALSE(made.document.json.contains("images"));
+        EXPECT_TRUE(mentions(made.report.warnings, "its head is broken"));
+    }
+}
+
 TEST(Obj, TexturesThatAreMovedGiveAWarning) {
     for (const bool moves : {true, false}) {
         const TempFolder folder;
@@ -285,7 +328,7 @@ TEST(Obj, ImagesBesideTheOutputAreNamedAndOthersAreEmbedded) {
     const TempFolder folder;
     folder.write("in/m.mtl", "newmtl a\nmap_Kd maps\\base color.png\nnorm n.jpg\n");
     folder.write("in/maps/base color.png", kPng);
-    folder.write("in/n.jpg", "\xff\xd8\xff");
+    folder.write("in/n.jpg", kJpeg);
     const std::string obj = "mtllib m.mtl\n" + std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n";
     const Made embedded = make(folder, obj, {});
     ASSERT_EQ(embedded.document.json["images"].size(), 2U);

@@ -98,6 +98,15 @@ function placesOf(mesh: Mesh): Matrix4[] {
   });
 }
 
+/** Shaders work in floats, so what stands far from the origin is shown near it: the picture has no origin to be seen. */
+function moveToOrigin(parts: Iterable<Part>): void {
+  const kFar = 1e4; // where a float's step is a thousandth
+  const places = [...parts].flatMap((part) => part.places);
+  const { x, y, z } = new Vector3().setFromMatrixPosition(places[0] ?? new Matrix4());
+  if (Math.hypot(x, y, z) < kFar) return;
+  for (const place of places) place.premultiply(new Matrix4().makeTranslation(-x, -y, -z));
+}
+
 async function sceneOf(gltf: GLTF, remarks: string[]): Promise<Object3D[]> {
   const roots: Object3D[] = gltf.scene ? [gltf.scene] : gltf.scenes;
   let hasMesh = false;
@@ -134,6 +143,7 @@ export async function loadModel(model: ModelFiles, work: Work): Promise<Model> {
         known.places.push(...placesOf(object));
       });
     }
+    moveToOrigin(parts.values());
     if (left > 0) remarks.push(`${left} of its parts are not drawn: the picture ends at ${kMostCorners / 3 / 1e6} million triangles.`);
     if (isSkinned) remarks.push("Skinned meshes are shown as they lie in the file, without their bones.");
     return { parts: [...parts.values()], remarks };

@@ -76,16 +76,38 @@ class ObjWriter {
     return { attributes, material: this.#material(material) };
   }
 
-  finish(meshes: object[]): Uint8Array<ArrayBuffer> {
-    const nodes = meshes.map((_, mesh) => ({ mesh }));
+  finish(meshes: object[], translation: number[]): Uint8Array<ArrayBuffer> {
+    const isMoved = translation.some((value) => value !== 0);
+    const nodes = meshes.map((_, mesh) => ({ mesh, ...(isMoved && { translation }) }));
     const images = this.#imageList.length > 0 && { images: this.#imageList, textures: this.#imageList.map((_, source) => ({ source })) };
     return this.#builder.finish({ scene: 0, scenes: [{ nodes: nodes.map((_, i) => i) }], nodes, meshes, materials: this.#materials, ...images }, "tspace view");
   }
 }
 
+/**
+ * Coordinates far from the origin (metres of a map) do not fit into the floats of three.js. What is taken out of them becomes the
+ * translation of the nodes: along each axis on which the middle of nine tenths is a hundred times as far away as the model is large.
+ */
+function nearOrigin(source: string): { text: string; offset: number[] } {
+  const line = /^([ \t]*v[ \t]+)(\S+)[ \t]+(\S+)[ \t]+(\S+)/gm;
+  const axes = [[], [], []] as number[][];
+  for (const match of source.matchAll(line)) axes.forEach((axis, k) => axis.push(Number(match[k + 2])));
+  const sorted = axes.map((axis) => Float64Array.from(axis.filter(Number.isFinite)).sort());
+  const at = (k: number, share: number) => sorted[k][Math.floor(share * (sorted[k].length - 1))] ?? 0;
+  const size = Math.max(...[0, 1, 2].map((k) => at(k, 0.95) - at(k, 0.05)));
+  const unit = size > 0 ? 10 ** Math.floor(Math.log10(size)) : 1;
+  const offset = [0, 1, 2].map((k) => {
+    const middle = (at(k, 0.05) + at(k, 0.95)) / 2;
+    return Math.abs(middle) > 100 * size ? Math.round(middle / unit) * unit : 0;
+  });
+  if (offset.every((value) => value === 0)) return { text: source, offset };
+  return { text: source.replace(line, (_, start: string, ...words: string[]) => start + [0, 1, 2].map((k) => Number(words[k]) - offset[k]).join(" ")), offset };
+}
+
 export function glbOfObj(model: ModelFiles): ModelFiles {
   if (model.bytes.length > kMostBytes) throw new Refusal(`${model.name} is too large for this page, which reads OBJ files of up to 200 MB.`);
-  const root = new OBJLoader().parse(text(model.bytes));
+  const near = nearOrigin(text(model.bytes));
+  const root = new OBJLoader().parse(near.text);
   const writer = new ObjWriter(model, readMaterials(model));
   const meshes: object[] = [];
   root.traverse((object) => {
@@ -97,5 +119,5 @@ export function glbOfObj(model: ModelFiles): ModelFiles {
     if (primitives.length > 0) meshes.push({ name: object.name, primitives });
   });
   if (meshes.length === 0) throw new Refusal(`${model.name} has no faces.`);
-  return { name: model.name.replace(/\.obj$/i, ".glb"), bytes: writer.finish(meshes), others: new Map() };
+  return { name: model.name.replace(/\.obj$/i, ".glb"), bytes: writer.finish(meshes, near.offset), others: new Map() };
 }

@@ -11,6 +11,7 @@
 #include "asset/gltf/extension_lists.h"
 #include "asset/gltf/gather_elements.h"
 #include "asset/gltf/primitive_reader.h"
+#include "asset/gltf/vertex_numbers.h"
 
 namespace tspace::gltf {
 
@@ -45,7 +46,7 @@ int roundingOf(const DracoAttribute& attribute) {
 
 class Packer {
   public:
-    Packer(Document& document, Editor& editor) : document_(document), editor_(editor) {}
+    Packer(Document& document, Editor& editor) : document_(document), editor_(editor), numbers_(document, editor) {}
 
     void run() {
         const std::vector<Primitive> primitives = readPrimitives(document_);
@@ -61,6 +62,8 @@ class Packer {
         }
         for (const std::string& key : order) pack(groups[key]);
     }
+
+    [[nodiscard]] std::vector<std::string> warnings() const { return numbers_.warnings(); }
 
   private:
     Json& json(const Primitive& primitive) { return editor_.primitive(primitive.mesh, primitive.index); }
@@ -127,6 +130,7 @@ class Packer {
         const DracoLimits no_limits{mesh.corners.size(), mesh.point_count, ~std::size_t{0}};
         if (!encodeDraco(mesh, false, data) || !decodeDraco(data, no_limits, mesh).empty()) return;  // it stays plain
         store(group, mesh, std::move(elements), std::move(data), chosen, owns);
+        if (chosen.size() != first.vertex_count) numbers_.carry(group, {chosen, mesh.corners, first.vertex_count});
         requireExtension(document_, kDraco);
     }
 
@@ -205,10 +209,15 @@ class Packer {
 
     Document& document_;
     Editor& editor_;
+    VertexNumbers numbers_;
 };
 
 }  // namespace
 
-void packDraco(Document& document, Editor& editor) { Packer(document, editor).run(); }
+std::vector<std::string> packDraco(Document& document, Editor& editor) {
+    Packer packer(document, editor);
+    packer.run();
+    return packer.warnings();
+}
 
 }  // namespace tspace::gltf

@@ -164,14 +164,16 @@ void needLibrary(const std::string& missing) {
 
 }  // namespace
 
-bool unpackGeometry(Document& document, Compression compression, const std::string& new_file_name) {
+bool unpackGeometry(Document& document, Compression compression, const std::string& new_file_name,
+                    std::vector<std::string>& warnings) {
     if (compression == Compression::keep) return false;
     if (compression == Compression::meshopt) needLibrary(meshoptMissing(false));
     if (compression == Compression::draco) needLibrary(dracoMissing());
     return edit(document, new_file_name, [&](Editor& editor) {
         if (compression != Compression::draco && usesDraco(document)) unpackDraco(document, editor);
         if (compression != Compression::meshopt && usesMeshopt(document)) unpackMeshopt(document, editor);
-        if (compression == Compression::draco) packDraco(document, editor);
+        if (compression != Compression::draco) return;
+        for (std::string& warning : packDraco(document, editor)) warnings.push_back(std::move(warning));
     });
 }
 

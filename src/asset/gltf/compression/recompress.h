@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "asset/gltf/document.h"
 
@@ -12,7 +13,8 @@ namespace tspace::gltf {
 /// Unpacks what is compressed otherwise than asked for. Draco is packed here as well: it rounds, and frames belong to the
 /// values that are written. `new_file_name` as for Editor. Returns false when nothing had to change. Fails with
 /// unsupportedFile when this build has not the library.
-bool unpackGeometry(Document& document, Compression compression, const std::string& new_file_name);
+bool unpackGeometry(Document& document, Compression compression, const std::string& new_file_name,
+                    std::vector<std::string>& warnings);
 
 /// Packs what is not compressed yet, where the compression keeps every value: meshopt. Returns false when nothing had to
 /// change.
