@@ -37,7 +37,11 @@ void addHeightWarnings(const HeightToNormalFileOptions& options, HeightToNormalF
 }
 
 HeightToNormalFileReport convertHeights(const std::string& input, const std::string& output,
-                                        const HeightToNormalFileOptions& options) {
+                                        const HeightToNormalFileOptions& requested) {
+    InputFiles inputs;
+    HeightToNormalFileOptions options = requested;
+    inputs.watch(options.file);
+    if (options.content.data() == nullptr) inputs.add(input);
     if (!options.sink && lowerExtension(output) != ".png")
         failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(output) + " does not end in .png");
     if (const char* why_not = whyNotRead(ImageFormat::png))
@@ -67,7 +71,8 @@ HeightToNormalFileReport convertHeights(const std::string& input, const std::str
     image.alpha.clear();
     const auto file = encodePng(image, options.bits);
     if (!file) failFile(ErrorCode::outOfMemory, "the image cannot be packed");
-    AtomicOutput files(options.sink, options.dry_run);
+    AtomicOutput files(
+        {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
     files.add(output, std::span<const std::uint8_t>(*file));
     files.commit();
     return report;

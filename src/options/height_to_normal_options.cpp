@@ -53,6 +53,7 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
     addThreads(list, options.tangents.execution,
                "Threads; 0: as many as there are cores. The output is the same for any number.");
     addLimits(list, options.file);
+    addSync(list, options.file.sync);
     return list;
 }
 

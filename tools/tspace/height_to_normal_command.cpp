@@ -5,6 +5,7 @@
 #include "asset/file_io.h"
 #include "commands.h"
 #include "console.h"
+#include "output_files.h"
 #include "report.h"
 #include "standard_input.h"
 #include "system.h"
@@ -55,8 +56,8 @@ Result<HeightToNormalFileReport> convertHeights(const HeightToNormalArguments& a
 }  // namespace
 
 ExitCode runHeightToNormal(const HeightToNormalArguments& arguments) {
-    if (isOneFile(arguments.input, arguments.output))
-        return printUsageError("the output " + arguments.output + " is the input; name another file");
+    if (const Result<Done> fit = prepareOutputs({arguments.output}, {arguments.input, arguments.options.mesh}); !fit)
+        return printUsageError(fit.error().message + "; name another file");
     const bool to_stdout = arguments.output == "-";
     if (to_stdout && !arguments.options.dry_run && isTerminal(stdout))
         return printUsageError("an image is no text for a terminal; send stdout to a file or a pipe");
