@@ -105,7 +105,7 @@ void forgetCollapsed(const TangentView& mesh, const Surface& base, const Tangent
 
 /// Tangents with a formula, and those that were taken from a finer mesh, are off here and there beside coarse triangles. So
 /// a target that has tangents is wrong where they are off on this part of what turns, or somewhere by more than error_deg.
-constexpr double kOfSurface = 0.25;
+constexpr double kOffShare = 0.25;
 
 /// Targets with the same fault.
 struct MorphFault {
@@ -145,7 +145,7 @@ class MorphChecker {
             if (errors[v] > facts_.options.error_deg) far_area += area;
         }
         if (tally.count == 0) return;
-        if (!missing && far_area == 0 && tally.area < kOfSurface * turning_area) return;
+        if (!missing && far_area == 0 && tally.area < kOffShare * turning_area) return;
         if (!missing) {
             for (const std::uint32_t v : off) facts_.fault(v, FindingCode::morphTangentsWrong);
         }

@@ -101,8 +101,8 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     const bool is_unreadable = std::any_of(primitives.begin(), primitives.end(), [](const Primitive& primitive) {
         return !primitive.unreadable_tangents.empty();
     });
-    const bool will_edit =
-        !plan.pools.empty() || !flips.images.empty() || !flips.mended.empty() || options.pack.has_value() || !broken.empty() || is_unreadable;
+    const bool will_edit = !plan.pools.empty() || !flips.images.empty() || !flips.mended.empty() ||
+                           options.pack.has_value() || !broken.empty() || is_unreadable;
     if (keeps_compression) convertContainer(document, target, will_edit, report.warnings);
     takeImagesIn(document, target, report.warnings);
     tell(options, "reading", 1, 1);

@@ -18,8 +18,10 @@ struct Imported {
 
 /// What decides about reading.
 struct ImportRules {
-    bool anywhere = false;          ///< files that it names are read wherever they are; else where the URIs of glTF may lead (src/asset/folder_rule.h)
-    bool keep_coordinates = false;  ///< else an offset is taken out of PLY with more than floats where floats do not hold the shape
+    bool anywhere =
+        false;  ///< files that it names are read wherever they are; else where the URIs of glTF may lead (src/asset/folder_rule.h)
+    bool keep_coordinates =
+        false;  ///< else an offset is taken out of PLY with more than floats where floats do not hold the shape
 };
 
 /// Meshes are neither joined nor split: one primitive per mesh of the file, polygons cut by tspace's own rule, vertices

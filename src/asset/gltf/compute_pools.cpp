@@ -275,7 +275,8 @@ PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& executi
     PoolElements elements = packFrames(document_, primitives_, pool, std::move(frames),
                                        {.format = options.format, .is_welded = was_welded});
     elements.has_tangent_deltas = has_tangent_deltas;
-    if (computes && !pool.keeps_tangents && !pool.mendsTangents()) elements.warning = warnOfRounding(vertices, geometries);
+    if (computes && !pool.keeps_tangents && !pool.mendsTangents())
+        elements.warning = warnOfRounding(vertices, geometries);
     return elements;
 }
 

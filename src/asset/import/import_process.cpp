@@ -203,11 +203,10 @@ ImportResult runImporter(const std::string& program, const std::string& path, bo
                          const ImportLimits& limits, const std::function<void()>& tick) {
     Pipe glb = makePipe(), messages = makePipe();
     const Clock::time_point end = Clock::now() + std::chrono::seconds(limits.seconds);
-    Child child(
-        start({program, path, std::to_string(limits.memory_bytes), std::to_string(limits.processor_seconds),
-               std::to_string(limits.seconds), std::to_string(getpid()), limits.reads_anywhere ? "anywhere" : "folder",
-               keep_coordinates ? "as-they-are" : "near-origin"},
-              glb.write_end, messages.write_end));
+    Child child(start({program, path, std::to_string(limits.memory_bytes), std::to_string(limits.processor_seconds),
+                       std::to_string(limits.seconds), std::to_string(getpid()),
+                       limits.reads_anywhere ? "anywhere" : "folder", keep_coordinates ? "as-they-are" : "near-origin"},
+                      glb.write_end, messages.write_end));
     glb.write_end.close();
     messages.write_end.close();
     ImportResult result;
