@@ -295,7 +295,7 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
             contentFinding(name, commandName(scene, map.image), map.look, isDown(map) && !has_own_green);
         if (content && map.look.content == MapContent::height && mayBeHeights(map)) {
             content->severity = Severity::note;
-            content->message = "the image " + name + " is a height map (map_bump), and no normal map";
+            content->message = name + " is a height map (map_bump), and no normal map";
             content->remedy =
                 "Nothing needs to be done: generate makes a normal map of it, with -bm as its height in units of "
                 "the model. For the image alone: tspace height-to-normal.";

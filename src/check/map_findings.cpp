@@ -82,7 +82,7 @@ std::string messageOf(const std::string& name, const MapLook& look) {
         case MapContent::height:
             break;
     }
-    return "the image " + name + " is grey, and no normal map: it is a height map, perhaps";
+    return name + " is grey, and no normal map: it is a height map, perhaps";
 }
 
 std::string remedyOf(const std::string& file, const MapLook& look, bool green_is_down) {

@@ -18,6 +18,7 @@
 #include "mend.h"
 #include "meshes.h"
 #include "model_files.h"
+#include "number_text.h"
 #include "ply_offset.h"
 #include "stored_tangents.h"
 
@@ -290,14 +291,12 @@ void readNearOrigin(const std::string& path, Assimp::Importer& importer, Importe
     imported.warnings = writer.mended().warnings();
     const double offset[3] = {moved->offset.x, moved->offset.y, moved->offset.z};
     std::copy_n(offset, 3, imported.offset);
-    char text[400];
-    std::snprintf(
-        text, sizeof text,
-        "the coordinates are so far from the origin that 32-bit floats would change the shape; (%.15g, %.15g, "
-        "%.15g) was taken out of them first, and is the translation of the root node in glTF "
-        "(generate --keep-coordinates leaves it in)",
-        offset[0], offset[1], offset[2]);
-    imported.warnings.emplace_back(text);
+    imported.warnings.push_back(
+        "the coordinates are so far from the origin that 32-bit floats would change the shape; (" +
+        numberText(offset[0]) + ", " + numberText(offset[1]) + ", " + numberText(offset[2]) +
+        ") was taken out of them first, and is the translation of the root node in glTF (generate --keep-coordinates "
+        "leaves "
+        "it in)");
 }
 
 }  // namespace

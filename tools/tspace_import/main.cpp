@@ -25,6 +25,7 @@
 
 #include "confine.h"
 #include "import_scene.h"
+#include "number_text.h"
 
 namespace {
 
@@ -105,7 +106,8 @@ int run(const char* input, const tspace::import::ImportRules& rules, std::FILE* 
     if (imported.has_no_tangents) std::fprintf(stderr, "tangents: none\n");
     const double* const offset = imported.offset;
     if (offset[0] != 0 || offset[1] != 0 || offset[2] != 0)
-        std::fprintf(stderr, "offset: %.17g %.17g %.17g\n", offset[0], offset[1], offset[2]);
+        std::fprintf(stderr, "offset: %s %s %s\n", tspace::import::numberText(offset[0]).c_str(),
+                     tspace::import::numberText(offset[1]).c_str(), tspace::import::numberText(offset[2]).c_str());
     for (const std::string& warning : imported.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     return 0;
 }

@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <sstream>
 
+#include "number_text.h"
 #include "surface/float_loss.h"
 
 namespace tspace::import {
@@ -129,7 +128,7 @@ std::optional<NearPly> moveText(const std::vector<char>& bytes, const Header& he
         if (!(words >> number)) return {};
     }
     const auto read = [&](std::size_t vertex, std::size_t axis) {
-        return std::strtod(numbers[vertex * header.vertex_size + header.places[axis]].c_str(), nullptr);
+        return readNumber(numbers[vertex * header.vertex_size + header.places[axis]]);
     };
     const DVec3 offset = middleOf(header.vertex_count, [&](std::size_t i) {
         return DVec3{read(i, 0), read(i, 1), read(i, 2)};
@@ -143,9 +142,7 @@ std::optional<NearPly> moveText(const std::vector<char>& bytes, const Header& he
         std::string number = numbers[i];
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (header.places[axis] != i % header.vertex_size) continue;
-            char text[64];
-            std::snprintf(text, sizeof text, "%.9g", read(i / header.vertex_size, axis) - taken[axis]);
-            number = text;
+            number = numberText(read(i / header.vertex_size, axis) - taken[axis]);
         }
         append(number + ((i + 1) % header.vertex_size == 0 ? "\n" : " "));
     }
