@@ -30,6 +30,9 @@ constexpr double kMoreBend = 1.25, kSmoothPart = 0.9;
 constexpr double kMostPlaces = 0.8;
 constexpr std::size_t kLeastPlaces = 3;
 
+/// What comparing the primitives of a mesh takes for a while, about.
+constexpr std::uint64_t kBytesPerVertex = 200, kBytesPerCorner = 100;
+
 /// A triangle's normal, and how it counts at its corners by three weightings: 1, its area, its angle.
 struct Face {
     DVec3 normal = {};
@@ -211,18 +214,40 @@ class MeshSeams {
     std::vector<SurfacePiece> pieces_ = {};
 };
 
+Finding notCompared(const ScenePrimitive& first, const std::string& why) {
+    const Tally one{.count = 1, .total = 1};
+    Finding finding =
+        makeFinding(FindingCode::fileRemark, Severity::note, one, "meshes",
+                    "normals at the borders of the primitives of this mesh were not compared: that " + why);
+    finding.place = first.place;
+    finding.mesh = first.mesh;
+    finding.primitive = first.primitive;
+    finding.mesh_name = first.mesh_name;
+    return finding;
+}
+
 }  // namespace
 
 std::vector<Finding> checkSeams(const Scene& scene, const CheckOptions&) {
     std::vector<Finding> findings;
     for (std::size_t first = 0, past = 0; first < scene.primitives.size(); first = past) {
         std::vector<const ScenePrimitive*> primitives;
+        // A file may name the same arrays any number of times.
+        std::set<std::pair<const Vec3*, const std::uint32_t*>> seen;
+        std::uint64_t bytes = 0;
         for (; past < scene.primitives.size() && scene.primitives[past].mesh == scene.primitives[first].mesh; ++past) {
             const ScenePrimitive& primitive = scene.primitives[past];
-            if (!primitive.corners.empty() && !primitive.normals.empty() && !primitive.is_unlit)
-                primitives.push_back(&primitive);
+            if (primitive.corners.empty() || primitive.normals.empty() || primitive.is_unlit) continue;
+            if (!seen.insert({primitive.positions.data(), primitive.corners.data()}).second) continue;
+            primitives.push_back(&primitive);
+            bytes += kBytesPerCorner * primitive.corners.size() + kBytesPerVertex * primitive.positions.size();
         }
-        if (primitives.size() > 1) MeshSeams(std::move(primitives)).find(findings);
+        if (primitives.size() < 2) continue;
+        if (scene.memory && !scene.memory->has(bytes)) {
+            findings.push_back(notCompared(*primitives.front(), scene.memory->whyNot(bytes)));
+            continue;
+        }
+        MeshSeams(std::move(primitives)).find(findings);
     }
     return findings;
 }

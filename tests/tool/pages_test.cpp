@@ -45,7 +45,7 @@ TEST(BashCompletion, KnowsCommandsOptionsAndValues) {
     const TempFolder folder;
     EXPECT_EQ(offered(folder, "tspace i"), (Words{"identify", "inspect"}));
     EXPECT_EQ(offered(folder, "tspace --v"), (Words{"--version"}));
-    EXPECT_EQ(offered(folder, "tspace generate --over"), (Words{"--overwrite"}));
+    EXPECT_EQ(offered(folder, "tspace generate --over"), (Words{"--overwrite", "--overwrite-normals"}));
     EXPECT_EQ(offered(folder, "tspace check --sev"), (Words{"--severity"}));
     EXPECT_EQ(offered(folder, "tspace generate --method mi"), (Words{"mikktspace"}));
     EXPECT_EQ(offered(folder, "tspace generate --method = mi"), (Words{"mikktspace"}));
