@@ -16,7 +16,7 @@ namespace {
 /// Beyond 96 degrees a normal points to the back, with some room for coarse smooth shading.
 constexpr double kLeastFacing = -0.1;
 /// From this share of the surface on it is the whole mesh that is inside out.
-constexpr double kMostly = 0.5;
+constexpr double kMostOfSurface = 0.5;
 constexpr double kNearlyAll = 0.95;
 constexpr double kSomeNormals = 0.01;
 /// Degrees between a normal and the nearest of its triangles: a normal that is the mean over an edge of a box is 45 from both.
@@ -80,7 +80,7 @@ void checkWinding(PrimitiveFacts& facts) {
     against.finish(facts.surface.area);
     if (against.count == 0) return;
     // Leaves and grass that show both sides often have the normals of the whole tree or ground, on purpose.
-    const double mostly = facts.primitive.is_double_sided ? kNearlyAll : kMostly;
+    const double mostly = facts.primitive.is_double_sided ? kNearlyAll : kMostOfSurface;
     const Severity severity = against.surface_share >= mostly         ? Severity::error
                               : against.surface_share >= kSomeNormals ? Severity::warning
                                                                       : Severity::note;

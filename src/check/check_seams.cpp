@@ -19,7 +19,7 @@ namespace tspace {
 
 namespace {
 
-constexpr double kDegrees = 180 / kPi;
+constexpr double kToDegrees = 180 / kPi;
 /// Normals that differ by less make no seam that is seen.
 constexpr double kLeastSeamDeg = 2;
 /// Normals of the own triangles are that, whatever the weights were, but for rounding to 8 bits.
@@ -61,7 +61,7 @@ class SmoothPiece {
         DVec3 normal = toDouble(primitive_.normals[vertex]);
         if (!normalize(normal)) return false;
         return std::any_of(means_[class_of_[vertex]].begin(), means_[class_of_[vertex]].end(), [&](DVec3 mean) {
-            return normalize(mean) && angleBetween(mean, normal) * kDegrees <= kOwnDeg;
+            return normalize(mean) && angleBetween(mean, normal) * kToDegrees <= kOwnDeg;
         });
     }
     [[nodiscard]] double smoothDeg() const { return smooth_deg_; }
@@ -106,7 +106,8 @@ class SmoothPiece {
         for (std::size_t i = 0, past = 0; i < edges.size(); i = past) {
             while (past < edges.size() && edges[past].points == edges[i].points) ++past;
             if (past - i != 2) continue;
-            const double bend = angleBetween(faces_[edges[i].face].normal, faces_[edges[i + 1].face].normal) * kDegrees;
+            const double bend =
+                angleBetween(faces_[edges[i].face].normal, faces_[edges[i + 1].face].normal) * kToDegrees;
             if (bend < kLeastSeamDeg) continue;
             if (edges[i].classes == edges[i + 1].classes)
                 smooth.push_back(bend);
@@ -172,7 +173,7 @@ class MeshSeams {
               const std::map<std::uint32_t, SmoothPiece>& smooth, Seam& seam) const {
         const auto& [a, b] = border.triangles;
         const SmoothPiece &side_a = smooth.at(a.piece), &side_b = smooth.at(b.piece);
-        const double bend = angleBetween(side_a.faceNormal(a.triangle), side_b.faceNormal(b.triangle)) * kDegrees;
+        const double bend = angleBetween(side_a.faceNormal(a.triangle), side_b.faceNormal(b.triangle)) * kToDegrees;
         const bool is_smooth = bend <= kMoreBend * std::min(side_a.smoothDeg(), side_b.smoothDeg()) &&
                                bend < std::min(side_a.leastHardDeg(), side_b.leastHardDeg());
         for (const std::uint32_t point : border.points) {
@@ -180,7 +181,7 @@ class MeshSeams {
             DVec3 normal_a = toDouble(primitives_[a.piece]->normals[vertex_a]);
             DVec3 normal_b = toDouble(primitives_[b.piece]->normals[vertex_b]);
             if (!normalize(normal_a) || !normalize(normal_b)) continue;
-            const double apart = angleBetween(normal_a, normal_b) * kDegrees;
+            const double apart = angleBetween(normal_a, normal_b) * kToDegrees;
             if (apart <= kLeastSeamDeg) continue;
             seam.places.insert(point);
             if (!is_smooth || !side_a.isOwn(vertex_a) || !side_b.isOwn(vertex_b)) continue;

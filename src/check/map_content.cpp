@@ -45,9 +45,9 @@ double shareOf(std::span<const TexelBytes> texels, const Test& test) {
 }
 
 /// Texels as a layout reads them. Each of the 256 values of a channel is computed once.
-class Reader {
+class LayoutReader {
   public:
-    explicit Reader(const MapLayout& layout) : layout_(layout) {
+    explicit LayoutReader(const MapLayout& layout) : layout_(layout) {
         for (unsigned i = 0; i < values_.size(); ++i) {
             const float c = static_cast<float>(i) / 255.0F;
             values_[i] = 2 * static_cast<double>(readTexel({c, 0, 0}, 1, {.curve = layout.curve}).x) - 1;
@@ -80,7 +80,7 @@ struct Fit {
 };
 
 Fit fitOf(std::span<const TexelBytes> texels, const MapLayout& layout) {
-    const Reader reader(layout);
+    const LayoutReader reader(layout);
     Fit fit;
     std::array<std::uint64_t, 3> below = {};
     std::uint64_t unit = 0;
@@ -290,7 +290,7 @@ struct Moments {
 };
 
 Moments momentsOf(std::span<const TexelOnSurface> surface) {
-    const Reader reader({});
+    const LayoutReader reader({});
     Moments moments;
     for (const TexelOnSurface& point : surface) {
         DVec3 v = reader.vector(point.texel);
@@ -411,7 +411,7 @@ bool mayHaveXInAlpha(std::span<const TexelBytes> texels) {
 }
 
 void readByLayout(RgbImage& image, std::span<const std::uint8_t> alpha, const MapLayout& layout) {
-    const Reader reader(layout);
+    const LayoutReader reader(layout);
     const auto byteOf = [](double value) {
         return static_cast<std::uint8_t>(std::clamp(127.5 * (value + 1) + 0.5, 0.0, 255.0));
     };

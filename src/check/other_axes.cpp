@@ -15,10 +15,10 @@ namespace {
 /// Share of the surface with tangents that lean out of it, from which other axes are looked for.
 constexpr double kClearlyLeaning = 0.2;
 /// What may be left of it, and of wrong directions, in the right ones.
-constexpr double kExplained = 0.02;
+constexpr double kMostWrong = 0.02;
 
 /// Component i of the result is `sign[i]` times component `from[i]`.
-struct Axes {
+struct AxisExchange {
     std::array<std::size_t, 3> from = {0, 1, 2};
     std::array<float, 3> sign = {1, 1, 1};
 
@@ -64,12 +64,12 @@ std::string findOtherAxes(const PrimitiveFacts& facts, const FrameHealth& health
         health.directions_wrong.count == 0)
         return {};
     std::vector<Vec4> turned(facts.mesh.tangents.size());
-    Axes axes;
+    AxisExchange axes;
     do {
         for (unsigned signs = 0; signs < 8; ++signs) {
             for (std::size_t i = 0; i < 3; ++i) axes.sign[i] = (signs >> i & 1) != 0 ? -1.0f : 1.0f;
             std::transform(facts.mesh.tangents.begin(), facts.mesh.tangents.end(), turned.begin(), axes);
-            if (leaningShare(facts, turned) <= kExplained && wrongShare(facts, turned) <= kExplained)
+            if (leaningShare(facts, turned) <= kMostWrong && wrongShare(facts, turned) <= kMostWrong)
                 return axes.text();
         }
     } while (std::next_permutation(axes.from.begin(), axes.from.end()));

@@ -66,7 +66,7 @@ Vec4 withSoundValues(const Vec4& kept, const Vec4& instead, const Vec3& normal) 
     if (!hasDirection(kept, normal)) return {instead.x, instead.y, instead.z, sign};
     if (hasSoundValues(kept)) return kept;
     DVec3 t = toDouble(xyz(kept));
-    if (std::fabs(length(t) - 1) <= kUnitTolerance) return {kept.x, kept.y, kept.z, sign};
+    if (std::fabs(length(t) - 1) <= kMostFromUnit) return {kept.x, kept.y, kept.z, sign};
     normalize(t);
     return withDirection(t, sign);
 }

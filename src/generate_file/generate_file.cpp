@@ -27,7 +27,8 @@ std::string whyMapsStay(const std::string& input, const GenerateOptions& options
     return {};
 }
 
-Result<GenerateReport> generate(const std::string& input, const std::string& output, const GenerateOptions& options) {
+Result<GenerateReport> generateByFormat(const std::string& input, const std::string& output,
+                                        const GenerateOptions& options) {
     if (options.all && options.strip) {
         return Error{ErrorCode::invalidOption, "tangents for all primitives, and none where they are not needed"};
     }
@@ -46,7 +47,7 @@ Result<GenerateReport> generate(const std::string& input, const std::string& out
 
 Result<GenerateReport> generateFile(const std::string& input, const std::string& output,
                                     const GenerateOptions& options) {
-    return atFileBorder([&] { return generate(input, output, options); });
+    return atFileBorder([&] { return generateByFormat(input, output, options); });
 }
 
 }  // namespace tspace

@@ -12,7 +12,7 @@ namespace tspace {
 /// Lengths of normals and tangents below cannot be told from zero.
 inline constexpr double kShortest = 1e-6;
 /// How far lengths may be from 1: what the glTF validator allows.
-inline constexpr double kUnitTolerance = 0.00674;
+inline constexpr double kMostFromUnit = 0.00674;
 /// A tangent within 5 degrees of N or of its opposite makes no frame: cross(N, T) is next to nothing, and a shader that
 /// normalises it gets NaN, or a direction by chance.
 inline constexpr double kParallelDeg = 5;
@@ -27,7 +27,7 @@ inline bool hasDirection(const Vec4& tangent, const Vec3& normal) {
 
 /// Whether the glTF format allows it.
 inline bool hasSoundValues(const Vec4& tangent) {
-    return isFinite(xyz(tangent)) && std::fabs(length(toDouble(xyz(tangent))) - 1) <= kUnitTolerance &&
+    return isFinite(xyz(tangent)) && std::fabs(length(toDouble(xyz(tangent))) - 1) <= kMostFromUnit &&
            (tangent.w == 1 || tangent.w == -1);
 }
 

@@ -20,10 +20,10 @@ namespace {
 constexpr std::uint64_t kBytesPerVertex = 48, kBytesPerCorner = 40;
 
 /// A vertex around a geometry: whose it is, and which.
-struct Source {
+struct NearVertex {
     std::uint32_t piece = 0, vertex = 0;
 
-    friend auto operator<=>(const Source&, const Source&) = default;
+    friend auto operator<=>(const NearVertex&, const NearVertex&) = default;
 };
 
 /// The primitives of one mesh that have triangles.
@@ -54,18 +54,18 @@ class MeshPieces {
         if (triangles.empty()) return nullptr;
         auto result = std::make_shared<Surroundings>();
         result->point_count = joined_->sharedPoints(piece).size();
-        std::map<Source, std::uint32_t> number_of;
-        std::vector<Source> sources;
+        std::map<NearVertex, std::uint32_t> number_of;
+        std::vector<NearVertex> sources;
         for (const PieceTriangle& at : triangles) {
             result->triangles_before += at.piece < piece;
             for (std::size_t k = 0; k < 3; ++k) {
-                const Source source{at.piece, corners_[at.piece][3 * std::size_t{at.triangle} + k]};
+                const NearVertex source{at.piece, corners_[at.piece][3 * std::size_t{at.triangle} + k]};
                 const auto [entry, is_new] = number_of.try_emplace(source, static_cast<std::uint32_t>(sources.size()));
                 if (is_new) sources.push_back(source);
                 result->indices.push_back(entry->second);
             }
         }
-        for (const Source& source : sources)
+        for (const NearVertex& source : sources)
             result->positions.push_back(vertices_[lists_[source.piece]][source.vertex]);
         takeNormals(sources, makes_normals, *result);
         // Both directions of the budget's books: what stays is small beside the mesh.
@@ -88,7 +88,7 @@ class MeshPieces {
         return !makes_normals[numbers_[piece]] && primitives_[numbers_[piece]].find("NORMAL");
     }
 
-    void takeNormals(const std::vector<Source>& sources, const std::vector<bool>& makes_normals,
+    void takeNormals(const std::vector<NearVertex>& sources, const std::vector<bool>& makes_normals,
                      Surroundings& result) const {
         std::map<std::uint32_t, std::vector<Vec3>> normals;  // of pieces that keep theirs
         for (std::size_t i = 0; i < sources.size(); ++i) {
@@ -102,7 +102,7 @@ class MeshPieces {
     }
 
     /// What targets add to these vertices. The result does not need this.
-    [[nodiscard]] std::function<Result<MorphOffsets>(std::size_t)> offsetsOf(std::vector<Source> sources) const {
+    [[nodiscard]] std::function<Result<MorphOffsets>(std::size_t)> offsetsOf(std::vector<NearVertex> sources) const {
         std::vector<const Primitive*> of_pieces;
         bool any = false;
         for (const std::size_t number : numbers_) {

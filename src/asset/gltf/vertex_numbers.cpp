@@ -18,17 +18,17 @@ namespace {
 constexpr const char* kOutline = "CESIUM_primitive_outline";
 constexpr const char* kFeatures = "EXT_mesh_features";
 /// Extensions of primitives and meshes that name no vertices, or are seen to elsewhere.
-constexpr std::array kHarmless = {kOutline,
-                                  kFeatures,
-                                  "KHR_draco_mesh_compression",
-                                  "KHR_materials_variants",
-                                  "KHR_mesh_quantization",
-                                  "KHR_xmp",
-                                  "KHR_xmp_json_ld",
-                                  "EXT_meshopt_compression",
-                                  "KHR_meshopt_compression",
-                                  "EXT_structural_metadata",
-                                  "EXT_instance_features"};
+constexpr std::array kNamesNoVertices = {kOutline,
+                                         kFeatures,
+                                         "KHR_draco_mesh_compression",
+                                         "KHR_materials_variants",
+                                         "KHR_mesh_quantization",
+                                         "KHR_xmp",
+                                         "KHR_xmp_json_ld",
+                                         "EXT_meshopt_compression",
+                                         "KHR_meshopt_compression",
+                                         "EXT_structural_metadata",
+                                         "EXT_instance_features"};
 /// Of scenes: how many vertices there are.
 constexpr const char* kCounts = "FB_geometry_metadata";
 
@@ -51,7 +51,7 @@ void visitExtensions(const Document& document, const Primitive& primitive, Visit
 }
 
 bool isHarmless(const std::string& name) {
-    return std::find(kHarmless.begin(), kHarmless.end(), name) != kHarmless.end();
+    return std::find(kNamesNoVertices.begin(), kNamesNoVertices.end(), name) != kNamesNoVertices.end();
 }
 
 bool hasCounts(const Document& document) {
