@@ -25,7 +25,22 @@ int lowestBit(float value) {
 struct Axis {
     float low = std::numeric_limits<float>::max(), high = -std::numeric_limits<float>::max();
     int lowest_bit = 128;
+    double spacing = 0;  // the one distance that edges have along it, but for 0
+    bool is_even = true;
+    std::uint64_t triangles = 0, flat = 0;
 
+    void addTriangle(float a, float b, float c) {
+        ++triangles;
+        flat += a == b && b == c ? 1U : 0U;
+        for (const double distance : {std::fabs(double{b} - a), std::fabs(double{c} - b), std::fabs(double{a} - c)}) {
+            if (!(distance > 0)) continue;
+            if (spacing == 0) spacing = distance;
+            is_even = is_even && distance == spacing;
+        }
+    }
+    /// Terrain in steps of a metre, say: all its triangles but walls are as wide along the axis. Where a gentle slope was
+    /// rounded edges are as long too, but many triangles are flat.
+    [[nodiscard]] bool isRaster() const { return is_even && spacing > 0 && 10 * flat <= triangles; }
     void add(float value) {
         if (!std::isfinite(value)) return;
         low = std::min(low, value);
@@ -36,7 +51,7 @@ struct Axis {
     [[nodiscard]] double step() const {
         // Models near the origin may lie on a grid on purpose. So many bits of an offset do not.
         constexpr double kFar = 1 << 18;
-        if (!(high >= low) || far() == 0) return 0;
+        if (!(high >= low) || far() == 0 || isRaster()) return 0;
         const double finest = std::ldexp(1.0, std::ilogb(far()) - 23), common = std::ldexp(1.0, lowest_bit);
         return far() >= kFar * common ? std::max(finest, common) : finest;
     }
@@ -44,7 +59,8 @@ struct Axis {
 
 }  // namespace
 
-PositionRounding roundingOf(StridedSpan<const Vec3> positions, double stored_step) {
+PositionRounding roundingOf(StridedSpan<const Vec3> positions,
+                            std::span<const std::span<const std::uint32_t>> corner_lists, double stored_step) {
     constexpr double kManySteps = 1 << 16;
     Axis axes[3];
     for (std::size_t v = 0; v < positions.count; ++v) {
@@ -52,6 +68,14 @@ PositionRounding roundingOf(StridedSpan<const Vec3> positions, double stored_ste
         axes[0].add(p.x);
         axes[1].add(p.y);
         axes[2].add(p.z);
+    }
+    for (const std::span<const std::uint32_t> corners : corner_lists) {
+        for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+            const Vec3 a = positions[corners[i]], b = positions[corners[i + 1]], c = positions[corners[i + 2]];
+            axes[0].addTriangle(a.x, b.x, c.x);
+            axes[1].addTriangle(a.y, b.y, c.y);
+            axes[2].addTriangle(a.z, b.z, c.z);
+        }
     }
     PositionRounding rounding;
     double width = 0, squares = 0;

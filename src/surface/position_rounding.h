@@ -17,9 +17,11 @@ struct PositionRounding {
 };
 
 /// `stored_step`: of a format with whole numbers, in units of the positions; 0 for floats. Their steps are those of the
-/// largest coordinates, or coarser where all positions lie on multiples. Nothing where the mesh is 2^16 steps wide or
+/// largest coordinates, or coarser where all positions lie on multiples; none along axes of a raster. `corner_lists`: three
+/// per triangle, for each mesh over these positions. Nothing where the mesh is 2^16 steps wide or
 /// more. Linear.
-PositionRounding roundingOf(StridedSpan<const Vec3> positions, double stored_step = 0);
+PositionRounding roundingOf(StridedSpan<const Vec3> positions,
+                            std::span<const std::span<const std::uint32_t>> corner_lists, double stored_step = 0);
 
 /// Triangles that rounding turns.
 struct TurnedTriangles {

@@ -639,6 +639,30 @@ TEST(Check, BlamesRoundedPositionsAndNotTheTangents) {
         << "values are no matter of rounding";
 }
 
+/// Terrain in steps of a metre, in metres of a map.
+TEST(Check, TakesRastersFarFromTheOriginForExact) {
+    ScenePrimitive terrain = goodPatch();
+    edit(terrain.positions, [&](auto& positions) {
+        edit(terrain.normals, [&](auto& normals) {
+            for (std::size_t v = 0; v < positions.size(); ++v) {
+                const std::size_t half = v / kHalf, row = v % kHalf / kSide, column = v % kSide;
+                const double x = static_cast<double>(column + half * (kSide - 1)), z = static_cast<double>(row);
+                positions[v] =
+                    toFloat(DVec3{500000 + x, 0.6 * std::sin(0.4 * x) + 0.5 * std::cos(0.3 * z), 4500000 - z});
+                DVec3 n{-0.24 * std::cos(0.4 * x), 1, -0.15 * std::sin(0.3 * z)};
+                normalize(n);
+                normals[v] = toFloat(n);
+            }
+        });
+    });
+    terrain.tangents = tangentsOf(terrain);
+    EXPECT_EQ(codesOf(terrain), Codes{});
+    edit(terrain.tangents, [](auto& tangents) {
+        for (Vec4& t : tangents) t = {-t.x, -t.y, -t.z, -t.w};
+    });
+    EXPECT_EQ(codesOf(terrain), Codes{"error directionsWrong"});
+}
+
 TEST(Check, TakesTangentsThatCannotBeReadForMissing) {
     ScenePrimitive patch = goodPatch();
     patch.tangents = {};

@@ -96,7 +96,9 @@ PoolView lendVertices(const Document& document, const Primitive& first, const Po
 /// Where frames are made from positions that rounding has moved too far. Half a sentence; empty: they are fine enough.
 std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGeometry> geometries) {
     constexpr double kLimit = 10;
-    const PositionRounding rounding = roundingOf(vertices.positions);
+    std::vector<std::span<const std::uint32_t>> corner_lists;
+    for (const PrimitiveGeometry& geometry : geometries) corner_lists.emplace_back(geometry.indices);
+    const PositionRounding rounding = roundingOf(vertices.positions, corner_lists);
     if (rounding.error == 0) return {};
     for (const PrimitiveGeometry& geometry : geometries) {
         const TurnedTriangles turned = turnedBy(rounding, vertices.positions, geometry.indices, kLimit);
