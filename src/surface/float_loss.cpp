@@ -15,12 +15,13 @@ Coordinates coordinatesOf(const DVec3& p) { return {p.x, p.y, p.z}; }
 bool isFinite(const DVec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 double rounded(double value) { return static_cast<double>(static_cast<float>(value)); }
 
-/// The middle nine tenths of the corners along one axis.
+/// The middle of the corners along one axis.
 struct Middle {
     double low = 0, high = 0;
 };
 
-Middle middleOf(const VisitEdges& edges, std::size_t axis) {
+/// Of `parts` equal parts of the corners, in order, the first and the last are left out.
+Middle middleOf(const VisitEdges& edges, std::size_t axis, std::size_t parts) {
     std::vector<double> values;
     edges([&](const DVec3& from, const DVec3&) {
         if (isFinite(from)) values.push_back(coordinatesOf(from)[axis]);
@@ -32,7 +33,7 @@ Middle middleOf(const VisitEdges& edges, std::size_t axis) {
         return *place;
     };
     const std::size_t last = values.size() - 1;
-    return {at(last / 20), at(last - last / 20)};
+    return {at(last / parts), at(last - last / parts)};
 }
 
 /// To a multiple of the largest power of ten that is at most `size`. Without a call of libm that rounds differently on
@@ -67,11 +68,11 @@ FloatLoss floatLoss(const VisitEdges& edges, const DVec3& offset) {
     return loss;
 }
 
-DVec3 roundMiddle(const VisitEdges& edges) {
+DVec3 roundMiddle(const VisitEdges& edges, std::size_t parts) {
     std::array<Middle, 3> middles;
     double size = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        middles[k] = middleOf(edges, k);
+        middles[k] = middleOf(edges, k, parts);
         size = std::max(size, middles[k].high - middles[k].low);
     }
     const auto middle = [&](std::size_t k) {
@@ -85,9 +86,13 @@ DVec3 offsetForFloats(const VisitEdges& edges) {
     const FloatLoss before = floatLoss(edges, {});
     if (!before.isNoticeable()) return {};
     const auto isLost = [&](std::size_t k) { return before.isNoticeable(before.changed_along[k]); };
-    const DVec3 middle = roundMiddle(edges);
-    const DVec3 offset{isLost(0) ? middle.x : 0, isLost(1) ? middle.y : 0, isLost(2) ? middle.z : 0};
-    return floatLoss(edges, offset).changed_count <= before.changed_count / 2 ? offset : DVec3{};
+    // A stray face decides nothing; nor does a part that lies elsewhere, where most faces are together.
+    for (const std::size_t parts : {20, 4}) {
+        const DVec3 middle = roundMiddle(edges, parts);
+        const DVec3 offset{isLost(0) ? middle.x : 0, isLost(1) ? middle.y : 0, isLost(2) ? middle.z : 0};
+        if (floatLoss(edges, offset).changed_count <= before.changed_count / 2) return offset;
+    }
+    return {};
 }
 
 }  // namespace tspace

@@ -30,12 +30,13 @@ struct FloatLoss {
 /// Of rounding what is left of the positions without `offset`. Linear.
 FloatLoss floatLoss(const VisitEdges& edges, const DVec3& offset);
 
-/// The middle of nine tenths of the corners along each axis, rounded to the largest power of ten that is no larger than
-/// the model. Linear; 8 bytes per corner.
-DVec3 roundMiddle(const VisitEdges& edges);
+/// The middle of nine tenths of the corners along each axis (a twentieth, 1 / `parts`, is left out at both ends), rounded to
+/// the largest power of ten that is no larger than they reach. Linear; 8 bytes per corner.
+DVec3 roundMiddle(const VisitEdges& edges, std::size_t parts = 20);
 
-/// What to take out of positions before they become floats: roundMiddle, along the axes where the loss is noticeable. Zero
-/// where nothing noticeable is lost, or where no offset halves the loss. Linear.
+/// What to take out of positions before they become floats, along the axes where the loss is noticeable: the middle of nine
+/// tenths of the corners, or else of half of them. Zero where nothing noticeable is lost, or where neither halves the loss.
+/// Linear.
 DVec3 offsetForFloats(const VisitEdges& edges);
 
 }  // namespace tspace

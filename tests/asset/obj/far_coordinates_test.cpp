@@ -166,6 +166,16 @@ TEST(FarCoordinates, AFaceThatWasLeftAtTheOriginIsNoHindrance) {
     EXPECT_EQ(made.translation().dump(), "[456124.0,5261790.0,0.0]");
 }
 
+TEST(FarCoordinates, ASmallPartThatLiesElsewhereIsNoHindrance) {
+    const TempFolder folder;
+    const std::string far = scan(kFar);
+    std::string strays;
+    const auto faces = static_cast<std::size_t>(std::count(far.begin(), far.end(), 'f'));
+    for (std::size_t i = 0; i < faces / 10; ++i) strays += "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n";
+    const Made made = make(folder, "part", far + strays);
+    EXPECT_FALSE(made.translation().is_null());
+}
+
 TEST(FarCoordinates, PartsThatNoOffsetBringsTogetherAreSaidToBeRounded) {
     const TempFolder folder;
     const Made made = make(folder, "spread", "o a\n" + scan(kFar) + "o b\n" + scan(-1.0 * kFar));
