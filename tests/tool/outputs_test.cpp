@@ -78,6 +78,30 @@ TEST(Outputs, NeverTakeThePlaceOfAnInput) {
     }
 }
 
+TEST(Outputs, AReportIsNoFileThatBakingRead) {
+    const TempFolder folder;
+    writeModels(folder);
+    std::string bin;
+    for (const std::string& name : folder.files()) {
+        if (name.ends_with(".bin")) bin = name;
+    }
+    ASSERT_FALSE(bin.empty());
+    fs::create_symlink(bin, folder.path("link.json"));
+    const auto before = contentsOf(folder);
+    for (const std::string& command :
+         {"plain.glb --high separate.gltf --report " + bin, "separate.gltf --high plain.glb --report " + bin,
+          std::string("plain.glb --high separate.gltf --report link.json"),
+          std::string("folded.obj --high plain.glb --report folded.mtl"),
+          std::string("plain.glb --high folded.obj --report folded.mtl"),
+          "plain.glb --high made.glb --cage separate.gltf --report " + bin}) {
+        const ToolRun run = runTool(folder, "bake " + command + " -q --size 16 -o n.png");
+        EXPECT_EQ(run.exit_code, 4) << command << run.err;
+        EXPECT_NE(run.err.find("it is an input"), std::string::npos) << run.err;
+        fs::remove(folder.path("n.png"));
+        EXPECT_TRUE(contentsOf(folder) == before) << command;
+    }
+}
+
 TEST(Outputs, OfOneRunAreDifferentFiles) {
     const TempFolder folder;
     writeModels(folder);
