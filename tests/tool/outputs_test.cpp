@@ -102,6 +102,30 @@ TEST(Outputs, AReportIsNoFileThatBakingRead) {
     }
 }
 
+TEST(Outputs, OfModelsAtOneTimeKeepTheirOwnBuffers) {
+    const TempFolder folder;
+    // Two triangles that differ in their buffers alone, which have one name.
+    for (const auto& [name, byte] : {std::pair("p/a.gltf", '\x3f'), std::pair("q/b.gltf", '\x40')}) {
+        std::string buffer(36, '\0');
+        buffer[15] = buffer[31] = byte;
+        buffer[14] = buffer[30] = '\x20';
+        const fs::path beside = fs::path(name).parent_path();
+        folder.write((beside / "shared.bin").string(), buffer);
+        folder.write(name, std::string(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"shared.bin"}],
+            "bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,
+            "type":"VEC3","min":[0,0,0],"max":[3,3,0]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+            "nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0})"));
+    }
+    for (int round = 0; round < 20; ++round) {
+        fs::remove_all(folder.path("o"));
+        const ToolRun run = runTool(folder, "generate p/a.gltf q/b.gltf -q -o o/ --jobs 2");
+        ASSERT_EQ(run.exit_code, 4) << run.err;
+        ASSERT_NE(folder.has("o/a.gltf"), folder.has("o/b.gltf")) << run.err;
+        const char* whose = folder.has("o/a.gltf") ? "p/shared.bin" : "q/shared.bin";
+        ASSERT_EQ(folder.read("o/shared.bin"), folder.read(whose));
+    }
+}
+
 TEST(Outputs, OfOneRunAreDifferentFiles) {
     const TempFolder folder;
     writeModels(folder);

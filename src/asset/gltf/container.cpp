@@ -187,7 +187,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
                      " exists already and is another one",
                  place);
     }
-    output.add(to, document.files.read(from, place));
+    output.addShared(to, document.files.read(from, place));
 }
 
 void copyNamedFiles(const Document& document, const OutputTarget& target, AtomicOutput& output,
