@@ -30,6 +30,20 @@ class InputFiles {
     std::set<std::string> identities_ = {};
 };
 
+/// While it lives, no output of this process takes the place of these files, which it writes itself in another way or at
+/// another time: names of outputs that are made from others are known only when they are written. Empty paths and "-" are
+/// none.
+class KeptFiles {
+  public:
+    explicit KeptFiles(const std::vector<std::string>& paths);
+    ~KeptFiles();
+    KeptFiles(const KeptFiles&) = delete;
+    KeptFiles& operator=(const KeptFiles&) = delete;
+
+  private:
+    std::vector<std::string> identities_ = {};
+};
+
 /// How outputs are written.
 struct OutputWay {
     /// The one file goes there at once, in place of the disk.

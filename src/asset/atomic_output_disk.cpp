@@ -29,7 +29,39 @@ int writeStream(const Path& path, std::span<const std::uint8_t> bytes) {
     return std::fclose(stream.release()) == 0 || failure != 0 ? failure : errno;
 }
 
+/// Identities of files that outputs must not replace, by whoever keeps them.
+struct KeptIdentities {
+    std::mutex mutex = {};
+    std::multiset<std::string> identities = {};
+};
+
+KeptIdentities& keptIdentities() {
+    static KeptIdentities kept;
+    return kept;
+}
+
+bool isKept(const std::string& identity) {
+    KeptIdentities& kept = keptIdentities();
+    const std::lock_guard lock(kept.mutex);
+    return kept.identities.contains(identity);
+}
+
 }  // namespace
+
+KeptFiles::KeptFiles(const std::vector<std::string>& paths) {
+    for (const std::string& path : paths) {
+        if (!path.empty() && path != "-") identities_.push_back(identityOf(path));
+    }
+    KeptIdentities& kept = keptIdentities();
+    const std::lock_guard lock(kept.mutex);
+    kept.identities.insert(identities_.begin(), identities_.end());
+}
+
+KeptFiles::~KeptFiles() {
+    KeptIdentities& kept = keptIdentities();
+    const std::lock_guard lock(kept.mutex);
+    for (const std::string& identity : identities_) kept.identities.erase(kept.identities.find(identity));
+}
 
 void InputFiles::add(const Path& path) {
     std::string identity = identityOf(path);
@@ -72,7 +104,9 @@ AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
     if (kind == PathKind::other) failToWrite(target, "it is neither a file nor a stream of bytes");
     if (kind == PathKind::stream) return {.target = target, .is_stream = true};
     if (way_.inputs != nullptr && way_.inputs->has(target)) failToWrite(requested, "it is an input");
-    if (!identities_.insert(identityOf(target)).second) failToWrite(requested, "another output is the same file");
+    const std::string identity = identityOf(target);
+    if (isKept(identity) || !identities_.insert(identity).second)
+        failToWrite(requested, "another output is the same file");
     return {.target = target, .temporary = besideName(target, kTemporaryEnding)};
 }
 

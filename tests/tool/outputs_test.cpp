@@ -142,6 +142,40 @@ TEST(Outputs, OfOneRunAreDifferentFiles) {
     }
 }
 
+TEST(Outputs, WhoseNamesAreMadeReplaceNoReportAndNoManifest) {
+    const TempFolder folder;
+    writeModels(folder);
+    folder.write("two.obj",
+                 "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                 "usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/3 4/4\n");
+    folder.write("two.mtl", "newmtl a\nnewmtl b\n");
+    struct Case {
+        const char* command;
+        const char* kept;
+        const char* other;  ///< what is not written then
+    };
+    for (const Case& one :
+         {Case{"generate plain.glb -o m.gltf --manifest m.bin", "m.bin", "m.gltf"},
+          Case{"generate folded.obj -o m.gltf --manifest m.bin", "m.bin", "m.gltf"},
+          Case{"bake two.obj --high two.obj --out-mesh m.gltf -o n.png --report m.bin --size 16", "m.bin", "m.gltf"},
+          Case{"bake two.obj --high two.obj -o n.png --report n.a.png --size 16", "n.a.png", "n.b.png"},
+          Case{"bake two.obj --high two.obj -o o.png --heat h.png --report h.b.png --size 16", "h.b.png", "o.a.png"},
+          Case{"bake plain.glb --high made.glb --udim -o u.png --report u.1001.png --size 16", "u.1001.png",
+               "u.png"}}) {
+        for (const bool is_there : {false, true}) {
+            if (!is_there) fs::remove(folder.path(one.kept));
+            const ToolRun run = runTool(folder, std::string(one.command) + " -q");
+            EXPECT_EQ(run.exit_code, 4) << one.command << run.err;
+            EXPECT_NE(run.err.find("another output is the same file"), std::string::npos) << one.command << run.err;
+            EXPECT_EQ(folder.read(one.kept).substr(0, 1), "{") << one.command;
+            EXPECT_FALSE(folder.has(one.other)) << one.command;
+        }
+    }
+    fs::remove(folder.path("m.bin"));
+    EXPECT_EQ(runTool(folder, "generate plain.glb -q -o m.glb --manifest m.bin").exit_code, 0);
+    EXPECT_EQ(runTool(folder, "bake two.obj --high two.obj -q -o n.png --report n.c.png --size 16").exit_code, 0);
+}
+
 TEST(Outputs, KeepThePermissionsThatWereThere) {
     const TempFolder folder;
     writeModels(folder);

@@ -60,6 +60,7 @@ Result<BakeFileReport> bake(const BakeArguments& arguments, InputFiles& read) {
         progress.update(arguments.low, what, done, total);
     };
     options.map.stop = wasInterrupted;
+    const KeptFiles kept({arguments.report});
     return bakeFile(arguments.low, arguments.high, arguments.output, options);
 }
 
