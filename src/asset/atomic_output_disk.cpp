@@ -98,11 +98,12 @@ AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
     std::error_code error;
     if (isForeignLink(requested))
         failToWrite(requested, "it is a link that another user made in a folder where everybody may write");
+    // A stream keeps its name: links in /proc, as /dev/stdout is one, have no path where a pipe is.
+    const PathKind kind = kindOf(requested);
+    if (kind == PathKind::stream) return {.target = requested, .is_stream = true};
     const Path target = fs::is_symlink(fs::path(requested), error) ? canonicalPath(requested) : requested;
-    const PathKind kind = kindOf(target);
     if (kind == PathKind::folder) failToWrite(target, "it is a folder");
     if (kind == PathKind::other) failToWrite(target, "it is neither a file nor a stream of bytes");
-    if (kind == PathKind::stream) return {.target = target, .is_stream = true};
     if (way_.inputs != nullptr && way_.inputs->has(target)) failToWrite(requested, "it is an input");
     const std::string identity = identityOf(target);
     if (isKept(identity) || !identities_.insert(identity).second)

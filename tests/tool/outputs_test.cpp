@@ -205,10 +205,27 @@ TEST(Outputs, GoIntoPipesAndDevicesAndLeaveThemThere) {
     for (const Case& one :
          {Case{"check plain.glb --html pipe", "<!doctype html>"}, Case{"check plain.glb --sarif pipe", "{"},
           Case{"render plain.glb -o pipe.png", "\x89PNG"}, Case{"generate plain.glb -o pipe.glb", "glTF"},
+          Case{"generate plain.glb -o pipe", "glTF"}, Case{"generate folded.obj -o pipe", "glTF"},
+          Case{"generate separate.gltf -o pipe --manifest m.jsonl", "glTF"},
           Case{"generate plain.glb -o new.glb --manifest pipe", "{\"schema\""}}) {
         runTool(folder, one.command, R"(sh -c 'timeout 20 cat pipe > got & timeout 20 "$0" "$@"; wait')");
         EXPECT_TRUE(fs::is_fifo(folder.path("pipe"))) << one.command;
         EXPECT_EQ(folder.read("got").substr(0, std::string(one.begin).size()), one.begin) << one.command;
+    }
+    EXPECT_EQ(runTool(folder, "generate plain.glb -o pipe --container gltf").exit_code, 2);
+    // Links in /proc, whose text is no path.
+    for (const char* option : {"check plain.glb --html", "check plain.glb --sarif",
+                               "bake plain.glb --high made.glb --size 16 -o n.png --report"}) {
+        const ToolRun substituted =
+            runTool(folder, option, R"(bash -c '"$0" "$@" >(cat > got); code=$?; wait $!; exit $code')");
+        EXPECT_EQ(substituted.exit_code, 0) << option << substituted.err;
+        EXPECT_FALSE(folder.read("got").empty()) << option;
+        fs::remove(folder.path("got"));
+        const ToolRun piped = runTool(folder, std::string(option) + " /proc/self/fd/1 -q",
+                                      R"(bash -c 'set -o pipefail; "$0" "$@" | cat > got')");
+        EXPECT_EQ(piped.exit_code, 0) << option << piped.err;
+        EXPECT_TRUE(folder.read("got").starts_with("<!doctype html>") || folder.read("got").starts_with("{")) << option;
+        fs::remove(folder.path("got"));
     }
     // As /dev/null, which nobody wants to lose.
     if (mknod(folder.path("null").c_str(), S_IFCHR | 0600, makedev(1, 3)) != 0) GTEST_SKIP() << "no device can be made";

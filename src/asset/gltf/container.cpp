@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "asset/disk_paths.h"
 #include "asset/file_error.h"
 #include "asset/gltf/meshopt_views.h"
 #include "asset/uri.h"
@@ -214,10 +215,10 @@ std::span<const std::uint8_t> bytesOf(const std::string& text) {
 OutputTarget outputTarget(const Document& document, const Path& path, bool is_stream) {
     OutputTarget target;
     target.path = path;
-    if (!isGltfName(path)) {
+    if (!isGltfName(path) && !isGlbOutput(path)) {
         failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(path) + " is neither .glb nor .gltf");
     }
-    target.container = isGlbName(path) ? Container::glb : Container::gltf;
+    target.container = isGlbOutput(path) ? Container::glb : Container::gltf;
     target.takes_images_in =
         target.container == Container::glb && (document.container == Container::gltf || document.imported);
     if (is_stream) {
