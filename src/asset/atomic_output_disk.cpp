@@ -101,9 +101,9 @@ AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
     // A stream keeps its name: links in /proc, as /dev/stdout is one, have no path where a pipe is.
     const PathKind kind = kindOf(requested);
     if (kind == PathKind::stream) return {.target = requested, .is_stream = true};
+    if (kind == PathKind::folder) failToWrite(requested, "it is a folder");
+    if (kind == PathKind::other) failToWrite(requested, "it is neither a file nor a stream of bytes");
     const Path target = fs::is_symlink(fs::path(requested), error) ? canonicalPath(requested) : requested;
-    if (kind == PathKind::folder) failToWrite(target, "it is a folder");
-    if (kind == PathKind::other) failToWrite(target, "it is neither a file nor a stream of bytes");
     if (way_.inputs != nullptr && way_.inputs->has(target)) failToWrite(requested, "it is an input");
     const std::string identity = identityOf(target);
     if (isKept(identity) || !identities_.insert(identity).second)
