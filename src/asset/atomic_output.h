@@ -30,6 +30,20 @@ class InputFiles {
     std::set<std::string> identities_ = {};
 };
 
+/// While it lives, no output of this process takes the place of these files, which it writes itself in another way or at
+/// another time: names of outputs that are made from others are known only when they are written. Empty paths and "-" are
+/// none.
+class KeptFiles {
+  public:
+    explicit KeptFiles(const std::vector<std::string>& paths);
+    ~KeptFiles();
+    KeptFiles(const KeptFiles&) = delete;
+    KeptFiles& operator=(const KeptFiles&) = delete;
+
+  private:
+    std::vector<std::string> identities_ = {};
+};
+
 /// How outputs are written.
 struct OutputWay {
     /// The one file goes there at once, in place of the disk.
@@ -63,6 +77,13 @@ class AtomicOutput {
     }
     void add(const Path& target, std::span<const std::uint8_t> bytes) { add(target, {OutputPiece(bytes)}); }
 
+    /// The same for a file that other outputs may bring too, and that is not there yet. Where it is there by the time of
+    /// commit(), with the same bytes, it stays; with others commit() fails. That holds for all threads of the process.
+    void addShared(const Path& target, std::span<const std::uint8_t> bytes) {
+        add(target, bytes);
+        files_.back().is_shared = true;
+    }
+
     [[nodiscard]] bool isStream() const { return way_.sink != nullptr; }
 
     /// Remembers a file whose content went into an output.
@@ -84,6 +105,7 @@ class AtomicOutput {
         bool is_made = false;  ///< the temporary file is there
         Bytes held = {};       ///< for a stream
         bool is_stream = false;
+        bool is_shared = false;  ///< see addShared()
     };
 
     [[noreturn]] static void failToWrite(const Path& target, const std::string& why);
@@ -93,6 +115,7 @@ class AtomicOutput {
     /// writeTo(sink) returns 0, or errno.
     void addFile(File planned, const std::function<int(const Sink&)>& writeTo);
     void makeFolders(const Path& target);
+    void leaveSharedFiles();
     void renameFiles();
     void removeTemporaryFiles() noexcept;
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "asset/atomic_output.h"
+#include "asset/file_io.h"
 #include "asset/system_files.h"
 #include "asset/temporary_files.h"
 #include "asset/temporary_name.h"
@@ -28,7 +29,39 @@ int writeStream(const Path& path, std::span<const std::uint8_t> bytes) {
     return std::fclose(stream.release()) == 0 || failure != 0 ? failure : errno;
 }
 
+/// Identities of files that outputs must not replace, by whoever keeps them.
+struct KeptIdentities {
+    std::mutex mutex = {};
+    std::multiset<std::string> identities = {};
+};
+
+KeptIdentities& keptIdentities() {
+    static KeptIdentities kept;
+    return kept;
+}
+
+bool isKept(const std::string& identity) {
+    KeptIdentities& kept = keptIdentities();
+    const std::lock_guard lock(kept.mutex);
+    return kept.identities.contains(identity);
+}
+
 }  // namespace
+
+KeptFiles::KeptFiles(const std::vector<std::string>& paths) {
+    for (const std::string& path : paths) {
+        if (!path.empty() && path != "-") identities_.push_back(identityOf(path));
+    }
+    KeptIdentities& kept = keptIdentities();
+    const std::lock_guard lock(kept.mutex);
+    kept.identities.insert(identities_.begin(), identities_.end());
+}
+
+KeptFiles::~KeptFiles() {
+    KeptIdentities& kept = keptIdentities();
+    const std::lock_guard lock(kept.mutex);
+    for (const std::string& identity : identities_) kept.identities.erase(kept.identities.find(identity));
+}
 
 void InputFiles::add(const Path& path) {
     std::string identity = identityOf(path);
@@ -65,13 +98,16 @@ AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
     std::error_code error;
     if (isForeignLink(requested))
         failToWrite(requested, "it is a link that another user made in a folder where everybody may write");
+    // A stream keeps its name: links in /proc, as /dev/stdout is one, have no path where a pipe is.
+    const PathKind kind = kindOf(requested);
+    if (kind == PathKind::stream) return {.target = requested, .is_stream = true};
+    if (kind == PathKind::folder) failToWrite(requested, "it is a folder");
+    if (kind == PathKind::other) failToWrite(requested, "it is neither a file nor a stream of bytes");
     const Path target = fs::is_symlink(fs::path(requested), error) ? canonicalPath(requested) : requested;
-    const PathKind kind = kindOf(target);
-    if (kind == PathKind::folder) failToWrite(target, "it is a folder");
-    if (kind == PathKind::other) failToWrite(target, "it is neither a file nor a stream of bytes");
-    if (kind == PathKind::stream) return {.target = target, .is_stream = true};
     if (way_.inputs != nullptr && way_.inputs->has(target)) failToWrite(requested, "it is an input");
-    if (!identities_.insert(identityOf(target)).second) failToWrite(requested, "another output is the same file");
+    const std::string identity = identityOf(target);
+    if (isKept(identity) || !identities_.insert(identity).second)
+        failToWrite(requested, "another output is the same file");
     return {.target = target, .temporary = besideName(target, kTemporaryEnding)};
 }
 
@@ -123,11 +159,29 @@ void AtomicOutput::addFile(File planned, const std::function<int(const Sink&)>& 
     if (std::fclose(file.release()) != 0) failToWrite(added.target, std::strerror(errno));
 }
 
+/// Those that are there are not written again.
+void AtomicOutput::leaveSharedFiles() {
+    for (File& file : files_) {
+        if (!file.is_shared || !file.is_made || kindOf(file.target) == PathKind::nothing) continue;
+        if (readFile(file.temporary) != readFile(file.target))
+            failToWrite(file.target, "a file of that name is there by now, and is another one");
+        TemporaryFilesInWork work;
+        removePath(file.temporary);
+        work.forget(file.temporary);
+        file.is_made = false;
+    }
+}
+
 void AtomicOutput::renameFiles() {
     for (const File& file : files_) {
         const int failure = file.is_stream ? writeStream(file.target, file.held) : 0;
         if (failure != 0) failToWrite(file.target, std::strerror(failure));
     }
+    // A thread that works on another model may bring a file of the same name: looking whether it is there and renaming
+    // are one step.
+    static std::mutex renaming;
+    std::unique_lock lock(renaming);
+    leaveSharedFiles();
     // Old files are set aside first, so that a failure half-way can be taken back. Nothing takes memory until all is done.
     struct Aside {
         Path name = {};
@@ -140,7 +194,7 @@ void AtomicOutput::renameFiles() {
         if (way_.sync && std::none_of(folders.begin(), folders.end(), isIt)) folders.push_back(std::move(folder));
     };
     for (std::size_t i = 0; i < files_.size(); ++i) {
-        if (files_[i].is_stream) continue;
+        if (!files_[i].is_made) continue;
         addFolder(folderOf(files_[i].target));
         if (files_.size() > 1 && kindOf(files_[i].target) == PathKind::file)
             aside[i].name = besideName(files_[i].target, kAsideEnding);
@@ -152,7 +206,7 @@ void AtomicOutput::renameFiles() {
         TemporaryFilesInWork work;
         for (std::size_t i = files_.size(); i-- > 0 && failure == 0;) {
             const File& file = files_[i];
-            if (file.is_stream) continue;
+            if (!file.is_made) continue;
             failed = i;
             if (kindOf(file.target) == PathKind::folder) {
                 failure = EISDIR;
@@ -169,7 +223,7 @@ void AtomicOutput::renameFiles() {
                 renameFile(aside[i].name, files_[i].target);
                 // Where both names are still one file, renaming does nothing.
                 removePath(aside[i].name);
-            } else if (i != failed && !files_[i].is_stream) {
+            } else if (i != failed && files_[i].is_made) {
                 removePath(files_[i].target);
             }
         }
@@ -181,6 +235,7 @@ void AtomicOutput::renameFiles() {
     }
     if (failure != 0) failToWrite(files_[failed].target, std::strerror(failure));
     committed_ = true;
+    lock.unlock();
     for (const Path& folder : folders) syncFolder(folder);
 }
 

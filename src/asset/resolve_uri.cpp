@@ -28,6 +28,10 @@ std::uint64_t fileSize(const Path& path) {
     return no_file ? 0 : size;
 }
 
+bool isGlbOutput(const Path& path) {
+    return isGlbName(path) || (kindOf(path) == PathKind::stream && lowerExtension(path) != ".gltf");
+}
+
 std::string pathBelow(const Path& folder, const Path& file) {
     const fs::path root = canonicalPath(folder);
     const fs::path relative = fs::path(canonicalPath(file)).lexically_relative(root);

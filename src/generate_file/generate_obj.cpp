@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "asset/atomic_output.h"
+#include "asset/disk_paths.h"
 #include "asset/file_error.h"
 #include "asset/gltf/packed_words.h"
 #include "asset/obj/obj_primitives.h"
@@ -22,7 +23,7 @@ namespace {
 using namespace obj;
 
 void checkOutput(const std::string& output) {
-    if (!isGltfName(output)) {
+    if (!isGltfName(output) && !isGlbOutput(output)) {
         failFile(ErrorCode::invalidOption, "the output must end in .glb, .vrm or .gltf: " + output);
     }
 }

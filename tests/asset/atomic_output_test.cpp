@@ -162,6 +162,23 @@ TEST(AtomicOutput, RefusesInputsAndTwoOutputsThatAreOne) {
     EXPECT_EQ(readFile(folder.path("input")), toBytes("old"));
 }
 
+TEST(AtomicOutput, ASharedFileStaysAsTheFirstBroughtIt) {
+    const TempFolder folder;
+    AtomicOutput first, same, other;
+    first.add(folder.path("first"), toBytes("first"));
+    first.addShared(folder.path("shared"), toBytes("shared"));
+    same.add(folder.path("same"), toBytes("same"));
+    same.addShared(folder.path("shared"), toBytes("shared"));
+    other.add(folder.path("other"), toBytes("other"));
+    other.addShared(folder.path("shared"), toBytes("another"));
+    first.commit();
+    same.commit();
+    EXPECT_EQ(errorOf([&] { other.commit(); }).code, ErrorCode::cannotWrite);
+    EXPECT_EQ(readFile(folder.path("shared")), toBytes("shared"));
+    EXPECT_TRUE(std::filesystem::exists(folder.path("same")));
+    EXPECT_FALSE(std::filesystem::exists(folder.path("other")));
+}
+
 TEST(AbandonedFiles, ComeBackWhereTheirPlaceIsEmpty) {
     const TempFolder folder;
     // A process that is gone.

@@ -78,6 +78,54 @@ TEST(Outputs, NeverTakeThePlaceOfAnInput) {
     }
 }
 
+TEST(Outputs, AReportIsNoFileThatBakingRead) {
+    const TempFolder folder;
+    writeModels(folder);
+    std::string bin;
+    for (const std::string& name : folder.files()) {
+        if (name.ends_with(".bin")) bin = name;
+    }
+    ASSERT_FALSE(bin.empty());
+    fs::create_symlink(bin, folder.path("link.json"));
+    const auto before = contentsOf(folder);
+    for (const std::string& command :
+         {"plain.glb --high separate.gltf --report " + bin, "separate.gltf --high plain.glb --report " + bin,
+          std::string("plain.glb --high separate.gltf --report link.json"),
+          std::string("folded.obj --high plain.glb --report folded.mtl"),
+          std::string("plain.glb --high folded.obj --report folded.mtl"),
+          "plain.glb --high made.glb --cage separate.gltf --report " + bin}) {
+        const ToolRun run = runTool(folder, "bake " + command + " -q --size 16 -o n.png");
+        EXPECT_EQ(run.exit_code, 4) << command << run.err;
+        EXPECT_NE(run.err.find("it is an input"), std::string::npos) << run.err;
+        fs::remove(folder.path("n.png"));
+        EXPECT_TRUE(contentsOf(folder) == before) << command;
+    }
+}
+
+TEST(Outputs, OfModelsAtOneTimeKeepTheirOwnBuffers) {
+    const TempFolder folder;
+    // Two triangles that differ in their buffers alone, which have one name.
+    for (const auto& [name, byte] : {std::pair("p/a.gltf", '\x3f'), std::pair("q/b.gltf", '\x40')}) {
+        std::string buffer(36, '\0');
+        buffer[15] = buffer[31] = byte;
+        buffer[14] = buffer[30] = '\x20';
+        const fs::path beside = fs::path(name).parent_path();
+        folder.write((beside / "shared.bin").string(), buffer);
+        folder.write(name, std::string(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"shared.bin"}],
+            "bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,
+            "type":"VEC3","min":[0,0,0],"max":[3,3,0]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+            "nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0})"));
+    }
+    for (int round = 0; round < 20; ++round) {
+        fs::remove_all(folder.path("o"));
+        const ToolRun run = runTool(folder, "generate p/a.gltf q/b.gltf -q -o o/ --jobs 2");
+        ASSERT_EQ(run.exit_code, 4) << run.err;
+        ASSERT_NE(folder.has("o/a.gltf"), folder.has("o/b.gltf")) << run.err;
+        const char* whose = folder.has("o/a.gltf") ? "p/shared.bin" : "q/shared.bin";
+        ASSERT_EQ(folder.read("o/shared.bin"), folder.read(whose));
+    }
+}
+
 TEST(Outputs, OfOneRunAreDifferentFiles) {
     const TempFolder folder;
     writeModels(folder);
@@ -92,6 +140,40 @@ TEST(Outputs, OfOneRunAreDifferentFiles) {
         EXPECT_EQ(run.exit_code, 2) << command << run.err;
         EXPECT_TRUE(contentsOf(folder) == before) << command;
     }
+}
+
+TEST(Outputs, WhoseNamesAreMadeReplaceNoReportAndNoManifest) {
+    const TempFolder folder;
+    writeModels(folder);
+    folder.write("two.obj",
+                 "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                 "usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/3 4/4\n");
+    folder.write("two.mtl", "newmtl a\nnewmtl b\n");
+    struct Case {
+        const char* command;
+        const char* kept;
+        const char* other;  ///< what is not written then
+    };
+    for (const Case& one :
+         {Case{"generate plain.glb -o m.gltf --manifest m.bin", "m.bin", "m.gltf"},
+          Case{"generate folded.obj -o m.gltf --manifest m.bin", "m.bin", "m.gltf"},
+          Case{"bake two.obj --high two.obj --out-mesh m.gltf -o n.png --report m.bin --size 16", "m.bin", "m.gltf"},
+          Case{"bake two.obj --high two.obj -o n.png --report n.a.png --size 16", "n.a.png", "n.b.png"},
+          Case{"bake two.obj --high two.obj -o o.png --heat h.png --report h.b.png --size 16", "h.b.png", "o.a.png"},
+          Case{"bake plain.glb --high made.glb --udim -o u.png --report u.1001.png --size 16", "u.1001.png",
+               "u.png"}}) {
+        for (const bool is_there : {false, true}) {
+            if (!is_there) fs::remove(folder.path(one.kept));
+            const ToolRun run = runTool(folder, std::string(one.command) + " -q");
+            EXPECT_EQ(run.exit_code, 4) << one.command << run.err;
+            EXPECT_NE(run.err.find("another output is the same file"), std::string::npos) << one.command << run.err;
+            EXPECT_EQ(folder.read(one.kept).substr(0, 1), "{") << one.command;
+            EXPECT_FALSE(folder.has(one.other)) << one.command;
+        }
+    }
+    fs::remove(folder.path("m.bin"));
+    EXPECT_EQ(runTool(folder, "generate plain.glb -q -o m.glb --manifest m.bin").exit_code, 0);
+    EXPECT_EQ(runTool(folder, "bake two.obj --high two.obj -q -o n.png --report n.c.png --size 16").exit_code, 0);
 }
 
 TEST(Outputs, KeepThePermissionsThatWereThere) {
@@ -123,10 +205,27 @@ TEST(Outputs, GoIntoPipesAndDevicesAndLeaveThemThere) {
     for (const Case& one :
          {Case{"check plain.glb --html pipe", "<!doctype html>"}, Case{"check plain.glb --sarif pipe", "{"},
           Case{"render plain.glb -o pipe.png", "\x89PNG"}, Case{"generate plain.glb -o pipe.glb", "glTF"},
+          Case{"generate plain.glb -o pipe", "glTF"}, Case{"generate folded.obj -o pipe", "glTF"},
+          Case{"generate separate.gltf -o pipe --manifest m.jsonl", "glTF"},
           Case{"generate plain.glb -o new.glb --manifest pipe", "{\"schema\""}}) {
         runTool(folder, one.command, R"(sh -c 'timeout 20 cat pipe > got & timeout 20 "$0" "$@"; wait')");
         EXPECT_TRUE(fs::is_fifo(folder.path("pipe"))) << one.command;
         EXPECT_EQ(folder.read("got").substr(0, std::string(one.begin).size()), one.begin) << one.command;
+    }
+    EXPECT_EQ(runTool(folder, "generate plain.glb -o pipe --container gltf").exit_code, 2);
+    // Links in /proc, whose text is no path.
+    for (const char* option : {"check plain.glb --html", "check plain.glb --sarif",
+                               "bake plain.glb --high made.glb --size 16 -o n.png --report"}) {
+        const ToolRun substituted =
+            runTool(folder, option, R"(bash -c '"$0" "$@" >(cat > got); code=$?; wait $!; exit $code')");
+        EXPECT_EQ(substituted.exit_code, 0) << option << substituted.err;
+        EXPECT_FALSE(folder.read("got").empty()) << option;
+        fs::remove(folder.path("got"));
+        const ToolRun piped = runTool(folder, std::string(option) + " /proc/self/fd/1 -q",
+                                      R"(bash -c 'set -o pipefail; "$0" "$@" | cat > got')");
+        EXPECT_EQ(piped.exit_code, 0) << option << piped.err;
+        EXPECT_TRUE(folder.read("got").starts_with("<!doctype html>") || folder.read("got").starts_with("{")) << option;
+        fs::remove(folder.path("got"));
     }
     // As /dev/null, which nobody wants to lose.
     if (mknod(folder.path("null").c_str(), S_IFCHR | 0600, makedev(1, 3)) != 0) GTEST_SKIP() << "no device can be made";

@@ -51,14 +51,16 @@ std::string textOf(const BakeArguments& arguments, const BakeFileReport& done) {
     return fmt::format("{} -> {}\n{}", printable(arguments.low), printable(arguments.output), table.text("  "));
 }
 
-Result<BakeFileReport> bake(const BakeArguments& arguments) {
+Result<BakeFileReport> bake(const BakeArguments& arguments, InputFiles& read) {
     BakeFileOptions options = arguments.options;
+    read.watch(options.file);
     ProgressLine progress(1, !arguments.quiet);
     options.map.progress = [&](const char* what, std::uint64_t done, std::uint64_t total) {
         if (wasInterrupted()) throw Cancelled{};
         progress.update(arguments.low, what, done, total);
     };
     options.map.stop = wasInterrupted;
+    const KeptFiles kept({arguments.report});
     return bakeFile(arguments.low, arguments.high, arguments.output, options);
 }
 
@@ -71,8 +73,9 @@ ExitCode runBake(const BakeArguments& arguments) {
                        {arguments.low, arguments.high, options.cage});
     if (!fit) return printUsageError(fit.error().message);
     catchInterrupts();
+    InputFiles read;
     const auto start = std::chrono::steady_clock::now();
-    const Result<BakeFileReport> result = bake(arguments);
+    const Result<BakeFileReport> result = bake(arguments, read);
     if (!result && wasInterrupted()) endByInterrupt();
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     ExitCode exit_code =
@@ -82,7 +85,7 @@ ExitCode runBake(const BakeArguments& arguments) {
         .input = arguments.low, .output = arguments.output, .result = result, .seconds = took.count()};
     if (!arguments.report.empty()) {
         const Result<Done> written =
-            writeTextFile(arguments.report, report::bakeJson(outcome, arguments.high, exit_code));
+            writeTextFile(arguments.report, report::bakeJson(outcome, arguments.high, exit_code), &read);
         if (!written) exit_code = worse(exit_code, printError(arguments.report, written.error()));
     }
     std::string text;

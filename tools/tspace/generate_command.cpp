@@ -72,6 +72,7 @@ class GenerateRun {
         Result<ManifestWriter> writer = ManifestWriter::open(batch.manifest);
         if (!writer) return writer.error();
         writer_.emplace(std::move(*writer));
+        kept_.emplace(std::vector<std::string>{batch.manifest});
         return Done{};
     }
 
@@ -178,6 +179,7 @@ class GenerateRun {
     bool wants_text_;
     ProgressLine progress_;
     std::optional<ManifestRecord> record_;
+    std::optional<KeptFiles> kept_;
     std::mutex mutex_;  ///< for the next two
     std::optional<ManifestWriter> writer_;
     ExitCode exit_code_ = ExitCode::done;

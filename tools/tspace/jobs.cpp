@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "asset/disk_paths.h"
 #include "asset/file_io.h"
 #include "asset/system_files.h"
 #include "glob.h"
@@ -128,14 +129,19 @@ Result<std::vector<Job>> jobsInPlace(const GenerateArguments& arguments) {
 Result<std::vector<Job>> jobWithNamedOutput(const GenerateArguments& arguments) {
     Job job{.input = arguments.inputs.front(), .output = arguments.output, .name = arguments.inputs.front()};
     const std::string extension = lowerExtension(job.output);
+    const bool is_glb = isGlbOutput(job.output);
+    if (is_glb && !isGlbName(job.output)) {
+        // A stream is taken as it is called.
+        if (arguments.container == Container::gltf) return usage("only a GLB is one stream of bytes: " + job.output);
+        return std::vector<Job>{std::move(job)};
+    }
     if (extension.empty()) {
         job.output += extensionFor(arguments.container, job.input);
         job.remark = "the output has no extension, so it is the file " + job.output + "; a folder would be " +
                      arguments.output + "/";
     } else if (!isGltfName(job.output)) {
         return usage("the output must end in .glb, .vrm or .gltf: " + job.output);
-    } else if (arguments.container != Container::sameAsInput &&
-               isGlbName(job.output) != (arguments.container == Container::glb)) {
+    } else if (arguments.container != Container::sameAsInput && is_glb != (arguments.container == Container::glb)) {
         return usage("--container says otherwise than the name of the output: " + job.output);
     }
     if (identityOf(job.output) == identityOf(job.input))

@@ -165,6 +165,8 @@ Result<Done> ManifestWriter::append(const ManifestEntry& entry) {
 std::vector<HashedFile> hashFiles(const std::vector<std::string>& paths) {
     std::vector<HashedFile> files;
     for (const std::string& path : paths) {
+        // A stream would be waited for.
+        if (kindOf(path) == PathKind::stream) continue;
         if (const std::optional<FileHash> hash = hashFile(path)) files.push_back({path, *hash});
     }
     return files;

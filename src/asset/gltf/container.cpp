@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "asset/disk_paths.h"
 #include "asset/file_error.h"
 #include "asset/gltf/meshopt_views.h"
 #include "asset/uri.h"
@@ -187,7 +188,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
                      " exists already and is another one",
                  place);
     }
-    output.add(to, document.files.read(from, place));
+    output.addShared(to, document.files.read(from, place));
 }
 
 void copyNamedFiles(const Document& document, const OutputTarget& target, AtomicOutput& output,
@@ -214,10 +215,10 @@ std::span<const std::uint8_t> bytesOf(const std::string& text) {
 OutputTarget outputTarget(const Document& document, const Path& path, bool is_stream) {
     OutputTarget target;
     target.path = path;
-    if (!isGltfName(path)) {
+    if (!isGltfName(path) && !isGlbOutput(path)) {
         failFile(ErrorCode::unsupportedFile, "the output " + pathInQuotes(path) + " is neither .glb nor .gltf");
     }
-    target.container = isGlbName(path) ? Container::glb : Container::gltf;
+    target.container = isGlbOutput(path) ? Container::glb : Container::gltf;
     target.takes_images_in =
         target.container == Container::glb && (document.container == Container::gltf || document.imported);
     if (is_stream) {

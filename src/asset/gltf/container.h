@@ -20,7 +20,7 @@ struct OutputTarget {
     bool takes_images_in = false;  ///< .gltf to .glb
 };
 
-/// Decides by extension; fails with unsupportedFile for any other than .glb and .gltf, and with invalidOption for a
+/// Decides by isGlbOutput(); fails with unsupportedFile for what is neither that nor called .gltf, and with invalidOption for a
 /// stream that is no GLB.
 OutputTarget outputTarget(const Document& document, const Path& path, bool is_stream);
 

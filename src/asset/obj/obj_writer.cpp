@@ -341,7 +341,7 @@ void addTextures(const ImageBuilder& images, Json& root) {
 
 void writeFiles(Json& root, const Bytes& bytes, const fs::path& output, AtomicOutput& files) {
     root["buffers"] = {{{"byteLength", bytes.size()}}};
-    const bool is_glb = isGlbName(output);
+    const bool is_glb = isGlbOutput(output);
     fs::path bin = output;
     bin.replace_extension(".bin");
     if (!is_glb) root["buffers"][0]["uri"] = percentEncode(Path(bin.filename()).string());
