@@ -408,6 +408,8 @@ TEST(OptionsWithoutEffect, AreSaid) {
     options.normals.crease_angle_deg = 60;
     options.tangents.method = Method::area;
     options.morph_normals = MorphNormals::missing;
+    EXPECT_TRUE(says(make(builder, options).report.warnings, "--crease has no effect")) << "as --crease 60 alone is";
+    options.use_smoothing_groups = false;
     const std::vector<std::string> warnings = make(builder, options).report.warnings;
     EXPECT_TRUE(says(warnings, "--normals and --crease have no effect"));
     EXPECT_TRUE(says(warnings, "--method has no effect"));
