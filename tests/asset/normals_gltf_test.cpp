@@ -420,6 +420,25 @@ TEST(OptionsWithoutEffect, AreSaid) {
     EXPECT_TRUE(make(builder, {}).report.warnings.empty());
 }
 
+TEST(OverwriteNormals, SaysWhereTangentsThatSomebodyMayHaveDrawnGo) {
+    const ModelData data = withTangents(arch(4, 0.8f), Method::mikktspace);
+    const auto notes = [&](const char* material, const GenerateOptions& options) {
+        GltfBuilder builder;
+        addPart(builder, data, true)["attributes"]["TANGENT"] = builder.addFloats(floatsOf(data.tangents), 4);
+        builder.json()["materials"][0] = Json::parse(material);
+        return make(builder, options).report.primitives[0].notes;
+    };
+    const char* hair = R"({"extras":{"hairFlow":true}})";
+    const char* brushed = R"({"extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":1}}})";
+    EXPECT_TRUE(
+        says(notes(hair, anew()), "somebody may have drawn (extras of the material) were computed anew along u"));
+    EXPECT_TRUE(says(notes(R"({"extensions":{"EXT_fur":{}}})", anew()), "(the material extension EXT_fur)"));
+    EXPECT_TRUE(says(notes(brushed, anew()), "(anisotropy without a texture)"));
+    EXPECT_FALSE(says(notes(brushed, {}), "drawn")) << "they stay";
+    EXPECT_FALSE(says(notes(R"({"normalTexture":{"index":0},"extras":{"hairFlow":true}})", anew()), "drawn"));
+    EXPECT_FALSE(says(notes("{}", anew()), "drawn"));
+}
+
 /// A sheet that a target rolls up along x, with normals of the base that somebody has tilted along y.
 GltfBuilder rolling(const ModelData& data, bool with_offsets) {
     GltfBuilder builder;

@@ -147,6 +147,17 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
     return true;
 }
 
+/// A note where computed tangents take the place of some that no texture is read with: somebody may have drawn them.
+/// Empty: there are none such.
+std::string noteOnDrawn(const Document& document, const Primitive& primitive, const std::vector<TangentUse>& uses,
+                        bool along_u) {
+    if (std::any_of(uses.begin(), uses.end(), [](const TangentUse& use) { return use.has_texture; })) return {};
+    std::string reader = otherTangentReader(document, primitive);
+    if (reader.empty() && !uses.empty()) reader = uses[0].needed_by + " without a texture";
+    if (reader.empty()) return {};
+    return "tangents that somebody may have drawn (" + reader + ") were computed anew" + (along_u ? " along u" : "");
+}
+
 /// Two primitives with the same key share every vertex.
 std::string poolKey(const Primitive& primitive, std::int32_t uv_set, const UvMatrix& matrix, bool makes_tangents,
                     bool overwrites_normals) {
@@ -209,6 +220,12 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
         if (!computes && !normals.anew && normals.morphs.empty()) continue;
         if (computes && primitive.find("TANGENT") && !hasUsableTangents(primitive))
             report.notes.emplace_back("the tangents that it had did not count, because it had no normals");
+
+        const bool replaces = options.existing == ExistingTangents::replace || normals.anew;
+        if (computes && replaces && report.action != PrimitiveAction::kept && hasUsableTangents(primitive)) {
+            std::string note = noteOnDrawn(document, primitive, uses, report.uv_set >= 0);
+            if (!note.empty()) report.notes.push_back(std::move(note));
+        }
 
         UvMatrix matrix;
         if (computes && report.uv_set >= 0 && !uses.empty()) matrix = uvMatrixOf(uses[0], options.texture_transform);
