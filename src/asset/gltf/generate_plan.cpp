@@ -12,6 +12,7 @@
 #include "asset/gltf/primitive_notes.h"
 #include "asset/gltf/read_packed.h"
 #include "asset/gltf/strip_tangents.h"
+#include "core/unit.h"
 
 namespace tspace::gltf {
 
@@ -53,11 +54,13 @@ bool makesNormalsAnew(PrimitiveReport& report, const Document& document, const P
     return false;
 }
 
-/// Whether a target leaves normals as they are.
-bool addsNothing(const Document& document, const Primitive& primitive, std::size_t target) {
+/// Whether a target leaves normals as they are, or makes some NaN or infinite.
+bool lacksNormals(const Document& document, const Primitive& primitive, std::size_t target) {
     if (!findAttribute(primitive.targets[target], "NORMAL")) return true;
     const std::vector<Vec3> offsets = readOffsets(document, primitive, target, "NORMAL");
-    return std::all_of(offsets.begin(), offsets.end(), [](const Vec3& offset) { return offset == Vec3{}; });
+    const auto is_finite = [](const Vec3& offset) { return isFinite(offset); };
+    return std::all_of(offsets.begin(), offsets.end(), isZero) ||
+           !std::all_of(offsets.begin(), offsets.end(), is_finite);
 }
 
 /// Targets that get new offsets of normals that stay; empty: none does.
@@ -66,7 +69,7 @@ std::vector<bool> morphNormals(const Document& document, const Primitive& primit
     if (which == MorphNormals::keep || !hasSurface(primitive) || !primitive.find("NORMAL")) return targets;
     for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
         const bool moves = findAttribute(primitive.targets[i], "POSITION").has_value();
-        targets.push_back(moves && (which == MorphNormals::all || addsNothing(document, primitive, i)));
+        targets.push_back(moves && (which == MorphNormals::all || lacksNormals(document, primitive, i)));
     }
     if (std::count(targets.begin(), targets.end(), true) == 0) targets.clear();
     return targets;
