@@ -132,7 +132,7 @@ enum class FlipGreen : std::uint32_t {
 /// What morph targets that move the surface get to add to normals that stay (NORMAL of a target).
 enum class MorphNormals : std::uint32_t {
     keep = 0,     ///< what they have, or nothing
-    missing = 1,  ///< targets without such offsets, or with zeros alone, get some
+    missing = 1,  ///< targets without such offsets, or with zeros alone, get some; so do those not finite
     all = 2,      ///< all get new ones
 };
 

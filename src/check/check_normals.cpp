@@ -33,7 +33,7 @@ std::vector<bool> usedVertices(const TangentView& mesh) {
 void checkNormalValues(PrimitiveFacts& facts) {
     const TangentView& mesh = facts.mesh;
     Tally not_finite, not_unit;
-    bool any_is_zero = false;
+    std::uint64_t zero_count = 0;
     const std::vector<bool> used = usedVertices(mesh);
     for (std::uint32_t v = 0; v < used.size(); ++v) {
         if (!used[v]) continue;
@@ -45,7 +45,7 @@ void checkNormalValues(PrimitiveFacts& facts) {
         }
         const double size = length(toDouble(mesh.normals[v]));
         if (std::fabs(size - 1) > facts.options.unit_tolerance) not_unit.add(v, facts.surface.vertex_areas[v]);
-        any_is_zero = any_is_zero || size < kShortest;
+        zero_count += size < kShortest ? 1 : 0;
     }
     not_finite.finish(facts.surface.area);
     not_unit.finish(facts.surface.area);
@@ -54,11 +54,15 @@ void checkNormalValues(PrimitiveFacts& facts) {
                   "the normals of " + countText(not_finite, "vertices") + " are NaN or infinite");
     }
     if (not_unit.count > 0) {
-        facts.add(FindingCode::normalsNotUnit,
-                  any_is_zero ? onShare(Severity::error, not_unit.surface_share, facts.options) : Severity::warning,
-                  not_unit, "vertices",
+        // Shaders get NaN from a single one without length.
+        facts.add(FindingCode::normalsNotUnit, zero_count != 0 ? Severity::error : Severity::warning, not_unit,
+                  "vertices",
                   "the normals of " + countText(not_unit, "vertices") + " do not have length 1" +
-                      (any_is_zero ? ", some have none at all" : ""));
+                      (zero_count != 0 ? ", " + std::to_string(zero_count) + " of them length 0" : ""));
+        if (zero_count != 0) {
+            facts.findings.back().remedy =
+                "Export the normals again, those of length 0 cannot be normalised; then compute the tangents anew.";
+        }
     }
 }
 

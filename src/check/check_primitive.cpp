@@ -67,6 +67,7 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
     checkPositions(facts);
     checkRounding(facts);
     checkNormals(facts);
+    checkMorphValues(facts);
     checkMorphNormals(facts);
     checkUvs(facts);
     checkTextures(facts);

@@ -72,9 +72,13 @@ void warnOfNormals(const GenerateOptions& options, GenerateReport& report) {
     const bool any_made = any(report, [](const auto& primitive) { return primitive.normals_generated; });
     if (!any_made) {
         if (options.overwrite_normals) idle.emplace_back("--overwrite-normals");
-        const bool is_weighted = options.normals.weighting != plain.normals.weighting;
+        const bool has_crease = options.normals.crease_angle_deg != plain.normals.crease_angle_deg;
+        // --crease alone is --normals angle, but for smoothing groups.
+        const bool follows = has_crease && options.normals.weighting == NormalWeighting::angle &&
+                             options.use_smoothing_groups == plain.use_smoothing_groups;
+        const bool is_weighted = options.normals.weighting != plain.normals.weighting && !follows;
         if (is_weighted && !options.overwrite_normals) idle.emplace_back("--normals");
-        if (options.normals.crease_angle_deg != plain.normals.crease_angle_deg) idle.emplace_back("--crease");
+        if (has_crease) idle.emplace_back("--crease");
         if (options.normals_per_primitive) idle.emplace_back("--normals-per-primitive");
         warn(idle,
              options.overwrite_normals

@@ -94,6 +94,11 @@ std::string tiesOf(const std::vector<Explanation>& explanations) {
     return ties.empty() ? "" : " (so do " + ties + ")";
 }
 
+/// Whether one of the tangents that it gives to a vertex's corners is there nearly everywhere.
+bool keptOnePerVertex(const Explanation& entry) {
+    return entry.nearAnyShare() >= kSureShare && entry.method != Method::flat;
+}
+
 std::string makerSentence(const Identification& result) {
     const Explanation& best = result.explanations.front();
     const std::string makers = differentMakers(result);
@@ -101,7 +106,7 @@ std::string makerSentence(const Identification& result) {
     const std::string name = makerOf(best), ties = tiesOf(result.explanations);
     if (best.nearShare() >= kSureShare)
         return "Made by " + name + ": it explains " + percent(best.nearShare()) + " of the corners" + ties + ".";
-    if (best.nearAnyShare() >= kSureShare && best.method != Method::flat) {
+    if (keptOnePerVertex(best)) {
         return "Made by " + name +
                ", but one tangent per vertex was kept where corners differ: " + percent(best.nearShare()) +
                " of the corners fit, " + percent(best.nearAnyShare()) + " at some corner of their vertex" +
@@ -136,6 +141,8 @@ std::string exceptionsSentence(const Identification& result) {
 
 std::string signSentence(const Identification& result) {
     const Explanation& best = result.explanations.front();
+    // What signs mean depends on how the tangents were made.
+    if (best.nearShare() < kLikelyShare && !keptOnePerVertex(best) && differentMakers(result).empty()) return "";
     switch (best.signs()) {
         case SignReading::gltf:
             return " The signs are as glTF wants them.";

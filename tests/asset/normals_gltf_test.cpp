@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -408,6 +409,8 @@ TEST(OptionsWithoutEffect, AreSaid) {
     options.normals.crease_angle_deg = 60;
     options.tangents.method = Method::area;
     options.morph_normals = MorphNormals::missing;
+    EXPECT_TRUE(says(make(builder, options).report.warnings, "--crease has no effect")) << "as --crease 60 alone is";
+    options.use_smoothing_groups = false;
     const std::vector<std::string> warnings = make(builder, options).report.warnings;
     EXPECT_TRUE(says(warnings, "--normals and --crease have no effect"));
     EXPECT_TRUE(says(warnings, "--method has no effect"));
@@ -416,6 +419,25 @@ TEST(OptionsWithoutEffect, AreSaid) {
     options.morph_normals = MorphNormals::keep;
     EXPECT_TRUE(make(builder, options).report.warnings.empty());
     EXPECT_TRUE(make(builder, {}).report.warnings.empty());
+}
+
+TEST(OverwriteNormals, SaysWhereTangentsThatSomebodyMayHaveDrawnGo) {
+    const ModelData data = withTangents(arch(4, 0.8f), Method::mikktspace);
+    const auto notes = [&](const char* material, const GenerateOptions& options) {
+        GltfBuilder builder;
+        addPart(builder, data, true)["attributes"]["TANGENT"] = builder.addFloats(floatsOf(data.tangents), 4);
+        builder.json()["materials"][0] = Json::parse(material);
+        return make(builder, options).report.primitives[0].notes;
+    };
+    const char* hair = R"({"extras":{"hairFlow":true}})";
+    const char* brushed = R"({"extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":1}}})";
+    EXPECT_TRUE(
+        says(notes(hair, anew()), "somebody may have drawn (extras of the material) were computed anew along u"));
+    EXPECT_TRUE(says(notes(R"({"extensions":{"EXT_fur":{}}})", anew()), "(the material extension EXT_fur)"));
+    EXPECT_TRUE(says(notes(brushed, anew()), "(anisotropy without a texture)"));
+    EXPECT_FALSE(says(notes(brushed, {}), "drawn")) << "they stay";
+    EXPECT_FALSE(says(notes(R"({"normalTexture":{"index":0},"extras":{"hairFlow":true}})", anew()), "drawn"));
+    EXPECT_FALSE(says(notes("{}", anew()), "drawn"));
 }
 
 /// A sheet that a target rolls up along x, with normals of the base that somebody has tilted along y.
@@ -450,6 +472,38 @@ TEST(MorphNormals, NormalsTurnAsTheSurfaceDoes) {
                 const Vec3 expected{-std::sin(x) * std::cos(tilt), std::sin(tilt), std::cos(x) * std::cos(tilt)};
                 EXPECT_LT(degreesBetween(normals[0], expected), 0.2) << place[0];
             }
+        }
+    }
+}
+
+/// `rolling` with the offsets of normals given.
+GltfBuilder rollingWith(const ModelData& data, const std::vector<float>& normals) {
+    GltfBuilder builder = rolling(data, false);
+    const std::size_t accessor = builder.addFloats(normals, 3);
+    firstPrimitive(builder)["targets"][0]["NORMAL"] = accessor;
+    return builder;
+}
+
+TEST(MorphNormals, OffsetsThatAreNotFiniteAreMissing) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    ModelData data = bentSheet(16);
+    for (Vec3& p : data.positions) p.z = 0;
+    data.normals.assign(data.positions.size(), Vec3{0, 0, 1});
+    const auto offsetsOf = [](const Made& made) { return readOffsets(made.document, made.primitives[0], 0, "NORMAL"); };
+    const std::vector<Vec3> right = offsetsOf(make(rolling(data, false), {.morph_normals = MorphNormals::all}));
+    ASSERT_GE(right.size(), data.positions.size());
+
+    const std::vector<float> all_nan(3 * data.positions.size(), nan);
+    std::vector<float> one_nan(3 * data.positions.size(), 0.125f);  // else somebody's choice
+    one_nan[3 * 40] = nan;
+    for (const MorphNormals which : {MorphNormals::missing, MorphNormals::all}) {
+        EXPECT_EQ(offsetsOf(make(rollingWith(data, all_nan), {.morph_normals = which})), right);
+        const Made made = make(rollingWith(data, one_nan), {.morph_normals = which});
+        EXPECT_FALSE(says(made.report.warnings, "no effect"));
+        const std::vector<Vec3> offsets = offsetsOf(made);
+        for (std::size_t v = 0; v < data.positions.size(); ++v) {
+            const bool is_new = which == MorphNormals::all || v == 40;
+            EXPECT_EQ(offsets[v], (is_new ? right[v] : Vec3{0.125f, 0.125f, 0.125f})) << v;
         }
     }
 }

@@ -2,6 +2,8 @@
 // Normals far from their triangles, seams between primitives, and normals that targets leave behind.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "check/check_seams.h"
 #include "check/patch.h"
 #include "support/shared_data.h"
@@ -180,6 +182,43 @@ TEST(CheckMorphNormals, LooksAtTheChangeAndNotAtTheNormals) {
     tilted.normals = std::vector<Vec3>(tilted.positions.size(), lean);
     tilted.morph_targets[0].normals = offsets;
     EXPECT_TRUE(checkPrimitive(tilted, {}, true)->empty());
+}
+
+TEST(CheckMorphNormals, FindsOneOffsetThatIsNotFinite) {
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        for (const bool in_normals : {false, true}) {
+            ScenePrimitive primitive = rolled(1);
+            primitive.morph_targets.push_back(primitive.morph_targets[0]);
+            SharedArray<Vec3>& array =
+                in_normals ? primitive.morph_targets[1].normals : primitive.morph_targets[1].positions;
+            edit(array, [&](auto& offsets) { offsets[40].y = bad; });
+            const FindingCode code = in_normals ? FindingCode::normalsNotFinite : FindingCode::positionsNotFinite;
+            const auto findings = checkPrimitive(primitive, {}, true);
+            const auto found = std::find_if(findings->begin(), findings->end(),
+                                            [&](const Finding& finding) { return finding.code == code; });
+            ASSERT_NE(found, findings->end());
+            EXPECT_EQ(found->severity, Severity::error);
+            EXPECT_EQ(found->count, 1u);
+            EXPECT_EQ(found->vertices, std::vector<std::uint32_t>{40});
+            EXPECT_EQ(found->place, "/meshes/0/primitives/0/targets/1");
+            EXPECT_NE(found->message.find("target 1"), std::string::npos);
+            EXPECT_EQ(found->remedy.find("--morph-normals all") != std::string::npos, in_normals);
+            primitive.corners = std::vector<std::uint32_t>{0, 1, 18};
+            EXPECT_FALSE(has(*checkPrimitive(primitive, {}, true), code)) << "no triangle uses it";
+        }
+    }
+}
+
+TEST(CheckMorphNormals, FindsOneNormalThatATargetCancels) {
+    ScenePrimitive primitive = rolled(1);
+    edit(primitive.morph_targets[0].normals, [](auto& offsets) { offsets[40] = {0, 0, -1}; });
+    const auto findings = checkPrimitive(primitive, {}, true);
+    ASSERT_EQ(findings->size(), 1u);
+    EXPECT_EQ(findings->front().code, FindingCode::morphNormalsWrong);
+    EXPECT_EQ(findings->front().severity, Severity::error);
+    EXPECT_EQ(findings->front().vertices, std::vector<std::uint32_t>{40});
+    primitive.morph_targets[0].positions = {};
+    EXPECT_EQ(checkPrimitive(primitive, {}, true)->front().remedy, "Export the normals of the targets again.");
 }
 
 TEST(CheckMorphNormals, SaysWhatIsTrueOfFiles) {

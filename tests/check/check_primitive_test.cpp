@@ -114,6 +114,7 @@ TEST(Check, FindsNormalsThatAreNotUnit) {
     EXPECT_EQ(codesOf(patch), Codes{"warning normalsNotUnit"});
     edit(patch.normals, [](auto& normals) { normals[40] = {0, 0, 0}; });
     EXPECT_EQ(codesOf(patch), Codes{"error normalsNotUnit"}) << "none at all is worse";
+    EXPECT_EQ(codesOf(patch, {.error_share = 0.9}), Codes{"error normalsNotUnit"}) << "at a single vertex";
 }
 
 TEST(Check, FindsNormalsAgainstTheWinding) {

@@ -250,7 +250,12 @@ TEST(Identify, NoiseIsMadeByNoMethod) {
         const Vec4 t = data.tangents[i];
         data.tangents[i] = {t.y, -t.x, t.z, t.w};
     }
-    EXPECT_NE(identityOf({data}).verdict.find("no method"), std::string::npos);
+    for (const float sign : {1.0f, -1.0f}) {
+        for (Vec4& t : data.tangents) t.w = sign;
+        const std::string verdict = identityOf({data}).verdict;
+        EXPECT_NE(verdict.find("no method"), std::string::npos);
+        EXPECT_EQ(verdict.find("sign"), std::string::npos) << verdict;
+    }
 }
 
 TEST(Identify, ThreadsChangeNothing) {

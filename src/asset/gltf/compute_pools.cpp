@@ -13,6 +13,7 @@
 #include "asset/file_error.h"
 #include "asset/gltf/weld_vertices.h"
 #include "core/parallel.h"
+#include "core/unit.h"
 #include "generate/local_mesh.h"
 #include "generate/morph_split.h"
 #include "generate/turned_normals.h"
@@ -136,13 +137,17 @@ void weld(const WeldedVertices& welded, std::vector<PrimitiveGeometry>& geometri
 /// What targets add to normals that stay, computed when it is first asked for.
 class NewMorphNormals {
   public:
-    /// `vertices` and `geometries` must outlive this; its targets then have the new offsets.
-    NewMorphNormals(const std::vector<bool>& targets, PoolView& vertices, std::span<const PrimitiveGeometry> geometries)
-        : targets_(targets), turned_(vertices, geometries), made_(targets.size()) {
+    /// `vertices` and `geometries` must outlive this; its targets then have the new offsets. `keeps_finite`: only those
+    /// that are NaN or infinite are new, where others say something.
+    NewMorphNormals(const std::vector<bool>& targets, bool keeps_finite, PoolView& vertices,
+                    std::span<const PrimitiveGeometry> geometries)
+        : targets_(targets), keeps_finite_(keeps_finite), turned_(vertices, geometries), made_(targets.size()) {
         vertices.targets.read = [read = vertices.targets.read, this](std::size_t target) -> Result<MorphOffsets> {
             Result<MorphOffsets> offsets = read(target);
             if (!offsets || !targets_[target]) return offsets;
-            offsets->normals = turned_.offsets(offsets->positions);
+            std::vector<Vec3> offsets_of_normals = turned_.offsets(offsets->positions);
+            if (keeps_finite_) keepFinite(offsets->normals, offsets_of_normals);
+            offsets->normals = std::move(offsets_of_normals);
             made_[target] = sparse(offsets->normals);
             return offsets;
         };
@@ -159,7 +164,15 @@ class NewMorphNormals {
     }
 
   private:
+    static void keepFinite(std::span<const Vec3> old, std::span<Vec3> made) {
+        if (std::none_of(old.begin(), old.end(), isDirection)) return;
+        for (std::size_t v = 0; v < old.size(); ++v) {
+            if (isFinite(old[v])) made[v] = old[v];
+        }
+    }
+
     const std::vector<bool>& targets_;
+    bool keeps_finite_;
     TurnedNormals turned_;
     std::vector<std::optional<VertexOffsets>> made_;
 };
@@ -246,7 +259,8 @@ PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& executi
     const bool was_welded = welded.kept.size() != welded.number_of.size();
     if (was_welded) weld(welded, geometries, vertices, copies);
     std::optional<NewMorphNormals> morph_normals;
-    if (!pool.morph_normals.empty()) morph_normals.emplace(pool.morph_normals, vertices, geometries);
+    if (!pool.morph_normals.empty())
+        morph_normals.emplace(pool.morph_normals, options.morph_normals == MorphNormals::missing, vertices, geometries);
     std::vector<PrimitiveReport> computed;
     for (const PoolGeometry& geometry : pool.geometries) computed.push_back(reports[geometry.primitives[0]]);
     const bool computes = pool.makes_tangents || !pool.has_normals;

@@ -12,6 +12,7 @@
 #include "asset/gltf/primitive_notes.h"
 #include "asset/gltf/read_packed.h"
 #include "asset/gltf/strip_tangents.h"
+#include "core/unit.h"
 
 namespace tspace::gltf {
 
@@ -53,11 +54,13 @@ bool makesNormalsAnew(PrimitiveReport& report, const Document& document, const P
     return false;
 }
 
-/// Whether a target leaves normals as they are.
-bool addsNothing(const Document& document, const Primitive& primitive, std::size_t target) {
+/// Whether a target leaves normals as they are, or makes some NaN or infinite.
+bool lacksNormals(const Document& document, const Primitive& primitive, std::size_t target) {
     if (!findAttribute(primitive.targets[target], "NORMAL")) return true;
     const std::vector<Vec3> offsets = readOffsets(document, primitive, target, "NORMAL");
-    return std::all_of(offsets.begin(), offsets.end(), [](const Vec3& offset) { return offset == Vec3{}; });
+    const auto is_finite = [](const Vec3& offset) { return isFinite(offset); };
+    return std::all_of(offsets.begin(), offsets.end(), isZero) ||
+           !std::all_of(offsets.begin(), offsets.end(), is_finite);
 }
 
 /// Targets that get new offsets of normals that stay; empty: none does.
@@ -66,7 +69,7 @@ std::vector<bool> morphNormals(const Document& document, const Primitive& primit
     if (which == MorphNormals::keep || !hasSurface(primitive) || !primitive.find("NORMAL")) return targets;
     for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
         const bool moves = findAttribute(primitive.targets[i], "POSITION").has_value();
-        targets.push_back(moves && (which == MorphNormals::all || addsNothing(document, primitive, i)));
+        targets.push_back(moves && (which == MorphNormals::all || lacksNormals(document, primitive, i)));
     }
     if (std::count(targets.begin(), targets.end(), true) == 0) targets.clear();
     return targets;
@@ -147,6 +150,17 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
     return true;
 }
 
+/// A note where computed tangents take the place of some that no texture is read with: somebody may have drawn them.
+/// Empty: there are none such.
+std::string noteOnDrawn(const Document& document, const Primitive& primitive, const std::vector<TangentUse>& uses,
+                        bool along_u) {
+    if (std::any_of(uses.begin(), uses.end(), [](const TangentUse& use) { return use.has_texture; })) return {};
+    std::string reader = otherTangentReader(document, primitive);
+    if (reader.empty() && !uses.empty()) reader = uses[0].needed_by + " without a texture";
+    if (reader.empty()) return {};
+    return "tangents that somebody may have drawn (" + reader + ") were computed anew" + (along_u ? " along u" : "");
+}
+
 /// Two primitives with the same key share every vertex.
 std::string poolKey(const Primitive& primitive, std::int32_t uv_set, const UvMatrix& matrix, bool makes_tangents,
                     bool overwrites_normals) {
@@ -209,6 +223,12 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
         if (!computes && !normals.anew && normals.morphs.empty()) continue;
         if (computes && primitive.find("TANGENT") && !hasUsableTangents(primitive))
             report.notes.emplace_back("the tangents that it had did not count, because it had no normals");
+
+        const bool replaces = options.existing == ExistingTangents::replace || normals.anew;
+        if (computes && replaces && report.action != PrimitiveAction::kept && hasUsableTangents(primitive)) {
+            std::string note = noteOnDrawn(document, primitive, uses, report.uv_set >= 0);
+            if (!note.empty()) report.notes.push_back(std::move(note));
+        }
 
         UvMatrix matrix;
         if (computes && report.uv_set >= 0 && !uses.empty()) matrix = uvMatrixOf(uses[0], options.texture_transform);
