@@ -125,7 +125,8 @@ void showPoint(const ScenePrimitive& primitive, const MapPart& part, std::span<c
     const std::size_t x = wrappedTexel(static_cast<std::int64_t>(column), image.width, part.use->wrap_u);
     const std::size_t y = wrappedTexel(static_cast<std::int64_t>(row), image.height, part.use->wrap_v);
     const std::uint8_t* rgb = image.rgb.data() + 3 * (y * image.width + x);
-    surface.push_back({toFloat(normal), {rgb[0], rgb[1], rgb[2], 255}, area});
+    const Vec2 uv{static_cast<float>(u), static_cast<float>(v)};
+    surface.push_back({toFloat(normal), {rgb[0], rgb[1], rgb[2], 255}, area, uv});
 }
 
 /// What the triangles of a part show at some points, and the normals there.

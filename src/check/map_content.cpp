@@ -351,6 +351,61 @@ Axes bestAxes(const Moments& moments) {
     return best;
 }
 
+/// How the map's directions go with the mesh's normals: the slope of the regression of the ones on the others, which is
+/// about 1 in object space and 0 where a map knows nothing of the mesh. Relief of the shape of the mesh (a bulge on a bulge)
+/// goes with it too; so `bent` is what is left once all that is linear in u and v is taken out.
+struct Following {
+    double spread = 0;  ///< of the normals: the mean square of their distances from the mean
+    double slope = 0;
+    double bent_share = 0, bent_slope = 0;
+};
+
+Following followingOf(std::span<const TexelOnSurface> surface, const MapLayout& layout) {
+    // Sums of products of 1, u, v, the normal and the direction.
+    std::array<std::array<double, 9>, 9> sums{};
+    const LayoutReader reader(layout);
+    for (const TexelOnSurface& point : surface) {
+        DVec3 v = reader.vector(point.texel);
+        if (!normalize(v)) continue;
+        const std::array<double, 9> row{1,   point.uv.x, point.uv.y, point.normal.x, point.normal.y, point.normal.z,
+                                        v.x, v.y,        v.z};
+        for (std::size_t i = 0; i < 9; ++i) {
+            for (std::size_t k = 0; k < 9; ++k) sums[i][k] += point.weight * row[i] * row[k];
+        }
+    }
+    const double weight = sums[0][0];
+    const auto takeOut = [&](std::size_t pivot, double least) {
+        if (!(sums[pivot][pivot] > least)) return;
+        const auto by = sums[pivot];
+        for (auto& row : sums) {
+            const double factor = row[pivot] / by[pivot];
+            for (std::size_t k = 0; k < 9; ++k) row[k] -= factor * by[k];
+        }
+    };
+    const auto spread = [&] { return sums[3][3] + sums[4][4] + sums[5][5]; };
+    const auto slope = [&] { return spread() > 0 ? (sums[3][6] + sums[4][7] + sums[5][8]) / spread() : 0; };
+    if (!(weight > 0)) return {};
+    constexpr double kRounding = 1e-9;
+    const double least_u = kRounding * sums[1][1], least_v = kRounding * sums[2][2];
+    takeOut(0, 0);
+    Following following{.spread = spread() / weight, .slope = slope()};
+    takeOut(1, least_u);
+    takeOut(2, least_v);
+    following.bent_share = following.spread > 0 ? spread() / weight / following.spread : 0;
+    following.bent_slope = slope();
+    return following;
+}
+
+/// Whether vectors point where the mesh's normals do because they are these. `may_be_tangent`: they can be a map in tangent
+/// space too, so that in doubt they are.
+bool isOfMesh(std::span<const TexelOnSurface> surface, const MapLayout& layout, bool may_be_tangent) {
+    constexpr double kFlat = 0.002, kLeastSlope = 0.5, kLeastBent = 0.25;
+    const Following following = followingOf(surface, layout);
+    if (!may_be_tangent) return following.spread < kFlat || following.slope > kLeastSlope;
+    return following.spread >= kFlat && following.slope > kLeastSlope && following.bent_share > kLeastBent &&
+           following.bent_slope > kLeastSlope;
+}
+
 std::optional<MapLook> Looker::objectSpace() const {
     constexpr std::size_t kLeastPoints = 8;
     constexpr double kLeastAgreement = 0.5, kSureAgreement = 0.9, kOfTheBest = 0.97, kOfTheRest = 0.4, kMuchBelow = 0.2;
@@ -370,8 +425,9 @@ std::optional<MapLook> Looker::objectSpace() const {
         const bool is_clear = agreement >= kLeastAgreement && agreement >= kOfTheBest * bestAgreement(moments) &&
                               1 - agreement < kOfTheRest * (1 - constant);
         const bool is_wall = !is_up && up && is_plain && plain >= kSureAgreement;
-        if (is_clear || is_wall) {
-            MapLook look = made(MapContent::objectSpace, is_plain ? MapLayout{} : axes.layout, plain_.unit_share);
+        const MapLayout layout = is_plain ? MapLayout{} : axes.layout;
+        if ((is_clear || is_wall) && isOfMesh(surface_, layout, is_up)) {
+            MapLook look = made(MapContent::objectSpace, layout, plain_.unit_share);
             look.follows_mesh = true;
             return look;
         }

@@ -33,6 +33,7 @@ struct TexelOnSurface {
     Vec3 normal = {};  ///< of the mesh, unit
     TexelBytes texel = {};
     double weight = 0;  ///< area
+    Vec2 uv = {};
 };
 
 struct MapLook {
