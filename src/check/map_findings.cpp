@@ -74,7 +74,9 @@ std::string messageOf(const std::string& name, const MapLook& look) {
                        "not "
                        "along the normals of this mesh";
             }
-            return "the normal map " + name + " is in object space: its vectors point along the normals of the mesh" +
+            return "the normal map " + name +
+                   (look.is_in_world ? " is in world space: its vectors point along the normals that nodes turn"
+                                     : " is in object space: its vectors point along the normals of the mesh") +
                    (layout == MapLayout{} ? std::string()
                                           : ", with " + axisText("x", layout.x) + ", " + axisText("y", layout.y) +
                                                 " and " + axisText("z", layout.z));
@@ -97,6 +99,8 @@ std::string remedyOf(const std::string& file, const MapLook& look, bool green_is
         return "Find out which model it was made for: " + convert +
                " --from object --mesh MODEL, or --from world where the nodes of the scene counted. Or bake it anew.";
     }
+    if (look.content == MapContent::objectSpace && look.is_in_world)
+        return "Take it out of world space: " + convert + " --from world --mesh MODEL" + layoutOptions(look.layout);
     if (look.content == MapContent::objectSpace)
         return "In the model: " + in_model + ". The image alone: " + convert + " --from object --mesh MODEL" +
                layoutOptions(look.layout) + ".";

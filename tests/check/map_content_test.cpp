@@ -231,6 +231,31 @@ TEST(MapContent, IsInObjectSpaceOnlyWhereItFollowsTheMesh) {
     EXPECT_EQ(lookAt(shownBy(turned, weak)).content, MapContent::exchanged);
 }
 
+TEST(MapContent, IsInWorldSpaceWhereANodeTurnsTheNormals) {
+    for (const double angle : {0.26, 0.8}) {
+        const double c = std::cos(angle), s = std::sin(angle);
+        const auto in_mesh = [](double u, double v) {
+            const DVec3 n = hills(u, v);
+            return DVec3{n.x, n.z, -n.y};
+        };
+        const auto in_world = [&](double u, double v) {
+            const DVec3 n = in_mesh(u, v);
+            return DVec3{c * n.x + s * n.z, n.y, c * n.z - s * n.x};
+        };
+        const Shown shown = shownBy(in_mesh, in_world), baked = shownBy(in_mesh, in_mesh);
+        const std::vector<TexelOnSurface> turned = shownBy(in_world, in_world).surface;
+        TexelMask all(64, 64);
+        all.fillAll();
+        const MapLook look = lookAtTexels(sampleTexels(shown.map, {}, all), false, shown.surface, turned);
+        EXPECT_EQ(look.content, MapContent::objectSpace);
+        EXPECT_TRUE(look.follows_mesh && look.is_in_world) << angle;
+        std::vector<TexelOnSurface> of_mesh = turned;
+        for (std::size_t i = 0; i < of_mesh.size(); ++i) of_mesh[i].texel = baked.surface[i].texel;
+        const MapLook other = lookAtTexels(sampleTexels(baked.map, {}, all), false, baked.surface, of_mesh);
+        EXPECT_TRUE(other.follows_mesh && !other.is_in_world) << angle;
+    }
+}
+
 TEST(MapContent, OfAnyReliefIsToldFromAllOtherKinds) {
     EXPECT_TRUE(rc::check([] {
         const double a = *rc::gen::inRange(5, 40), b = *rc::gen::inRange(5, 40), c = *rc::gen::inRange(-20, 20);
