@@ -322,8 +322,8 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
         findings.push_back(unreadable(name, map.why_not));
     } else {
         const bool has_own_green = hasOwnGreen(map.look.layout);
-        std::optional<Finding> content =
-            contentFinding(name, commandName(scene, map.image), map.look, isDown(map) && !has_own_green);
+        std::optional<Finding> content = contentFinding(name, commandName(scene, map.image), map.look,
+                                                        isDown(map) && !(has_own_green && isDeclared(map)));
         if (content && map.look.content == MapContent::height && mayBeHeights(map)) {
             content->severity = Severity::note;
             content->message = name + " is a height map (map_bump), and no normal map";
