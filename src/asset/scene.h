@@ -15,6 +15,7 @@
 #include "asset/memory_budget.h"
 #include "asset/tangent_use.h"
 #include "core/vec_math.h"
+#include "surface/affine.h"
 #include "tspace/asset.h"
 #include "tspace/vec.h"
 
@@ -83,6 +84,8 @@ struct ScenePrimitive {
     /// Everything in the primitive's materials (variants too) that needs tangents; the first decides which UV set the
     /// tangents follow.
     std::vector<TangentUse> uses = {};
+    /// Where nodes of the scene put it; empty where that was not asked for.
+    std::vector<Affine> places = {};
     /// What else may read the tangents, or says that somebody made them: "the material extension EXT_hair". Empty: nothing.
     std::string other_reader = {};
 

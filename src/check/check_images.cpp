@@ -125,7 +125,8 @@ void showPoint(const ScenePrimitive& primitive, const MapPart& part, std::span<c
     const std::size_t x = wrappedTexel(static_cast<std::int64_t>(column), image.width, part.use->wrap_u);
     const std::size_t y = wrappedTexel(static_cast<std::int64_t>(row), image.height, part.use->wrap_v);
     const std::uint8_t* rgb = image.rgb.data() + 3 * (y * image.width + x);
-    surface.push_back({toFloat(normal), {rgb[0], rgb[1], rgb[2], 255}, area});
+    const Vec2 uv{static_cast<float>(u), static_cast<float>(v)};
+    surface.push_back({toFloat(normal), {rgb[0], rgb[1], rgb[2], 255}, area, uv});
 }
 
 /// What the triangles of a part show at some points, and the normals there.
@@ -151,6 +152,32 @@ void showPoints(const MapPart& part, const RgbImage& image, std::vector<TexelOnS
             }
         }
     }
+}
+
+/// Whether a place turns directions, beside what offsets and sizes do.
+bool turns(const Affine& place) {
+    constexpr double kLeast = 1e-4;
+    for (const DVec3& axis : {DVec3{1, 0, 0}, DVec3{0, 1, 0}, DVec3{0, 0, 1}}) {
+        DVec3 turned = place.normal(axis);
+        if (normalize(turned) && length(turned - axis) > kLeast) return true;
+    }
+    return false;
+}
+
+/// The same points with the normals that the scene shows, at the first place of each primitive that turns it. `parts`:
+/// where the points of each begin. Empty where no place turns anything.
+std::vector<TexelOnSurface> placedInWorld(const NormalMap& map, std::span<const std::size_t> parts,
+                                          std::span<const TexelOnSurface> surface) {
+    std::vector<TexelOnSurface> in_world;
+    for (std::size_t i = 0; i < map.parts.size(); ++i) {
+        const std::vector<Affine>& places = map.parts[i].primitive->places;
+        const auto place = std::find_if(places.begin(), places.end(), turns);
+        if (place == places.end()) continue;
+        if (in_world.empty()) in_world.assign(surface.begin(), surface.end());
+        const std::size_t end = i + 1 < parts.size() ? parts[i + 1] : surface.size();
+        for (std::size_t k = parts[i]; k < end; ++k) in_world[k].normal = normalAt(*place, in_world[k].normal);
+    }
+    return in_world;
 }
 
 /// Alpha is decoded only where x may be in it.
@@ -180,8 +207,12 @@ void lookAtContent(const Scene& scene, const TexelMask& inside, NormalMap& map, 
     const std::vector<std::uint8_t> alpha = alphaOf(scene, scene.images[map.image], texels);
     if (!alpha.empty()) texels = sampleTexels(image, alpha, inside);
     std::vector<TexelOnSurface> surface;
-    for (const MapPart& part : map.parts) showPoints(part, image, surface);
-    map.look = lookAtTexels(texels, !alpha.empty(), surface);
+    std::vector<std::size_t> parts;
+    for (const MapPart& part : map.parts) {
+        parts.push_back(surface.size());
+        showPoints(part, image, surface);
+    }
+    map.look = lookAtTexels(texels, !alpha.empty(), surface, placedInWorld(map, parts, surface));
     if (map.look.content == MapContent::exchanged) chooseXAndY(image, inside, map.look.layout);
     if (holdsNormals(map.look.content) && !(map.look.layout == MapLayout{}))
         readByLayout(image, alpha, map.look.layout);
@@ -291,8 +322,8 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
         findings.push_back(unreadable(name, map.why_not));
     } else {
         const bool has_own_green = hasOwnGreen(map.look.layout);
-        std::optional<Finding> content =
-            contentFinding(name, commandName(scene, map.image), map.look, isDown(map) && !has_own_green);
+        std::optional<Finding> content = contentFinding(name, commandName(scene, map.image), map.look,
+                                                        isDown(map) && !(has_own_green && isDeclared(map)));
         if (content && map.look.content == MapContent::height && mayBeHeights(map)) {
             content->severity = Severity::note;
             content->message = name + " is a height map (map_bump), and no normal map";

@@ -62,9 +62,11 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "Give both textures the same UV set and the same rotation and mirroring; a mesh can hold only one tangent per "
      "vertex."},
     {"greenFlipped",
-     "If it was made for DirectX, invert its green channel: tspace generate --flip-green. If bumps are dents then, it "
+     "If it was made for DirectX, invert its green channel: tspace generate --flip-green does that. If bumps are dents "
+     "then, it "
      "was "
-     "red: tspace convert-map MAP -o OUT.png --flip-red. The map alone does not tell the two apart; where the high "
+     "red: tspace convert-map MAP -o OUT.png --flip-red is for that. The map alone does not tell the two apart; where "
+     "the high "
      "poly "
      "is at hand, tspace map-error MAP MODEL --high HIGH does, in degrees."},
     {"normalMapUnreadable", "Convert the image to PNG, JPEG or WebP to have it looked at."},
@@ -93,20 +95,24 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
     {"morphNormalsMissing", "Give the targets normals too: tspace generate --morph-normals missing."},
     {"morphNormalsWrong", "Compute what the targets add to normals anew: tspace generate --morph-normals all."},
     {"normalMapTwoChannels",
-     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --channels rg."},
+     "In the model: tspace generate --mend-maps does it. The image alone: tspace convert-map MAP -o OUT.png --channels "
+     "rg"},
     {"normalMapUnsigned",
-     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --channels rg."},
+     "In the model: tspace generate --mend-maps does it. The image alone: tspace convert-map MAP -o OUT.png --channels "
+     "rg"},
     {"normalMapChannels",
-     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --channels, with "
+     "In the model: tspace generate --mend-maps does it. The image alone: tspace convert-map MAP -o OUT.png "
+     "--channels, with "
      "the channels that x, y and z are in."},
     {"normalMapIsSrgb",
-     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --srgb (or "
-     "--linearised)."},
+     "In the model: tspace generate --mend-maps does it. The image alone: tspace convert-map MAP -o OUT.png --srgb (or "
+     "--linearised)"},
     {"normalMapInObjectSpace",
-     "In the model: tspace generate --mend-maps. The image alone: tspace convert-map MAP -o OUT.png --from object "
+     "In the model: tspace generate --mend-maps does it. The image alone: tspace convert-map MAP -o OUT.png --from "
+     "object "
      "--mesh "
-     "MODEL."},
-    {"normalMapIsHeight", "Make a normal map of it: tspace height-to-normal MAP -o OUT.png --strength S."},
+     "MODEL"},
+    {"normalMapIsHeight", "Make a normal map of it: tspace height-to-normal MAP -o OUT.png --strength S"},
     {"normalMapScale", "Give the texture a scale above 0, or take the normal map away, if that is what is meant."},
 }};
 

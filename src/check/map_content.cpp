@@ -131,8 +131,9 @@ bool isGrey(std::span<const TexelBytes> texels) {
 
 class Looker {
   public:
-    Looker(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface)
-        : texels_(texels), has_alpha_(has_alpha), surface_(surface), plain_(fitOf(texels, {})) {
+    Looker(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface,
+           std::span<const TexelOnSurface> in_world)
+        : texels_(texels), has_alpha_(has_alpha), surface_(surface), in_world_(in_world), plain_(fitOf(texels, {})) {
         for (std::size_t i = 0; i < channels_.size(); ++i) {
             channels_[i] = spreadOf(texels, [i](const TexelBytes& texel) { return static_cast<double>(texel[i]); });
         }
@@ -232,6 +233,12 @@ class Looker {
         return {};
     }
 
+    /// How well vectors point along the normals: their mean cosine, 0 where they do not.
+    struct Followed {
+        MapLayout layout = {};
+        double agreement = 0;
+    };
+    [[nodiscard]] Followed followed(std::span<const TexelOnSurface> surface, const std::optional<Up>& up) const;
     [[nodiscard]] std::optional<MapLook> objectSpace() const;
 
     [[nodiscard]] std::optional<MapLook> exchanged() const {
@@ -278,7 +285,7 @@ class Looker {
 
     std::span<const TexelBytes> texels_;
     bool has_alpha_;
-    std::span<const TexelOnSurface> surface_;
+    std::span<const TexelOnSurface> surface_, in_world_;
     Fit plain_;
     std::array<Spread, 4> channels_ = {};
 };
@@ -351,30 +358,94 @@ Axes bestAxes(const Moments& moments) {
     return best;
 }
 
-std::optional<MapLook> Looker::objectSpace() const {
+/// How the map's directions go with the mesh's normals: the slope of the regression of the ones on the others, which is
+/// about 1 in object space and 0 where a map knows nothing of the mesh. Relief of the shape of the mesh (a bulge on a bulge)
+/// goes with it too; so `bent` is what is left once all that is linear in u and v is taken out.
+struct Following {
+    double spread = 0;  ///< of the normals: the mean square of their distances from the mean
+    double slope = 0;
+    double bent_share = 0, bent_slope = 0;
+};
+
+Following followingOf(std::span<const TexelOnSurface> surface, const MapLayout& layout) {
+    // Sums of products of 1, u, v, the normal and the direction.
+    std::array<std::array<double, 9>, 9> sums{};
+    const LayoutReader reader(layout);
+    for (const TexelOnSurface& point : surface) {
+        DVec3 v = reader.vector(point.texel);
+        if (!normalize(v)) continue;
+        const std::array<double, 9> row{1,   point.uv.x, point.uv.y, point.normal.x, point.normal.y, point.normal.z,
+                                        v.x, v.y,        v.z};
+        for (std::size_t i = 0; i < 9; ++i) {
+            for (std::size_t k = 0; k < 9; ++k) sums[i][k] += point.weight * row[i] * row[k];
+        }
+    }
+    const double weight = sums[0][0];
+    const auto takeOut = [&](std::size_t pivot, double least) {
+        if (!(sums[pivot][pivot] > least)) return;
+        const auto by = sums[pivot];
+        for (auto& row : sums) {
+            const double factor = row[pivot] / by[pivot];
+            for (std::size_t k = 0; k < 9; ++k) row[k] -= factor * by[k];
+        }
+    };
+    const auto spread = [&] { return sums[3][3] + sums[4][4] + sums[5][5]; };
+    const auto slope = [&] { return spread() > 0 ? (sums[3][6] + sums[4][7] + sums[5][8]) / spread() : 0; };
+    if (!(weight > 0)) return {};
+    constexpr double kRounding = 1e-9;
+    const double least_u = kRounding * sums[1][1], least_v = kRounding * sums[2][2];
+    takeOut(0, 0);
+    Following following{.spread = spread() / weight, .slope = slope()};
+    takeOut(1, least_u);
+    takeOut(2, least_v);
+    following.bent_share = following.spread > 0 ? spread() / weight / following.spread : 0;
+    following.bent_slope = slope();
+    return following;
+}
+
+/// Whether vectors point where the mesh's normals do because they are these. `may_be_tangent`: they can be a map in tangent
+/// space too, so that in doubt they are.
+bool isOfMesh(std::span<const TexelOnSurface> surface, const MapLayout& layout, bool may_be_tangent) {
+    constexpr double kFlat = 0.002, kLeastSlope = 0.5, kLeastBent = 0.25;
+    const Following following = followingOf(surface, layout);
+    if (!may_be_tangent) return following.spread < kFlat || following.slope > kLeastSlope;
+    return following.spread >= kFlat && following.slope > kLeastSlope && following.bent_share > kLeastBent &&
+           following.bent_slope > kLeastSlope;
+}
+
+Looker::Followed Looker::followed(std::span<const TexelOnSurface> surface, const std::optional<Up>& up) const {
     constexpr std::size_t kLeastPoints = 8;
-    constexpr double kLeastAgreement = 0.5, kSureAgreement = 0.9, kOfTheBest = 0.97, kOfTheRest = 0.4, kMuchBelow = 0.2;
+    constexpr double kLeastAgreement = 0.5, kSureAgreement = 0.9, kOfTheBest = 0.97, kOfTheRest = 0.4;
+    const Moments moments = momentsOf(surface);
+    if (surface.size() < kLeastPoints || !(moments.weight > 0)) return {};
+    const bool is_up = up && up->axis == 2 && !up->is_inverted;
+    // The mesh's own axes, as they are, or in other channels.
+    const double plain = (moments.sum[0][0] + moments.sum[1][1] + moments.sum[2][2]) / moments.weight;
+    const Axes axes = bestAxes(moments);
+    const std::array<double, 3> mean{plain_.mean.x, plain_.mean.y, plain_.mean.z};
+    const double constant = std::fabs(up ? mean[up->axis] : plain_.mean.z);
+    const bool is_plain = plain >= kLeastAgreement && plain > axes.agreement - 0.05;
+    const double agreement = is_plain ? plain : axes.agreement;
+    // Where any other rotation fits better, it is that of another program, which nobody knows here.
+    const bool is_clear = agreement >= kLeastAgreement && agreement >= kOfTheBest * bestAgreement(moments) &&
+                          1 - agreement < kOfTheRest * (1 - constant);
+    const bool is_wall = !is_up && up && is_plain && plain >= kSureAgreement;
+    const MapLayout layout = is_plain ? MapLayout{} : axes.layout;
+    if ((!is_clear && !is_wall) || !isOfMesh(surface, layout, is_up)) return {};
+    return {layout, agreement};
+}
+
+std::optional<MapLook> Looker::objectSpace() const {
+    constexpr double kMuchBelow = 0.2, kRounding = 1e-6;
     if (plain_.unit_share < 0.7) return {};
     const std::optional<Up> up = upAxis();
-    const bool is_up = up && up->axis == 2 && !up->is_inverted;
-    const Moments moments = momentsOf(surface_);
-    if (surface_.size() >= kLeastPoints && moments.weight > 0) {
-        // The mesh's own axes, as they are, or in other channels.
-        const double plain = (moments.sum[0][0] + moments.sum[1][1] + moments.sum[2][2]) / moments.weight;
-        const Axes axes = bestAxes(moments);
-        const std::array<double, 3> mean{plain_.mean.x, plain_.mean.y, plain_.mean.z};
-        const double constant = std::fabs(up ? mean[up->axis] : plain_.mean.z);
-        const bool is_plain = plain >= kLeastAgreement && plain > axes.agreement - 0.05;
-        const double agreement = is_plain ? plain : axes.agreement;
-        // Where any other rotation fits better, it is that of a node, or of another program, which nobody knows here.
-        const bool is_clear = agreement >= kLeastAgreement && agreement >= kOfTheBest * bestAgreement(moments) &&
-                              1 - agreement < kOfTheRest * (1 - constant);
-        const bool is_wall = !is_up && up && is_plain && plain >= kSureAgreement;
-        if (is_clear || is_wall) {
-            MapLook look = made(MapContent::objectSpace, is_plain ? MapLayout{} : axes.layout, plain_.unit_share);
-            look.follows_mesh = true;
-            return look;
-        }
+    const Followed mesh = followed(surface_, up), world = followed(in_world_, up);
+    const bool is_in_world = world.agreement > mesh.agreement + kRounding;
+    if (const Followed& best = is_in_world ? world : mesh; best.agreement > 0) {
+        MapLook look = made(MapContent::objectSpace, best.layout, plain_.unit_share);
+        look.follows_mesh = true;
+        look.is_in_world = is_in_world;
+        return look;
     }
     if (up || plain_.below_share[2] < kMuchBelow) return {};
     return made(MapContent::objectSpace, {}, plain_.below_share[2]);
@@ -399,9 +470,10 @@ std::vector<TexelBytes> sampleTexels(const RgbImage& image, std::span<const std:
     return texels;
 }
 
-MapLook lookAtTexels(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface) {
+MapLook lookAtTexels(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface,
+                     std::span<const TexelOnSurface> in_world) {
     if (texels.empty()) return {};
-    return Looker(texels, has_alpha, surface).look();
+    return Looker(texels, has_alpha, surface, in_world).look();
 }
 
 bool mayHaveXInAlpha(std::span<const TexelBytes> texels) {

@@ -30,9 +30,10 @@ using TexelBytes = std::array<std::uint8_t, 4>;
 
 /// What a triangle shows at one point.
 struct TexelOnSurface {
-    Vec3 normal = {};  ///< of the mesh, unit
+    Vec3 normal = {};  ///< of the mesh, or as a node turns it; unit
     TexelBytes texel = {};
     double weight = 0;  ///< area
+    Vec2 uv = {};
 };
 
 struct MapLook {
@@ -42,6 +43,8 @@ struct MapLook {
     std::uint64_t count = 0, total = 0;  ///< texels that say so, of those that were looked at
     /// Of objectSpace: the mesh's normals show it. Else the directions only point all around.
     bool follows_mesh = false;
+    /// Of those: as a node of the scene turns them.
+    bool is_in_world = false;
 };
 
 /// Some of the texels in `inside`, spread evenly: at most about 2^18. `alpha`: one per pixel, or empty.
@@ -50,7 +53,9 @@ std::vector<TexelBytes> sampleTexels(const RgbImage& image, std::span<const std:
 
 /// Decides by the texels that triangles show. Three tests: the lengths of the vectors, where they point in the mean, and
 /// whether a channel is constant or all are equal. `surface`: tells object space from exchanged channels; may be empty.
-MapLook lookAtTexels(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface);
+/// `in_world`: the same with the normals that the scene shows; empty where they are no others.
+MapLook lookAtTexels(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface,
+                     std::span<const TexelOnSurface> in_world = {});
 
 /// Whether red says nothing, so that alpha has to be looked at.
 bool mayHaveXInAlpha(std::span<const TexelBytes> texels);

@@ -74,7 +74,9 @@ std::string messageOf(const std::string& name, const MapLook& look) {
                        "not "
                        "along the normals of this mesh";
             }
-            return "the normal map " + name + " is in object space: its vectors point along the normals of the mesh" +
+            return "the normal map " + name +
+                   (look.is_in_world ? " is in world space: its vectors point along the normals that nodes turn"
+                                     : " is in object space: its vectors point along the normals of the mesh") +
                    (layout == MapLayout{} ? std::string()
                                           : ", with " + axisText("x", layout.x) + ", " + axisText("y", layout.y) +
                                                 " and " + axisText("z", layout.z));
@@ -87,7 +89,8 @@ std::string messageOf(const std::string& name, const MapLook& look) {
 
 std::string remedyOf(const std::string& file, const MapLook& look, bool green_is_down) {
     const std::string flip = green_is_down ? " --flip-green" : "";
-    const std::string in_model = "tspace generate --mend-maps";
+    // No full stop behind a command: who copies it would take it along.
+    const std::string in_model = "In the model: tspace generate --mend-maps" + flip + " does it. The image alone: ";
     const std::string convert = "tspace convert-map " + file + " -o OUT.png";
     if (look.content == MapContent::height) {
         return "Make a normal map of it: tspace height-to-normal " + file +
@@ -95,12 +98,13 @@ std::string remedyOf(const std::string& file, const MapLook& look, bool green_is
     }
     if (look.content == MapContent::objectSpace && !look.follows_mesh) {
         return "Find out which model it was made for: " + convert +
-               " --from object --mesh MODEL, or --from world where the nodes of the scene counted. Or bake it anew.";
+               " --from object --mesh MODEL (or --from world, where the nodes of the scene counted). Or bake it anew.";
     }
+    if (look.content == MapContent::objectSpace && look.is_in_world)
+        return "Take it out of world space: " + convert + " --from world --mesh MODEL" + layoutOptions(look.layout);
     if (look.content == MapContent::objectSpace)
-        return "In the model: " + in_model + ". The image alone: " + convert + " --from object --mesh MODEL" +
-               layoutOptions(look.layout) + ".";
-    return "In the model: " + in_model + ". The image alone: " + convert + layoutOptions(look.layout) + flip + ".";
+        return in_model + convert + " --from object --mesh MODEL" + layoutOptions(look.layout);
+    return in_model + convert + layoutOptions(look.layout) + flip;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "asset/gltf/read_look.h"
 #include "asset/gltf/read_scene.h"
 #include "asset/uri.h"
 #include "check/judge_maps.h"
@@ -192,6 +193,7 @@ MapFlips planFlips(Document& document, std::span<const Primitive> primitives, st
     const std::int64_t left = document.memory->left();
     Scene scene = sceneOf(document, primitives);
     readImages(document, scene);
+    tellPlaces(document, primitives, scene);
     std::vector<JudgedMap> maps = judgeMaps(scene, keeps_tangents, options);
     for (JudgedMap& map : maps) {
         if (options.mend_maps) mendInPlace(document, scene, options, map, flips);

@@ -44,6 +44,8 @@ std::string whyItStays(const MapLook& look, ImageFormat format) {
         return "it is grey: a height map, whose strength is not known (tspace height-to-normal)";
     if (look.content == MapContent::objectSpace && !look.follows_mesh)
         return "it is not in tangent space, nor in that of this mesh";
+    if (look.content == MapContent::objectSpace && look.is_in_world)
+        return "it is in world space (tspace convert-map --from world)";
     if (format != ImageFormat::png && format != ImageFormat::jpeg)
         return std::string("it is ") + formatName(format) + ", and the new one would be PNG";
     return {};

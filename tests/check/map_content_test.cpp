@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "check/map_content.h"
+#include "core/unit.h"
 #include "maps/images.h"
 
 namespace tspace::test {
@@ -169,6 +170,89 @@ TEST(MapContent, TellsObjectSpaceByTheMesh) {
         EXPECT_FALSE(elsewhere.follows_mesh);
         for (TexelOnSurface& point : surface) point.texel = {128, 128, 255, 255};
         EXPECT_EQ(lookAt(sound(), {}, surface).content, MapContent::normals);
+    }
+}
+
+/// A surface over u and v from -1 to 1, and a map of it.
+struct Shown {
+    RgbImage map{64, 64, {}};
+    std::vector<TexelOnSurface> surface;
+};
+
+template <class NormalOf, class TexelOf>
+Shown shownBy(const NormalOf& normalOf, const TexelOf& texelOf) {
+    Shown shown;
+    for (int row = 0; row < 64; ++row) {
+        for (int column = 0; column < 64; ++column) {
+            const double u = (column - 31.5) / 32, v = (row - 31.5) / 32;
+            const DVec3 n = normalOf(u, v), t = texelOf(u, v);
+            const TexelBytes texel{byteOf(0.5 + 0.5 * t.x), byteOf(0.5 + 0.5 * t.y), byteOf(0.5 + 0.5 * t.z), 255};
+            shown.map.rgb.insert(shown.map.rgb.end(), texel.begin(), texel.begin() + 3);
+            shown.surface.push_back({{float(n.x), float(n.y), float(n.z)}, texel, 1, {float(u), float(v)}});
+        }
+    }
+    return shown;
+}
+
+MapLook lookAt(const Shown& shown) { return lookAt(shown.map, {}, shown.surface); }
+
+/// Relief of the shape of the mesh goes with its normals, and is in tangent space all the same.
+TEST(MapContent, IsNormalsForABulgeOnABulge) {
+    const auto bulge = [](double half) {
+        return [half](double u, double) { return DVec3{std::sin(half * u), 0, std::cos(half * u)}; };
+    };
+    const auto faces_y = [](double u, double) { return DVec3{std::sin(u), std::cos(u), 0}; };
+    for (const double relief : {0.17, 0.5, 0.9}) {
+        for (const double mesh : {0.17, 0.5, 0.9, 1.2})
+            EXPECT_EQ(lookAt(shownBy(bulge(mesh), bulge(relief))).content, MapContent::normals) << relief << mesh;
+        EXPECT_EQ(lookAt(shownBy(faces_y, bulge(relief))).content, MapContent::normals) << relief;
+    }
+}
+
+/// Hills lean by up to 40 degrees.
+DVec3 hills(double u, double v) {
+    const double x = 0.5 * std::cos(5 * u + 1) * std::cos(4 * v), y = 0.5 * std::cos(7 * v + u);
+    const double size = std::sqrt(x * x + y * y + 1);
+    return {x / size, y / size, 1 / size};
+}
+
+TEST(MapContent, IsInObjectSpaceOnlyWhereItFollowsTheMesh) {
+    const auto turned = [](double u, double v) {
+        const DVec3 n = hills(u, v);
+        return DVec3{n.x, n.z, -n.y};
+    };
+    for (const MapLook& look :
+         {lookAt(shownBy(hills, hills)), lookAt(shownBy(turned, hills)), lookAt(shownBy(turned, turned))}) {
+        EXPECT_EQ(look.content, MapContent::objectSpace);
+        EXPECT_TRUE(look.follows_mesh);
+    }
+    // Green and blue exchanged, on hills that face y as the vectors do.
+    const auto weak = [](double u, double v) { return DVec3{0.07 * std::sin(40 * u), 0.995, 0.07 * std::sin(37 * v)}; };
+    EXPECT_EQ(lookAt(shownBy(turned, weak)).content, MapContent::exchanged);
+}
+
+TEST(MapContent, IsInWorldSpaceWhereANodeTurnsTheNormals) {
+    for (const double angle : {0.26, 0.8}) {
+        const double c = std::cos(angle), s = std::sin(angle);
+        const auto in_mesh = [](double u, double v) {
+            const DVec3 n = hills(u, v);
+            return DVec3{n.x, n.z, -n.y};
+        };
+        const auto in_world = [&](double u, double v) {
+            const DVec3 n = in_mesh(u, v);
+            return DVec3{c * n.x + s * n.z, n.y, c * n.z - s * n.x};
+        };
+        const Shown shown = shownBy(in_mesh, in_world), baked = shownBy(in_mesh, in_mesh);
+        const std::vector<TexelOnSurface> turned = shownBy(in_world, in_world).surface;
+        TexelMask all(64, 64);
+        all.fillAll();
+        const MapLook look = lookAtTexels(sampleTexels(shown.map, {}, all), false, shown.surface, turned);
+        EXPECT_EQ(look.content, MapContent::objectSpace);
+        EXPECT_TRUE(look.follows_mesh && look.is_in_world) << angle;
+        std::vector<TexelOnSurface> of_mesh = turned;
+        for (std::size_t i = 0; i < of_mesh.size(); ++i) of_mesh[i].texel = baked.surface[i].texel;
+        const MapLook other = lookAtTexels(sampleTexels(baked.map, {}, all), false, baked.surface, of_mesh);
+        EXPECT_TRUE(other.follows_mesh && !other.is_in_world) << angle;
     }
 }
 

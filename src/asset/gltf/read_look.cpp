@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "asset/file_error.h"
 #include "asset/gltf/accessor.h"
 #include "asset/gltf/texture_reference.h"
 
@@ -168,6 +169,13 @@ std::vector<ScenePlacement> readPlacements(const Document& document, std::span<c
         for (std::size_t i = 0; i < primitives.size(); ++i) placements.push_back({i, {}});
     }
     return placements;
+}
+
+void tellPlaces(const Document& document, std::span<const Primitive> primitives, Scene& scene) {
+    std::vector<ScenePlacement> placements;
+    if (tryFile([&] { placements = readPlacements(document, primitives); })) return;
+    for (const ScenePlacement& placement : placements)
+        scene.primitives[placement.primitive].places.push_back(placement.to_world);
 }
 
 std::set<std::size_t> imagesOf(std::span<const SurfaceLook> looks) {

@@ -21,6 +21,9 @@ SurfaceLook readLook(const Document& document, const Primitive& primitive);
 /// whatever graph they make. Fails with invalidFile, and with tooLarge where the budget does not have the places.
 std::vector<ScenePlacement> readPlacements(const Document& document, std::span<const Primitive> primitives);
 
+/// Sets `places` of the scene's primitives, which are these, in this order. Nodes that cannot be read put nothing anywhere.
+void tellPlaces(const Document& document, std::span<const Primitive> primitives, Scene& scene);
+
 /// The images that these looks name.
 std::set<std::size_t> imagesOf(std::span<const SurfaceLook> looks);
 

@@ -21,8 +21,12 @@ Scene readScene(const std::string& input, const FileOptions& options, bool with_
     }
     gltf::Document document = gltf::loadDocument(input, options);
     gltf::checkRequiredExtensions(document);
-    Scene scene = gltf::sceneOf(document, gltf::readPrimitives(document));
-    if (with_images) gltf::readImages(document, scene);
+    const std::vector<gltf::Primitive> primitives = gltf::readPrimitives(document);
+    Scene scene = gltf::sceneOf(document, primitives);
+    if (with_images) {
+        gltf::readImages(document, scene);
+        gltf::tellPlaces(document, primitives, scene);
+    }
     return scene;
 }
 
