@@ -103,7 +103,10 @@ AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
     if (kind == PathKind::stream) return {.target = requested, .is_stream = true};
     if (kind == PathKind::folder) failToWrite(requested, "it is a folder");
     if (kind == PathKind::other) failToWrite(requested, "it is neither a file nor a stream of bytes");
-    const Path target = fs::is_symlink(fs::path(requested), error) ? canonicalPath(requested) : requested;
+    const bool is_link = fs::is_symlink(fs::path(requested), error);
+    const Path target = is_link ? canonicalPath(requested) : requested;
+    if (is_link && (fs::is_symlink(fs::path(target), error) || !fs::exists(fs::path(target), error)))
+        failToWrite(requested, "it is a link to what is not there");
     if (way_.inputs != nullptr && way_.inputs->has(target)) failToWrite(requested, "it is an input");
     const std::string identity = identityOf(target);
     if (isKept(identity) || !identities_.insert(identity).second)

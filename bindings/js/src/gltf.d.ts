@@ -133,6 +133,8 @@ export interface GenerateOptions extends ModelOptions, ImageOptions, WatchOption
   /** Inverts the green channel of normal maps whose green points down, or of all of them. Needs decodeImage and encodeImage. */
   flipGreen?: boolean;
   flipGreenAll?: boolean;
+  /** Writes normal maps anew whose channels hold something else than glTF reads. Needs decodeImage and encodeImage. */
+  mendMaps?: boolean;
   /** The image as a file of this type, without loss but for a JPEG. */
   encodeImage?: (pixels: PixelsToEncode, type: ImageType) => Uint8Array;
   noSanitize?: boolean;
