@@ -2,22 +2,16 @@
 #include "generate_file/obj_maps.h"
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 #include "asset/obj/read_scene.h"
 #include "check/judge_maps.h"
+#include "core/short_number.h"
 #include "generate_file/mend_maps.h"
 
 namespace tspace::obj {
 
 namespace {
-
-std::string shortText(double value) {
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3);
-    return {text, end.ptr};
-}
 
 void leaveOut(Material& material, const std::string& why, Model& model) {
     model.warnings.push_back("the height map '" + material.normal_texture.file +
@@ -37,13 +31,13 @@ void convertHeightMap(const Scene& scene, std::size_t image, const GenerateOptio
     model.memory->take(made.file.size(), "material");
     material.made_normal_map = std::make_shared<const Bytes>(std::move(made.file));
     material.normal_scale = 1;
-    const std::string lean = shortText(made.mean_lean_deg) + " degrees in the mean";
+    const std::string lean = shortNumber(made.mean_lean_deg) + " degrees in the mean";
     NormalMapReport& report = reports.emplace_back();
     report.image = static_cast<std::uint32_t>(image);
     report.name = material.normal_texture.file;
     report.mended = true;
     report.reason =
-        "it held heights; white stands " + shortText(strength) + " units high (-bm), and normals lean by " + lean;
+        "it held heights; white stands " + shortNumber(strength) + " units high (-bm), and normals lean by " + lean;
     constexpr double kSteepDeg = 60;
     if (made.mean_lean_deg > kSteepDeg) {
         model.warnings.push_back("the normal map made of '" + material.normal_texture.file + "' is very steep (" +

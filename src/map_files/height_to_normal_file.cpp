@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // heightToNormalFile: the image, the mesh, warnings.
-#include <charconv>
-
 #include "asset/atomic_output.h"
 #include "asset/file_error.h"
 #include "asset/file_io.h"
+#include "core/short_number.h"
 #include "map_files/map_image_file.h"
 #include "tspace/map_height_file.h"
 
@@ -15,22 +14,16 @@ namespace {
 /// Leans beyond say that the strength is told in other units than the mesh.
 constexpr double kSteepDeg = 60, kFlatDeg = 0.1;
 
-std::string roundedText(double value) {
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3);
-    return {text, end.ptr};
-}
-
 void addHeightWarnings(const HeightToNormalFileOptions& options, HeightToNormalFileReport& report) {
     const auto warn = [&](std::string text) { report.warnings.push_back(std::move(text)); };
     const std::string unit = options.mesh.empty() ? " texels" : " units of the model";
     const HeightToNormalReport& texels = report.texels;
     if (texels.mean_lean_deg > kSteepDeg) {
-        warn("the normals lean by " + roundedText(texels.mean_lean_deg) +
+        warn("the normals lean by " + shortNumber(texels.mean_lean_deg) +
              " degrees in the mean: white stands higher than makes sense; the strength is told in" + unit);
     }
     if (texels.max_lean_deg < kFlatDeg) {
-        warn("the normals lean by " + roundedText(texels.max_lean_deg) +
+        warn("the normals lean by " + shortNumber(texels.max_lean_deg) +
              " degrees at most, so nothing of the relief shows; the strength is told in" + unit);
     }
     if (!options.mesh.empty() && texels.on_mesh == 0) warn("no triangle of the mesh shows the map");

@@ -2,8 +2,9 @@
 #include "maps/position_box.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+
+#include "core/short_number.h"
 
 namespace tspace {
 
@@ -21,12 +22,6 @@ PositionBox changed(const PositionBox& box, const Change& change) {
     result.add(change(box.least));
     result.add(change(box.most));
     return result;
-}
-
-/// Three digits; with a point, whatever the program's locale says.
-std::string shortNumber(double number) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, number, std::chars_format::general, 3).ptr};
 }
 
 std::string sizesApart(const PositionBox& low, const PositionBox& high) {
