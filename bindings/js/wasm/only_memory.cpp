@@ -25,6 +25,7 @@ Path resolveUri(const Path&, std::string_view uri, bool, const std::string& plac
     refuseUri(uri, "cannot be resolved without a disk", place);
 }
 
+bool isGlbOutput(const Path& path) { return isGlbName(path); }
 std::uint64_t fileSize(const Path&) { return 0; }
 std::string pathBelow(const Path&, const Path&) { return {}; }
 
