@@ -5,6 +5,7 @@
 #include <set>
 
 #include "check/findings.h"
+#include "check/morph_faults.h"
 #include "check/primitive_checks.h"
 #include "core/angle.h"
 #include "core/unit.h"
@@ -16,18 +17,8 @@ namespace {
 
 /// A vertex is off where its normal is further from where the surface turns it than this part of the turn, and direction_deg.
 constexpr double kOfTurn = 0.5;
-/// A target is where this part of the surface is off, of what turns by direction_deg or more, surface or normal. Normals with
-/// a formula, and those that were taken from a finer mesh, are off here and there beside coarse triangles.
-constexpr double kOfSurface = 0.25;
 
 bool addsNothing(const SharedArray<Vec3>& offsets) { return std::all_of(offsets.begin(), offsets.end(), isZero); }
-
-/// Targets with the same fault.
-struct TargetFault {
-    Tally targets = {};    ///< vertices of the first; count and total in targets
-    double far_share = 0;  ///< largest share of the surface that is off by more than error_deg
-    std::size_t first = 0;
-};
 
 class MorphNormalsChecker {
   public:
@@ -37,7 +28,7 @@ class MorphNormalsChecker {
     /// The normal of the base is turned as the surface turns: exporters weight triangles in other ways, and normals of the
     /// base may be somebody's choice, but how they change is the surface's.
     void check(std::size_t number, const SceneMorphTarget& target) {
-        TargetFault& fault = addsNothing(target.normals) ? missing_ : wrong_;
+        MorphFault& fault = addsNothing(target.normals) ? missing_ : wrong_;
         ++fault.targets.total;
         const std::vector<VertexTurn> turns = turns_.under(target.positions.span());
         Tally tally;
@@ -58,43 +49,25 @@ class MorphNormalsChecker {
             if (error > facts_.options.error_deg) far_area += facts_.surface.vertex_areas[v];
         }
         tally.finish(facts_.surface.area);
-        if (tally.count == 0 || tally.area < kOfSurface * turning_area) return;
-        if (fault.targets.count++ == 0) {
-            fault.first = number;
-            fault.targets.vertices = tally.vertices;
-        }
-        fault.targets.worst_deg = std::max(fault.targets.worst_deg, tally.worst_deg);
-        fault.targets.surface_share = std::max(fault.targets.surface_share, tally.surface_share);
-        if (facts_.surface.area > 0) fault.far_share = std::max(fault.far_share, far_area / facts_.surface.area);
+        if (tally.count == 0 || tally.area < kOffShare * turning_area) return;
+        fault.addTarget(number, tally, far_area, facts_.surface.area);
     }
 
     void report() {
         const double share = facts_.options.error_share;
-        const auto angle = [](const TargetFault& fault) {
-            return "; at full weight normals are off by up to " + decimalText(fault.targets.worst_deg) + " degrees";
-        };
-        if (missing_.targets.count > 0) {
-            add(FindingCode::morphNormalsMissing,
-                missing_.targets.surface_share >= share ? Severity::warning : Severity::note, missing_,
-                countText(missing_.targets, "targets that add nothing to normals") + " turn the surface" +
-                    angle(missing_));
-        }
-        if (wrong_.targets.count > 0) {
-            add(FindingCode::morphNormalsWrong, wrong_.far_share >= share ? Severity::error : Severity::warning, wrong_,
-                "the normals of " + countText(wrong_.targets, "targets") + " do not turn with the surface" +
-                    angle(wrong_));
-        }
+        missing_.report(facts_, FindingCode::morphNormalsMissing,
+                        missing_.targets.surface_share >= share ? Severity::warning : Severity::note,
+                        countText(missing_.targets, "targets that add nothing to normals") + " turn the surface",
+                        "normals");
+        wrong_.report(
+            facts_, FindingCode::morphNormalsWrong, wrong_.far_share >= share ? Severity::error : Severity::warning,
+            "the normals of " + countText(wrong_.targets, "targets") + " do not turn with the surface", "normals");
     }
 
   private:
-    void add(FindingCode code, Severity severity, const TargetFault& fault, std::string message) {
-        facts_.add(code, severity, fault.targets, "targets", std::move(message));
-        facts_.findings.back().place = facts_.primitive.place + "/targets/" + std::to_string(fault.first);
-    }
-
     PrimitiveFacts& facts_;
     SurfaceTurns turns_;
-    TargetFault missing_ = {}, wrong_ = {};
+    MorphFault missing_ = {}, wrong_ = {};
 };
 
 }  // namespace

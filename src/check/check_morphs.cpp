@@ -6,6 +6,7 @@
 
 #include "check/direction_cones.h"
 #include "check/findings.h"
+#include "check/morph_faults.h"
 #include "check/primitive_checks.h"
 #include "core/angle.h"
 #include "core/unit.h"
@@ -103,17 +104,6 @@ void forgetCollapsed(const TangentView& mesh, const Surface& base, const Tangent
     for (std::size_t v = 0; v < good.size(); ++v) good[v] = good[v] && !is_out[equal.class_of[v]];
 }
 
-/// Tangents with a formula, and those that were taken from a finer mesh, are off here and there beside coarse triangles. So
-/// a target that has tangents is wrong where they are off on this part of what turns, or somewhere by more than error_deg.
-constexpr double kOffShare = 0.25;
-
-/// Targets with the same fault.
-struct MorphFault {
-    Tally targets = {};    ///< vertices of the first; count and total in targets
-    double far_share = 0;  ///< largest share of the surface that is off by more than error_deg
-    std::size_t first = 0;
-};
-
 class MorphChecker {
   public:
     explicit MorphChecker(PrimitiveFacts& facts)
@@ -150,39 +140,20 @@ class MorphChecker {
             for (const std::uint32_t v : off) facts_.fault(v, FindingCode::morphTangentsWrong);
         }
         tally.finish(facts_.surface.area);
-        if (fault.targets.count++ == 0) {
-            fault.first = number;
-            fault.targets.vertices = tally.vertices;
-        }
-        fault.targets.worst_deg = std::max(fault.targets.worst_deg, tally.worst_deg);
-        fault.targets.surface_share = std::max(fault.targets.surface_share, tally.surface_share);
-        if (facts_.surface.area > 0) fault.far_share = std::max(fault.far_share, far_area / facts_.surface.area);
+        fault.addTarget(number, tally, far_area, facts_.surface.area);
     }
 
     void report() {
-        const CheckOptions& options = facts_.options;
-        const auto angle = [](const MorphFault& fault) {
-            return "; at full weight tangents are off by up to " + decimalText(fault.targets.worst_deg) + " degrees";
-        };
-        if (missing_.targets.count > 0) {
-            add(FindingCode::morphTangentsMissing,
-                missing_.targets.surface_share >= options.error_share ? Severity::warning : Severity::note, missing_,
-                countText(missing_.targets, "targets") + " without tangents turn the surface" + angle(missing_));
-        }
-        if (wrong_.targets.count > 0) {
-            add(FindingCode::morphTangentsWrong,
-                wrong_.far_share >= options.error_share ? Severity::error : Severity::warning, wrong_,
-                "the tangents of " + countText(wrong_.targets, "targets") + " do not fit the morphed surface" +
-                    angle(wrong_));
-        }
+        const double share = facts_.options.error_share;
+        missing_.report(facts_, FindingCode::morphTangentsMissing,
+                        missing_.targets.surface_share >= share ? Severity::warning : Severity::note,
+                        countText(missing_.targets, "targets") + " without tangents turn the surface", "tangents");
+        wrong_.report(
+            facts_, FindingCode::morphTangentsWrong, wrong_.far_share >= share ? Severity::error : Severity::warning,
+            "the tangents of " + countText(wrong_.targets, "targets") + " do not fit the morphed surface", "tangents");
     }
 
   private:
-    void add(FindingCode code, Severity severity, const MorphFault& fault, std::string message) {
-        facts_.add(code, severity, fault.targets, "targets", std::move(message));
-        facts_.findings.back().place = facts_.primitive.place + "/targets/" + std::to_string(fault.first);
-    }
-
     PrimitiveFacts& facts_;
     std::vector<bool> good_on_base_;
     EqualVertices equal_;

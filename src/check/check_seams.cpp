@@ -11,8 +11,8 @@
 
 #include "check/findings.h"
 #include "core/angle.h"
-#include "core/unique_index.h"
 #include "core/unit.h"
+#include "surface/equal_vertices.h"
 #include "surface/joined_pieces.h"
 
 namespace tspace {
@@ -43,16 +43,13 @@ struct Face {
 /// What one primitive smooths: the means of the triangles around each vertex, over vertices with its position and normal.
 class SmoothPiece {
   public:
-    SmoothPiece(const ScenePrimitive& primitive) : primitive_(primitive) {
-        UniqueIndex<std::array<std::uint32_t, 6>> keys(primitive.positions.size());
-        for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
-            const Vec3 &p = primitive.positions[v], &n = primitive.normals[v];
-            class_of_.push_back(keys.indexOf(
-                {weldBits(p.x), weldBits(p.y), weldBits(p.z), weldBits(n.x), weldBits(n.y), weldBits(n.z)}));
-        }
-        means_.resize(keys.size());
+    SmoothPiece(const ScenePrimitive& primitive, const JoinedPieces& joined, std::uint32_t piece)
+        : primitive_(primitive) {
+        EqualVertices equal = findEqualVertices(primitive.positions.span(), primitive.normals.span(), {});
+        class_of_ = std::move(equal.class_of);
+        means_.resize(equal.class_count);
         for (std::size_t c = 0; c + 2 < primitive.corners.size(); c += 3) addFace(c);
-        bends();
+        bends(joined, piece);
     }
 
     [[nodiscard]] const DVec3& faceNormal(std::uint32_t triangle) const { return faces_[triangle].normal; }
@@ -85,21 +82,17 @@ class SmoothPiece {
     }
 
     /// The angles at edges inside, of those that are smooth and those that are hard.
-    void bends() {
+    void bends(const JoinedPieces& joined, std::uint32_t piece) {
         struct Edge {
             std::array<std::uint32_t, 2> points, classes;
             std::size_t face;
         };
-        UniqueIndex<std::array<std::uint32_t, 3>> places(primitive_.positions.size());
-        std::vector<std::uint32_t> point_of;
-        for (const Vec3& p : primitive_.positions)
-            point_of.push_back(places.indexOf({weldBits(p.x), weldBits(p.y), weldBits(p.z)}));
         std::vector<Edge> edges;
         for (std::size_t c = 0; c < 3 * faces_.size(); ++c) {
             std::uint32_t a = primitive_.corners[c], b = primitive_.corners[c / 3 * 3 + (c + 1) % 3];
-            if (point_of[a] > point_of[b]) std::swap(a, b);
-            if (point_of[a] != point_of[b])
-                edges.push_back({{point_of[a], point_of[b]}, {class_of_[a], class_of_[b]}, c / 3});
+            if (joined.pointOf(piece, a) > joined.pointOf(piece, b)) std::swap(a, b);
+            const std::array<std::uint32_t, 2> points = {joined.pointOf(piece, a), joined.pointOf(piece, b)};
+            if (points[0] != points[1]) edges.push_back({points, {class_of_[a], class_of_[b]}, c / 3});
         }
         std::stable_sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.points < b.points; });
         std::vector<double> smooth;
@@ -150,7 +143,8 @@ class MeshSeams {
         std::map<std::uint32_t, SmoothPiece> smooth;
         std::map<std::pair<std::uint32_t, std::uint32_t>, Seam> seams;
         for (const JoinedPieces::Border& border : joined.borders()) {
-            for (const PieceTriangle& at : border.triangles) smooth.try_emplace(at.piece, *primitives_[at.piece]);
+            for (const PieceTriangle& at : border.triangles)
+                smooth.try_emplace(at.piece, *primitives_[at.piece], joined, at.piece);
             look(joined, border, smooth, seams[{border.triangles[0].piece, border.triangles[1].piece}]);
         }
         for (const auto& [pair, seam] : seams) {

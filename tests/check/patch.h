@@ -2,8 +2,10 @@
 // A good primitive, to break one thing of: two square halves of a bent surface that meet in a seam.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -113,6 +115,12 @@ inline Vec4 turned(const Vec4& tangent, const Vec3& normal, double degrees) {
 inline std::vector<Finding> findingsOf(const ScenePrimitive& primitive, const CheckOptions& options = {}) {
     Result<std::vector<Finding>> findings = checkPrimitive(primitive, options, true);
     return findings ? *std::move(findings) : std::vector<Finding>{};
+}
+
+inline const Finding& only(const std::vector<Finding>& findings, FindingCode code) {
+    const auto found = std::find_if(findings.begin(), findings.end(), [&](const Finding& f) { return f.code == code; });
+    EXPECT_NE(found, findings.end()) << findingName(code);
+    return *found;
 }
 
 /// For properties: a whole number from low to high, and a float between.
