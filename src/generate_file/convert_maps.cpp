@@ -19,10 +19,6 @@ namespace tspace::gltf {
 
 namespace {
 
-constexpr std::uint64_t kMostMapPixels = std::uint64_t{1} << 26;
-/// What decoding, converting and packing hold per pixel.
-constexpr std::uint64_t kMapPixelBytes = 72;
-
 /// A primitive that shows the map, and the frames of its corners.
 struct ShownMap {
     MapUser user = {};
@@ -227,7 +223,7 @@ class OneMap {
             why = "it takes more memory than the limit";
             return {};
         }
-        return decodeFloatImage(file_, kMostMapPixels, why);
+        return decodeFloatImage(file_, kMostModelMapPixels, why);
     }
 
     void prepare(ShownMap& one, const Source& source, const FloatImage& image) const {

@@ -11,10 +11,6 @@ namespace tspace {
 
 namespace {
 
-constexpr std::uint64_t kMostMendedPixels = std::uint64_t{1} << 26;
-/// What decoding, converting and packing hold per pixel.
-constexpr std::uint64_t kMendedPixelBytes = 72;
-
 /// Half a sentence: what stood in the image.
 const char* whatItHeld(MapContent content) {
     switch (content) {
@@ -85,11 +81,11 @@ void toTangentSpace(const Scene& scene, std::size_t image_number, const Generate
 Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options, JudgedMap& map) {
     map.report.reason = whyItStays(map.look, imageFormat(bytes));
     if (!map.report.reason.empty()) return {};
-    if (!scene.memory->has(kMendedPixelBytes * claimedSize(bytes).pixels())) {
+    if (!scene.memory->has(kMapPixelBytes * claimedSize(bytes).pixels())) {
         map.report.reason = "it takes more memory than the limit";
         return {};
     }
-    std::optional<FloatImage> image = decodeFloatImage(bytes, kMostMendedPixels, map.report.reason);
+    std::optional<FloatImage> image = decodeFloatImage(bytes, kMostModelMapPixels, map.report.reason);
     if (!image) return {};
     MapLayout layout = map.look.layout;
     layout.y.is_inverted = layout.y.is_inverted != map.is_y_inverted;
@@ -113,11 +109,11 @@ MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_
     // What is missing, or of a format that nobody reads here, is left out or kept as any texture is.
     if (bytes.empty() || whyNotRead(imageFormat(bytes)) != nullptr) return {};
     MadeOfHeights made{.is_height_map = true};
-    if (!scene.memory->has(kMendedPixelBytes * claimedSize(bytes).pixels())) {
+    if (!scene.memory->has(kMapPixelBytes * claimedSize(bytes).pixels())) {
         made.why_not = "it takes more memory than the limit";
         return made;
     }
-    std::optional<FloatImage> heights = decodeFloatImage(bytes, kMostMendedPixels, made.why_not);
+    std::optional<FloatImage> heights = decodeFloatImage(bytes, kMostModelMapPixels, made.why_not);
     if (!heights) return made;
     made.is_height_map = isGreyImage(*heights);
     if (!made.is_height_map) return made;

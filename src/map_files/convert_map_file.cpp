@@ -191,13 +191,8 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
         report.warnings.push_back(std::to_string(image.not_finite) +
                                   " texels of the image are not finite; they become grey, which has no direction");
     addMapWarnings(options, report);
-    const std::optional<std::vector<std::uint8_t>> file =
-        format == ImageFormat::png ? encodePng(image, bits) : encodeExr(image, bits);
-    if (!file) failFile(ErrorCode::outOfMemory, "the image cannot be packed");
-    AtomicOutput files(
-        {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
-    files.add(output, std::span<const std::uint8_t>(*file));
-    files.commit();
+    writeMapImage(image, format, bits, output,
+                  {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
     return report;
 }
 

@@ -62,12 +62,8 @@ HeightToNormalFileReport convertHeights(const std::string& input, const std::str
                                                  .execution = options.tangents.execution}));
     addHeightWarnings(options, report);
     image.alpha.clear();
-    const auto file = encodePng(image, options.bits);
-    if (!file) failFile(ErrorCode::outOfMemory, "the image cannot be packed");
-    AtomicOutput files(
-        {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
-    files.add(output, std::span<const std::uint8_t>(*file));
-    files.commit();
+    writeMapImage(image, ImageFormat::png, options.bits, output,
+                  {.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
     return report;
 }
 

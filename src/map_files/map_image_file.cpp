@@ -12,8 +12,6 @@ namespace tspace {
 
 namespace {
 
-/// What decoding, converting and writing hold per pixel, without the decoder's own.
-constexpr std::uint64_t kPixelBytes = 72;
 constexpr std::uint64_t kMostMapPixels = std::uint64_t{1} << 28;
 
 }  // namespace
@@ -28,7 +26,7 @@ FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOp
     if (const char* why_not = whyNotRead(imageFormat(bytes))) failFile(ErrorCode::unsupportedFile, why_not);
     if (file.memory_limit_bytes != 0) {
         MemoryBudget budget(file.memory_limit_bytes);
-        budget.require(bytes.size() + imageWorkBytes(bytes) + kPixelBytes * claimedSize(bytes).pixels(), {});
+        budget.require(bytes.size() + imageWorkBytes(bytes) + kMapPixelBytes * claimedSize(bytes).pixels(), {});
     }
     std::string why;
     std::optional<FloatImage> image = decodeFloatImage(bytes, kMostMapPixels, why);
@@ -49,6 +47,16 @@ MapMesh readNamedMapMesh(const std::string& model, const MapMeshChoice& choice, 
 std::string fileNameOf(const std::string& path) {
     const std::size_t folder = path.find_last_of("/\\");
     return folder == std::string::npos ? path : path.substr(folder + 1);
+}
+
+void writeMapImage(const FloatImage& image, ImageFormat format, unsigned bits, const std::string& output,
+                   const OutputWay& way) {
+    const std::optional<std::vector<std::uint8_t>> file =
+        format == ImageFormat::png ? encodePng(image, bits) : encodeExr(image, bits);
+    if (!file) failFile(ErrorCode::outOfMemory, "the image cannot be packed");
+    AtomicOutput files(way);
+    files.add(output, std::span<const std::uint8_t>(*file));
+    files.commit();
 }
 
 bool isGreyImage(const FloatImage& image) {

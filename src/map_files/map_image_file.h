@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "asset/atomic_output.h"
 #include "map_files/map_mesh.h"
 #include "maps/float_image.h"
 #include "tspace/map_convert.h"
@@ -20,6 +21,10 @@ MapMesh readNamedMapMesh(const std::string& model, const MapMeshChoice& choice, 
 
 /// The path without folders.
 std::string fileNameOf(const std::string& path);
+
+/// The image as a PNG or EXR; by `way` as AtomicOutput writes.
+void writeMapImage(const FloatImage& image, ImageFormat format, unsigned bits, const std::string& output,
+                   const OutputWay& way);
 
 /// Whether the channels of all texels are equal, or nearly: a height map, or an image without colors.
 bool isGreyImage(const FloatImage& image);

@@ -7,6 +7,11 @@
 
 namespace tspace {
 
+/// What decoding, converting and packing a map hold per pixel, without the decoder's own.
+inline constexpr std::uint64_t kMapPixelBytes = 72;
+/// Larger images of a model are not written anew.
+inline constexpr std::uint64_t kMostModelMapPixels = std::uint64_t{1} << 26;
+
 /// Channels as stored, from 0 (the integer 0) to 1 (the largest integer); floats of an EXR as they are. The first row is the top
 /// one. An integer n of up to 16 bits comes back as n when it is written with as many bits.
 struct FloatImage {
