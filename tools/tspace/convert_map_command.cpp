@@ -5,10 +5,9 @@
 #include "asset/file_io.h"
 #include "commands.h"
 #include "console.h"
+#include "image_command.h"
 #include "output_files.h"
 #include "report.h"
-#include "standard_input.h"
-#include "system.h"
 
 namespace tspace::tool {
 namespace {
@@ -39,49 +38,19 @@ std::string textOf(const ConvertMapArguments& arguments, const ConvertMapFileRep
                        options.dry_run ? " (not written)" : "", table.text("  "));
 }
 
-/// Of any format: what it is, the library says better.
-bool isAnyImage(std::string_view) { return true; }
-
-Result<ConvertMapFileReport> convert(const ConvertMapArguments& arguments) {
-    ConvertMapFileOptions options = arguments.options;
-    std::vector<std::uint8_t> bytes;
-    if (arguments.input == "-") {
-        Result<std::vector<std::uint8_t>> read =
-            readStandardInput("an image", options.file.memory_limit_bytes, isAnyImage, "");
-        if (!read) return std::move(read).error();
-        bytes = *std::move(read);
-        options.content = bytes;
-    }
-    StandardOutput standard_output;
-    if (arguments.output == "-")
-        options.sink = [&](std::span<const std::uint8_t> part) { return standard_output.write(part); };
-    Result<ConvertMapFileReport> report = convertMapFile(arguments.input, arguments.output, options);
-    if (const Result<Done> closed = standard_output.close(); !closed) return closed.error();
-    return report;
-}
-
 }  // namespace
 
 ExitCode runConvertMap(const ConvertMapArguments& arguments) {
     const Result<Done> fit =
         prepareOutputs({arguments.output}, {arguments.input, arguments.options.mesh, arguments.options.to_mesh});
     if (!fit) return printUsageError(fit.error().message + "; name another file");
-    const bool to_stdout = arguments.output == "-";
-    if (to_stdout && !arguments.options.dry_run && isTerminal(stdout))
-        return printUsageError("an image is no text for a terminal; send stdout to a file or a pipe");
-    const Result<ConvertMapFileReport> result = convert(arguments);
-    const ExitCode exit_code = result ? ExitCode::done : printError(arguments.input, result.error());
-    std::string text;
-    if (arguments.json) {
-        text = report::convertMapJson({.input = arguments.input,
-                                       .output = arguments.output,
-                                       .result = result,
-                                       .is_dry_run = arguments.options.dry_run},
-                                      exit_code);
-    } else if (!arguments.quiet && result) {
-        text = textOf(arguments, *result);
-    }
-    return printResult(text, to_stdout ? stderr : stdout) ? exit_code : ExitCode::cannotReadOrWrite;
+    if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);
+    const Result<ConvertMapFileReport> result =
+        callOnImage(arguments.input, arguments.output, arguments.options.file.memory_limit_bytes, arguments.options,
+                    [&](const ConvertMapFileOptions& options) {
+                        return convertMapFile(arguments.input, arguments.output, options);
+                    });
+    return printOutcome(arguments, result, report::convertMapJson, textOf);
 }
 
 }  // namespace tspace::tool

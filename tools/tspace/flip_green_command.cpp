@@ -5,10 +5,9 @@
 #include "asset/file_io.h"
 #include "commands.h"
 #include "console.h"
+#include "image_command.h"
 #include "output_files.h"
 #include "report.h"
-#include "standard_input.h"
-#include "system.h"
 
 namespace tspace::tool {
 namespace {
@@ -23,27 +22,6 @@ std::string textOf(const FlipGreenArguments& arguments, const FlipGreenReport& d
                        arguments.options.dry_run ? " (not written)" : "", table.text("  "));
 }
 
-/// Of any format: what it is, the library says better.
-bool isAnything(std::string_view) { return true; }
-
-Result<FlipGreenReport> flip(const FlipGreenArguments& arguments) {
-    FlipGreenOptions options = arguments.options;
-    std::vector<std::uint8_t> bytes;
-    if (arguments.input == "-") {
-        Result<std::vector<std::uint8_t>> read =
-            readStandardInput("an image", options.memory_limit_bytes, isAnything, "");
-        if (!read) return std::move(read).error();
-        bytes = *std::move(read);
-        options.content = bytes;
-    }
-    StandardOutput standard_output;
-    if (arguments.output == "-")
-        options.sink = [&](std::span<const std::uint8_t> part) { return standard_output.write(part); };
-    Result<FlipGreenReport> report = flipGreenFile(arguments.input, arguments.output, options);
-    if (const Result<Done> closed = standard_output.close(); !closed) return closed.error();
-    return report;
-}
-
 }  // namespace
 
 ExitCode runFlipGreen(const FlipGreenArguments& arguments) {
@@ -54,22 +32,11 @@ ExitCode runFlipGreen(const FlipGreenArguments& arguments) {
         const Result<Done> fit = prepareOutputs({arguments.output}, {});
         if (!fit) return printUsageError(fit.error().message);
     }
-    const bool to_stdout = arguments.output == "-";
-    if (to_stdout && !arguments.options.dry_run && isTerminal(stdout))
-        return printUsageError("an image is no text for a terminal; send stdout to a file or a pipe");
-    const Result<FlipGreenReport> result = flip(arguments);
-    const ExitCode exit_code = result ? ExitCode::done : printError(arguments.input, result.error());
-    std::string text;
-    if (arguments.json) {
-        text = report::flipGreenJson({.input = arguments.input,
-                                      .output = arguments.output,
-                                      .result = result,
-                                      .is_dry_run = arguments.options.dry_run},
-                                     exit_code);
-    } else if (!arguments.quiet && result) {
-        text = textOf(arguments, *result);
-    }
-    return printResult(text, to_stdout ? stderr : stdout) ? exit_code : ExitCode::cannotReadOrWrite;
+    if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);
+    const Result<FlipGreenReport> result = callOnImage(
+        arguments.input, arguments.output, arguments.options.memory_limit_bytes, arguments.options,
+        [&](const FlipGreenOptions& options) { return flipGreenFile(arguments.input, arguments.output, options); });
+    return printOutcome(arguments, result, report::flipGreenJson, textOf);
 }
 
 }  // namespace tspace::tool

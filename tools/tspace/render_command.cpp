@@ -5,10 +5,10 @@
 #include "asset/file_io.h"
 #include "commands.h"
 #include "console.h"
+#include "image_command.h"
 #include "output_files.h"
 #include "report.h"
 #include "standard_input.h"
-#include "system.h"
 
 namespace tspace::tool {
 namespace {
@@ -36,19 +36,16 @@ Result<RenderReport> render(const RenderArguments& arguments) {
     RenderOptions options = arguments.options;
     StandardInput standard_input;
     if (const Result<Done> opened = standard_input.open(arguments.input, options.file); !opened) return opened.error();
-    StandardOutput standard_output;
-    if (arguments.output == "-")
-        options.sink = [&](std::span<const std::uint8_t> part) { return standard_output.write(part); };
-    Result<RenderReport> report = renderFile(arguments.input, arguments.output, options);
-    if (const Result<Done> closed = standard_output.close(); !closed) return closed.error();
-    return report;
+    return callWithOutput(arguments.output, options, [&](const RenderOptions& with_output) {
+        return renderFile(arguments.input, arguments.output, with_output);
+    });
 }
 
 }  // namespace
 
 ExitCode runRender(const RenderArguments& arguments) {
     const bool to_stdout = arguments.output == "-";
-    if (to_stdout && !arguments.options.dry_run && isTerminal(stdout))
+    if (goesToTerminal(arguments))
         return printUsageError("a picture is no text for a terminal; send stdout to a file or a pipe");
     if (!to_stdout && lowerExtension(arguments.output) != ".png")
         return printUsageError("the picture " + arguments.output + " must end in .png");
@@ -57,18 +54,7 @@ ExitCode runRender(const RenderArguments& arguments) {
             return printUsageError(fit.error().message);
     }
     const Result<RenderReport> result = render(arguments);
-    const ExitCode exit_code = result ? ExitCode::done : printError(arguments.input, result.error());
-    std::string text;
-    if (arguments.json) {
-        text = report::renderJson({.input = arguments.input,
-                                   .output = arguments.output,
-                                   .result = result,
-                                   .is_dry_run = arguments.options.dry_run},
-                                  exit_code);
-    } else if (!arguments.quiet && result) {
-        text = textOf(arguments, *result);
-    }
-    return printResult(text, to_stdout ? stderr : stdout) ? exit_code : ExitCode::cannotReadOrWrite;
+    return printOutcome(arguments, result, report::renderJson, textOf);
 }
 
 }  // namespace tspace::tool
