@@ -11,6 +11,7 @@
 #include "core/unit.h"
 #include "generate/morph_frames.h"
 #include "normals/pose_normals.h"
+#include "surface/equal_vertices.h"
 
 namespace tspace {
 
@@ -20,8 +21,6 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 /// A normal that stays differs by half of the bend at the border from the one that would be made, if it was made on its own
 /// side alone; by more where a hard edge is meant.
 constexpr double kMostTakenDeg = 30;
-
-std::array<std::uint32_t, 3> keyOf(const Vec3& p) { return {weldBits(p.x), weldBits(p.y), weldBits(p.z)}; }
 
 }  // namespace
 
@@ -107,14 +106,14 @@ void BorderedNormals::choose(std::span<const Vec3> normals) {
     std::vector<std::vector<std::uint32_t>> at;
     for (std::uint32_t v = 0; v < around_->normals.size(); ++v) {
         if (!isDirection(around_->normals[v])) continue;
-        const std::uint32_t place = places.indexOf(keyOf(around_->positions[v]));
+        const std::uint32_t place = places.indexOf(positionKey(around_->positions[v]));
         if (place == at.size()) at.emplace_back();
         at[place].push_back(v);
     }
     const double most = std::min(kMostTakenDeg, static_cast<double>(options_.crease_angle_deg));
     stays_.assign(normals.size(), kNone);
     for (std::size_t c = 0; c < normals.size(); ++c) {
-        const std::uint32_t place = places.find(keyOf(mesh_.positions[mesh_.indices[c]]));
+        const std::uint32_t place = places.find(positionKey(mesh_.positions[mesh_.indices[c]]));
         if (place == kNone) continue;
         double least = most;
         for (const std::uint32_t v : at[place]) {

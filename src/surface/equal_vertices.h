@@ -2,13 +2,18 @@
 // Vertices with equal position and normal, or position, normal and UV.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "core/unique_index.h"
 #include "surface/tangent_view.h"
 #include "tspace/span.h"
 
 namespace tspace {
+
+/// A key of UniqueIndex: positions that are equal, both zeros being one value, have one key.
+inline std::array<std::uint32_t, 3> positionKey(const Vec3& p) { return {weldBits(p.x), weldBits(p.y), weldBits(p.z)}; }
 
 struct EqualVertices {
     std::vector<std::uint32_t> class_of = {};  ///< one per vertex

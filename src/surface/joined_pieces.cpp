@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "core/unique_index.h"
+#include "surface/equal_vertices.h"
 
 namespace tspace {
 
@@ -40,7 +41,7 @@ void JoinedPieces::weld(std::span<const std::span<const Vec3>> vertex_lists) {
     UniqueIndex<std::array<std::uint32_t, 3>> points(count);
     points_.reserve(count);
     for (const std::span<const Vec3> list : vertex_lists) {
-        for (const Vec3& p : list) points_.push_back(points.indexOf({weldBits(p.x), weldBits(p.y), weldBits(p.z)}));
+        for (const Vec3& p : list) points_.push_back(points.indexOf(positionKey(p)));
     }
     is_shared_.resize(points.size());
 }

@@ -11,6 +11,7 @@
 
 #include "core/unique_index.h"
 #include "core/vec_math.h"
+#include "surface/equal_vertices.h"
 
 namespace tspace {
 
@@ -149,8 +150,7 @@ WindingCounts countWinding(std::span<const Vec3> positions, std::span<const std:
     UniqueIndex<std::array<std::uint32_t, 3>> places(positions.size());
     std::vector<std::uint32_t> points(corners.size());
     for (std::size_t c = 0; c < corners.size(); ++c) {
-        const Vec3& p = positions[corners[c]];
-        points[c] = places.indexOf({weldBits(p.x), weldBits(p.y), weldBits(p.z)});
+        points[c] = places.indexOf(positionKey(positions[corners[c]]));
     }
     std::vector<EdgeUse> edges;
     edges.reserve(corners.size());
