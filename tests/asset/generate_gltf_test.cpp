@@ -507,5 +507,38 @@ TEST(GenerateGltf, VerticesWithoutDataCostNoMemory) {
     EXPECT_TRUE(report) << "it has no UVs, so nothing is read";
 }
 
+/// A grid on a slope at five million units, where floats are half a unit apart.
+GltfBuilder farGrid(bool has_normals) {
+    Grid grid(8, false);
+    for (std::size_t i = 0; i < grid.positions.size(); ++i)
+        grid.positions[i] = 5e6f + 1.3f * grid.positions[i] + 0.4f * grid.positions[i / 3 * 3];
+    GltfBuilder builder;
+    Json attributes = {{"POSITION", builder.addFloats(grid.positions, 3)},
+                       {"TEXCOORD_0", builder.addFloats(grid.uvs, 2)}};
+    if (has_normals) attributes["NORMAL"] = builder.addFloats(grid.normals, 3);
+    const std::vector<std::uint32_t> indices = grid.indices<std::uint32_t>();
+    const std::size_t accessor = builder.addAccessor(indices, kU32, "SCALAR", indices.size());
+    builder.addPrimitive(attributes)["indices"] = accessor;
+    return builder;
+}
+
+TEST(GenerateGltf, WarnsOfWhatItMakesOverRoundedPositions) {
+    const auto warningOf = [](bool has_normals, const GenerateOptions& options) {
+        const TempFolder folder;
+        const std::string input = folder.write("in.glb", farGrid(has_normals).glb());
+        const auto report = generateFile(input, folder.path("out.glb").string(), options);
+        return report && !report->warnings.empty() ? report->warnings[0] : std::string();
+    };
+    const auto says = [](const std::string& warning, const std::string& made) {
+        return warning.find("primitives/0: " + made + " were made over positions that are rounded") !=
+               std::string::npos;
+    };
+    EXPECT_TRUE(says(warningOf(true, {.all = true}), "tangents"));
+    EXPECT_TRUE(says(warningOf(false, {.all = true}), "normals and tangents"));
+    GenerateOptions options;
+    options.overwrite_normals = true;
+    EXPECT_TRUE(says(warningOf(true, options), "normals")) << "nothing needs tangents";
+}
+
 }  // namespace
 }  // namespace tspace

@@ -104,12 +104,12 @@ std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGe
     for (const PrimitiveGeometry& geometry : geometries) {
         const TurnedTriangles turned = turnedBy(rounding, vertices.positions, geometry.indices, kLimit);
         if (turned.share < kSomeTurned) continue;
-        return std::string(vertices.normals.empty() ? "normals and tangents" : "tangents") +
+        return std::string(!vertices.normals.empty() ? "tangents"
+                           : vertices.makes_tangents ? "normals and tangents"
+                                                     : "normals") +
                " were made over positions that are rounded too coarsely for it: at their distance from the origin "
-               "floats "
-               "are so far apart that triangles may be turned by over 10 degrees. Store positions relative to a point "
-               "near "
-               "the mesh, and put that point into the node";
+               "floats are so far apart that triangles may be turned by over 10 degrees. Store positions relative to a "
+               "point near the mesh, and put that point into the node";
     }
     return {};
 }
@@ -284,8 +284,7 @@ PoolElements PoolComputer::computeOne(const Pool& pool, const Execution& executi
         for (const std::size_t number : pool.primitives) {
             reports[number].notes.emplace_back(
                 "most signs of its tangents were inverted, and all are now: its normal map may be made for that "
-                "(--overwrite "
-                "makes them those of the UVs)");
+                "(--overwrite makes them those of the UVs)");
         }
     }
     PoolElements elements = packFrames(document_, primitives_, pool, std::move(frames),
