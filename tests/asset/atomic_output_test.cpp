@@ -100,6 +100,16 @@ TEST(AtomicOutput, WritesThroughALink) {
     EXPECT_EQ(readFile(folder.path("real")), toBytes("new"));
 }
 
+/// It would become a file in the link's place.
+TEST(AtomicOutput, RefusesALinkToWhatIsNotThere) {
+    const TempFolder folder;
+    std::filesystem::create_symlink("nothing", folder.path("link"));
+    AtomicOutput output;
+    EXPECT_EQ(errorOf([&] { output.add(folder.path("link"), toBytes("new")); }).code, ErrorCode::cannotWrite);
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.path("link")));
+    EXPECT_EQ(folder.entryCount(), 1u);
+}
+
 /// The one temporary file in the folder.
 std::filesystem::path temporaryFile(const TempFolder& folder) {
     for (const std::string& name : folder.files()) {
