@@ -48,10 +48,7 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
              "The model that the map is to be shown on: the same surface and UVs, other tangents, normals, splits or "
              "triangles. Default: that of --mesh."))
         .is_file = true;
-    add(list, kInputAndOutput,
-        text("--material", "NAME", options.material,
-             "Takes the primitives with the material of this name. Default: those whose material names an image of "
-             "the map's name; where there are none, all that have UVs."));
+    addMaterialOfMap(list, options.material);
     add(list, kInputAndOutput,
         number("--tile", options.tile, 9999,
                "Takes the triangles of this UDIM tile, whose file the map is: 1001 and on. 0: all."));
@@ -61,8 +58,7 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
     add(list, group,
         choice("--from", "SPACE", kSpaces, options.from,
                "What the map's vectors are told in. object: the coordinates of the mesh; world: those of the scene, as "
-               "the "
-               "mesh's node turns it."));
+               "the mesh's node turns it."));
     add(list, group, choice("--to", "SPACE", kSpaces, options.to, "What those of the output are to be told in."));
     add(list, group,
         readingOption("--from-convention", options.from_reading, "The program that the map was made for."));
@@ -80,8 +76,7 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
             [&options](const std::string& value) { return takeChannels(value, options.layout); },
             "The channels of IN that x, y and z are in: bgr for red and blue exchanged. Of two letters z is made of x "
             "and y: rg for maps whose blue says nothing, ag for DXT5nm. A capital letter stands for an inverted "
-            "channel. "
-            "Default: rgb."));
+            "channel. Default: rgb."));
     add(list, group,
         setting("--srgb", options.layout.curve, MapCurve::srgb,
                 "The values of IN were stored as colors, with the sRGB curve; it is taken off."));

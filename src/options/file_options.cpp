@@ -48,9 +48,8 @@ void addKeepCoordinates(OptionList& list, FileOptions& file) {
     add(list, kInputAndOutput,
         flag("--keep-coordinates", file.keep_coordinates,
              "For OBJ and PLY: write coordinates as they are. By default an offset is taken out of those that are too "
-             "far from "
-             "the origin for the 32-bit floats of glTF, such as metres of a map, and becomes the translation of the "
-             "nodes."));
+             "far from the origin for the 32-bit floats of glTF, such as metres of a map, and becomes the translation "
+             "of the nodes."));
 }
 
 void addThreads(OptionList& list, Execution& execution, HelpText help) {
@@ -81,6 +80,13 @@ void addLimits(OptionList& list, FileOptions& file) {
             "--import-seconds", file.import_max_seconds, kMostSeconds,
             "Time for reading one file of another format (FBX, PLY, DAE, ...); 0: 2 seconds of processor time, and one "
             "more for each MiB of the file."));
+}
+
+void addMaterialOfMap(OptionList& list, std::string& material) {
+    add(list, kInputAndOutput,
+        text("--material", "NAME", material,
+             "Takes the primitives with the material of this name. Default: those whose material names an image of "
+             "the map's name; where there are none, all that have UVs."));
 }
 
 void addSync(OptionList& list, bool& sync) {

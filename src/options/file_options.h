@@ -41,5 +41,7 @@ void addMemoryLimit(OptionList& list, std::uint64_t& memory_limit_bytes);
 void addLimits(OptionList& list, FileOptions& file);
 /// For calls that write: FileOptions::sync.
 void addSync(OptionList& list, bool& sync);
+/// Which primitives of a model show a map.
+void addMaterialOfMap(OptionList& list, std::string& material);
 
 }  // namespace tspace::options

@@ -26,10 +26,7 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
              "The model that shows the map. Slopes are then those on its surface, whatever the size of the image and "
              "of the UVs, and the normals are told in its tangent frames; missing tangents are made."))
         .is_file = true;
-    add(list, kInputAndOutput,
-        text("--material", "NAME", options.material,
-             "Takes the primitives with the material of this name. Default: those whose material names an image of "
-             "the map's name; where there are none, all that have UVs."));
+    addMaterialOfMap(list, options.material);
     add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything but write."));
     addAllowExternal(list, options.file);
     add(list, "Map",
