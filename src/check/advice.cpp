@@ -20,18 +20,15 @@ constexpr const char* kOtherTool =
     "normal maps of this file may want as they are.";
 constexpr const char* kLookAtTheMap =
     "Look at the normal map. If its green points up, negate every w. If it points down, do both or neither: negate "
-    "every "
-    "w and invert the green channel, or leave both as they are. Where the high poly is at hand, tspace map-error MAP "
-    "MODEL --high HIGH says which, in degrees.";
+    "every w and invert the green channel, or leave both as they are. Where the high poly is at hand, tspace map-error "
+    "MAP MODEL --high HIGH says which, in degrees.";
 
 constexpr const char* kOnlyForItsReaders =
     "Nothing needs to be done for programs that read the packed frames. For others take the model that they were "
-    "packed "
-    "from.";
+    "packed from.";
 constexpr const char* kAlsoForOthers =
     "Nothing needs to be done for programs that read the packed frames. For others compute tangents too: tspace "
-    "generate "
-    "--overwrite.";
+    "generate --overwrite.";
 
 constexpr const char* kDrawnTangents =
     "Mend it with the tool that made the tangents. No texture is read with them, so nothing here says where they must "

@@ -63,19 +63,13 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "vertex."},
     {"greenFlipped",
      "If it was made for DirectX, invert its green channel: tspace generate --flip-green does that. If bumps are dents "
-     "then, it "
-     "was "
-     "red: tspace convert-map MAP -o OUT.png --flip-red is for that. The map alone does not tell the two apart; where "
-     "the high "
-     "poly "
-     "is at hand, tspace map-error MAP MODEL --high HIGH does, in degrees."},
+     "then, it was red: tspace convert-map MAP -o OUT.png --flip-red is for that. The map alone does not tell the two "
+     "apart; where the high poly is at hand, tspace map-error MAP MODEL --high HIGH does, in degrees."},
     {"normalMapUnreadable", "Convert the image to PNG, JPEG or WebP to have it looked at."},
     {"fileRemark", "Mend the file where that matters. The rest of this report is about what could be read."},
     {"greenMixed",
      "Bake the map anew, all of it one way (tspace bake MODEL --high HIGH -o MAP.png); or invert green with an image "
-     "editor where it points down, and nowhere "
-     "else. "
-     "To invert the whole map would spoil the other part."},
+     "editor where it points down, and nowhere else. To invert the whole map would spoil the other part."},
     {"packedFramesUnreadable", "Pack them anew, in the format that the attribute names: tspace generate --pack."},
     {"packedFramesDiffer",
      "Pack them anew from NORMAL and TANGENT, in the format that the attribute names: tspace generate --pack."},
@@ -83,8 +77,7 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "Run tspace generate: it computes tangents where a material needs them, and takes the attribute away elsewhere."},
     {"positionsRounded",
      "Store the positions relative to a point near the mesh, and put that point into the node. Tangents that are there "
-     "are "
-     "better than what can be computed from these positions: keep them."},
+     "are better than what can be computed from these positions: keep them."},
     {"normalSeam",
      "Make the normals of the primitives together: tspace generate --overwrite-normals; or leave them if an edge is "
      "meant."},
@@ -109,9 +102,7 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "--linearised)"},
     {"normalMapInObjectSpace",
      "In the model: tspace generate --mend-maps does it. The image alone: tspace convert-map MAP -o OUT.png --from "
-     "object "
-     "--mesh "
-     "MODEL"},
+     "object --mesh MODEL"},
     {"normalMapIsHeight", "Make a normal map of it: tspace height-to-normal MAP -o OUT.png --strength S"},
     {"normalMapScale", "Give the texture a scale above 0, or take the normal map away, if that is what is meant."},
 }};

@@ -12,8 +12,7 @@ namespace tspace {
 /// The remedy of inverted signs and green that points down, which cancel out.
 inline constexpr const char* kBothOrNeither =
     "Do both or neither: negate every w and invert the green channel of the normal map, or leave both as they are. "
-    "They "
-    "cancel out.";
+    "They cancel out.";
 
 /// The remedy of green that points down where the convention that is asked for has it so.
 inline constexpr const char* kNothingToDo = "Nothing needs to be done; a reader of plain glTF wants green to point up.";

@@ -51,8 +51,7 @@ std::string messageOf(const std::string& name, const MapLook& look) {
         case MapContent::twoChannels:
             return "the normal map " + name +
                    " holds only x and y, in red and green: its blue is the same everywhere and says nothing of z, "
-                   "which "
-                   "glTF reads there";
+                   "which glTF reads there";
         case MapContent::unsignedZ:
             return "blue of the normal map " + name +
                    " is z itself, from 0 to 1, where glTF wants (z + 1) / 2: what leans is shown leaning too far";
@@ -71,8 +70,7 @@ std::string messageOf(const std::string& name, const MapLook& look) {
             if (!look.follows_mesh) {
                 return "the normal map " + name +
                        " is not in tangent space: its vectors point all around, as in object or world space, though "
-                       "not "
-                       "along the normals of this mesh";
+                       "not along the normals of this mesh";
             }
             return "the normal map " + name +
                    (look.is_in_world ? " is in world space: its vectors point along the normals that nodes turn"

@@ -70,8 +70,7 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
     add(list, group,
         flag("--unit", options.unit,
              "All texels have length 1, so that z can be made from x and y: for formats of two channels (BC5, DXT5nm). "
-             "The "
-             "error is that of such a reader."));
+             "The error is that of such a reader."));
     add(list, group,
         choice("--fit", "HOW", kFits, map.fit,
                "solve: all texels together, such that the filtered map is right between texels too; texel: each alone, "

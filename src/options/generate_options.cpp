@@ -201,8 +201,7 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
     add(list, "Normals",
         flag("--normals-per-primitive", options.normals_per_primitive,
              "Make the normals of each primitive from its own triangles. By default they are smooth over the border of "
-             "two "
-             "primitives of a mesh that are one surface (they share edges); --crease holds there too."));
+             "two primitives of a mesh that are one surface (they share edges); --crease holds there too."));
     add(list, "Normals",
         flag("--overwrite-normals", options.overwrite_normals,
              "Make normals anew where they are there, by --normals and --crease, and where they are missing, in every "
@@ -212,8 +211,7 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
     add(list, "Normals",
         choice("--morph-normals", "WHICH", kMorphNormals, options.morph_normals,
                "What morph targets add to normals that stay. keep: what is there; missing: targets without it get it; "
-               "all: "
-               "it is computed for all. The normal turns as the surface around it turns."));
+               "all: it is computed for all. The normal turns as the surface around it turns."));
     add(list, "Repair",
         setting("--no-sanitize", options.sanitize, false,
                 "Write what the method gives, even where it is not finite, zero, not unit, parallel to the "

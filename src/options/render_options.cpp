@@ -57,8 +57,7 @@ Option viewOption(RenderOptions& options) {
         std::array<double, 2> angles{};
         if (!parseNumbers(text, angles) || std::abs(angles[0]) > 360 || std::abs(angles[1]) > 90) {
             return "must be front, back, left, right, top, bottom, three-quarter, or YAW,PITCH in degrees, yaw from "
-                   "-360 "
-                   "to 360 and pitch from -90 to 90";
+                   "-360 to 360 and pitch from -90 to 90";
         }
         options.yaw_deg = angles[0];
         options.pitch_deg = angles[1];

@@ -129,8 +129,8 @@ std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const F
     html += "<h1>Frames of " + counted(outcomes.size(), "file") + "</h1>\n";
     html +=
         "<p class=\"dim\">Found by tspace check. An error surely renders wrong; a warning renders wrong in some "
-        "renderers, "
-        "in a small part, or only perhaps; a note is worth knowing. Triangles of a finding are outlined.</p>\n";
+        "renderers, in a small part, or only perhaps; a note is worth knowing. Triangles of a finding are "
+        "outlined.</p>\n";
     if (outcomes.size() > 1) html += overviewHtml(outcomes);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
         const std::size_t left = html.size() < kMostPageBytes ? kMostPageBytes - html.size() : 0;

@@ -12,9 +12,8 @@ Command heightToNormalCommand(HeightToNormalArguments& arguments) {
         .operands = "IN -o OUT",
         .description =
             "Makes a normal map of a grey image in which white is high and black is low (a bump map): the slopes of "
-            "the "
-            "heights, times a strength that you know. With the model that shows the map, the strength is in its units, "
-            "and slopes are those on its surface.",
+            "the heights, times a strength that you know. With the model that shows the map, the strength is in its "
+            "units, and slopes are those on its surface.",
         .examples = {"tspace height-to-normal height.png -o normal.png --strength 4",
                      "tspace height-to-normal height.png -o normal.png --mesh wall.glb --strength 0.02",
                      "tspace height-to-normal height.png -o normal-dx.png --convention directx --bits 8"},

@@ -12,9 +12,8 @@ Command viewCommand(ViewArguments& arguments) {
         .operands = "IN -o OUT.html",
         .description =
             "Makes one HTML file of the model, with everything it needs inside: it opens from disk in any browser, "
-            "asks "
-            "no network, shows what tspace check finds, lights the model with the frames of the file and with right "
-            "ones, and mends it. The page itself is built by scripts/web and installed with the tool.",
+            "asks no network, shows what tspace check finds, lights the model with the frames of the file and with "
+            "right ones, and mends it. The page itself is built by scripts/web and installed with the tool.",
         .examples = {"tspace view helmet.glb -o helmet.html"},
         .finish =
             [&arguments](const Given&) {

@@ -295,8 +295,7 @@ void readNearOrigin(const std::string& path, Assimp::Importer& importer, Importe
         "the coordinates are so far from the origin that 32-bit floats would change the shape; (" +
         numberText(offset[0]) + ", " + numberText(offset[1]) + ", " + numberText(offset[2]) +
         ") was taken out of them first, and is the translation of the root node in glTF (generate --keep-coordinates "
-        "leaves "
-        "it in)");
+        "leaves it in)");
 }
 
 }  // namespace
