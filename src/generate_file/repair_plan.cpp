@@ -64,8 +64,7 @@ std::string whyKept(const PrimitiveJudgement& judgement, bool is_free) {
     for (const Finding& finding : judgement.findings) {
         const bool is_of_tangents = partsOf(finding.code) != 0 || finding.code == FindingCode::positionsRounded ||
                                     finding.code == FindingCode::textureTransformIgnored ||
-                                    finding.code == FindingCode::splitFramesDiffer ||
-                                    finding.code == FindingCode::signsMixed;
+                                    finding.code == FindingCode::splitFramesDiffer;
         if (is_of_tangents) warnings += (warnings.empty() ? "" : "; and ") + finding.message;
     }
     if (is_free) {

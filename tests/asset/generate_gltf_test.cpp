@@ -3,6 +3,8 @@
 // reported.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "asset/gltf/accessor.h"
 #include "asset/gltf/primitive_reader.h"
 #include "asset/read/load_document.h"
@@ -505,6 +507,32 @@ TEST(GenerateGltf, VerticesWithoutDataCostNoMemory) {
     const auto report =
         generateFile(input, folder.path("out.glb").string(), {.all = true, .existing = ExistingTangents::replace});
     EXPECT_TRUE(report) << "it has no UVs, so nothing is read";
+}
+
+/// The normal map may have been made for them.
+TEST(GenerateGltf, SignsThatWereAllInvertedStaySoWhereNormalsAreMadeAnew) {
+    GltfBuilder builder = gridModel(Grid(4, false));
+    std::vector<float> tangents;
+    for (std::size_t v = 0; v < 25; ++v) tangents.insert(tangents.end(), {1, 0, 0, -1});
+    firstPrimitive(builder)["attributes"]["TANGENT"] = builder.addFloats(tangents, 4);
+    for (const ExistingTangents existing : {ExistingTangents::keep, ExistingTangents::replace}) {
+        GenerateOptions options{.existing = existing};
+        options.overwrite_normals = true;
+        const TempFolder folder;
+        const std::string output = folder.path("out.glb").string();
+        const auto report = generateFile(folder.write("in.glb", builder.glb()), output, options);
+        ASSERT_TRUE(report);
+        const bool stays = existing == ExistingTangents::keep;
+        const Document after = gltf::loadDocument(output, {});
+        for (const Vec4& tangent : readTangents(after, readPrimitives(after)[0]))
+            EXPECT_EQ(tangent.w, stays ? -1.0f : 1.0f);
+        const std::vector<std::string>& notes = report->primitives[0].notes;
+        EXPECT_EQ(std::any_of(notes.begin(), notes.end(),
+                              [](const std::string& note) {
+                                  return note.find("most signs of its tangents were inverted, and all are now") == 0;
+                              }),
+                  stays);
+    }
 }
 
 /// A grid on a slope at five million units, where floats are half a unit apart.
