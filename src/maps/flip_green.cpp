@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
-// flipGreen and flipGreenFile: formats in and out, limits, files.
+// Formats in and out, and what flipping takes.
 #include "maps/flip_green.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "asset/atomic_output.h"
-#include "asset/file_error.h"
-#include "asset/memory_budget.h"
 #include "maps/codecs.h"
-#include "tspace/flip_green.h"
 
 namespace tspace {
 
@@ -27,27 +24,27 @@ ImageFileFormat fileFormat(ImageFormat format) {
     }
 }
 
-/// Told by content; fails for what this build does not read.
-ImageFileFormat readableFormat(ByteSpan bytes) {
+/// Told by content; an error for what this build does not read.
+Result<ImageFileFormat> readableFormat(ByteSpan bytes) {
     const ImageFormat format = imageFormat(bytes);
-    if (const char* why_not = whyNotRead(format)) failFile(ErrorCode::unsupportedFile, why_not);
+    if (const char* why_not = whyNotRead(format)) return Error{ErrorCode::unsupportedFile, why_not};
     if (format == ImageFormat::exr)
-        failFile(ErrorCode::unsupportedFile,
-                 "it is EXR, whose green is inverted by convertMapFile (tspace convert-map)");
+        return Error{ErrorCode::unsupportedFile,
+                     "it is EXR, whose green is inverted by convertMapFile (tspace convert-map)"};
     return fileFormat(format);
 }
 
-ImageFileFormat outputFormat(ImageFileFormat input, const FlipGreenOptions& options) {
+Result<ImageFileFormat> outputFormat(ImageFileFormat input, const FlipGreenOptions& options) {
     if (options.jpeg_quality < 1 || options.jpeg_quality > 100) {
-        failFile(ErrorCode::invalidOption, "a JPEG has a quality of 1 to 100");
+        return Error{ErrorCode::invalidOption, "a JPEG has a quality of 1 to 100"};
     }
     const ImageFileFormat format = options.format == ImageFileFormat::sameAsInput ? input : options.format;
     if (format != input && format != ImageFileFormat::png) {
-        failFile(ErrorCode::unsupportedFile,
-                 "the output is of another format, which would lose; write the format of the input, or PNG");
+        return Error{ErrorCode::unsupportedFile,
+                     "the output is of another format, which would lose; write the format of the input, or PNG"};
     }
     if (format == ImageFileFormat::png && whyNotRead(ImageFormat::png) != nullptr) {
-        failFile(ErrorCode::unsupportedFile, whyNotRead(ImageFormat::png));
+        return Error{ErrorCode::unsupportedFile, whyNotRead(ImageFormat::png)};
     }
     return format;
 }
@@ -56,77 +53,43 @@ void invertGreen(ChannelImage& image) {
     for (std::size_t i = 1; i < image.pixels.size(); i += image.channels) image.pixels[i] ^= 0xff;
 }
 
-FlippedImage flipPixels([[maybe_unused]] ByteSpan bytes, [[maybe_unused]] ImageFileFormat input, ImageFileFormat output,
-                        [[maybe_unused]] int jpeg_quality) {
-    ChannelImage image;
+/// Pixels of a JPEG or WebP.
+Result<ChannelImage> readPixels([[maybe_unused]] ByteSpan bytes, ImageFileFormat format) {
 #ifdef TSPACE_HAS_IMAGES
-    if (input == ImageFileFormat::jpeg) image = readJpegPixels(bytes);
+    if (format == ImageFileFormat::jpeg) return readJpegPixels(bytes);
 #endif
 #ifdef TSPACE_HAS_WEBP
-    if (input == ImageFileFormat::webp) image = readWebpPixels(bytes);
+    if (format == ImageFileFormat::webp) return readWebpPixels(bytes);
 #endif
-    invertGreen(image);
-    FlippedImage result;
-    result.report = {.format = output, .width = image.width, .height = image.height};
+    return Error{ErrorCode::unsupportedFile, whyNotRead(ImageFormat::unknown)};
+}
+
+/// `like`: the file that the pixels were read from.
+Result<std::vector<std::uint8_t>> writePixels([[maybe_unused]] const ChannelImage& image, ImageFileFormat format,
+                                              [[maybe_unused]] int jpeg_quality, [[maybe_unused]] ByteSpan like) {
 #ifdef TSPACE_HAS_IMAGES
-    if (output == ImageFileFormat::png) result.bytes = writePng(image);
+    if (format == ImageFileFormat::png) return writePng(image);
+    if (format == ImageFileFormat::jpeg) return writeJpeg(image, jpeg_quality, like);
+#endif
+#ifdef TSPACE_HAS_WEBP
+    if (format == ImageFileFormat::webp) return writeWebp(image);
+#endif
+    return Error{ErrorCode::unsupportedFile, whyNotRead(ImageFormat::unknown)};
+}
+
+Result<FlippedImage> flipPixels(ByteSpan bytes, ImageFileFormat input, ImageFileFormat output, int jpeg_quality) {
+    Result<ChannelImage> image = readPixels(bytes, input);
+    if (!image) return image.error();
+    invertGreen(*image);
+    Result<std::vector<std::uint8_t>> written = writePixels(*image, output, jpeg_quality, bytes);
+    if (!written) return written.error();
+    FlippedImage result{*std::move(written), {.format = output, .width = image->width, .height = image->height}};
     if (output == ImageFileFormat::jpeg) {
-        result.bytes = writeJpeg(image, jpeg_quality, bytes);
         result.report.is_exact = false;
         result.report.warnings.push_back(
             "a JPEG is compressed once more, which rounds its texels again; a PNG would be exact");
     }
-#endif
-#ifdef TSPACE_HAS_WEBP
-    if (output == ImageFileFormat::webp) result.bytes = writeWebp(image);
-#endif
     return result;
-}
-
-/// Rows of a PNG take next to no memory but time, and a few bytes may claim any number of them: what they unpack to may be
-/// so many times what may be taken of memory. 1 GB, about 5 seconds, for any file: a map of one colour and 16384 x 16384
-/// texels has 800 MB in a file of 800 KB.
-void checkWork(ByteSpan bytes, std::uint64_t memory_limit_bytes) {
-    constexpr std::uint64_t kTimesMemory = 16, kMost = std::uint64_t{1} << 56;
-    const std::uint64_t memory = memory_limit_bytes != 0
-                                     ? std::min(memory_limit_bytes, kMost)
-                                     : MemoryBudget::kAnyFile + MemoryBudget::kPerByte * bytes.size();
-    const std::uint64_t unpacked = flipUnpackedBytes(bytes);
-    if (unpacked <= kTimesMemory * memory) return;
-    const auto megabytes = [](std::uint64_t count) { return std::to_string(count >> 20) + " MB"; };
-    failFile(ErrorCode::tooLarge, "it claims to unpack to " + megabytes(unpacked) + ", and " +
-                                      (memory_limit_bytes != 0 ? "--memory-limit" : "a file of its size") + " allows " +
-                                      megabytes(kTimesMemory * memory) +
-                                      (memory_limit_bytes != 0 ? "" : " (--memory-limit allows more)"));
-}
-
-FlippedImage flip(ByteSpan bytes, const FlipGreenOptions& options) {
-    const ImageFileFormat input = readableFormat(bytes), output = outputFormat(input, options);
-    MemoryBudget budget(options.memory_limit_bytes);
-    budget.allow(bytes.size());
-    budget.require(flipWorkBytes(bytes), {});
-    checkWork(bytes, options.memory_limit_bytes);
-#ifdef TSPACE_HAS_IMAGES
-    if (input == ImageFileFormat::png) {
-        FlippedPng png = flipPng(bytes);
-        FlippedImage result{std::move(png.bytes), {.format = output, .bits = png.bits}};
-        const ImageSize size = claimOfPng(bytes).size;
-        result.report.width = size.width;
-        result.report.height = size.height;
-        return result;
-    }
-#endif
-    return flipPixels(bytes, input, output, options.jpeg_quality);
-}
-
-/// By the extension of the output's name.
-ImageFileFormat namedFormat(const std::string& output) {
-    const std::string extension = lowerExtension(output);
-    if (extension == ".png") return ImageFileFormat::png;
-    if (extension == ".jpg" || extension == ".jpeg") return ImageFileFormat::jpeg;
-    if (extension == ".webp") return ImageFileFormat::webp;
-    failFile(ErrorCode::unsupportedFile,
-             "the output " + pathInQuotes(output) + " ends in none of .png, .jpg, .jpeg and .webp");
 }
 
 }  // namespace
@@ -161,22 +124,21 @@ std::uint64_t flipUnpackedBytes(ByteSpan bytes) {
     return (size.width * pixel_bits / 8 + kOfRow) * size.height;
 }
 
-Result<FlippedImage> flipGreen(std::span<const std::uint8_t> image, const FlipGreenOptions& options) {
-    return atFileBorder([&]() -> Result<FlippedImage> { return flip(image, options); });
-}
-
-Result<FlipGreenReport> flipGreenFile(const std::string& input, const std::string& output,
-                                      const FlipGreenOptions& options) {
-    return atFileBorder([&]() -> Result<FlipGreenReport> {
-        FlipGreenOptions chosen = options;
-        if (chosen.format == ImageFileFormat::sameAsInput && !options.sink) chosen.format = namedFormat(output);
-        FlippedImage flipped =
-            options.content.data() != nullptr ? flip(options.content, chosen) : flip(readFile(input), chosen);
-        AtomicOutput files({.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.sync});
-        files.add(output, std::span<const std::uint8_t>(flipped.bytes));
-        files.commit();
-        return std::move(flipped.report);
-    });
+Result<FlippedImage> flipImage(ByteSpan bytes, const FlipGreenOptions& options) {
+    const Result<ImageFileFormat> input = readableFormat(bytes);
+    if (!input) return input.error();
+    const Result<ImageFileFormat> output = outputFormat(*input, options);
+    if (!output) return output.error();
+#ifdef TSPACE_HAS_IMAGES
+    if (*input == ImageFileFormat::png) {
+        Result<FlippedPng> png = flipPng(bytes);
+        if (!png) return png.error();
+        const ImageSize size = claimOfPng(bytes).size;
+        return FlippedImage{std::move(png->bytes),
+                            {.format = *output, .width = size.width, .height = size.height, .bits = png->bits}};
+    }
+#endif
+    return flipPixels(bytes, *input, *output, options.jpeg_quality);
 }
 
 }  // namespace tspace

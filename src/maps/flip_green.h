@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Inverting the green channel of encoded images, format by format. Functions throw FileError.
+// Inverting the green channel of encoded images, format by format. An error's message is half a sentence: "it is a broken PNG".
 #pragma once
 
 #include "maps/image.h"
+#include "tspace/flip_green.h"
 
 namespace tspace {
 
@@ -19,23 +20,26 @@ std::uint64_t flipWorkBytes(ByteSpan bytes);
 /// other formats, all of whose pixels are in memory.
 std::uint64_t flipUnpackedBytes(ByteSpan bytes);
 
+/// What flipGreen does, without a look at what the image may take. Of `options`: format and jpeg_quality.
+Result<FlippedImage> flipImage(ByteSpan bytes, const FlipGreenOptions& options);
+
 /// A PNG with its green channel inverted, and all else as it was.
 struct FlippedPng {
     std::vector<std::uint8_t> bytes = {};
     std::uint32_t bits = 8;
 };
-FlippedPng flipPng(ByteSpan bytes);
+Result<FlippedPng> flipPng(ByteSpan bytes);
 
 /// Pixels of a JPEG or WebP. Fails for grey images, and for those that are broken or animated.
-ChannelImage readJpegPixels(ByteSpan bytes);
-ChannelImage readWebpPixels(ByteSpan bytes);
+Result<ChannelImage> readJpegPixels(ByteSpan bytes);
+Result<ChannelImage> readWebpPixels(ByteSpan bytes);
 
-std::vector<std::uint8_t> writePng(const ChannelImage& image);
+Result<std::vector<std::uint8_t>> writePng(const ChannelImage& image);
 /// `like`: the JPEG whose Exif data, profile and comments it gets.
-std::vector<std::uint8_t> writeJpeg(const ChannelImage& image, int quality, ByteSpan like);
+Result<std::vector<std::uint8_t>> writeJpeg(const ChannelImage& image, int quality, ByteSpan like);
 /// `packed`, which begins as JPEG files do, with those of `like`.
 std::vector<std::uint8_t> joinJpeg(ByteSpan packed, ByteSpan like);
 /// Without loss, also where it is transparent.
-std::vector<std::uint8_t> writeWebp(const ChannelImage& image);
+Result<std::vector<std::uint8_t>> writeWebp(const ChannelImage& image);
 
 }  // namespace tspace

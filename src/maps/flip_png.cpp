@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string_view>
 
-#include "asset/file_error.h"
 #include "maps/flip_green.h"
 #include "maps/png_pixels.h"
 
@@ -19,20 +18,20 @@ struct Chunk {
 };
 
 /// All chunks up to the end mark, the header first.
-std::vector<Chunk> readChunks(ByteSpan bytes) {
+Result<std::vector<Chunk>> readChunks(ByteSpan bytes) {
     std::vector<Chunk> chunks;
     for (std::size_t at = kSignatureBytes; chunks.empty() || chunks.back().type != "IEND";) {
         constexpr std::size_t kAround = 12;
-        if (bytes.size() < at + kAround) failBrokenPng();
+        if (bytes.size() < at + kAround) return brokenPng();
         const std::size_t length = pngNumber(bytes, at);
-        if (length > bytes.size() - at - kAround) failBrokenPng();
+        if (length > bytes.size() - at - kAround) return brokenPng();
         chunks.push_back({.type = {reinterpret_cast<const char*>(bytes.data()) + at + 4, 4},
                           .data = bytes.subspan(at + 8, length),
                           .whole = bytes.subspan(at, length + kAround)});
         at += length + kAround;
     }
     constexpr std::size_t kHeaderBytes = 13;
-    if (chunks.front().type != "IHDR" || chunks.front().data.size() != kHeaderBytes) failBrokenPng();
+    if (chunks.front().type != "IHDR" || chunks.front().data.size() != kHeaderBytes) return brokenPng();
     return chunks;
 }
 
@@ -108,7 +107,7 @@ PngHeader pngHeader(ByteSpan data) {
 
 }  // namespace
 
-void failBrokenPng() { failFile(ErrorCode::invalidFile, "it is a broken PNG"); }
+Error brokenPng() { return Error{ErrorCode::invalidFile, "it is a broken PNG"}; }
 
 std::uint32_t pngNumber(ByteSpan bytes, std::size_t at) {
     return std::uint32_t{bytes[at]} << 24 | std::uint32_t{bytes[at + 1]} << 16 | std::uint32_t{bytes[at + 2]} << 8 |
@@ -121,22 +120,27 @@ void invertGreenSamples(std::span<std::uint8_t> bytes, std::size_t step, std::si
     }
 }
 
-FlippedPng flipPng(ByteSpan bytes) {
-    const std::vector<Chunk> chunks = readChunks(bytes);
+Result<FlippedPng> flipPng(ByteSpan bytes) {
+    const Result<std::vector<Chunk>> read = readChunks(bytes);
+    if (!read) return read.error();
+    const std::vector<Chunk>& chunks = *read;
     const PngHeader header = pngHeader(chunks.front().data);
     if ((header.color & PngHeader::kHasColor) == 0) {
-        failFile(ErrorCode::unsupportedFile, "it is a grey PNG, which has no green channel of its own");
+        return Error{ErrorCode::unsupportedFile, "it is a grey PNG, which has no green channel of its own"};
     }
     if (std::any_of(chunks.begin(), chunks.end(), [](const Chunk& chunk) { return chunk.type == "acTL"; })) {
-        failFile(ErrorCode::unsupportedFile, "it is an animated PNG");
+        return Error{ErrorCode::unsupportedFile, "it is an animated PNG"};
     }
     if (header.color == PngHeader::kPalette) {
         // Its pixels are numbers of colours, and stay.
-        checkPixels(bytes, header);
-        return {joinChunks(bytes, chunks, header, {}), 8};
+        if (Error error = checkPixels(bytes, header); error.code != ErrorCode::ok) return error;
+        return FlippedPng{joinChunks(bytes, chunks, header, {}), 8};
     }
-    const std::vector<std::uint8_t> packed = packInverted(bytes, header);
-    return {joinChunks(bytes, chunks, header, readChunks(packed)), header.bits};
+    const Result<std::vector<std::uint8_t>> packed = packInverted(bytes, header);
+    if (!packed) return packed.error();
+    const Result<std::vector<Chunk>> packed_chunks = readChunks(*packed);
+    if (!packed_chunks) return packed_chunks.error();
+    return FlippedPng{joinChunks(bytes, chunks, header, *packed_chunks), header.bits};
 }
 
 }  // namespace tspace

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <string_view>
 
-#include "asset/file_error.h"
 #include "maps/codecs.h"
 #include "maps/flip_green.h"
 
@@ -142,10 +141,8 @@ std::vector<std::uint8_t> decodeAlpha([[maybe_unused]] ByteSpan bytes) {
 #endif
 #ifdef TSPACE_HAS_WEBP
     if (imageFormat(bytes) == ImageFormat::webp) {
-        tryFile([&] {
-            ChannelImage image = readWebpPixels(bytes);
-            if (image.channels == 4) pixels = std::move(image.pixels);
-        });
+        Result<ChannelImage> image = readWebpPixels(bytes);
+        if (image && image->channels == 4) pixels = std::move(image->pixels);
     }
 #endif
     // In place: entry i lies before 4 i + 3.

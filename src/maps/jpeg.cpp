@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "asset/file_error.h"
+#include "core/memory.h"
 #include "maps/codecs.h"
 #include "maps/flip_green.h"
 
@@ -53,24 +53,24 @@ std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, st
     return image;
 }
 
-ChannelImage readJpegPixels(ByteSpan bytes) {
+Result<ChannelImage> readJpegPixels(ByteSpan bytes) {
     const Decompressor decompressor(tjInitDecompress());
     const JpegHead head = readHead(decompressor, bytes);
-    if (head.size.pixels() == 0) failFile(ErrorCode::invalidFile, "it is a broken JPEG");
+    if (head.size.pixels() == 0) return Error{ErrorCode::invalidFile, "it is a broken JPEG"};
     if (head.color_space == TJCS_GRAY) {
-        failFile(ErrorCode::unsupportedFile, "it is a grey JPEG, which has no green channel of its own");
+        return Error{ErrorCode::unsupportedFile, "it is a grey JPEG, which has no green channel of its own"};
     }
     if (head.color_space == TJCS_CMYK || head.color_space == TJCS_YCCK) {
-        failFile(ErrorCode::unsupportedFile, "it is a JPEG for print (CMYK)");
+        return Error{ErrorCode::unsupportedFile, "it is a JPEG for print (CMYK)"};
     }
     ChannelImage image{head.size.width, head.size.height, 3, {}};
     if (!decompress(decompressor, bytes, head.size, image.pixels)) {
-        failFile(ErrorCode::invalidFile, "it is a broken JPEG");
+        return Error{ErrorCode::invalidFile, "it is a broken JPEG"};
     }
     return image;
 }
 
-std::vector<std::uint8_t> writeJpeg(const ChannelImage& image, int quality, ByteSpan like) {
+Result<std::vector<std::uint8_t>> writeJpeg(const ChannelImage& image, int quality, ByteSpan like) {
     const std::unique_ptr<void, Destroy> compressor(tjInitCompress());
     unsigned char* data = nullptr;
     unsigned long size = 0;

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "asset/file_error.h"
+#include "core/memory.h"
 #include "maps/flip_green.h"
 #include "maps/png_context.h"
 
@@ -13,9 +13,22 @@ namespace tspace {
 
 namespace {
 
+/// Thrown and caught in this file alone.
+struct BrokenPng {};
+
 void check(int result) {
     if (result == SPNG_EMEM) throw OutOfMemory{};
-    if (result != 0) failBrokenPng();
+    if (result != 0) throw BrokenPng{};
+}
+
+/// What `body` gives, or the error of what libspng refused in it.
+template <class Body>
+auto orBroken(Body&& body) -> decltype(body()) {
+    try {
+        return body();
+    } catch (const BrokenPng&) {
+        return brokenPng();
+    }
 }
 
 PngContext decoderOf(ByteSpan bytes) {
@@ -61,9 +74,7 @@ class RowPacker {
     PngContext encoder_;
 };
 
-}  // namespace
-
-std::vector<std::uint8_t> packInverted(ByteSpan bytes, const PngHeader& header) {
+std::vector<std::uint8_t> packRows(ByteSpan bytes, const PngHeader& header) {
     const PngContext decoder = decoderOf(bytes);
     spng_ihdr parsed{};
     check(spng_get_ihdr(decoder.get(), &parsed));  // which refuses heads that make no sense
@@ -88,7 +99,7 @@ std::vector<std::uint8_t> packInverted(ByteSpan bytes, const PngHeader& header) 
     return packer.finish();
 }
 
-void checkPixels(ByteSpan bytes, const PngHeader& header) {
+void readRows(ByteSpan bytes, const PngHeader& header) {
     const PngContext decoder = decoderOf(bytes);
     spng_ihdr parsed{};
     check(spng_get_ihdr(decoder.get(), &parsed));
@@ -103,12 +114,28 @@ void checkPixels(ByteSpan bytes, const PngHeader& header) {
     if (result != SPNG_EOI) check(result);
 }
 
-std::vector<std::uint8_t> writePng(const ChannelImage& image) {
+}  // namespace
+
+Result<std::vector<std::uint8_t>> packInverted(ByteSpan bytes, const PngHeader& header) {
+    return orBroken([&]() -> Result<std::vector<std::uint8_t>> { return packRows(bytes, header); });
+}
+
+Error checkPixels(ByteSpan bytes, const PngHeader& header) {
+    return orBroken([&] {
+        readRows(bytes, header);
+        return Error{};
+    });
+}
+
+Result<std::vector<std::uint8_t>> writePng(const ChannelImage& image) {
     const std::uint8_t color = image.channels == 4 ? PngHeader::kHasColor | PngHeader::kHasAlpha : PngHeader::kHasColor;
-    RowPacker packer(image.width, image.height, 8, color);
     const std::size_t row_bytes = std::size_t{image.channels} * image.width;
-    for (std::size_t y = 0; y < image.height; ++y) packer.add(ByteSpan(image.pixels).subspan(y * row_bytes, row_bytes));
-    return packer.finish();
+    return orBroken([&]() -> Result<std::vector<std::uint8_t>> {
+        RowPacker packer(image.width, image.height, 8, color);
+        for (std::size_t y = 0; y < image.height; ++y)
+            packer.add(ByteSpan(image.pixels).subspan(y * row_bytes, row_bytes));
+        return packer.finish();
+    });
 }
 
 }  // namespace tspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pixels of a PNG out and in again; its chunks are in flip_png.cpp. Bindings have other decoders in the place of
-// libspng. Functions throw FileError.
+// libspng.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "maps/image.h"
+#include "tspace/result.h"
 
 namespace tspace {
 
@@ -24,7 +25,7 @@ struct PngHeader {
     [[nodiscard]] std::size_t rowBytes() const { return channels() * (bits / 8) * width; }
 };
 
-[[noreturn]] void failBrokenPng();
+Error brokenPng();
 
 /// The number of 4 bytes that begins at `at`, which there must be.
 std::uint32_t pngNumber(ByteSpan bytes, std::size_t at);
@@ -33,9 +34,9 @@ std::uint32_t pngNumber(ByteSpan bytes, std::size_t at);
 void invertGreenSamples(std::span<std::uint8_t> bytes, std::size_t step, std::size_t sample_bytes);
 
 /// The pixels of a PNG of RGB or RGBA, green inverted, as a PNG of the same header.
-std::vector<std::uint8_t> packInverted(ByteSpan bytes, const PngHeader& header);
+Result<std::vector<std::uint8_t>> packInverted(ByteSpan bytes, const PngHeader& header);
 
-/// Fails where the pixels of a PNG with a palette are broken.
-void checkPixels(ByteSpan bytes, const PngHeader& header);
+/// An error (or code ok) where the pixels of a PNG with a palette are broken.
+Error checkPixels(ByteSpan bytes, const PngHeader& header);
 
 }  // namespace tspace

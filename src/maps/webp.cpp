@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "asset/file_error.h"
+#include "core/memory.h"
 #include "maps/codecs.h"
 #include "maps/flip_green.h"
 
@@ -52,28 +52,28 @@ std::optional<RgbImage> decodeWebp(ByteSpan bytes, std::uint64_t most_pixels, st
     return image;
 }
 
-ChannelImage readWebpPixels(ByteSpan bytes) {
+Result<ChannelImage> readWebpPixels(ByteSpan bytes) {
     std::string why;
     const std::optional<WebPBitstreamFeatures> head = readHead(bytes, why);
-    if (!head) failFile(why == "it is an animated WebP" ? ErrorCode::unsupportedFile : ErrorCode::invalidFile, why);
+    if (!head) return Error{why == "it is an animated WebP" ? ErrorCode::unsupportedFile : ErrorCode::invalidFile, why};
     const ImageSize size = sizeOf(*head);
     ChannelImage image{size.width, size.height, head->has_alpha != 0 ? 4U : 3U, {}};
     image.pixels.resize(image.channels * size.pixels());
     const auto decode = image.channels == 4 ? WebPDecodeRGBAInto : WebPDecodeRGBInto;
     const int stride = static_cast<int>(image.channels) * head->width;
     if (decode(bytes.data(), bytes.size(), image.pixels.data(), image.pixels.size(), stride) == nullptr) {
-        failFile(ErrorCode::invalidFile, "it is a broken WebP");
+        return Error{ErrorCode::invalidFile, "it is a broken WebP"};
     }
     return image;
 }
 
-std::vector<std::uint8_t> writeWebp(const ChannelImage& image) {
+Result<std::vector<std::uint8_t>> writeWebp(const ChannelImage& image) {
     constexpr int kLevel = 3;  // of 0 (fast) to 9 (small)
     WebPConfig config;
     WebPPicture picture;
     if (WebPConfigInit(&config) == 0 || WebPConfigLosslessPreset(&config, kLevel) == 0 ||
         WebPPictureInit(&picture) == 0)
-        failFile(ErrorCode::internal, "libwebp has another version than its headers");
+        return Error{ErrorCode::internal, "libwebp has another version than its headers"};
     config.exact = 1;
     picture.use_argb = 1;
     picture.width = static_cast<int>(image.width);
@@ -88,7 +88,7 @@ std::vector<std::uint8_t> writeWebp(const ChannelImage& image) {
     WebPPictureFree(&picture);
     const std::unique_ptr<WebPMemoryWriter, decltype(&WebPMemoryWriterClear)> keeper(&writer, &WebPMemoryWriterClear);
     if (!is_done) throw OutOfMemory{};  // all that can go wrong with pixels and sizes that were checked
-    return {writer.mem, writer.mem + writer.size};
+    return std::vector<std::uint8_t>{writer.mem, writer.mem + writer.size};
 }
 
 }  // namespace tspace

@@ -4,7 +4,6 @@
 #include <memory>
 #include <string_view>
 
-#include "asset/file_error.h"
 #include "codecs.h"
 #include "maps/codecs.h"
 #include "maps/flip_green.h"
@@ -39,10 +38,10 @@ std::string decodeInto(ByteSpan bytes, ImageSize size, std::uint32_t channels, s
     return why ? why.get() : "";
 }
 
-std::vector<std::uint8_t> encode(const void* pixels, ImageFormat format, ImageSize size, std::uint32_t channels,
+Result<std::vector<std::uint8_t>> encode(const void* pixels, ImageFormat format, ImageSize size, std::uint32_t channels,
                                  std::uint32_t sample_bytes, int quality) {
     if (tspace_js_hasCodec(Codec::imageEncoder) == 0)
-        failFile(ErrorCode::unsupportedFile, "the option encodeImage was not given");
+        return Error{ErrorCode::unsupportedFile, "the option encodeImage was not given"};
     std::size_t count = 0;
     const std::unique_ptr<std::uint8_t, decltype(&std::free)> file(
         tspace_js_encodeImage(pixels, mimeType(format), size.width, size.height, channels, sample_bytes,
@@ -50,7 +49,7 @@ std::vector<std::uint8_t> encode(const void* pixels, ImageFormat format, ImageSi
         &std::free);
     std::vector<std::uint8_t> bytes(file.get(), file.get() + count);
     if (imageFormat(bytes) != format)
-        failFile(ErrorCode::unsupportedFile, "what encodeImage gave is no " + std::string(formatName(format)));
+        return Error{ErrorCode::unsupportedFile, "what encodeImage gave is no " + std::string(formatName(format))};
     return bytes;
 }
 
@@ -75,7 +74,7 @@ std::optional<RgbImage> decode(ByteSpan bytes, std::uint64_t most_pixels, std::s
     return image;
 }
 
-ChannelImage decodeChannels(ByteSpan bytes, unsigned channels) {
+Result<ChannelImage> decodeChannels(ByteSpan bytes, unsigned channels) {
     const ImageSize size = claimedSize(bytes);
     std::string why = faultOf(bytes, size, ~std::uint64_t{0});
     ChannelImage image{size.width, size.height, channels, {}};
@@ -83,7 +82,7 @@ ChannelImage decodeChannels(ByteSpan bytes, unsigned channels) {
         image.pixels.resize(channels * size.pixels());
         why = decodeInto(bytes, size, channels, 1, image.pixels.data());
     }
-    if (!why.empty()) failFile(ErrorCode::unsupportedFile, why);
+    if (!why.empty()) return Error{ErrorCode::unsupportedFile, why};
     return image;
 }
 
@@ -145,51 +144,55 @@ std::optional<RgbImage> decodeWebp(ByteSpan bytes, std::uint64_t most_pixels, st
     return {};
 }
 
-std::vector<std::uint8_t> packInverted(ByteSpan bytes, const PngHeader& header) {
+Result<std::vector<std::uint8_t>> packInverted(ByteSpan bytes, const PngHeader& header) {
     const ImageSize size{header.width, header.height};
-    if (header.bits != 8 && header.bits != 16) failBrokenPng();
+    if (header.bits != 8 && header.bits != 16) return brokenPng();
     if (std::string why = faultOf(bytes, size, ~std::uint64_t{0}); !why.empty())
-        failFile(ErrorCode::unsupportedFile, why);
+        return Error{ErrorCode::unsupportedFile, why};
     const auto channels = static_cast<std::uint32_t>(header.channels());
     const std::size_t sample_bytes = header.bits / 8;
     std::vector<std::uint8_t> pixels(size.pixels() * channels * sample_bytes);
     if (std::string why = decodeInto(bytes, size, channels, static_cast<std::uint32_t>(sample_bytes), pixels.data());
         !why.empty())
-        failFile(ErrorCode::unsupportedFile, why);
+        return Error{ErrorCode::unsupportedFile, why};
     invertGreenSamples(pixels, channels * sample_bytes, sample_bytes);
-    std::vector<std::uint8_t> packed =
+    Result<std::vector<std::uint8_t>> packed =
         encode(pixels.data(), ImageFormat::png, size, channels, static_cast<std::uint32_t>(sample_bytes), 100);
     constexpr std::size_t kHeaderAt = 16, kSame = 10;  // width, height, bits and colour type
-    const bool is_same = packed.size() > kHeaderAt + kSame &&
-                         std::equal(packed.begin() + kHeaderAt, packed.begin() + kHeaderAt + kSame,
+    if (!packed) return packed;
+    const bool is_same = packed->size() > kHeaderAt + kSame &&
+                         std::equal(packed->begin() + kHeaderAt, packed->begin() + kHeaderAt + kSame,
                                     bytes.begin() + kHeaderAt);
     if (!is_same) {
-        failFile(ErrorCode::unsupportedFile,
-                 "encodeImage gave a PNG of another size, or with other channels or bits than it was given");
+        return Error{ErrorCode::unsupportedFile,
+                     "encodeImage gave a PNG of another size, or with other channels or bits than it was given"};
     }
     return packed;
 }
 
-void checkPixels(ByteSpan bytes, const PngHeader&) {
+Error checkPixels(ByteSpan bytes, const PngHeader&) {
     std::string why;
-    if (!decode(bytes, ~std::uint64_t{0}, why)) failFile(ErrorCode::unsupportedFile, why);
+    return decode(bytes, ~std::uint64_t{0}, why) ? Error{} : Error{ErrorCode::unsupportedFile, why};
 }
 
-ChannelImage readJpegPixels(ByteSpan bytes) { return decodeChannels(bytes, 3); }
-ChannelImage readWebpPixels(ByteSpan bytes) {
+Result<ChannelImage> readJpegPixels(ByteSpan bytes) { return decodeChannels(bytes, 3); }
+Result<ChannelImage> readWebpPixels(ByteSpan bytes) {
     const WebpHead head = webpHead(bytes);
-    if (head.is_animated) failFile(ErrorCode::unsupportedFile, "it is an animated WebP");
+    if (head.is_animated) return Error{ErrorCode::unsupportedFile, "it is an animated WebP"};
     return decodeChannels(bytes, head.has_alpha ? 4 : 3);
 }
 
-std::vector<std::uint8_t> writePng(const ChannelImage& image) {
+Result<std::vector<std::uint8_t>> writePng(const ChannelImage& image) {
     return encode(image.pixels.data(), ImageFormat::png, {image.width, image.height}, image.channels, 1, 100);
 }
-std::vector<std::uint8_t> writeJpeg(const ChannelImage& image, int quality, ByteSpan like) {
+Result<std::vector<std::uint8_t>> writeJpeg(const ChannelImage& image, int quality, ByteSpan like) {
     const ImageSize size{image.width, image.height};
-    return joinJpeg(encode(image.pixels.data(), ImageFormat::jpeg, size, image.channels, 1, quality), like);
+    Result<std::vector<std::uint8_t>> packed =
+        encode(image.pixels.data(), ImageFormat::jpeg, size, image.channels, 1, quality);
+    if (!packed) return packed;
+    return joinJpeg(*packed, like);
 }
-std::vector<std::uint8_t> writeWebp(const ChannelImage& image) {
+Result<std::vector<std::uint8_t>> writeWebp(const ChannelImage& image) {
     return encode(image.pixels.data(), ImageFormat::webp, {image.width, image.height}, image.channels, 1, 100);
 }
 
