@@ -358,7 +358,7 @@ export interface InspectReport {
   ok: true;
   /** Null when ok. */
   error: null;
-  /** "glb", "gltf" or "obj". */
+  /** "glb", "gltf", "obj", or the extension of an imported file such as "fbx". */
   format: string;
   /** The program that wrote the file; may be empty. */
   generator: string;
@@ -466,7 +466,7 @@ export interface IdentifyReport {
   ok: true;
   /** Null when ok. */
   error: null;
-  /** "glb", "gltf" or "obj". */
+  /** "glb", "gltf", "obj", or the extension of an imported file such as "fbx". */
   format: string;
   /** The program that wrote the file; may be empty. */
   generator: string;

@@ -368,7 +368,7 @@ class InspectReport(Report):
     ok: bool
     #: Null when ok.
     error: None
-    #: "glb", "gltf" or "obj".
+    #: "glb", "gltf", "obj", or the extension of an imported file such as "fbx".
     format: str
     #: The program that wrote the file; may be empty.
     generator: str
@@ -476,7 +476,7 @@ class IdentifyReport(Report):
     ok: bool
     #: Null when ok.
     error: None
-    #: "glb", "gltf" or "obj".
+    #: "glb", "gltf", "obj", or the extension of an imported file such as "fbx".
     format: str
     #: The program that wrote the file; may be empty.
     generator: str
