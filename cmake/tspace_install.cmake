@@ -37,6 +37,11 @@ foreach(program tspace_tool tspace_import)
     endif()
 endforeach()
 
+# What reports are, for programs that read them.
+if(TARGET tspace_tool)
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/schema" DESTINATION "${CMAKE_INSTALL_DATADIR}/tspace" COMPONENT tspace_tool)
+endif()
+
 # The page that tspace view writes, where scripts/web has built it.
 install(FILES "${PROJECT_SOURCE_DIR}/build/web/view.html" DESTINATION "${CMAKE_INSTALL_DATADIR}/tspace" COMPONENT tspace_tool OPTIONAL)
 

@@ -21,7 +21,11 @@ struct Made {
     Made(const Made&) = delete;
     Made& operator=(const Made&) = delete;
     ~Made() { tspace_destroyBytes(&bytes); }
-    [[nodiscard]] std::string text() const { return {reinterpret_cast<const char*>(bytes.data), bytes.size}; }
+    [[nodiscard]] std::string text() const {
+        const std::string text(reinterpret_cast<const char*>(bytes.data), bytes.size);
+        EXPECT_EQ(reportFaults(text), "");
+        return text;
+    }
     [[nodiscard]] bool isEmpty() const { return bytes.data == nullptr && bytes.size == 0; }
 };
 

@@ -157,6 +157,7 @@ TEST(Batch, TheManifestSaysWhatWasDone) {
     std::size_t failed = 0;
     for (const Json& line : lines) {
         EXPECT_EQ(line["schema"], "tspace.manifest/1");
+        EXPECT_EQ(reportFaults(line.dump()), "");
         EXPECT_EQ(line["options"], "--all --method=angle");
         EXPECT_EQ(line["inputs"][0]["path"], line["input"]);
         EXPECT_EQ(line["inputs"][0]["hash"].get<std::string>().size(), 5U + 32U);

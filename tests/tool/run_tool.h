@@ -4,6 +4,8 @@
 
 #include <sys/wait.h>
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -11,6 +13,7 @@
 #include <sstream>
 #include <string>
 
+#include "support/report_schema.h"
 #include "support/temp_folder.h"
 
 namespace tspace::test {
@@ -22,14 +25,18 @@ struct ToolRun {
     [[nodiscard]] long errorLines() const { return std::count(err.begin(), err.end(), '\n'); }
 };
 
-/// Runs in `folder`. `arguments` is shell text; `runner` is a command that starts the tool.
+/// Runs in `folder`. `arguments` is shell text; `runner` is a command that starts the tool. A report that is not as docs/schema
+/// says fails the test.
 inline ToolRun runTool(const TempFolder& folder, const std::string& arguments, const std::string& runner = "") {
     const TempFolder output;
     const std::string command = "cd '" + folder.path().string() + "' && " + runner + " '" TSPACE_TOOL "' " + arguments +
                                 " > '" + (output.path() / "out").string() + "' 2> '" +
                                 (output.path() / "err").string() + "'";
     const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), output.read("out"), output.read("err")};
+    ToolRun run = {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), output.read("out"),
+                   output.read("err")};
+    EXPECT_EQ(reportFaults(run.out), "") << arguments;
+    return run;
 }
 
 /// A runner whose standard output takes nothing.

@@ -6,7 +6,7 @@ import { glbOfObj } from "./model/obj.js";
 import { triangleCount, type Part } from "./model/part.js";
 import { Refusal, type ModelFiles } from "./files.js";
 import { Scene, type Drawn } from "./picture/scene.js";
-import type { CheckFile, IdentifyFile, InspectFile } from "./report.js";
+import type { CheckReport, IdentifyReport, InspectReport } from "tspace/gltf";
 import type { FindingsView } from "./views/findings.js";
 import type { LookView } from "./views/look.js";
 import type { PlaceView } from "./views/place.js";
@@ -25,7 +25,7 @@ export interface Views {
   progress: Progress;
   /** The model, its reports, or null before there is one. */
   opened: (model: ModelFiles | null) => void;
-  inspected: (report: InspectFile) => void;
+  inspected: (report: InspectReport) => void;
 }
 
 export interface Reports {
@@ -97,7 +97,7 @@ export class App {
       opened(model);
       this.reports.inspect = await this.work.run("report", { verb: "inspect", model });
       if (!isCurrent()) return;
-      this.views.inspected(this.reports.inspect as InspectFile);
+      this.views.inspected(this.reports.inspect as InspectReport);
       await this.#draw(model, isObj ? ["An OBJ is shown and judged as the GLB that it becomes."] : [], isCurrent);
       await this.#judge(model, isCurrent);
     } catch (error) {
@@ -155,11 +155,11 @@ export class App {
     progress.at("Checking", 0.6);
     this.reports.check = await this.work.run("report", { verb: "check", model });
     if (!isCurrent()) return;
-    findings.show(this.reports.check as CheckFile);
+    findings.show(this.reports.check as CheckReport);
     progress.at("Asking who made the tangents", 0.8);
     this.reports.identify = await this.work.run("report", { verb: "identify", model });
     if (!isCurrent()) return;
-    findings.showVerdict((this.reports.identify as IdentifyFile).verdict);
+    findings.showVerdict((this.reports.identify as IdentifyReport).verdict);
     progress.done("");
     this.#state("ready");
   }

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
+import type { CheckReport, DiffReport, GenerateReport, IdentifyReport, InspectReport } from "./reports.js";
+
 export { TspaceError } from "./types.js";
+/** Reports are the entries of the tool's JSON (docs/json.md) for one file, with the exit code; that of diff is all of it. */
+export * from "./reports.js";
+export type Report = GenerateReport | CheckReport | InspectReport | IdentifyReport;
 
 /** Resolves when calls can be made. */
 export const ready: Promise<void>;
@@ -173,82 +178,6 @@ export interface DiffOptions extends Omit<ModelOptions, "name"> {
 
 export type Severity = "error" | "warning" | "note";
 
-/** What all reports have. docs/json.md describes every member. */
-export interface Report {
-  /** What the model is called. */
-  input: string;
-  ok: true;
-  error: null;
-  /** That of the tool: 0, or 1 where something was found. */
-  exitCode: 0 | 1;
-  [member: string]: unknown;
-}
-
-export interface GenerateReport extends Report {
-  /** False: the bytes are those of the input. */
-  changed: boolean;
-  warnings: string[];
-  primitives: {
-    mesh: number;
-    primitive: number;
-    meshName: string;
-    materialName: string;
-    action: "generated" | "replaced" | "unchanged" | "kept" | "notNeeded" | "notTriangles" | "impossible" | "removed";
-    /** Why: a sentence for a person. */
-    reason: string;
-    notes: string[];
-    verticesBefore: number;
-    verticesAfter: number;
-    [member: string]: unknown;
-  }[];
-}
-
-export interface Finding {
-  /** Stable; docs/check.md explains each. */
-  code: string;
-  severity: Severity;
-  /** JSON pointer; empty: the whole file. */
-  place: string;
-  mesh: number;
-  primitive: number;
-  meshName: string;
-  materialName: string;
-  /** What is counted: "vertices", "triangles", ... */
-  unit: string;
-  /** How many have it, of how many that could. */
-  count: number;
-  total: number;
-  /** Their part of the primitive's surface, 0 to 1. */
-  surfaceShare: number;
-  worstDegrees: number;
-  /** 0 to 1. */
-  confidence: number;
-  /** The first of them, at most 8. */
-  vertices: number[];
-  message: string;
-  remedy: string;
-}
-
-export interface CheckReport extends Report {
-  counts: Record<Severity, number>;
-  /** Errors first. */
-  findings: Finding[];
-}
-
-export interface IdentifyReport extends Report {
-  /** A sentence or two. */
-  verdict: string;
-  /** What explains the tangents, the best first. */
-  explanations: { method: string; [member: string]: unknown }[];
-}
-
-export interface DiffReport {
-  exitCode: 0 | 1;
-  isWithinTolerance: boolean;
-  signChanges: number;
-  [member: string]: unknown;
-}
-
 /**
  * Adds normals and tangents where materials need them, or mends them.
  * @returns the bytes of a .glb with everything in it, none after `dryRun`; and what was done
@@ -259,7 +188,7 @@ export function generate(model: Bytes, options?: GenerateOptions): { bytes: Uint
 export function check(model: Bytes, options?: CheckOptions): CheckReport;
 
 /** Says what is in a model: meshes, attributes, materials that need tangents. */
-export function inspect(model: Bytes, options?: ModelOptions): Report;
+export function inspect(model: Bytes, options?: ModelOptions): InspectReport;
 
 /** Says which method and convention made the tangents of a model. */
 export function identify(model: Bytes, options?: IdentifyOptions): IdentifyReport;

@@ -7,6 +7,7 @@ import { basename, join } from "node:path";
 import { describe, it } from "node:test";
 import { check, diff, generate, identify, inspect, ready, TspaceError } from "tspace/gltf";
 import { gridModel } from "./models.mjs";
+import { expectReport, hasSchemas } from "./schema.mjs";
 import { besideOf, filesIn, hasModels, ofTool, plain, shared, skip } from "./tool.mjs";
 
 await ready;
@@ -50,6 +51,18 @@ describe("models in memory", () => {
     assert.equal(diff(good.bytes, generate(model, { convention: "opengl" }).bytes).exitCode, 1);
     const codes = check(model, { failOn: "note" }).findings.map(({ code }) => code);
     assert.deepEqual(check(model, { ignore: codes }).findings, []);
+  });
+
+  it("have reports as docs/schema says", { skip: !hasSchemas && "no docs/schema here" }, () => {
+    const turned = generate(model, { convention: "opengl", pack: "frame32", morphNormals: "all" });
+    expectReport("generate", turned.report);
+    expectReport("generate", generate(good.bytes).report);
+    expectReport("check", check(turned.bytes));
+    expectReport("inspect", inspect(turned.bytes));
+    expectReport("identify", identify(turned.bytes));
+    expectReport("diff", diff(good.bytes, turned.bytes));
+    assert.throws(() => expectReport("check", { ...check(good.bytes), colour: "red" }), /colour/);
+    assert.throws(() => expectReport("check", { ...check(good.bytes), findings: undefined }), /findings/);
   });
 
   it("get the files that they name from an object, a Map or a function", () => {

@@ -78,7 +78,7 @@ describe("the archive", { skip: !archive && "run scripts/js" }, () => {
       writeFileSync(join(project, name), code);
       execFileSync("node", [tsc, "--noEmit", "--strict", "--module", "nodenext", "--target", "es2022", "--lib", "es2022,dom", "--skipLibCheck", "false", "--types", "", name], { cwd: project, stdio: "pipe" });
     };
-    const head = 'import { generateTangents, makeIndexedFrames, Plan, ready, TspaceError } from "tspace";\nimport * as small from "tspace/mikktspace";\nimport { check, decodeByCanvas, decodeImages, generate } from "tspace/gltf";\nimport { MeshoptDecoder, MeshoptEncoder } from "meshoptimizer";\nawait ready;\nconst mesh = { positions: new Float32Array(9), indices: new Uint16Array(3) };\n';
+    const head = 'import { generateTangents, makeIndexedFrames, Plan, ready, TspaceError } from "tspace";\nimport * as small from "tspace/mikktspace";\nimport { check, decodeByCanvas, decodeImages, diff, generate, inspect } from "tspace/gltf";\nimport { MeshoptDecoder, MeshoptEncoder } from "meshoptimizer";\nawait ready;\nconst mesh = { positions: new Float32Array(9), indices: new Uint16Array(3) };\n';
     check("right.ts", `${head}const t: Float32Array = generateTangents(mesh, { convention: "gltf", method: "best" });
 const frames = makeIndexedFrames(mesh, { convention: { vAxis: "up" }, normals: { weighting: "area" } });
 const plan = new Plan(mesh, { convention: "unreal" });
@@ -87,8 +87,11 @@ small.generateTangents(mesh, { convention: "gltf", pairing: "corrected" });
 const made = generate(new Uint8Array(9), { method: "best", name: "a.obj", signal: new AbortController().signal, onProgress: ({ what, done }) => what.length + done, resources: { "a.bin": t.buffer as ArrayBuffer } });
 generate(made.bytes, { meshopt: { decoder: MeshoptDecoder, encoder: MeshoptEncoder }, compress: "meshopt", flipGreen: true, encodeImage: ({ data }) => Uint8Array.from(data) });
 check(made.bytes, { decodeImage: await decodeImages(made.bytes, decodeByCanvas) });
-for (const finding of check(made.bytes, { resources: () => undefined }).findings) finding.code.length;\n`);
-    for (const wrong of ["generateTangents(mesh, {});", 'generateTangents(mesh, { convention: "maya" });', 'small.generateTangents(mesh, { convention: "gltf", method: "best" });', "generateTangents({ positions: [0] }, { convention: 'gltf' });", 'check("model.glb");', 'check(new Uint8Array(9), { decodeImage: () => 5 });', 'check(new Uint8Array(9), { meshopt: { encoder: MeshoptEncoder } });'])
+for (const finding of check(made.bytes, { resources: () => undefined }).findings) finding.code.length;
+const actions: number = made.report.totals.actions.generated;
+const green: "up" | null = inspect(made.bytes).primitives[0].tangentUses[0].neededBy === "anisotropy" ? null : "up";
+diff(made.bytes, made.bytes).primitives[0].b?.place.length;\n`);
+    for (const wrong of ["generateTangents(mesh, {});", 'generateTangents(mesh, { convention: "maya" });', 'small.generateTangents(mesh, { convention: "gltf", method: "best" });', "generateTangents({ positions: [0] }, { convention: 'gltf' });", 'check("model.glb");', 'inspect(new Uint8Array(9)).colour;', 'diff(new Uint8Array(9), new Uint8Array(9)).primitives[0].a.place;', 'check(new Uint8Array(9), { decodeImage: () => 5 });', 'check(new Uint8Array(9), { meshopt: { encoder: MeshoptEncoder } });'])
       assert.throws(() => check("wrong.ts", head + wrong), /./, wrong);
   });
 });

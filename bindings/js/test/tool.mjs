@@ -3,6 +3,7 @@
 import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, readdirSync, statSync } from "node:fs";
 import { dirname, join } from "node:path";
+import { expectDocument } from "./schema.mjs";
 
 export const shared = process.env.TSPACE_SHARED;
 export const tool = process.env.TSPACE_TOOL;
@@ -33,11 +34,15 @@ export async function npmCodecs() {
 }
 /** What the tool prints as JSON, whatever its exit code. */
 export function ofTool(...args) {
+  let text;
   try {
-    return JSON.parse(execFileSync(tool, [...args, "--json"], { maxBuffer: 1 << 28, stdio: "pipe" }));
+    text = execFileSync(tool, [...args, "--json"], { maxBuffer: 1 << 28, stdio: "pipe" });
   } catch (error) {
-    return JSON.parse(error.stdout);
+    text = error.stdout;
   }
+  const document = JSON.parse(text);
+  expectDocument(document);
+  return document;
 }
 /** Without times, and what only files have: paths. */
 export function plain(report) {

@@ -6,6 +6,7 @@ import unittest
 from pathlib import Path
 
 import numpy
+import schema  # pylint: disable=unused-import  # looks at all reports
 
 # What the repository's tests call TSPACE_SHARED_DIR.
 SHARED = Path(os.environ.get("TSPACE_SHARED_DIR") or Path(__file__).resolve().parents[4] / "shared")

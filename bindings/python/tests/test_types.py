@@ -20,6 +20,9 @@ reveal_type(tspace.Plan(a, a, a, convention="gltf").evaluate(a, a))
 reveal_type(tspace.make_indexed_frames(a, None, a, convention="gltf").source_vertex)
 reveal_type(tspace.check("a.glb").findings[0].code)
 reveal_type(tspace.generate_bytes(b"").report.json)
+reveal_type(tspace.generate_bytes(b"").report.totals.actions.generated)
+reveal_type(tspace.inspect("a.glb").primitives[0].tangent_uses)
+reveal_type(tspace.diff("a.glb", "b.glb").primitives[0].a)
 open("a.glb", "wb").write(tspace.generate_bytes(b""))
 tspace.tangents(a, a, a)
 tspace.tangents(a, a, a, convention="gltf", colour=1)
@@ -32,6 +35,9 @@ REVEALED = [
     "numpy.ndarray[Any, Any]",
     "builtins.str",
     "builtins.dict[builtins.str, Any]",
+    "builtins.int",
+    "builtins.list[tspace._file_reports.TangentUse]",
+    "Union[tspace._file_reports.DiffedSide, None]",
 ]
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is wrong, by severity, and who made the tangents.
 import { count, el, plural, replaceChildren } from "../dom.js";
-import type { CheckFile, Finding, Severity } from "../report.js";
+import type { CheckReport, Finding, Severity } from "tspace/gltf";
 
 const titles: Record<Severity, string> = { error: "Errors", warning: "Warnings", note: "Notes" };
 const kFirst = 60;
@@ -32,7 +32,7 @@ export class FindingsView {
     replaceChildren(this.#verdict, text);
   }
 
-  show(file: CheckFile): void {
+  show(file: CheckReport): void {
     this.#chosen = null;
     const { findings } = file;
     const summary = el("p", { class: "summary" });

@@ -2,7 +2,7 @@
 // Mends the model as `tspace generate` does: what to do, the same as a command line, what changed, and the file.
 import { checkbox, choice, count, el, replaceChildren, select } from "../dom.js";
 import type { ModelFiles } from "../files.js";
-import type { GenerateFile, GeneratedPrimitive, JudgedMap } from "../report.js";
+import type { GeneratedPrimitive, GenerateReport, JudgedMap } from "tspace/gltf";
 import { methods, type Method } from "../worker/protocol.js";
 
 type Tangents = "repair" | "overwrite" | "missing";
@@ -101,13 +101,13 @@ export class MendView {
   }
 
   #show(mended: Mended): void {
-    const file = mended.report as GenerateFile;
+    const file = mended.report as GenerateReport;
     const url = URL.createObjectURL(new Blob([mended.bytes], { type: "model/gltf-binary" }));
     const look = el("button", { type: "button", onclick: () => this.open(mended) }, "Look at it");
     replaceChildren(this.#result,
       el("p", { class: file.changed ? "fine" : "quiet" }, file.changed ? `Done: ${count(file.inputBytes)} bytes in, ${count(file.outputBytes)} out.` : "Nothing had to change: the file is the same, byte for byte."),
       changeTable(file.primitives),
-      file.normalMaps && file.normalMaps.length > 0 ? mapTable(file.normalMaps) : null,
+      file.normalMaps.length > 0 ? mapTable(file.normalMaps) : null,
       ...file.warnings.map((warning) => el("p", { class: "quiet" }, warning)),
       el("div", { class: "row" }, el("a", { class: "button", href: url, download: mended.name }, `Download ${mended.name}`), look));
   }

@@ -4,7 +4,7 @@ import type { Object3D } from "three";
 import { outlinePart, outlineTriangles, trianglesAt } from "../picture/overlays.js";
 import type { Drawn } from "../picture/scene.js";
 import { replaceOverlay, type Viewport } from "../picture/viewport.js";
-import type { Finding } from "../report.js";
+import type { Finding } from "tspace/gltf";
 
 export class PlaceView {
   #outline: Object3D | null = null;

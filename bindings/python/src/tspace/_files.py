@@ -6,16 +6,18 @@ import json
 import os
 import re
 from ctypes import byref
-from dataclasses import dataclass
-from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Tuple, Union
+from typing import Any, Callable, Dict, Generic, Iterator, List, Mapping, Optional, TypeVar, Union
 
 import numpy
 
-from . import _abi, _files_abi
+from . import _abi, _file_reports, _files_abi
 from ._errors import InputError, UnknownOptionError, raise_error, shown
+from ._file_reports import DiffReport, Finding, FlipGreenReport, GenerateReport, InspectReport
+from ._report import Report
 
 PathLike = Union[str, "os.PathLike[str]"]
 BytesLike = Union[bytes, bytearray, memoryview]
+AnyReport = TypeVar("AnyReport", bound=Report)
 FindFile = Union[Callable[[str], Optional[bytes]], Mapping[str, bytes]]
 
 _INTERNAL, _CANNOT_READ = 11, 103
@@ -34,78 +36,8 @@ _OPTIONS = {
 }
 
 
-class Report:
-    """A JSON object of the tool (docs/json.md says what is in it): its members are attributes, in snake_case.
-
-    json: the object as a dict, with the names of the JSON
-    """
-
-    def __init__(self, data: Dict[str, Any]):
-        self.json = data
-
-    def __getattr__(self, name: str) -> Any:
-        first, *rest = name.split("_")
-        member = first + "".join(word.capitalize() for word in rest)
-        if name.startswith("_") or member not in self.json:
-            raise AttributeError(f"the report has no {name}; it has {', '.join(dir(self))}")
-        return _wrapped(self.json[member])
-
-    def __dir__(self) -> List[str]:
-        return ["json"] + [_snake_case(member) for member in self.json]
-
-    def __eq__(self, other: Any) -> bool:
-        return isinstance(other, Report) and self.json == other.json
-
-    def __repr__(self) -> str:
-        return f"Report({self.json!r})"
-
-
-def _snake_case(member: str) -> str:
-    return re.sub("([A-Z])", lambda match: "_" + match[1].lower(), member)
-
-
-def _wrapped(value: Any) -> Any:
-    if isinstance(value, dict):
-        return Report(value)
-    return [_wrapped(entry) for entry in value] if isinstance(value, list) else value
-
-
-@dataclass(frozen=True)
-class Finding:
-    """Something that is wrong with the frames of a model. docs/check.md explains every code."""
-
-    code: str  #: stable name, such as "signsWrong"
-    severity: str  #: "error", "warning" or "note"
-    place: str  #: JSON pointer of the primitive, attribute or texture; empty: the whole file
-    mesh: int  #: index of the mesh
-    primitive: int  #: index of the primitive in its mesh
-    mesh_name: str
-    material_name: str
-    unit: str  #: what is counted: "vertices", "triangles", "images", ...
-    count: int  #: how many have it
-    total: int  #: of how many that could have it
-    surface_share: float  #: their part of the primitive's surface, 0 to 1
-    worst_degrees: float  #: the largest angle, for findings about angles
-    confidence: float  #: 0 to 1
-    vertices: Tuple[int, ...]  #: the first of them, at most 8
-    message: str  #: one sentence for a person
-    remedy: str  #: how to mend it
-
-
-class CheckReport(Report):
+class CheckReport(_file_reports.CheckReport):
     """What `check` found: `for finding in tspace.check(path): ...`; `len` counts findings, so none is False."""
-
-    @property
-    def findings(self) -> List[Finding]:
-        """What is wrong, errors first."""
-        fields = Finding.__dataclass_fields__
-        found = []
-        for entry in self.json["findings"]:
-            values: Dict[str, Any] = {_snake_case(member): value for member, value in entry.items()}
-            values = {name: value for name, value in values.items() if name in fields}
-            values["vertices"] = tuple(values["vertices"])
-            found.append(Finding(**values))
-        return found
 
     def __iter__(self) -> Iterator[Finding]:
         return iter(self.findings)
@@ -114,25 +46,24 @@ class CheckReport(Report):
         return len(self.json["findings"])
 
 
-class IdentifyReport(Report):
+class IdentifyReport(_file_reports.IdentifyReport):
     """What `identify` found."""
 
     @property
     def method(self) -> Optional[str]:
         """The name of the method that explains the tangents best; None: there are none to explain."""
-        explanations = self.json["explanations"]
-        return explanations[0]["method"] if explanations else None
+        return self.explanations[0].method if self.explanations else None
 
 
-class Generated(bytes):
+class Generated(bytes, Generic[AnyReport]):
     """A file in memory: bytes, with a report of what was done."""
 
-    report: Report
+    report: AnyReport
 
     @classmethod
-    def of(cls, content: bytes, report: Report) -> "Generated":
+    def of(cls, content: bytes, report: AnyReport) -> "Generated[AnyReport]":
         """The bytes of a file with its report."""
-        made = cls(content)
+        made: "Generated[AnyReport]" = cls(content)
         made.report = report
         return made
 
@@ -260,7 +191,7 @@ def _of_file(document: Dict[str, Any]) -> Dict[str, Any]:
     return {**document["files"][0], "exitCode": document["exitCode"]}
 
 
-def generate_file(input: PathLike, output: PathLike, **options: Any) -> Report:
+def generate_file(input: PathLike, output: PathLike, **options: Any) -> GenerateReport:
     """Adds normals and tangents to a model where its materials need them, and writes a .glb or .gltf.
 
     input:   path of a GLB, glTF or OBJ
@@ -274,12 +205,12 @@ def generate_file(input: PathLike, output: PathLike, **options: Any) -> Report:
     """
     call = _Call()
     paths = call.path("input", input), call.path("output", output)
-    return Report(_of_file(call.run("tspace_generateFile", *paths, options=options)))
+    return GenerateReport(_of_file(call.run("tspace_generateFile", *paths, options=options)))
 
 
 def generate_bytes(
     data: BytesLike, *, name: Optional[str] = None, find_file: Optional[FindFile] = None, **options: Any
-) -> Generated:
+) -> Generated[GenerateReport]:
     """The same as `generate_file` in memory: bytes of a model in, bytes of a GLB out, with everything in it.
 
     What comes back are bytes that have a `report` of what was done.
@@ -293,7 +224,7 @@ def generate_bytes(
     call = _Call()
     struct = call.model("data", data, name, find_file)
     output, document = call.run("tspace_generateBytes", byref(struct), options=options, has_output=True)
-    return Generated.of(output, Report(_of_file(document)))
+    return Generated.of(output, GenerateReport(_of_file(document)))
 
 
 def check(
@@ -339,14 +270,14 @@ def inspect(
     name: Optional[str] = None,
     find_file: Optional[FindFile] = None,
     **options: Any,
-) -> Report:
+) -> InspectReport:
     """Says what is in a model: meshes, attributes, materials that need tangents.
 
     model:     a path, or bytes of a GLB, glTF or OBJ
     name, find_file: for bytes, as for `generate_bytes`
     options:   those of `tspace inspect`, with underscores
     """
-    return Report(_ask("inspect", model, name, find_file, options))
+    return InspectReport(_ask("inspect", model, name, find_file, options))
 
 
 def diff(
@@ -355,7 +286,7 @@ def diff(
     *,
     find_file: Optional[FindFile] = None,
     **options: Any,
-) -> Report:
+) -> DiffReport:
     """Compares the frames of two models that show the same surface.
 
     a, b:      two paths, or bytes of two models (GLB or glTF)
@@ -370,12 +301,12 @@ def diff(
     if _is_path(a):
         if find_file is not None:
             raise TypeError("find_file is for models in memory")
-        return Report(call.run("tspace_diffFiles", call.path("a", a), call.path("b", b), options=options))
+        return DiffReport(call.run("tspace_diffFiles", call.path("a", a), call.path("b", b), options=options))
     models = call.model("a", a, "a", find_file), call.model("b", b, "b", find_file)
-    return Report(call.run("tspace_diffBytes", *map(byref, models), options=options))
+    return DiffReport(call.run("tspace_diffBytes", *map(byref, models), options=options))
 
 
-def flip_green_file(input: PathLike, output: PathLike, **options: Any) -> Report:
+def flip_green_file(input: PathLike, output: PathLike, **options: Any) -> FlipGreenReport:
     """Inverts the green channel of a normal map: PNG, JPEG or WebP.
 
     input, output: paths, which may be the same; the ending of `output` says its format
@@ -383,10 +314,10 @@ def flip_green_file(input: PathLike, output: PathLike, **options: Any) -> Report
     """
     call = _Call()
     paths = call.path("input", input), call.path("output", output)
-    return Report(call.run("tspace_flipGreenFile", *paths, options=options))
+    return FlipGreenReport(call.run("tspace_flipGreenFile", *paths, options=options))
 
 
-def flip_green_bytes(data: BytesLike, **options: Any) -> Generated:
+def flip_green_bytes(data: BytesLike, **options: Any) -> Generated[FlipGreenReport]:
     """The same as `flip_green_file` in memory.
 
     data:    bytes of a PNG, JPEG or WebP; the result has the same format
@@ -395,4 +326,4 @@ def flip_green_bytes(data: BytesLike, **options: Any) -> Generated:
     call = _Call()
     view = call.buffer("data", data)
     output, document = call.run("tspace_flipGreenBytes", view.ctypes.data, view.size, options=options, has_output=True)
-    return Generated.of(output, Report(document))
+    return Generated.of(output, FlipGreenReport(document))

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Reports against docs/schema.
+import assert from "node:assert/strict";
+import { existsSync, readFileSync, readdirSync } from "node:fs";
+import { join } from "node:path";
+import Ajv from "ajv/dist/2020.js";
+
+const folder = process.env.TSPACE_SCHEMA;
+export const hasSchemas = Boolean(folder) && existsSync(folder);
+// Types stand in "properties", which ajv would have again beside "if".
+const ajv = new Ajv({ allErrors: true, strictTypes: false });
+if (hasSchemas) for (const name of readdirSync(folder)) ajv.addSchema(JSON.parse(readFileSync(join(folder, name))));
+
+function expectValid(value, schema) {
+  const isValid = ajv.getSchema(schema);
+  assert.ok(isValid, `there is no ${schema}`);
+  assert.ok(isValid(value), JSON.stringify(isValid.errors, null, 1));
+}
+
+/** The document is what its schema says. Without TSPACE_SCHEMA nothing is looked at. */
+export function expectDocument(document) {
+  if (hasSchemas) expectValid(document, `${document.schema.replace("/", ".")}.json`);
+}
+
+/** What `verb` of tspace/gltf gave is what the schema says of the entry of a file. That of diff is the document. */
+export function expectReport(verb, report) {
+  if (verb === "diff") return expectDocument(report);
+  const { exitCode, ...entry } = report;
+  assert.ok(exitCode === 0 || exitCode === 1);
+  if (hasSchemas) expectValid(entry, `tspace.${verb}.1.json#/$defs/${verb[0].toUpperCase()}${verb.slice(1)}Report`);
+}

@@ -1,0 +1,669 @@
+# SPDX-License-Identifier: MIT
+"""Made by scripts/schema from docs/schema: reports on files, for type checkers and for people who read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import List, Optional, Tuple
+
+from ._report import Report
+
+
+class GenerateReport(Report):
+    #: Path of the input.
+    input: str
+    #: Path of the output; empty when the input led to none.
+    output: str
+    #: The output was written.
+    ok: bool
+    #: Null when ok.
+    error: None
+    #: Time for this file.
+    seconds: float
+    #: Nothing was done, because the manifest says that it was done before and nothing has changed.
+    skipped: bool
+    #: False when the output is byte for byte the input.
+    changed: bool
+    #: The model file and what it loads.
+    input_bytes: int
+    #: Everything that was written.
+    output_bytes: int
+    #: Paths of everything that was written, the model first.
+    output_files: List[str]
+    #: Sentences for a person.
+    warnings: List[str]
+    #: What was taken out of the coordinates of an OBJ or PLY file, and is the translation of the nodes; zeros: nothing
+    #: was.
+    coordinate_offset: List[float]
+    #: Sums over the primitives.
+    totals: GenerateTotals
+    #: With "--flip-green", "--flip-green-all" or "--mend-maps", one entry per image that is a normal map; from OBJ one
+    #: for each material whose height map became a normal map.
+    normal_maps: List[JudgedMap]
+    #: With "--convert-maps", one entry for each normal map and the primitives that share it.
+    converted_maps: List[ConvertedMap]
+    #: One entry per primitive, in file order.
+    primitives: List[GeneratedPrimitive]
+    #: That of the tool: 0, or 1 where something was found.
+    exit_code: int
+
+
+class GenerateTotals(Report):
+    #: Primitives in the file.
+    primitives: int
+    #: Primitives by what was done with them.
+    actions: ActionCounts
+    #: Triangles of the primitives that were computed.
+    triangles: int
+    #: Their vertices in the input.
+    vertices_before: int
+    #: Their vertices in the output.
+    vertices_after: int
+    #: Corners whose tangents were mended.
+    mended: int
+    #: Morph targets whose tangent deltas were computed.
+    morph_deltas: int
+    #: Primitives whose frames are packed ("--pack").
+    packed: int
+
+
+class JudgedMap(Report):
+    #: Index of the image in the input; for OBJ a running number.
+    image: int
+    #: Name or URI of the image; may be empty.
+    name: str
+    #: Its green channel was inverted.
+    flipped: bool
+    #: It was written anew: it held something else than glTF reads, or heights.
+    mended: bool
+    #: Why nothing was done, or what it held, for a person; empty where green alone was inverted.
+    reason: str
+
+
+class ConvertedMap(Report):
+    #: Index of the image in the input.
+    image: int
+    #: Name or URI of the image; may be empty.
+    name: str
+    #: These primitives show a new map.
+    converted: bool
+    #: Why not, for a person; empty where they do.
+    reason: str
+    #: Index of the new image in the output; null where there is none.
+    new_image: Optional[int]
+    #: Indices of the input's materials that show it.
+    materials: List[int]
+    #: How many primitives show it.
+    primitives: int
+    #: Of a channel of the new map; 0 where there is none.
+    bits: int
+    #: Texels that changed.
+    changed: int
+    #: What is left of the change: between what the primitives show after and before, in the mean over their texels.
+    mean_error_deg: float
+    #: The same with the old map.
+    mean_error_unconverted_deg: float
+    #: Sentences for a person.
+    notes: List[str]
+
+
+class GeneratedPrimitive(Report):
+    #: Index of the mesh.
+    mesh: int
+    #: Index of the primitive in its mesh.
+    primitive: int
+    #: May be empty.
+    mesh_name: str
+    #: May be empty.
+    material_name: str
+    #: What was done with its tangents, as in "totals.actions".
+    action: str
+    #: Why, for a person.
+    reason: str
+    #: Further sentences: textures that want other tangents, texture transforms, repairs.
+    notes: List[str]
+    #: The n of the "TEXCOORD_n" that the tangents follow, or -1.
+    uv_set: int
+    #: What its tangents were computed on: "triangles" or "quads".
+    faces: str
+    #: How many of those faces are quads, or polygons with more corners (OBJ).
+    quads: int
+    triangles: int
+    vertices_before: int
+    #: More than before where vertices were split.
+    vertices_after: int
+    #: "--repair": those of "verticesBefore" whose tangents were wrong; all others keep theirs.
+    mended_vertices: int
+    #: Normals were made: the input had none, or they were to be made anew.
+    normals_generated: bool
+    #: It had normals, and they were made anew.
+    normals_replaced: bool
+    #: Positions at which its normals were made with triangles of other primitives too.
+    normals_joined: int
+    #: Corners whose new normal points behind their own triangle.
+    normals_behind: int
+    #: Triangles that are wound against most of those that they are connected with. Counted where normals were made,
+    #: and where vertices were split for one in twenty or more; else 0, as "twoSidedTriangles".
+    turned_triangles: int
+    #: Triangles of sheets with two sides: others with the same positions are wound the other way.
+    two_sided_triangles: int
+    #: "_BITANGENT" was computed ("--bitangents").
+    bitangents_generated: bool
+    #: "--pack": its frames are packed; where they are not, a note says why.
+    packed: bool
+    #: Vertices whose frame was mended before it was packed.
+    packed_mended: int
+    #: NORMAL was taken away ("--pack-drop all").
+    normals_dropped: bool
+    #: TANGENT was taken away ("--pack-drop").
+    tangents_dropped: bool
+    #: Morph targets that the primitive has.
+    morph_targets: int
+    #: Those whose tangent deltas were computed.
+    morph_deltas: int
+    #: Those whose normal deltas were computed ("--morph-normals").
+    morph_normals: int
+    #: Corners, over all targets, whose frame in the moved shape has the other sign, which glTF cannot express.
+    morph_sign_flips: int
+    #: About generated normals; zeros when there are none. For OBJ the counts cover the whole file and stand with the
+    #: first primitive that got normals.
+    normals: GeneratedNormals
+    #: Zeros where nothing was computed.
+    tangents: GeneratedTangents
+    #: Corners that were mended.
+    sanitize: MendedTangents
+
+
+class ActionCounts(Report):
+    #: Tangents were added.
+    generated: int
+    #: Tangents were there and were computed anew.
+    replaced: int
+    #: Computed anew with the same bits as those in the file.
+    unchanged: int
+    #: Tangents were there and stay.
+    kept: int
+    #: The material needs no tangents.
+    not_needed: int
+    #: Points or lines.
+    not_triangles: int
+    #: No UVs, no positions, or nothing to compute.
+    impossible: int
+    #: No material needs the tangents, and they were taken away.
+    removed: int
+
+
+class GeneratedNormals(Report):
+    #: Faces with at least 3 corners.
+    faces: int
+    #: Faces without a normal of their own.
+    degenerate_faces: int
+    #: Corners whose mean vanished.
+    fallback_corners: int
+
+
+class GeneratedTangents(Report):
+    #: Triangles computed with.
+    triangles: int
+    #: Two corners at the same position.
+    degenerate_triangles: int
+    #: No UV area.
+    degenerate_uv_triangles: int
+    #: Negative UV area in the numbers of the file. In glTF, where V runs down, that is the ordinary case; "tspace
+    #: inspect" says what is mirrored to the eye.
+    negative_uv_triangles: int
+    #: Faces for which nothing was computed.
+    skipped_faces: int
+    #: Sets of corners that share one tangent.
+    groups: int
+    #: Corners that no face gives a tangent.
+    default_corners: int
+    #: Corners whose tangent was NaN or infinite before mending.
+    not_finite_corners: int
+    #: The last step of the reference was left out, because it would have taken quadratic time: when.
+    reference_order_abandoned: bool
+
+
+class MendedTangents(Report):
+    #: All of them.
+    mended: int
+    #: By cause, the first that applies.
+    causes: MendCauses
+    #: By cure.
+    cures: MendCures
+    #: Corners whose normal is zero or not finite.
+    bad_normals: int
+
+
+class MendCauses(Report):
+    #: NaN or infinity.
+    not_finite: int
+    #: No length.
+    zero: int
+    #: Length off by more than 0.0005.
+    not_unit: int
+    #: Within 1 degree of the normal or its opposite.
+    parallel: int
+    #: The (1, 0, 0) that corners without UV area get, out of the surface.
+    placeholder: int
+    #: Sign not +1 or -1.
+    bad_sign: int
+    #: Corners of one face disagreed about the sign.
+    mixed_sign: int
+    #: Sound, but changed by "--orthogonalize".
+    orthogonalized: int
+
+
+class MendCures(Report):
+    #: Own direction, made unit and orthogonal.
+    normalized: int
+    #: Direction of a sound corner nearby.
+    from_neighbor: int
+    #: Made from the normal alone.
+    from_basis: int
+
+
+class CheckReport(Report):
+    #: Path of the input.
+    input: str
+    #: The file could be read; it may have findings.
+    ok: bool
+    #: Null when ok.
+    error: None
+    #: "glb", "gltf", "obj", or the extension of an imported file such as "fbx".
+    format: str
+    #: The program that wrote the file; may be empty.
+    generator: str
+    #: Primitives in the file.
+    primitives: int
+    #: Those of them whose tangents were examined.
+    primitives_with_tangents: int
+    #: Images that were looked at: what their channels hold.
+    normal_maps: int
+    #: Those of them whose relief says which way green points.
+    normal_maps_with_green: int
+    #: One entry for each format of packed frames of each primitive, in file order.
+    packed_frames: List[CheckedPackedFrames]
+    #: Findings by severity.
+    counts: FindingCounts
+    #: Errors first; among equals in file order.
+    findings: List[Finding]
+    #: That of the tool: 0, or 1 where something was found.
+    exit_code: int
+
+
+class CheckedPackedFrames(Report):
+    #: JSON pointer of the attribute.
+    place: str
+    #: Its name, such as "_FRAME32"; of two that hold one frame the first.
+    attribute: str
+    #: Such as "frame32".
+    format: str
+    #: Index of the mesh.
+    mesh: int
+    #: Index of the primitive in its mesh.
+    primitive: int
+    vertices: int
+    #: False: a finding "packedFramesUnreadable" says why.
+    readable: bool
+    #: NORMAL and TANGENT are there; if not, angles and signs here are 0.
+    compared: bool
+    #: The largest angle between N as decoded and NORMAL.
+    worst_normal_degrees: float
+    #: The same of T and TANGENT, made orthogonal to NORMAL where it is not.
+    worst_tangent_degrees: float
+    #: What the format promises.
+    promised_normal_degrees: float
+    promised_tangent_degrees: float
+    #: Vertices with another sign than TANGENT.
+    differing_signs: int
+
+
+class FindingCounts(Report):
+    error: int
+    warning: int
+    note: int
+
+
+@dataclass(frozen=True)
+class Finding:
+    #: Stable name of what was found.
+    code: str
+    severity: str
+    #: JSON pointer of the primitive, morph target, attribute or texture; for OBJ "usemtl NAME"; empty: the whole file.
+    place: str
+    #: Index of the mesh.
+    mesh: int
+    #: Index of the primitive in its mesh.
+    primitive: int
+    #: May be empty.
+    mesh_name: str
+    #: May be empty.
+    material_name: str
+    #: What is counted: "vertices", "triangles", "targets" (of a morph), "blocks" or "texels" (of an image), "images",
+    #: "textures", "attributes", "primitives", "meshes" or "files".
+    unit: str
+    #: How many have it.
+    count: int
+    #: Of how many that could have it.
+    total: int
+    #: Their part of the primitive's surface, 0 to 1; 0 where that says nothing.
+    surface_share: float
+    #: The largest angle, for findings about angles; else 0.
+    worst_degrees: float
+    #: 0 to 1; below 1 for findings that rest on statistics.
+    confidence: float
+    #: The first of them.
+    vertices: Tuple[int, ...]
+    #: One sentence for a person.
+    message: str
+    #: How to mend it, for a person.
+    remedy: str
+
+
+class InspectReport(Report):
+    #: Path of the input.
+    input: str
+    #: The file could be read.
+    ok: bool
+    #: Null when ok.
+    error: None
+    #: "glb", "gltf", "obj", or the extension of an imported file such as "fbx".
+    format: str
+    #: The program that wrote the file; may be empty.
+    generator: str
+    #: The model file and what it loads, without images.
+    file_bytes: int
+    #: For OBJ: objects and groups with faces.
+    meshes: int
+    #: For OBJ: those that faces use and an MTL file has.
+    materials: int
+    nodes: int
+    animations: int
+    images: int
+    extensions_used: List[str]
+    extensions_required: List[str]
+    #: Names of KHR_materials_variants.
+    variants: List[str]
+    #: Sentences for a person about the file as a whole: what was left out or mended as it was read.
+    warnings: List[str]
+    #: What "generate" would take out of the coordinates of an OBJ or PLY file far from the origin; zeros: nothing.
+    coordinate_offset: List[float]
+    #: One entry per primitive, in file order.
+    primitives: List[InspectedPrimitive]
+    #: That of the tool: 0, or 1 where something was found.
+    exit_code: int
+
+
+class InspectedPrimitive(Report):
+    #: Index of the mesh.
+    mesh: int
+    #: Index of the primitive in its mesh.
+    primitive: int
+    #: May be empty.
+    mesh_name: str
+    #: May be empty.
+    material_name: str
+    #: "triangles", "triangle strip", "points", ...; for OBJ also "polygons".
+    mode: str
+    #: After cutting polygons.
+    triangles: int
+    vertices: int
+    index_type: str
+    compression: str
+    #: Such as "POSITION float3".
+    attributes: List[str]
+    uv_sets: int
+    morph_targets: int
+    skinned: bool
+    has_normals: bool
+    has_tangents: bool
+    #: "hasTangents" is false, but the file may have some: the importer cannot give them.
+    tangents_not_read: bool
+    #: Names of the formats of packed frames that it has, such as "frame32".
+    packed_frames: List[str]
+    #: The material needs them.
+    needs_tangents: bool
+    #: What reads the tangents: "normalTexture", "clearcoatNormalTexture", "anisotropy", or empty.
+    needed_by: str
+    #: Everything in its materials that needs tangents; they follow the first.
+    tangent_uses: List[TangentUse]
+    #: Materials that KHR_materials_variants can put on it.
+    variant_materials: int
+    #: Nodes that draw its mesh.
+    nodes: int
+    #: How often they draw it; EXT_mesh_gpu_instancing counts each.
+    instances: int
+    #: The n of the "TEXCOORD_n" that tangents would follow, or -1.
+    uv_set: int
+    #: Triangles without UV area in that set.
+    degenerate_uv_triangles: int
+    #: Triangles with two corners at one position.
+    degenerate_triangles: int
+    #: Triangles that show the texture mirrored.
+    mirrored_triangles: int
+    #: Connected pieces of the UV map.
+    uv_islands: int
+    #: Those of which most of the area is mirrored.
+    mirrored_uv_islands: int
+
+
+class TangentUse(Report):
+    #: What reads the tangents.
+    needed_by: str
+    #: JSON pointer; empty for OBJ.
+    place: str
+    #: Index of the material.
+    material: int
+    #: The material is one of KHR_materials_variants, not the primitive's own.
+    only_in_variant: bool
+    #: The n of "TEXCOORD_n".
+    uv_set: int
+    #: Of KHR_texture_transform.
+    uv_offset: List[float]
+    #: Of the same, in radians.
+    uv_rotation: float
+    #: Of the same.
+    uv_scale: List[float]
+    #: Tangents made for the first entry fit this one too.
+    follows_first: bool
+
+
+class IdentifyReport(Report):
+    #: Path of the input.
+    input: str
+    #: The file could be read.
+    ok: bool
+    #: Null when ok.
+    error: None
+    #: "glb", "gltf", "obj", or the extension of an imported file such as "fbx".
+    format: str
+    #: The program that wrote the file; may be empty.
+    generator: str
+    #: Two or three sentences for a person.
+    verdict: str
+    #: Over all primitives, along the texture's UV set, the best method first.
+    explanations: List[Explanation]
+    #: In file order.
+    primitives: List[IdentifiedPrimitive]
+    #: That of the tool: 0, or 1 where something was found.
+    exit_code: int
+
+
+class Explanation(Report):
+    #: Name of the method.
+    method: str
+    #: "quads" where pairs of triangles explain clearly more (mikktspace only), else "triangles".
+    faces: str
+    #: The n of the "TEXCOORD_n" that was followed; -1 over several primitives.
+    uv_set: int
+    #: It is the set that the texture reads.
+    is_textures_set: bool
+    #: The UVs were taken as KHR_texture_transform turns or mirrors them.
+    is_transformed: bool
+    #: Corners compared.
+    corners: int
+    #: Corners of triangles whose UVs have no area: they vote in nothing.
+    undecided_corners: int
+    #: Of those, within the tolerance of the method's tangent.
+    near: int
+    #: Within the tolerance at some corner of the same vertex.
+    near_at_vertex: int
+    #: Mean angle to the method's tangent.
+    mean_deg: float
+    #: Corners whose sign is the one that glTF wants.
+    gltf_signs: int
+    #: Corners whose sign is the opposite.
+    inverted_signs: int
+    #: The signs of most corners.
+    signs: str
+
+
+class IdentifiedPrimitive(Report):
+    #: JSON pointer, or "usemtl NAME" for OBJ.
+    place: str
+    mesh: int
+    #: Its index in the mesh.
+    primitive: int
+    #: May be empty.
+    mesh_name: str
+    #: May be empty.
+    material_name: str
+    #: Why it was not looked at; empty: it was.
+    skipped: str
+    #: Every method along every UV set that has an area, the best first.
+    explanations: List[Explanation]
+
+
+class DiffReport(Report):
+    """How the frames of two models differ: diff."""
+
+    schema: str
+    #: Version of the tool.
+    version: str
+    #: Both files could be read.
+    ok: bool
+    #: Path of the first file.
+    a: str
+    #: Path of the second file.
+    b: str
+    #: Null when ok.
+    error: None
+    #: The tolerance of the run.
+    tolerance_deg: float
+    #: No angle above the tolerance, no sign differs, every triangle has a partner.
+    is_within_tolerance: bool
+    #: Pairs of corners that were looked at.
+    corners: int
+    #: Pairs whose signs differ.
+    sign_changes: int
+    #: Triangles of both files without a partner.
+    unpaired_triangles: int
+    #: Primitives with tangents in one file only.
+    missing_tangents: int
+    #: Upper ends of the bins of every histogram.
+    histogram_upper_deg: List[float]
+    #: Angles between T.
+    tangents: AngleStatistics
+    #: Angles between N.
+    normals: AngleStatistics
+    #: Angles between "sign * cross(N, T)".
+    bitangents: AngleStatistics
+    #: The worst places, the largest angle first.
+    worst: List[FrameDifference]
+    #: Those of A in file order, then those of B without a partner.
+    primitives: List[DiffedPrimitive]
+    #: That of the tool: 0, or 1 where something was found.
+    exit_code: int
+
+
+class AngleStatistics(Report):
+    #: Pairs of corners with a direction in both.
+    corners: int
+    #: Pairs of which one has no direction (zero or not finite).
+    unusable: int
+    mean_deg: float
+    #: Half of the pairs differ by this or less.
+    median_deg: float
+    #: 95 % of the pairs.
+    p95_deg: float
+    max_deg: float
+    #: Pairs per bin, see "histogramUpperDeg".
+    histogram: List[int]
+
+
+class FrameDifference(Report):
+    mesh_a: int
+    primitive_a: int
+    vertex_a: int
+    mesh_b: int
+    primitive_b: int
+    vertex_b: int
+    #: Where, in A.
+    position: List[float]
+    tangent_deg: float
+    normal_deg: float
+    bitangent_deg: float
+    sign_differs: bool
+
+
+class DiffedPrimitive(Report):
+    #: Null: only the other file has it.
+    a: Optional[DiffedSide]
+    #: Null: only the other file has it.
+    b: Optional[DiffedSide]
+    #: May be empty.
+    mesh_name: str
+    #: How the two were found to belong together.
+    paired_by: str
+    paired_triangles: int
+    sign_changes: int
+    #: Angles between T.
+    tangents: AngleStatistics
+    #: Angles between N.
+    normals: AngleStatistics
+    #: Angles between "sign * cross(N, T)".
+    bitangents: AngleStatistics
+
+
+class DiffedSide(Report):
+    #: JSON pointer, or "usemtl NAME" for OBJ.
+    place: str
+    mesh: int
+    #: Its index in the mesh.
+    primitive: int
+    triangles: int
+    has_tangents: bool
+    #: "hasTangents" is false, but the file may have some: the importer cannot give them.
+    tangents_not_read: bool
+    has_normals: bool
+
+
+class FlipGreenReport(Report):
+    """An image whose green was inverted: flip-green."""
+
+    schema: str
+    #: Version of the tool.
+    version: str
+    #: The output was written.
+    ok: bool
+    #: Path of the input.
+    input: str
+    #: Path of the output.
+    output: str
+    #: Nothing was written.
+    dry_run: bool
+    #: Null when ok.
+    error: None
+    #: Of the output.
+    format: str
+    width: int
+    height: int
+    #: Of a channel, 8 or 16.
+    bits: int
+    #: False where a JPEG was compressed once more.
+    exact: bool
+    #: Sentences for a person.
+    warnings: List[str]
+    #: That of the tool: 0, or 1 where something was found.
+    exit_code: int

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: MIT
+"""What is common to all reports on files: JSON objects of the tool, with their members as attributes."""
+
+import re
+from dataclasses import is_dataclass
+from functools import lru_cache
+from typing import Any, Dict, List, Type, get_args, get_type_hints
+
+
+class Report:
+    """A JSON object of the tool (docs/json.md says what is in it): its members are attributes, in snake_case.
+
+    json: the object as a dict, with the names of the JSON
+    """
+
+    def __init__(self, data: Dict[str, Any]):
+        self.json = data
+
+    def __getattr__(self, name: str) -> Any:
+        first, *rest = name.split("_")
+        member = first + "".join(word.capitalize() for word in rest)
+        if name.startswith("_") or member not in self.json:
+            raise AttributeError(f"the report has no {name}; it has {', '.join(dir(self))}")
+        own_class: Any = type(self)
+        return _wrapped(self.json[member], _kinds(own_class).get(name, Report))
+
+    def __dir__(self) -> List[str]:
+        return ["json"] + [_snake_case(member) for member in self.json]
+
+    def __eq__(self, other: Any) -> bool:
+        return isinstance(other, Report) and self.json == other.json
+
+    def __repr__(self) -> str:
+        return f"Report({self.json!r})"
+
+
+def _snake_case(member: str) -> str:
+    return re.sub("([A-Z])", lambda match: "_" + match[1].lower(), member)
+
+
+@lru_cache(maxsize=None)
+def _kinds(report: Type[Report]) -> Dict[str, Type[Any]]:
+    """Of each attribute the class of the objects that it holds, be it in a list or None."""
+    kinds = {}
+    for name, hint in get_type_hints(report).items():
+        while get_args(hint):
+            hint = get_args(hint)[0]
+        if is_dataclass(hint) or (isinstance(hint, type) and issubclass(hint, Report)):
+            kinds[name] = hint
+    return kinds
+
+
+def _wrapped(value: Any, kind: Type[Any]) -> Any:
+    if isinstance(value, list):
+        return [_wrapped(entry, kind) for entry in value]
+    if not isinstance(value, dict):
+        return value
+    if not is_dataclass(kind):
+        return kind(value)
+    # A newer library may say more.
+    members = {_snake_case(name): tuple(entry) if isinstance(entry, list) else entry for name, entry in value.items()}
+    return kind(**{name: entry for name, entry in members.items() if name in kind.__dataclass_fields__})
