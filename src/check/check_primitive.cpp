@@ -41,6 +41,12 @@ void checkRounding(PrimitiveFacts& facts) {
                   decimalText(facts.options.direction_deg) + " degrees or more, up to " +
                   decimalText(turned.worst_deg) + " (" + shareText(turned.share) +
                   " of the surface); tangents are not blamed for it");
+    if (rounding.was_before) {
+        facts.findings.back().remedy =
+            "Take the model as it was before its positions were rounded, or round them finer, and keep the tangents "
+            "and "
+            "normals that were made then.";
+    }
 }
 
 }  // namespace
