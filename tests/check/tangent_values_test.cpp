@@ -146,6 +146,10 @@ TEST(Check, BlamesPositionsThatWereRoundedNearTheOrigin) {
         EXPECT_EQ(codesOf(wrong), (Codes{"error tangentsNotUnit", "warning positionsRounded"})) << step;
     }
     EXPECT_EQ(codesOf(roundedPatch(0.001)), Codes{}) << "fine enough";
+    ScenePrimitive bare = roundedPatch(0.2);
+    bare.tangents = {};
+    bare.uses.clear();
+    EXPECT_EQ(codesOf(bare).count("warning positionsRounded"), 0u) << "no tangents, and none are needed";
 }
 
 /// Built on a grid, and not rounded to it: its triangles go with its UVs, and wrong tangents are wrong.
