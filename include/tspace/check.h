@@ -71,8 +71,9 @@ enum class FindingCode : std::uint32_t {
     normalMapInObjectSpace = 43,  ///< directions in the coordinates of the mesh, or of the scene
     normalMapIsHeight = 44,       ///< the image is grey
     normalMapScale = 45,          ///< normalTexture.scale is 0 or below
+    normalMapIsPicture = 46,      ///< colors, which are no unit vectors
 };
-inline constexpr std::uint32_t kFindingCodeCount = 46;
+inline constexpr std::uint32_t kFindingCodeCount = 47;
 
 /// Stable lowerCamelCase name: the name of the enumerator.
 const char* findingName(FindingCode code);

@@ -54,7 +54,9 @@ typedef struct tspace_SanitizeReport {
  *
  * Cures, in this order: the tangent's own direction, when it has one that is not parallel to N; the tangent of the
  * first sound corner of the same face; of the first sound corner at the same position (in corner order); a basis
- * from N. Signs inside a face: the majority of the sound corners decides; on a tie, the first sound corner.
+ * from N. Signs inside a face: the majority of the sound corners decides, of those whose N has a direction where
+ * there are any; on a tie, the first of them. Where N has none, corners at one position that get a tangent from
+ * elsewhere get that of the first of them with their sign.
  * The result does not depend on how vertices are indexed, so mending a split mesh again changes nothing.
  *
  * mesh      positions and normals; UVs are not looked at

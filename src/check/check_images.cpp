@@ -201,6 +201,21 @@ void chooseXAndY(const RgbImage& image, const TexelMask& inside, MapLayout& layo
     if (agreement(other) > agreement(layout) + kClear) layout = other;
 }
 
+/// Whether red is y and green is x: only so are the derivatives those of a height. Relief that curves along x as it does along
+/// y, as a product of waves, does not tell.
+bool areXAndYExchanged(const RgbImage& image, const TexelMask& inside) {
+    constexpr double kLeast = 0.8, kMost = 0.5;
+    const GreenTest plain = GreenBlocks(image, inside).all();
+    if (std::fabs(plain.correlation) > kMost) return false;
+    RgbImage read = image;
+    MapLayout layout;
+    std::swap(layout.x, layout.y);
+    readByLayout(read, {}, layout);
+    const GreenTest other = GreenBlocks(read, inside).all();
+    const bool has_verdict = other.verdict == GreenVerdict::up || other.verdict == GreenVerdict::down;
+    return has_verdict && std::fabs(other.correlation) > kLeast;
+}
+
 /// Finds out what the image holds, and makes it one that glTF reads.
 void lookAtContent(const Scene& scene, const TexelMask& inside, NormalMap& map, RgbImage& image) {
     std::vector<TexelBytes> texels = sampleTexels(image, {}, inside);
@@ -214,6 +229,10 @@ void lookAtContent(const Scene& scene, const TexelMask& inside, NormalMap& map, 
     }
     map.look = lookAtTexels(texels, !alpha.empty(), surface, placedInWorld(map, parts, surface));
     if (map.look.content == MapContent::exchanged) chooseXAndY(image, inside, map.look.layout);
+    if (map.look.content == MapContent::normals && areXAndYExchanged(image, inside)) {
+        map.look.content = MapContent::exchanged;
+        std::swap(map.look.layout.x, map.look.layout.y);
+    }
     if (holdsNormals(map.look.content) && !(map.look.layout == MapLayout{}))
         readByLayout(image, alpha, map.look.layout);
 }

@@ -26,7 +26,13 @@ double comparedShare(const PrimitiveFacts& facts) {
 
 /// Positions so coarse that triangles say neither where tangents point nor, reliably, where they face.
 void checkRounding(PrimitiveFacts& facts) {
-    const PositionRounding& rounding = facts.surface.rounding;
+    PositionRounding rounding = facts.surface.rounding;
+    // What was rounded on purpose matters only to tangents.
+    const bool has_readers = !facts.primitive.uses.empty() || !facts.primitive.tangents.empty();
+    if (rounding.was_before && !has_readers) {
+        const std::span<const std::uint32_t> corners = facts.mesh.corners;
+        rounding = roundingOf(facts.mesh.positions, {}, {&corners, 1}, facts.mesh.position_step);
+    }
     const TurnedTriangles turned =
         turnedBy(rounding, facts.mesh.positions, facts.mesh.corners, facts.options.direction_deg);
     if (turned.share < kSomeTurned) return;
@@ -41,6 +47,12 @@ void checkRounding(PrimitiveFacts& facts) {
                   decimalText(facts.options.direction_deg) + " degrees or more, up to " +
                   decimalText(turned.worst_deg) + " (" + shareText(turned.share) +
                   " of the surface); tangents are not blamed for it");
+    if (rounding.was_before) {
+        facts.findings.back().remedy =
+            "Take the model as it was before its positions were rounded, or round them finer, and keep the tangents "
+            "and "
+            "normals that were made then.";
+    }
 }
 
 }  // namespace

@@ -105,6 +105,7 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "object --mesh MODEL"},
     {"normalMapIsHeight", "Make a normal map of it: tspace height-to-normal MAP -o OUT.png --strength S"},
     {"normalMapScale", "Give the texture a scale above 0, or take the normal map away, if that is what is meant."},
+    {"normalMapIsPicture", "Put the normal map there that is meant, or take this one away: it may be the base color."},
 }};
 
 }  // namespace
@@ -175,6 +176,7 @@ const char* findingSummary(FindingCode code) {
         "A normal map is not in tangent space.",
         "A grey image is used as a normal map.",
         "The scale of a normal map is 0 or below.",
+        "A picture in colors is used as a normal map.",
     };
     static_assert(kSummaries.size() == kFindingCodeCount);
     const auto number = static_cast<std::size_t>(code);

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
+#include "check/map_axes.h"
 #include "core/angle.h"
 #include "core/unit.h"
+#include "maps/grey.h"
 
 namespace tspace {
 
@@ -19,6 +22,8 @@ constexpr double kConstant = 2.5;
 /// x^2 + y^2 of texels that lean: by 11 degrees or more.
 constexpr double kLeastLean = 0.04;
 constexpr double kStep = 1.0 / 127.5;
+/// How far from 0 x and y of a map are in the mean, where nothing else is known.
+constexpr double kMostMean = 0.25;
 
 double signedValue(std::uint8_t channel) { return static_cast<double>(channel) * kStep - 1; }
 
@@ -102,6 +107,10 @@ Fit fitOf(std::span<const TexelBytes> texels, const MapLayout& layout) {
     return fit;
 }
 
+bool pointsUp(const Fit& fit) {
+    return fit.mean.z > 0.5 && std::fabs(fit.mean.x) < kMostMean && std::fabs(fit.mean.y) < kMostMean;
+}
+
 /// x^2 + y^2 of two channels.
 double squareOf(const TexelBytes& texel, std::size_t x, std::size_t y) {
     const double a = signedValue(texel[x]), b = signedValue(texel[y]);
@@ -111,22 +120,38 @@ double squareOf(const TexelBytes& texel, std::size_t x, std::size_t y) {
 /// z of a unit vector with x and y in red and green.
 double expectedZ(const TexelBytes& texel) { return std::sqrt(std::max(0.0, 1 - squareOf(texel, 0, 1))); }
 
-/// Whether two channels can be x and y of unit vectors: nearly nowhere are they longer than 1, and in the mean they are 0.
-bool canBeXy(std::span<const TexelBytes> texels, std::size_t x, std::size_t y) {
-    constexpr double kLongest = 1.03, kMostLong = 0.01, kMostMean = 0.25;
+/// Whether two channels can be x and y of unit vectors: nearly nowhere are they longer than 1, and in the mean they are 0,
+/// or about 0.
+bool canBeXy(std::span<const TexelBytes> texels, std::size_t x, std::size_t y, double most_mean = kMostMean,
+             double most_long = 0.01) {
+    constexpr double kLongest = 1.03;
     const auto meanOf = [&](std::size_t channel) {
         return spreadOf(texels, [&](const TexelBytes& texel) { return signedValue(texel[channel]); }).mean;
     };
-    return shareOf(texels, [&](const TexelBytes& texel) { return squareOf(texel, x, y) > kLongest; }) < kMostLong &&
-           std::fabs(meanOf(x)) < kMostMean && std::fabs(meanOf(y)) < kMostMean;
+    return shareOf(texels, [&](const TexelBytes& texel) { return squareOf(texel, x, y) > kLongest; }) < most_long &&
+           std::fabs(meanOf(x)) < most_mean && std::fabs(meanOf(y)) < most_mean;
 }
 
-bool isGrey(std::span<const TexelBytes> texels) {
-    constexpr int kApart = 4;
-    return shareOf(texels, [](const TexelBytes& texel) {
-               const auto [least, most] = std::minmax({texel[0], texel[1], texel[2]});
-               return most - least <= kApart;
-           }) > 0.98;
+/// Red, green and blue of texels, of 255.
+auto colorsOf(std::span<const TexelBytes> texels) {
+    return [texels](std::size_t i) {
+        const TexelBytes& texel = texels[i];
+        return std::array<double, 3>{static_cast<double>(texel[0]), static_cast<double>(texel[1]),
+                                     static_cast<double>(texel[2])};
+    };
+}
+
+bool isGreyTexels(std::span<const TexelBytes> texels) { return isGrey(texels.size(), colorsOf(texels)); }
+
+/// All but black and white ones: what nobody painted, or baked, says nothing.
+std::vector<TexelBytes> paintedOf(std::span<const TexelBytes> texels) {
+    constexpr int kBlack = 8, kWhite = 247;
+    std::vector<TexelBytes> painted;
+    std::copy_if(texels.begin(), texels.end(), std::back_inserter(painted), [](const TexelBytes& texel) {
+        const auto [least, most] = std::minmax({texel[0], texel[1], texel[2]});
+        return most > kBlack && least < kWhite;
+    });
+    return painted;
 }
 
 class Looker {
@@ -141,9 +166,11 @@ class Looker {
 
     [[nodiscard]] MapLook look() const {
         if (const auto found = xInAlpha()) return *found;
-        if (isGrey(texels_)) return made(MapContent::height, {}, 1);
-        if (const auto found = twoChannels()) return *found;
+        if (isGreyTexels(texels_)) return made(MapContent::height, {}, 1);
+        if (const auto found = twoChannels(kMostMean)) return *found;
         if (const auto found = encoded()) return *found;
+        if (const auto found = leaningTwoChannels()) return *found;
+        if (const auto found = picture()) return *found;
         if (const auto found = objectSpace()) return *found;
         if (const auto found = exchanged()) return *found;
         if (const auto found = unsignedZ()) return *found;
@@ -157,12 +184,15 @@ class Looker {
         return {.content = content, .layout = layout, .count = count, .total = total};
     }
 
+    [[nodiscard]] bool mayBeXInAlpha() const {
+        return has_alpha_ && channels_[3].deviation > kConstant && channels_[1].deviation > kConstant &&
+               (channels_[0].deviation <= kConstant || isGreyTexels(texels_));
+    }
+
     /// Red says nothing (it is constant, or a copy of green), and alpha varies as x does. Grey with any other alpha is a
     /// height map with a mask.
     [[nodiscard]] std::optional<MapLook> xInAlpha() const {
-        if (!has_alpha_ || channels_[3].deviation <= kConstant || channels_[1].deviation <= kConstant) return {};
-        const bool says_nothing = channels_[0].deviation <= kConstant || isGrey(texels_);
-        if (!says_nothing || plain_.unit_share > 0.5 || !canBeXy(texels_, 3, 1)) return {};
+        if (!mayBeXInAlpha() || plain_.unit_share > 0.5 || !canBeXy(texels_, 3, 1)) return {};
         MapLayout layout;
         layout.x.channel = MapChannel::alpha;
         layout.z.channel = MapChannel::none;
@@ -171,12 +201,16 @@ class Looker {
 
     /// Blue is the same everywhere, and not what z would be: over all texels, or over those that lean. Maps that are flat
     /// nearly everywhere are left alone: Khronos' Lantern has one with blue 255, which is 0.15 degrees off in the mean.
-    [[nodiscard]] std::optional<MapLook> twoChannels() const {
+    [[nodiscard]] std::optional<MapLook> twoChannels(double most_mean) const {
         constexpr double kFar = 0.3, kNearlyConstant = 16, kMostCorrelation = 0.5;
-        constexpr double kSeenDeg = 0.5;
+        constexpr double kSeenDeg = 0.5, kMostTogether = 0.9;
         constexpr std::uint64_t kLeastCount = 16;
         const Spread& blue = channels_[2];
-        if (blue.deviation > kNearlyConstant || !canBeXy(texels_, 0, 1)) return {};
+        if (blue.deviation > kNearlyConstant) return {};
+        if (!canBeXy(texels_, 0, 1, most_mean)) return {};
+        // Light and shadow let red and green go together, and blue a little.
+        if (blue.deviation > kConstant && channelCorrelations(texels_.size(), colorsOf(texels_))[0] > kMostTogether)
+            return {};
         double off = 0, wanted = 0, error = 0, product = 0, angle = 0;
         const Spread up = spreadOf(texels_, [](const TexelBytes& texel) { return expectedZ(texel); });
         std::uint64_t count = 0;
@@ -205,12 +239,20 @@ class Looker {
         return made(MapContent::twoChannels, layout, 1);
     }
 
+    /// Where blue is one number relief may lean to one side.
+    [[nodiscard]] std::optional<MapLook> leaningTwoChannels() const {
+        constexpr double kLeaning = 0.6;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if ((channels_[i].deviation > kConstant) == (i == 2)) return {};
+        }
+        return twoChannels(kLeaning);
+    }
+
     [[nodiscard]] std::optional<MapLook> encoded() const {
         for (const MapCurve curve : {MapCurve::srgb, MapCurve::linearised}) {
             const MapLayout layout{.curve = curve};
             const Fit fit = fitOf(texels_, layout);
-            const bool points_up = fit.mean.z > 0.5 && std::fabs(fit.mean.x) < 0.25 && std::fabs(fit.mean.y) < 0.25;
-            if (points_up && fit.unit_share > 0.8 && fit.unit_share > plain_.unit_share + 0.4)
+            if (pointsUp(fit) && fit.unit_share > 0.8 && fit.unit_share > plain_.unit_share + 0.4)
                 return made(MapContent::encoded, layout, fit.unit_share);
         }
         return {};
@@ -222,12 +264,12 @@ class Looker {
         bool is_inverted = false;
     };
     [[nodiscard]] std::optional<Up> upAxis() const {
-        constexpr double kLeastMean = 0.6, kMostMean = 0.3, kMostBelow = 0.02;
+        constexpr double kLeastMean = 0.6, kMostAside = 0.3, kMostBelow = 0.02;
         const std::array<double, 3> mean{plain_.mean.x, plain_.mean.y, plain_.mean.z};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double below = mean[axis] < 0 ? 1 - plain_.below_share[axis] : plain_.below_share[axis];
             if (std::fabs(mean[axis]) < kLeastMean || below > kMostBelow) continue;
-            if (std::fabs(mean[(axis + 1) % 3]) > kMostMean || std::fabs(mean[(axis + 2) % 3]) > kMostMean) continue;
+            if (std::fabs(mean[(axis + 1) % 3]) > kMostAside || std::fabs(mean[(axis + 2) % 3]) > kMostAside) continue;
             return Up{axis, mean[axis] < 0};
         }
         return {};
@@ -252,11 +294,12 @@ class Looker {
         return made(MapContent::exchanged, layout, up->is_inverted ? below : 1 - below);
     }
 
-    /// Over texels that lean, blue grows with z as z does, not half as fast: 255 b = 255 z + c.
+    /// Over texels that lean, blue grows with z as z does, not half as fast, and is much nearer to it than to (z + 1) / 2.
     [[nodiscard]] std::optional<MapLook> unsignedZ() const {
         constexpr std::uint64_t kLeastCount = 64;
-        if (!canBeXy(texels_, 0, 1)) return {};
-        double z = 0, b = 0, zz = 0, zb = 0, bb = 0, off = 0;
+        constexpr double kMostLong = 0.05;  // JPEG puts much into red and green where blue changes as much as they do
+        if (!canBeXy(texels_, 0, 1, kMostMean, kMostLong)) return {};
+        double z = 0, b = 0, zz = 0, zb = 0, bb = 0, off = 0, off_signed = 0;
         std::uint64_t count = 0;
         for (const TexelBytes& texel : texels_) {
             const double square = squareOf(texel, 0, 1);
@@ -269,17 +312,69 @@ class Looker {
             zb += wanted * blue;
             bb += blue * blue;
             off += (blue - wanted) * (blue - wanted);
+            off_signed += (blue - (wanted + 1) / 2) * (blue - (wanted + 1) / 2);
         }
         if (count < kLeastCount) return {};
         const auto n = static_cast<double>(count);
         const double var_z = zz / n - z * z / n / n, var_b = bb / n - b * b / n / n, cov = zb / n - z * b / n / n;
-        if (var_z < 1e-5 || var_b < 1e-5 || std::sqrt(off / n) > 0.03) return {};
+        if (var_z < 1e-5 || var_b < 1e-5 || std::sqrt(off / n) > 0.1 || 4 * off > off_signed) return {};
         const double slope = cov / var_z, agreement = cov * cov / var_z / var_b;
-        if (slope < 0.85 || slope > 1.15 || agreement < 0.8) return {};
+        if (slope < 0.6 || slope > 1.3 || agreement < 0.5) return {};
         MapLayout layout;
         layout.z.channel = MapChannel::none;
         MapLook look = made(MapContent::unsignedZ, layout, 1);
         look.count = count;
+        return look;
+    }
+
+    /// The share of unit vectors; with a curve only where they then point up.
+    [[nodiscard]] static double unitShareOf(std::span<const TexelBytes> texels) {
+        double share = fitOf(texels, {}).unit_share;
+        for (const MapCurve curve : {MapCurve::srgb, MapCurve::linearised}) {
+            const Fit fit = fitOf(texels, {.curve = curve});
+            if (pointsUp(fit)) share = std::max(share, fit.unit_share);
+        }
+        return share;
+    }
+
+    /// Whether blue can be z, as it is or as a constant beside x and y.
+    [[nodiscard]] bool mayPointUp(std::span<const TexelBytes> texels, const DVec3& mean) const {
+        constexpr double kLeastUp = 0.7, kMostBelow = 0.1;
+        constexpr std::uint8_t kZero = 127 - 16;  // what compressing takes off
+        const double below = shareOf(texels, [](const TexelBytes& texel) { return texel[2] < kZero; });
+        return (mean.z > kLeastUp && below < kMostBelow) ||
+               (channels_[2].deviation <= kConstant && canBeXy(texels, 0, 1));
+    }
+
+    /// Colors that are few unit vectors, and do not point up or grow and fall together, as light makes them. Light greys and
+    /// dark ones are unit vectors by chance: along a diagonal, where vectors that turn cannot grow together. Nothing is said
+    /// of an image that has one color or few texels, or whose texels are x and y and something else.
+    [[nodiscard]] std::optional<MapLook> picture() const {
+        constexpr double kMostUnit = 0.7, kFewUnit = 0.5, kTogether = 0.5, kMuchTogether = 0.8, kLeastDiagonal = 0.35,
+                         kOneWay = 0.75;
+        constexpr std::size_t kLeastCount = 256;
+        const bool varies = std::any_of(channels_.begin(), channels_.begin() + 3,
+                                        [](const Spread& channel) { return channel.deviation > kConstant; });
+        if (!varies || mayBeXInAlpha()) return {};
+        const std::vector<TexelBytes> painted = paintedOf(texels_);
+        if (painted.size() < kLeastCount) return {};
+        DVec3 mean{};
+        for (const TexelBytes& texel : painted)
+            mean = mean + DVec3{signedValue(texel[0]), signedValue(texel[1]), signedValue(texel[2])};
+        if (!normalize(mean)) mean = {};
+        const std::array<double, 3> together = channelCorrelations(painted.size(), colorsOf(painted));
+        const auto [weakest, strongest] = std::minmax({together[0], together[1], together[2]});
+        const double least = std::min({mean.x, mean.y, mean.z}), most = std::max({mean.x, mean.y, mean.z});
+        const bool is_diagonal = weakest >= kTogether && (least > kLeastDiagonal || most < -kLeastDiagonal);
+        // Vectors that point one way, and that no axis: those of a wall in object space do not grow together.
+        const bool is_aside = strongest >= kMuchTogether && !upAxis() && length(plain_.mean) > kOneWay;
+        const double unit = unitShareOf(painted);
+        const double most_unit = !mayPointUp(painted, mean) ? kMostUnit : weakest >= kTogether ? kFewUnit : 0;
+        const bool is_none = is_diagonal || is_aside;
+        if (!is_none && unit >= most_unit) return {};
+        MapLook look = made(MapContent::picture, {}, 1);
+        look.total = painted.size();
+        look.count = static_cast<std::uint64_t>((is_none ? 1 : 1 - unit) * static_cast<double>(look.total) + 0.5);
         return look;
     }
 
@@ -288,12 +383,6 @@ class Looker {
     std::span<const TexelOnSurface> surface_, in_world_;
     Fit plain_;
     std::array<Spread, 4> channels_ = {};
-};
-
-/// The mean of n v^T over the surface; n is the mesh's normal, v the direction in the map.
-struct Moments {
-    std::array<std::array<double, 3>, 3> sum = {};
-    double weight = 0;
 };
 
 Moments momentsOf(std::span<const TexelOnSurface> surface) {
@@ -309,53 +398,6 @@ Moments momentsOf(std::span<const TexelOnSurface> surface) {
         moments.weight += point.weight;
     }
     return moments;
-}
-
-/// The largest mean cosine that any rotation or reflection of the map's axes gives: the sum of the singular values.
-double bestAgreement(const Moments& moments) {
-    // Of the symmetric matrix S = M^T M the eigenvalues, by the roots of its characteristic polynomial (Smith 1961).
-    std::array<std::array<double, 3>, 3> s{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            for (const auto& row : moments.sum) s[i][k] += row[i] * row[k] / moments.weight / moments.weight;
-        }
-    }
-    const double mean = (s[0][0] + s[1][1] + s[2][2]) / 3;
-    for (std::size_t i = 0; i < 3; ++i) s[i][i] -= mean;
-    double squares = 0;
-    for (const auto& row : s) squares += row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
-    const double p = std::sqrt(squares / 6);
-    const double det = s[0][0] * (s[1][1] * s[2][2] - s[1][2] * s[2][1]) -
-                       s[0][1] * (s[1][0] * s[2][2] - s[1][2] * s[2][0]) +
-                       s[0][2] * (s[1][0] * s[2][1] - s[1][1] * s[2][0]);
-    const double angle = p > 0 ? std::acos(std::clamp(det / (2 * p * p * p), -1.0, 1.0)) / 3 : 0;
-    double sum = 0;
-    for (int k = 0; k < 3; ++k) sum += std::sqrt(std::max(0.0, mean + 2 * p * std::cos(angle + k * 2 * kPi / 3)));
-    return sum;
-}
-
-/// Which signed channels the mesh's x, y and z are in, and the mean cosine between its normals and the map's then.
-struct Axes {
-    MapLayout layout = {};
-    double agreement = -1;
-};
-
-Axes bestAxes(const Moments& moments) {
-    constexpr std::array<std::array<std::size_t, 3>, 6> kOrders{
-        {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
-    Axes best;
-    for (const auto& order : kOrders) {
-        double agreement = 0;
-        std::array<MapComponent, 3> components;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const double part = moments.sum[i][order[i]];
-            agreement += std::fabs(part) / moments.weight;
-            components[i] = {static_cast<MapChannel>(order[i]), part < 0};
-        }
-        if (agreement > best.agreement + 1e-9)
-            best = {{.x = components[0], .y = components[1], .z = components[2]}, agreement};
-    }
-    return best;
 }
 
 /// How the map's directions go with the mesh's normals: the slope of the regression of the ones on the others, which is
@@ -413,6 +455,23 @@ bool isOfMesh(std::span<const TexelOnSurface> surface, const MapLayout& layout, 
            following.bent_slope > kLeastSlope;
 }
 
+/// The same under relief that hides the mesh from single vectors, and makes slopes smaller. What goes with the mesh by chance
+/// does not in every quarter of it.
+bool isOfMeshUnderRelief(std::span<const TexelOnSurface> surface, const MapLayout& layout, bool may_be_tangent) {
+    constexpr std::size_t kQuarters = 4, kManyPoints = 1024;
+    constexpr double kFlat = 0.002, kLeastSlope = 0.4, kLeastOfQuarter = 0.25, kLeastBent = 0.25;
+    if (surface.size() < kManyPoints) return false;
+    const Following following = followingOf(surface, layout);
+    if (following.spread < kFlat || following.slope < kLeastSlope) return false;
+    if (may_be_tangent && (following.bent_share < kLeastBent || following.bent_slope < kLeastSlope)) return false;
+    for (std::size_t i = 0; i < kQuarters; ++i) {
+        const std::size_t begin = i * surface.size() / kQuarters, end = (i + 1) * surface.size() / kQuarters;
+        const Following quarter = followingOf(surface.subspan(begin, end - begin), layout);
+        if (quarter.spread < kFlat || quarter.slope < kLeastOfQuarter) return false;
+    }
+    return true;
+}
+
 Looker::Followed Looker::followed(std::span<const TexelOnSurface> surface, const std::optional<Up>& up) const {
     constexpr std::size_t kLeastPoints = 8;
     constexpr double kLeastAgreement = 0.5, kSureAgreement = 0.9, kOfTheBest = 0.97, kOfTheRest = 0.4;
@@ -431,7 +490,10 @@ Looker::Followed Looker::followed(std::span<const TexelOnSurface> surface, const
                           1 - agreement < kOfTheRest * (1 - constant);
     const bool is_wall = !is_up && up && is_plain && plain >= kSureAgreement;
     const MapLayout layout = is_plain ? MapLayout{} : axes.layout;
-    if ((!is_clear && !is_wall) || !isOfMesh(surface, layout, is_up)) return {};
+    const bool is_of_mesh =
+        is_clear || is_wall ? isOfMesh(surface, layout, is_up)
+                            : is_plain && agreement >= kLeastAgreement && isOfMeshUnderRelief(surface, layout, is_up);
+    if (!is_of_mesh) return {};
     return {layout, agreement};
 }
 
@@ -479,7 +541,7 @@ MapLook lookAtTexels(std::span<const TexelBytes> texels, bool has_alpha, std::sp
 bool mayHaveXInAlpha(std::span<const TexelBytes> texels) {
     if (texels.empty()) return false;
     const Spread red = spreadOf(texels, [](const TexelBytes& texel) { return static_cast<double>(texel[0]); });
-    return red.deviation <= kConstant || isGrey(texels);
+    return red.deviation <= kConstant || isGreyTexels(texels);
 }
 
 void readByLayout(RgbImage& image, std::span<const std::uint8_t> alpha, const MapLayout& layout) {

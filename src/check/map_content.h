@@ -22,7 +22,8 @@ enum class MapContent {
     exchanged,    ///< z is in another channel than blue, or inverted
     encoded,      ///< vectors, but stored as colours: with the sRGB curve put on, or taken off
     objectSpace,  ///< directions in the coordinates of the mesh or the scene
-    height,       ///< grey
+    height,       ///< grey, or nearly
+    picture,      ///< colours, which are no unit vectors under any reading
 };
 
 /// A texel: red, green, blue, alpha.
@@ -62,7 +63,7 @@ bool mayHaveXInAlpha(std::span<const TexelBytes> texels);
 
 /// Whether there are vectors in tangent space, somewhere in the image.
 inline bool holdsNormals(MapContent content) {
-    return content != MapContent::objectSpace && content != MapContent::height;
+    return content != MapContent::objectSpace && content != MapContent::height && content != MapContent::picture;
 }
 
 /// Makes of the image what a reader of the layout sees: x, y and z in red, green and blue. Without an alpha channel, 255

@@ -37,6 +37,8 @@ FindingCode codeOf(MapContent content) {
             return FindingCode::normalMapIsSrgb;
         case MapContent::objectSpace:
             return FindingCode::normalMapInObjectSpace;
+        case MapContent::picture:
+            return FindingCode::normalMapIsPicture;
         case MapContent::normals:
         case MapContent::height:
             break;
@@ -59,6 +61,10 @@ std::string messageOf(const std::string& name, const MapLook& look) {
             return "the normal map " + name +
                    " holds x in alpha and y in green (as DXT5nm does), and no z: red and blue say nothing";
         case MapContent::exchanged:
+            if (layout.z == MapLayout{}.z) {
+                return "red and green of the normal map " + name +
+                       " are exchanged: its slopes are those of a height only where x is in green and y in red";
+            }
             return "channels of the normal map " + name + " are exchanged: it has " + axisText("x", layout.x) + ", " +
                    axisText("y", layout.y) + " and " + axisText("z", layout.z) + ", where it points in the mean";
         case MapContent::encoded:
@@ -78,6 +84,10 @@ std::string messageOf(const std::string& name, const MapLook& look) {
                    (layout == MapLayout{} ? std::string()
                                           : ", with " + axisText("x", layout.x) + ", " + axisText("y", layout.y) +
                                                 " and " + axisText("z", layout.z));
+        case MapContent::picture:
+            return name +
+                   " is a picture in colors, and no normal map: its texels are no unit vectors around one that points "
+                   "out of the surface";
         case MapContent::normals:
         case MapContent::height:
             break;
@@ -90,6 +100,7 @@ std::string remedyOf(const std::string& file, const MapLook& look, bool green_is
     // No full stop behind a command: who copies it would take it along.
     const std::string in_model = "In the model: tspace generate --mend-maps" + flip + " does it. The image alone: ";
     const std::string convert = "tspace convert-map " + file + " -o OUT.png";
+    if (look.content == MapContent::picture) return findingRemedy(FindingCode::normalMapIsPicture);
     if (look.content == MapContent::height) {
         return "Make a normal map of it: tspace height-to-normal " + file +
                " -o OUT.png --strength S, where S is how high white stands above black.";

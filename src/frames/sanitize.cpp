@@ -151,6 +151,7 @@ class Sanitizer {
             [this](std::size_t first, std::uint32_t size, Counts& counts) { detect(first, size, counts); });
         if (countOf(Counted::seeker) != 0) lookAtPositions();
         forEachCandidate([this](std::size_t first, std::uint32_t size, Counts& counts) { mend(first, size, counts); });
+        if (countOf(Counted::badNormal) != 0) alignWithoutNormals();
         return report();
     }
 
@@ -317,15 +318,19 @@ class Sanitizer {
         return found.w != 0 ? &found : nullptr;
     }
 
-    /// What the sound corners say; without any, what the broken ones with a sign say; without any, what the
-    /// first sound corner at one of the face's positions says; else +1.
+    /// What the sound corners say, those first whose N has a direction: without one a sign says nothing; without any, what
+    /// the broken ones with a sign say; without any, what the first sound corner at one of the face's positions says; else +1.
     [[nodiscard]] float signOf(std::size_t first, std::uint32_t size) const {
-        for (const bool only_sound : {true, false}) {
+        const auto votes = [this](std::size_t c, int round) {
+            if (round == 2) return isSign(tangents_[c].w);
+            return causes_[c] == Cause::sound && (round == 1 || !isZero(normalAt(c)));
+        };
+        for (int round = 0; round < 3; ++round) {
             std::int64_t sum = 0;
             float first_sign = 0;
             for (std::size_t c = first; c < first + size; ++c) {
+                if (!votes(c, round)) continue;
                 const float w = tangents_[c].w;
-                if (only_sound ? causes_[c] != Cause::sound : !isSign(w)) continue;
                 sum += w > 0 ? 1 : -1;
                 if (first_sign == 0) first_sign = w;
             }
@@ -350,8 +355,25 @@ class Sanitizer {
             if (cause == Cause::sound) cause = Cause::notOrthogonal;
             const auto [tangent, cure] = mended(c, n, neighbor);
             tangents_[c] = {tangent.x, tangent.y, tangent.z, sign};
+            causes_[c] = cure;
             counts.count(cause);
             counts.count(cure);
+        }
+    }
+
+    /// Where N has no direction a tangent that is made up serves all corners at the position with its sign, so that no
+    /// vertex has to be split: the first.
+    void alignWithoutNormals() {
+        const Allocator* allocator = options_.execution.allocator;
+        if (points_.empty()) points_ = weldPositions(mesh_, allocator, parallel_);
+        Buffer<Vec4> made(allocator, 2 * mesh_.vertexCount(), Vec4{});
+        for (std::size_t c = 0; c < mesh_.cornerCount(); ++c) {
+            const bool is_made_up = causes_[c] == Cure::fromNeighbor || causes_[c] == Cure::fromBasis;
+            const Vec3& p = mesh_.positions[mesh_.indices[c]];
+            if (!is_made_up || !(p == p) || !isZero(normalAt(c))) continue;
+            Vec4& first = made[2 * std::size_t{pointOf(mesh_.indices[c])} + (tangents_[c].w < 0 ? 1 : 0)];
+            if (first.w == 0) first = tangents_[c];
+            tangents_[c] = first;
         }
     }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Normals, tangents, sanitize and split for all primitives of one vertex pool.
+#include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <utility>
 
@@ -292,6 +294,7 @@ class FrameComputer {
         cutIndices(std::move(split.indices), frames);
         if (generates_normals_) frames.normals = gatherNormals(normals_, split.source_corners);
         if (generates_tangents_) writeTangents(split, frames);
+        if (pool_.mends_tangents) countMended(split, frames.tangents);
         for (PrimitiveReport& report : reports_) {
             report.vertices_before = pool_.positions.count;
             report.vertices_after = split.vertexCount();
@@ -310,6 +313,25 @@ class FrameComputer {
             const auto end = begin + static_cast<std::ptrdiff_t>(count);
             frames.indices.emplace_back(begin, end);
             begin = end;
+        }
+    }
+
+    /// Of the vertices to be mended those that got another tangent, or other offsets of targets.
+    void countMended(const SplitResult& split, std::span<const Vec4> tangents) {
+        std::vector<bool> changed(pool_.positions.count, false);
+        for (std::size_t v = 0; v < split.vertexCount(); ++v) {
+            const std::uint32_t source = split.source_vertices[v];
+            if (std::memcmp(&tangents[v], &pool_.kept_tangents[source], sizeof(Vec4)) != 0) changed[source] = true;
+        }
+        if (pool_.targets.count != 0) {
+            for (std::size_t c = 0; c < corners_.size(); ++c) {
+                if (has_new_offsets_[c]) changed[corners_[c]] = true;
+            }
+        }
+        for (std::size_t p = 0; p < primitives_.size(); ++p) {
+            const std::vector<VertexMend>& mends = primitives_[p].mends.vertices;
+            reports_[p].mended_vertex_count = static_cast<std::uint64_t>(std::count_if(
+                mends.begin(), mends.end(), [&](const VertexMend& mend) { return changed[mend.vertex]; }));
         }
     }
 

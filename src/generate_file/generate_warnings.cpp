@@ -100,15 +100,30 @@ void warnOfTangents(const GenerateOptions& options, GenerateReport& report) {
     const bool any_made = any(report, [](const auto& primitive) {
         return wasComputed(primitive) || primitive.morph_deltas_computed != 0 || primitive.mended_vertex_count != 0;
     });
-    if (any_made) return;
+    if (any(report, wasComputed) && options.tangents.method == Method::basis) {
+        report.warnings.emplace_back(
+            "the tangents of the method basis follow no UVs: normal maps that are read with them are shaded wrong, and "
+            "check says so");
+    }
     const TangentOptions plain, &tangents = options.tangents;
+    const bool any_normals = any(report, [](const auto& primitive) { return primitive.normals_generated; });
+    const bool refines_normals = any_normals && options.normals.weighting == NormalWeighting::best;
+    const bool has_refine = tangents.refine != plain.refine && !refines_normals;
+    if (any_made) {
+        if (has_refine && tangents.method != Method::best) warn({"--refine"}, "it is for --method best", report);
+        return;
+    }
     std::vector<std::string> idle;
     if (tangents.method != plain.method) idle.emplace_back("--method");
     if (tangents.frame != plain.frame) idle.emplace_back("--frame");
     if (tangents.pairing != plain.pairing) idle.emplace_back("--pairing");
     if (tangents.angular_threshold_deg != plain.angular_threshold_deg) idle.emplace_back("--threshold");
     if (options.faces == Faces::quads) idle.emplace_back("--faces");
+    if (has_refine) idle.emplace_back("--refine");
     if (options.bitangents) idle.emplace_back("--bitangents");
+    if (!options.sanitize) idle.emplace_back("--no-sanitize");
+    if (options.sanitize_options.orthogonalize_all) idle.emplace_back("--orthogonalize");
+    if (options.format != GenerateOptions{}.format && !any_normals) idle.emplace_back("--format");
     const bool any_kept = any(report, [](const auto& primitive) { return primitive.action == PrimitiveAction::kept; });
     warn(idle, any_kept ? "no tangents were computed; those that are there stay" : "no tangents were computed", report);
 }
@@ -123,6 +138,10 @@ void addWarnings(const GenerateOptions& options, GenerateReport& report) {
     if (options.flip_green != FlipGreen::none && report.normal_maps.empty())
         warn({options.flip_green == FlipGreen::all ? "--flip-green-all" : "--flip-green"}, "there is no normal map",
              report);
+    if (options.mend_maps && report.normal_maps.empty()) warn({"--mend-maps"}, "there is no normal map", report);
+    const bool any_stripped =
+        any(report, [](const auto& primitive) { return primitive.action == PrimitiveAction::removed; });
+    if (options.strip && !any_stripped) warn({"--strip"}, "there are no tangents that no material needs", report);
     if (options.convert_maps && report.converted_maps.empty())
         warn({"--convert-maps"}, "no primitive with a normal map got other tangents", report);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "generate_file/mend_maps.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "asset/file_error.h"
@@ -28,6 +29,7 @@ const char* whatItHeld(MapContent content) {
             return "it was in object space";
         case MapContent::normals:
         case MapContent::height:
+        case MapContent::picture:
             break;
     }
     return "";
@@ -38,6 +40,7 @@ std::string whyItStays(const MapLook& look, ImageFormat format) {
     if (look.content == MapContent::normals) return "it holds what glTF reads";
     if (look.content == MapContent::height)
         return "it is grey: a height map, whose strength is not known (tspace height-to-normal)";
+    if (look.content == MapContent::picture) return "it is a picture in colors, and no normal map";
     if (look.content == MapContent::objectSpace && !look.follows_mesh)
         return "it is not in tangent space, nor in that of this mesh";
     if (look.content == MapContent::objectSpace && look.is_in_world)
@@ -45,6 +48,16 @@ std::string whyItStays(const MapLook& look, ImageFormat format) {
     if (format != ImageFormat::png && format != ImageFormat::jpeg)
         return std::string("it is ") + formatName(format) + ", and the new one would be PNG";
     return {};
+}
+
+bool isPicture(const FloatImage& image) {
+    const auto byteOf = [](float part) {
+        return static_cast<std::uint8_t>(std::clamp(part, 0.0F, 1.0F) * 255.0F + 0.5F);
+    };
+    std::vector<TexelBytes> texels;
+    texels.reserve(image.texels.size());
+    for (const Vec3& texel : image.texels) texels.push_back({byteOf(texel.x), byteOf(texel.y), byteOf(texel.z), 255});
+    return lookAtTexels(texels, false, {}).content == MapContent::picture;
 }
 
 /// All triangles that show the image, with the tangents that they will have, or nearly. `isUser(TangentUse)`.
@@ -115,8 +128,11 @@ MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_
     }
     std::optional<FloatImage> heights = decodeFloatImage(bytes, kMostModelMapPixels, made.why_not);
     if (!heights) return made;
-    made.is_height_map = isGreyImage(*heights);
-    if (!made.is_height_map) return made;
+    if (!isGreyImage(*heights)) {
+        made.is_height_map = isPicture(*heights);
+        made.why_not = "it is a picture in colors, neither heights nor a normal map";
+        return made;
+    }
     const MapMesh mesh = meshOf(scene, options, [&](const TangentUse& use) { return use.material == material; });
     if (mesh.uvs.empty()) {
         made.why_not = "its faces have no texture coordinates";

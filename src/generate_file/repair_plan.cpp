@@ -212,11 +212,7 @@ void planRepair(const Document& document, std::span<const Primitive> primitives,
         });
         for (const std::size_t number : good.primitives) keep(verdictOn(number), plan.reports[number]);
         for (const std::size_t number : wrong.primitives) {
-            PrimitiveReport& report = plan.reports[number];
-            report.mended_vertex_count = verdictOn(number).mends.vertices.size();
-            report.notes.push_back("its tangents were wrong: " + verdictOn(number).why + "; mended at " +
-                                   std::to_string(report.mended_vertex_count) + " of " +
-                                   std::to_string(report.vertices_before) + " vertices");
+            plan.reports[number].notes.push_back(kWrongNote + verdictOn(number).why);
         }
         if (!wrong.primitives.empty()) pools.push_back(std::move(wrong));
         if (!good.primitives.empty() && (lacksDeltas(primitives[good.primitives[0]]) || !good.morph_normals.empty())) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "map_files/map_image_file.h"
 
-#include <algorithm>
+#include <array>
 #include <optional>
 
 #include "asset/file_error.h"
 #include "asset/file_io.h"
 #include "asset/memory_budget.h"
+#include "maps/grey.h"
 
 namespace tspace {
 
@@ -60,14 +61,10 @@ void writeMapImage(const FloatImage& image, ImageFormat format, unsigned bits, c
 }
 
 bool isGreyImage(const FloatImage& image) {
-    // What compressing colors adds.
-    constexpr float kApart = 4.5F / 255;
-    const auto is_grey = [](const Vec3& texel) {
-        const auto [least, most] = std::minmax({texel.x, texel.y, texel.z});
-        return most - least <= kApart;
-    };
-    const auto grey = std::count_if(image.texels.begin(), image.texels.end(), is_grey);
-    return static_cast<double>(grey) > 0.98 * static_cast<double>(image.texels.size());
+    return isGrey(image.texels.size(), [&](std::size_t i) {
+        const Vec3& texel = image.texels[i];
+        return std::array<double, 3>{255 * double{texel.x}, 255 * double{texel.y}, 255 * double{texel.z}};
+    });
 }
 
 std::vector<float> heightsOf(const FloatImage& image) {

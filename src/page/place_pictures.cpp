@@ -12,6 +12,7 @@
 #include "page/page_parts.h"
 #include "picture/legend.h"
 #include "render/picture_file.h"
+#include "render/shown_heights.h"
 
 namespace tspace {
 
@@ -118,7 +119,9 @@ void drawOutline(RgbImage& image, const Camera& camera, const DVec3& from, const
 }  // namespace
 
 PicturedModel::PicturedModel(const std::string& input, const FileOptions& options)
-    : drawn_(readDrawnScene(input, options, true)), textures_(drawn_.scene, std::uint64_t{1} << 26) {}
+    : drawn_(readDrawnScene(input, options, true)), textures_(drawn_.scene, std::uint64_t{1} << 26) {
+    showHeights(Method::mikktspace, {}, drawn_);
+}
 
 const ModelPicture& PicturedModel::lit(RenderFrames frames) {
     std::unique_ptr<ModelPicture>& picture = lit_[frames == RenderFrames::stored ? 1 : 0];

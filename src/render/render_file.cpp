@@ -8,6 +8,7 @@
 #include "core/unit.h"
 #include "render/draw_model.h"
 #include "render/picture_file.h"
+#include "render/shown_heights.h"
 
 namespace tspace {
 
@@ -44,7 +45,10 @@ RenderReport renderModel(const std::string& input, const std::string& output, co
     InputFiles inputs;
     FileOptions file_options = options.file;
     inputs.watch(file_options);
-    const DrawnScene drawn = readDrawnScene(input, file_options, options.textures);
+    DrawnScene drawn = readDrawnScene(input, file_options, options.textures);
+    std::vector<std::string> height_warnings;
+    if (options.textures && options.show != RenderShow::uv)
+        height_warnings = showHeights(options.method, options.execution, drawn);
     ModelTextures textures(drawn.scene, options.most_pixels);
     const bool compares = options.show == RenderShow::error;
     const FrameChoice choice{.frames = compares ? RenderFrames::stored : options.frames,
@@ -68,6 +72,7 @@ RenderReport renderModel(const std::string& input, const std::string& output, co
         report.without_tangents_count +=
             !drawn.scene.primitives[i].corners.empty() && choice.always && surface.shown.tangents.empty();
     }
+    report.warnings.insert(report.warnings.end(), height_warnings.begin(), height_warnings.end());
     report.warnings.insert(report.warnings.end(), textures.warnings.begin(), textures.warnings.end());
     const std::vector<std::uint8_t> png = encodePicture(picture.image);
     AtomicOutput files(

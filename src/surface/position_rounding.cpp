@@ -2,12 +2,14 @@
 #include "surface/position_rounding.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 
 #include "core/angle.h"
 #include "core/vec_math.h"
+#include "surface/position_lattice.h"
 
 namespace tspace {
 
@@ -57,11 +59,26 @@ struct Axis {
     }
 };
 
+PositionRounding roundingBy(const std::array<double, 3>& steps, const Axis (&axes)[3]) {
+    constexpr double kManySteps = 1 << 16;
+    PositionRounding rounding;
+    double width = 0, squares = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Axis& axis = axes[i];
+        rounding.step = std::max(rounding.step, steps[i]);
+        rounding.far = std::max(rounding.far, axis.high >= axis.low ? axis.far() : 0);
+        if (axis.high >= axis.low) width = std::max(width, double{axis.high} - axis.low);
+        squares += 0.25 * steps[i] * steps[i];
+    }
+    if (width >= kManySteps * rounding.step) return {.far = rounding.far};
+    rounding.error = std::sqrt(squares);
+    return rounding;
+}
+
 }  // namespace
 
-PositionRounding roundingOf(StridedSpan<const Vec3> positions,
+PositionRounding roundingOf(StridedSpan<const Vec3> positions, StridedSpan<const Vec2> uvs,
                             std::span<const std::span<const std::uint32_t>> corner_lists, double stored_step) {
-    constexpr double kManySteps = 1 << 16;
     Axis axes[3];
     for (std::size_t v = 0; v < positions.count; ++v) {
         const Vec3 p = positions[v];
@@ -77,18 +94,17 @@ PositionRounding roundingOf(StridedSpan<const Vec3> positions,
             axes[2].addTriangle(a.z, b.z, c.z);
         }
     }
-    PositionRounding rounding;
-    double width = 0, squares = 0;
-    for (const Axis& axis : axes) {
-        const double step = std::max(axis.step(), stored_step);
-        rounding.step = std::max(rounding.step, step);
-        rounding.far = std::max(rounding.far, axis.high >= axis.low ? axis.far() : 0);
-        if (axis.high >= axis.low) width = std::max(width, double{axis.high} - axis.low);
-        squares += 0.25 * step * step;
-    }
-    if (width >= kManySteps * rounding.step) return {.far = rounding.far};
-    rounding.error = std::sqrt(squares);
-    return rounding;
+    std::array<double, 3> steps;
+    for (std::size_t i = 0; i < 3; ++i) steps[i] = std::max(axes[i].step(), stored_step);
+    const PositionRounding stored = roundingBy(steps, axes);
+    if (stored_step > 0 || uvs.count == 0) return stored;
+    for (std::size_t i = 0; i < 3; ++i) steps[i] = std::max(steps[i], latticeStep(positions, i));
+    PositionRounding before = roundingBy(steps, axes);
+    before.was_before = true;
+    const std::array<bool, 3> may_be_raster{axes[0].isRaster(), axes[1].isRaster(), axes[2].isRaster()};
+    const bool was_rounded =
+        before.error > stored.error && scattersByRounding(positions, uvs, corner_lists, before.error, may_be_raster);
+    return was_rounded ? before : stored;
 }
 
 TurnedTriangles turnedBy(const PositionRounding& rounding, StridedSpan<const Vec3> positions,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How far stored positions are from those that were meant: floats far from the origin have coarse steps.
+// How far stored positions are from those that were meant: floats far from the origin have coarse steps, and positions may
+// have been rounded to decimals before.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +12,17 @@
 namespace tspace {
 
 struct PositionRounding {
-    double step = 0;   ///< between neighbouring numbers, along the coarsest axis; 0: nothing to speak of
-    double error = 0;  ///< the farthest that a position can be from the one that was rounded to it
-    double far = 0;    ///< the largest coordinate
+    double step = 0;          ///< between neighbouring numbers, along the coarsest axis; 0: nothing to speak of
+    double error = 0;         ///< the farthest that a position can be from the one that was rounded to it
+    double far = 0;           ///< the largest coordinate
+    bool was_before = false;  ///< they had been rounded before they were stored as floats
 };
 
 /// `stored_step`: of a format with whole numbers, in units of the positions; 0 for floats. Their steps are those of the
-/// largest coordinates, or coarser where all positions lie on multiples; none along axes of a raster. `corner_lists`: three
-/// per triangle, for each mesh over these positions. Nothing where the mesh is 2^16 steps wide or
-/// more. Linear.
-PositionRounding roundingOf(StridedSpan<const Vec3> positions,
+/// largest coordinates, or coarser where all positions lie on multiples; none along axes of a raster. Near the origin
+/// positions that lie on multiples were rounded only where the UVs say so (empty: nothing does). `corner_lists`: three
+/// per triangle, for each mesh over these positions. Nothing where the mesh is 2^16 steps wide or more.
+PositionRounding roundingOf(StridedSpan<const Vec3> positions, StridedSpan<const Vec2> uvs,
                             std::span<const std::span<const std::uint32_t>> corner_lists, double stored_step = 0);
 
 /// Triangles that rounding turns.

@@ -65,7 +65,7 @@ SurfaceFrame describeFace(const std::array<Vec3, 3>& positions, const std::array
 Surface describeSurface(const TangentView& mesh) {
     Surface surface;
     const std::span<const std::uint32_t> corners = mesh.corners;
-    surface.rounding = roundingOf(mesh.positions, {&corners, 1}, mesh.position_step);
+    surface.rounding = roundingOf(mesh.positions, mesh.uvs, {&corners, 1}, mesh.position_step);
     const double off = surface.rounding.error;
     surface.faces.reserve(mesh.corners.size() / 3);
     surface.vertex_areas.assign(mesh.positions.size(), 0.0);

@@ -114,6 +114,7 @@ TEST(Repair, ReplacesTangentsThatAreSharedAcrossAMirroredSeam) {
     const Outcome outcome = run(builder, kRepair);
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::replaced);
     EXPECT_EQ(outcome.report.primitives.at(0).vertices_after, 56u) << "the seam is split now";
+    EXPECT_EQ(outcome.report.primitives.at(0).mended_vertex_count, 7u) << "no other vertex got another tangent";
 }
 
 /// At vertices of a fold nearly any direction could be meant. Around them all are wrong, so they are too, and what is

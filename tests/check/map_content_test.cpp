@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
+#include <string>
+#include <utility>
 
 #include "check/map_content.h"
 #include "core/unit.h"
@@ -89,6 +92,24 @@ TEST(MapContent, TellsTwoChannels) {
 TEST(MapContent, TellsZFromZeroToOne) {
     const RgbImage map = changed(sound(), [](std::uint8_t* texel) { texel[2] = byteOf(texel[2] / 127.5 - 1); });
     EXPECT_EQ(lookAt(map).content, MapContent::unsignedZ);
+}
+
+TEST(MapContent, TellsZFromZeroToOneInJpeg) {
+    const RgbImage map = changed(sound(), [](std::uint8_t* texel) { texel[2] = byteOf(texel[2] / 127.5 - 1); });
+    for (const int quality : {70, 85, 95}) {
+        std::string why;
+        const std::string file = jpegFile(map, quality);
+        EXPECT_EQ(lookAt(*decodeImage(bytesOf(file), 1 << 20, why)).content, MapContent::unsignedZ) << quality;
+    }
+}
+
+TEST(MapContent, TellsTwoChannelsThatLeanToOneSide) {
+    const RgbImage leaning = normalMapOf(128, [](double x, double y) { return 2 * bumps(x, y) + 0.4 * x; });
+    EXPECT_EQ(lookAt(leaning).content, MapContent::normals);
+    for (const int blue : {0, 128, 255}) {
+        const RgbImage map = changed(leaning, [&](std::uint8_t* texel) { texel[2] = static_cast<std::uint8_t>(blue); });
+        EXPECT_EQ(lookAt(map).content, MapContent::twoChannels) << blue;
+    }
 }
 
 TEST(MapContent, TellsXInAlphaFromHeightsWithAMask) {
@@ -229,6 +250,135 @@ TEST(MapContent, IsInObjectSpaceOnlyWhereItFollowsTheMesh) {
     // Green and blue exchanged, on hills that face y as the vectors do.
     const auto weak = [](double u, double v) { return DVec3{0.07 * std::sin(40 * u), 0.995, 0.07 * std::sin(37 * v)}; };
     EXPECT_EQ(lookAt(shownBy(turned, weak)).content, MapContent::exchanged);
+}
+
+/// Terrain that leans by 20 degrees at most, and relief on it by over 40, which hides it from single texels.
+TEST(MapContent, IsInObjectSpaceUnderStrongReliefToo) {
+    const auto leaning = [](double x, double y) {
+        const double size = std::sqrt(x * x + y * y + 1);
+        return DVec3{x / size, y / size, 1 / size};
+    };
+    const auto mesh = [](double u, double v) {
+        return std::pair{0.3 * std::cos(2.5 * u + 1), 0.3 * std::cos(3 * v + u)};
+    };
+    const auto relief = [](double u, double v) {
+        return std::pair{0.9 * std::cos(41 * u + 9 * v), 0.9 * std::sin(37 * v - 7 * u)};
+    };
+    const auto of_mesh = [&](double u, double v) {
+        const auto [x, y] = mesh(u, v);
+        return leaning(x, y);
+    };
+    const auto on_mesh = [&](double u, double v) {
+        const auto [x, y] = mesh(u, v);
+        const auto [a, b] = relief(u, v);
+        return leaning(x + a, y + b);
+    };
+    const auto in_tangent_space = [&](double u, double v) {
+        const auto [a, b] = relief(u, v);
+        return leaning(a, b);
+    };
+    const auto turned = [](const auto& of) {
+        return [of](double u, double v) {
+            const DVec3 n = of(u, v);
+            return DVec3{n.x, n.z, -n.y};
+        };
+    };
+    EXPECT_EQ(lookAt(shownBy(of_mesh, on_mesh)).content, MapContent::objectSpace) << "faces z";
+    EXPECT_EQ(lookAt(shownBy(turned(of_mesh), turned(on_mesh))).content, MapContent::objectSpace) << "faces y";
+    EXPECT_EQ(lookAt(shownBy(of_mesh, in_tangent_space)).content, MapContent::normals);
+    EXPECT_EQ(lookAt(shownBy(turned(of_mesh), in_tangent_space)).content, MapContent::normals);
+    EXPECT_EQ(lookAt(shownBy(turned(of_mesh), turned(in_tangent_space))).content, MapContent::exchanged);
+}
+
+/// colorOf(u, v, random) gives red, green and blue from 0 to 1.
+template <class ColorOf>
+RgbImage painted(const ColorOf& colorOf) {
+    RgbImage image{64, 64, {}};
+    std::mt19937 random(7);
+    for (int i = 0; i < 64 * 64; ++i) {
+        const DVec3 color = colorOf(i % 64 / 64.0, i / 64 / 64.0, random);
+        for (const double part : {color.x, color.y, color.z}) image.rgb.push_back(byteOf(part));
+    }
+    return image;
+}
+
+double lightAt(double u, double v) { return 0.5 + 0.4 * std::sin(13 * u) * std::cos(10 * v); }
+
+RgbImage tinted(const DVec3& tint, double least = 0, double most = 1) {
+    return painted([&](double u, double v, std::mt19937&) { return (least + (most - least) * lightAt(u, v)) * tint; });
+}
+
+void isPicture(const RgbImage& image, const char* what) {
+    EXPECT_EQ(static_cast<int>(lookAt(image).content), static_cast<int>(MapContent::picture)) << what;
+    std::string why;
+    const std::string file = jpegFile(image, 85);
+    const RgbImage jpeg = *decodeImage(bytesOf(file), 1 << 20, why);
+    EXPECT_EQ(static_cast<int>(lookAt(jpeg).content), static_cast<int>(MapContent::picture)) << what << " as JPEG";
+}
+
+TEST(MapContent, TellsPictures) {
+    isPicture(tinted({1, 0.8, 0.6}), "wood");
+    isPicture(tinted({1, 0.6, 0.3}), "orange");
+    isPicture(tinted({0.3, 0.8, 0.4}), "leaves");
+    isPicture(tinted({0.35, 0.5, 1}), "sky");
+    isPicture(tinted({1, 0.9, 0.75}, 0.74, 0.98), "plaster, whose texels are unit vectors");
+    isPicture(tinted({1, 0.85, 0.7}, 0.16, 0.3), "dark earth, whose texels are unit vectors");
+    const auto noise = [](double, double, std::mt19937& random) {
+        std::uniform_real_distribution<double> part;
+        return DVec3{part(random), part(random), part(random)};
+    };
+    isPicture(painted(noise), "noise");
+    isPicture(painted([&](double u, double v, std::mt19937& random) {
+                  return DVec3{0.35, 0.35, 0.35} + 0.3 * noise(u, v, random);
+              }),
+              "weak noise");
+    isPicture(painted([](double u, double v, std::mt19937&) {
+                  return DVec3{1 - 0.3 * lightAt(u, v), 0.4 + 0.5 * lightAt(v, u), u + v > 1 ? 1.0 : 0.0};
+              }),
+              "occlusion, roughness, metal");
+    isPicture(painted([](double u, double v, std::mt19937&) {
+                  return DVec3{1, 0.5 + 0.4 * lightAt(u, v), 0};
+              }),
+              "roughness alone");
+    isPicture(painted([&](double u, double v, std::mt19937&) {
+                  const int tile = static_cast<int>(4 * u) + 4 * static_cast<int>(4 * v);
+                  return DVec3{tile % 3 / 2.0, tile % 5 / 4.0, tile % 7 / 6.0};
+              }),
+              "tiles");
+}
+
+TEST(MapContent, TellsHeightsWithATint) {
+    for (const double tint : {0.99, 0.96, 0.92}) {
+        const RgbImage map = tinted({1, (1 + tint) / 2, tint});
+        EXPECT_EQ(lookAt(map).content, MapContent::height) << tint;
+        std::string why;
+        const std::string file = jpegFile(map, 85);
+        EXPECT_EQ(lookAt(*decodeImage(bytesOf(file), 1 << 20, why)).content, MapContent::height) << tint;
+    }
+}
+
+/// Sound maps, and those that have findings of their own.
+TEST(MapContent, IsNoPictureWhereItMayBeVectors) {
+    for (const TexelBytes& color :
+         {TexelBytes{0, 0, 255, 255}, TexelBytes{128, 128, 255, 255}, TexelBytes{200, 90, 10, 255}}) {
+        const RgbImage one{1, 1, {color[0], color[1], color[2]}};
+        EXPECT_EQ(lookAt(one).content, MapContent::normals) << "an image of one color says nothing";
+    }
+    int n = 0;
+    const RgbImage half_black = changed(sound(), [&n](std::uint8_t* texel) {
+        if (n++ % 4 != 0) texel[0] = texel[1] = texel[2] = 0;
+    });
+    EXPECT_EQ(lookAt(half_black).content, MapContent::normals) << "most was never baked";
+    for (const double size : {0.3, 0.6}) {
+        const RgbImage map = changed(sound(), [&](std::uint8_t* texel) {
+            for (int k = 0; k < 3; ++k) texel[k] = byteOf(0.5 + size * (texel[k] / 255.0 - 0.5));
+        });
+        EXPECT_EQ(lookAt(map).content, MapContent::normals) << "vectors that are short, by " << size;
+    }
+    const RgbImage strong = changed(sound(), [](std::uint8_t* texel) {
+        for (int k = 0; k < 2; ++k) texel[k] = byteOf(0.5 + 3 * (texel[k] / 255.0 - 0.5));
+    });
+    EXPECT_EQ(lookAt(strong).content, MapContent::normals) << "x and y are strengthened, and z is not";
 }
 
 TEST(MapContent, IsInWorldSpaceWhereANodeTurnsTheNormals) {

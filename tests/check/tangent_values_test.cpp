@@ -124,6 +124,60 @@ TEST(Check, BlamesRoundedPositionsAndNotTheTangents) {
         << "values are no matter of rounding";
 }
 
+ScenePrimitive roundedPatch(double step) {
+    ScenePrimitive patch = goodPatch();
+    edit(patch.positions, [&](auto& positions) {
+        for (Vec3& p : positions) {
+            const auto rounded = [&](float value) {
+                return static_cast<float>(std::round(double{value} / step) * step);
+            };
+            p = {rounded(p.x), rounded(p.y), rounded(p.z)};
+        }
+    });
+    return patch;
+}
+
+/// To decimals, to a binary fraction, and to fractions of some box; edges are half a step to three steps long.
+TEST(Check, BlamesPositionsThatWereRoundedNearTheOrigin) {
+    for (const double step : {0.1, 0.125, 0.2, 0.25, 0.3, 7.0 / 65535 * 2000}) {
+        EXPECT_EQ(codesOf(roundedPatch(step)), Codes{"warning positionsRounded"}) << step;
+        ScenePrimitive wrong = roundedPatch(step);
+        edit(wrong.tangents, [](auto& tangents) { tangents[40] = {0, 0, 0, 1}; });
+        EXPECT_EQ(codesOf(wrong), (Codes{"error tangentsNotUnit", "warning positionsRounded"})) << step;
+    }
+    EXPECT_EQ(codesOf(roundedPatch(0.001)), Codes{}) << "fine enough";
+    ScenePrimitive bare = roundedPatch(0.2);
+    bare.tangents = {};
+    bare.uses.clear();
+    EXPECT_EQ(codesOf(bare).count("warning positionsRounded"), 0u) << "no tangents, and none are needed";
+}
+
+/// Built on a grid, and not rounded to it: its triangles go with its UVs, and wrong tangents are wrong.
+TEST(Check, TakesModelsBuiltOnAGridForExact) {
+    for (const float step : {1.0F, 0.1F}) {
+        ScenePrimitive grid = goodPatch();
+        edit(grid.positions, [&](auto& positions) {
+            for (std::size_t v = 0; v < positions.size(); ++v) {
+                const std::size_t half = v / kHalf, row = v % kHalf / kSide, column = v % kSide + half * (kSide - 1);
+                // A slope that rises by as much as it goes, along v.
+                positions[v] = {step * static_cast<float>(column), step * static_cast<float>(row),
+                                -step * static_cast<float>(row)};
+            }
+        });
+        edit(grid.normals, [](auto& normals) {
+            for (Vec3& n : normals) n = {0, 0.70710678F, 0.70710678F};
+        });
+        edit(grid.tangents, [](auto& tangents) {
+            for (Vec4& t : tangents) t = {1, 0, 0, t.w};
+        });
+        EXPECT_EQ(codesOf(grid), Codes{}) << step;
+        edit(grid.tangents, [](auto& tangents) {
+            for (Vec4& t : tangents) t = {0, 0.70710678F, -0.70710678F, t.w};
+        });
+        EXPECT_EQ(codesOf(grid), Codes{"error directionsWrong"}) << step;
+    }
+}
+
 /// Terrain in steps of a metre, in metres of a map.
 TEST(Check, TakesRastersFarFromTheOriginForExact) {
     ScenePrimitive terrain = goodPatch();

@@ -246,6 +246,31 @@ TEST(Sanitize, GivesAUnitTangentWhereTheNormalIsBroken) {
     expectMended(scene.tangents[5], scene.normals[3]);
 }
 
+/// A vertex whose N is no direction needs one tangent, and no copies.
+TEST(Sanitize, GivesOneTangentToAVertexWhoseNormalIsBroken) {
+    for (const Vec3& normal : {Vec3{}, Vec3{kNan, kNan, kNan}}) {
+        Scene scene = twoTriangles();
+        scene.normals[1] = normal;
+        scene.tangents = {{1, 0, 0, 1}, {kNan, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}, {kNan, 0, 0, 1}, {0, 1, 0, 1}};
+        EXPECT_EQ(scene.sanitize().from_neighbor_count, 2u);
+        EXPECT_TRUE(sameBits(scene.tangents[1], {1, 0, 0, 1}));
+        EXPECT_TRUE(sameBits(scene.tangents[4], {1, 0, 0, 1}));
+        // Faces with other signs keep them.
+        scene.tangents = {{1, 0, 0, 1}, {kNan, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, -1}, {kNan, 0, 0, 1}, {0, 1, 0, -1}};
+        scene.sanitize();
+        EXPECT_TRUE(sameBits(scene.tangents[1], {1, 0, 0, 1}));
+        EXPECT_TRUE(sameBits(scene.tangents[4], {0, 1, 0, -1}));
+    }
+}
+
+TEST(Sanitize, AsksNoCornerWithoutANormalForTheSignOfAFace) {
+    Scene scene = twoTriangles();
+    scene.normals[1] = scene.normals[2] = {};
+    scene.tangents[0].w = scene.tangents[5].w = -1;
+    scene.sanitize();
+    for (const Vec4& tangent : scene.tangents) EXPECT_EQ(tangent.w, -1);
+}
+
 TEST(Sanitize, LeavesFacesWithFewerThanThreeCornersAlone) {
     Scene scene = twoTriangles();
     scene.face_sizes = {2, 1, 3};

@@ -45,6 +45,26 @@ TEST(Identify, FindsBestWithAnyNumberOfSteps) {
     }
 }
 
+/// Stored as whole numbers, what a method's floats are off by is nothing.
+TEST(Identify, NamesAllMethodsThatFitTangentsOfEightBits) {
+    const TempFolder folder;
+    ModelData data = bentSheet(6);
+    for (std::size_t v = 0; v < data.positions.size(); ++v) {
+        data.positions[v].z = 0;
+        data.uvs[v] = {data.positions[v].x, data.positions[v].y};
+    }
+    data.normals.assign(data.positions.size(), {0, 0, 1});
+    const std::string input = writeModel(folder, "plane.glb", {data}), output = folder.path("best.glb").string();
+    GenerateOptions options;
+    options.all = true;
+    options.format = VectorFormat::snorm8;
+    options.tangents.method = Method::best;
+    ASSERT_TRUE(generateFile(input, output, options));
+    const Result<Identification> result = identifyFile(output);
+    ASSERT_TRUE(result);
+    EXPECT_NE(result->verdict.find("best"), std::string::npos) << result->verdict;
+}
+
 TEST(Identify, TellsTheSignsOfGltfFromInvertedOnes) {
     const ModelData right = withTangents(bentSheet(4), Method::mikktspace, -1);
     const ModelData inverted = withTangents(bentSheet(4), Method::mikktspace, 1);

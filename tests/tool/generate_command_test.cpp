@@ -66,6 +66,34 @@ TEST(Generate, PacksFramesOfObjFilesToo) {
     EXPECT_EQ(alone.find("TANGENT"), std::string::npos) << alone;
 }
 
+TEST(Generate, SaysThatTangentsOfTheMethodBasisFollowNoUvs) {
+    const TempFolder folder;
+    writeFoldedObj(folder, "folded.obj");
+    EXPECT_NE(runTool(folder, "generate folded.obj -o basis.glb --method basis").out.find("follow no UVs"),
+              std::string::npos);
+    EXPECT_EQ(runTool(folder, "generate folded.obj -o plain.glb").out.find("follow no UVs"), std::string::npos);
+}
+
+TEST(Generate, SaysWhichOptionsHaveNoEffect) {
+    const TempFolder folder;
+    folder.write("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\n");
+    ASSERT_EQ(runTool(folder, "generate -q --all bare.obj -o has.glb").exit_code, 0);
+    for (const char* option :
+         {"--no-sanitize", "--orthogonalize", "--format snorm8", "--refine 2", "--mend-maps", "--flip-green"}) {
+        const std::string name = std::string(option).substr(0, std::string(option).find(' '));
+        const ToolRun run = runTool(folder, "generate --all has.glb -o out.glb " + std::string(option));
+        EXPECT_NE(run.out.find(name + " has no effect: "), std::string::npos) << option << run.out << run.err;
+    }
+    EXPECT_NE(runTool(folder, "generate --all bare.obj -o out.glb --refine 2").out.find("it is for --method best"),
+              std::string::npos);
+    EXPECT_NE(runTool(folder, "generate bare.obj -o out.glb --strip").out.find("--strip has no effect"),
+              std::string::npos);
+    EXPECT_EQ(
+        runTool(folder, "generate --all bare.obj -o out.glb --method best --refine 2 --format snorm8 --no-sanitize")
+            .out.find("no effect"),
+        std::string::npos);
+}
+
 TEST(Generate, PackDropNeedsPack) {
     const TempFolder folder;
     writeFoldedObj(folder, "a.obj");

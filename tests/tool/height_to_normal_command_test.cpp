@@ -139,5 +139,45 @@ TEST(HeightToNormalCommand, GenerateConvertsMapBumpOfObj) {
     EXPECT_NE(folder.read("own.glb").find(R"("uri":"height.png")"), std::string::npos);
 }
 
+/// Heights with a tint are heights, and a picture in colors is neither.
+TEST(HeightToNormalCommand, TakesMapBumpForHeightsOnlyWhereItIsGrey) {
+    const TempFolder folder;
+    writeWall(folder);
+    const auto write = [&](double green, double blue) {
+        RgbImage image{64, 64, {}};
+        for (int i = 0; i < 64 * 64; ++i) {
+            const double light = 255 * hill((i % 64 + .5) / 64, 1 - (i / 64 + .5) / 64);
+            for (const double tint : {1.0, green, blue}) image.rgb.push_back(static_cast<std::uint8_t>(tint * light));
+        }
+        folder.write("height.png", pngFile(image));
+    };
+    write(0.96, 0.92);
+    const ToolRun tinted = runTool(folder, "generate --json wall.obj -o tinted.glb");
+    EXPECT_NE(tinted.out.find("it held heights"), std::string::npos) << tinted.out;
+    write(0.7, 0.4);
+    const ToolRun check = runTool(folder, "check wall.obj");
+    EXPECT_NE(check.out.find("normalMapIsPicture"), std::string::npos) << check.out;
+    const ToolRun picture = runTool(folder, "generate wall.obj -o picture.glb");
+    EXPECT_NE(picture.out.find("it is a picture in colors"), std::string::npos) << picture.out;
+}
+
+/// The picture of the OBJ is that of the GLB that generate makes of it.
+TEST(HeightToNormalCommand, RenderShowsHeightsAsGenerateConvertsThem) {
+    const TempFolder folder;
+    writeHeights(folder, 8);
+    writeWall(folder);
+    ASSERT_EQ(runTool(folder, "generate -q wall.obj -o wall.glb").exit_code, 0);
+    for (const char* model : {"wall.obj", "wall.glb"}) {
+        const std::string output = std::string(model) + ".png";
+        const ToolRun run =
+            runTool(folder, "render " + std::string(model) + " -o " + output + " --show mapped --size 64");
+        ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+    }
+    EXPECT_EQ(folder.read("wall.obj.png"), folder.read("wall.glb.png"));
+    folder.write("wall.mtl", "newmtl a\nmap_bump -bm 0 height.png\n");
+    ASSERT_EQ(runTool(folder, "render wall.obj -o flat.png --show mapped --size 64").exit_code, 0);
+    EXPECT_NE(folder.read("wall.obj.png"), folder.read("flat.png"));
+}
+
 }  // namespace
 }  // namespace tspace::test

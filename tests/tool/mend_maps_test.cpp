@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "maps/float_image.h"
 #include "maps/images.h"
@@ -141,6 +142,34 @@ TEST(MendMaps, WhatCheckNamesMendsTheModelAndTheImage) {
         writeSquare(folder, "OUT");
         EXPECT_EQ(findingsOf(folder, "OUT.gltf"), Json::array()) << kind.code;
     }
+}
+
+/// Round bumps curve along x and along y apart, so that only one of the two can be x.
+TEST(MendMaps, MendsRedAndGreenThatWereExchanged) {
+    const auto bumps_apart = [](double x, double y) {
+        double h = 0;
+        for (int i = 0; i < 36; ++i) {
+            const double u = x - (i % 6 + 0.5 + 0.3 * std::sin(7.0 * i)) / 6,
+                         v = y - (i / 6 + 0.5 + 0.3 * std::cos(5.0 * i)) / 6;
+            h += 0.02 * std::exp(-(u * u + v * v) * 400);
+        }
+        return h;
+    };
+    const TempFolder folder;
+    const FloatImage right = floatsOf(normalMapOf(256, bumps_apart));
+    FloatImage wrong = right;
+    writeImage(folder, "map.png", right);
+    writeSquare(folder, "map");
+    EXPECT_EQ(findingsOf(folder, "map.gltf"), Json::array());
+    for (Vec3& texel : wrong.texels) std::swap(texel.x, texel.y);
+    writeImage(folder, "map.png", wrong);
+    const Json found = findingsOf(folder, "map.gltf");
+    ASSERT_EQ(found.size(), 1U) << found.dump(1);
+    EXPECT_EQ(found[0]["code"], "normalMapChannels");
+    EXPECT_TRUE(found[0]["remedy"].get<std::string>().ends_with("--channels grb")) << found[0]["remedy"];
+    ASSERT_EQ(runTool(folder, "generate --mend-maps map.gltf -o mended.gltf").exit_code, 0);
+    EXPECT_EQ(findingsOf(folder, "mended.gltf"), Json::array());
+    EXPECT_LT(meanError(imageIn(folder, "map-mended.png"), right), 1);
 }
 
 TEST(MendMaps, OneCommandMendsChannelsAndGreen) {

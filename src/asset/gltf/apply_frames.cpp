@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "asset/gltf/primitive_notes.h"
 #include "asset/gltf/set_attribute.h"
 
 namespace tspace::gltf {
@@ -184,6 +185,11 @@ void applyFrames(Editor& editor, const Document& document, std::span<const Primi
             report.action = !pool.has_tangents ? PrimitiveAction::generated
                             : changed          ? PrimitiveAction::replaced
                                                : PrimitiveAction::unchanged;
+        }
+        for (std::string& wrong : report.notes) {
+            if (!pool.mendsTangents() || wrong.rfind(kWrongNote, 0) != 0) continue;
+            wrong += "; mended at " + std::to_string(report.mended_vertex_count) + " of " +
+                     std::to_string(report.vertices_before) + " vertices";
         }
         report.vertices_after = elements.vertex_count;
         report.normals_generated = elements.normals_generated;

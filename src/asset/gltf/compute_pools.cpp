@@ -63,6 +63,7 @@ void copyReport(const PrimitiveReport& computed, bool keeps_tangents, PrimitiveR
     report.normals = computed.normals;
     report.tangents = computed.tangents;
     report.sanitize = computed.sanitize;
+    report.mended_vertex_count = computed.mended_vertex_count;
     report.faces = computed.faces;
     report.quad_count = computed.quad_count;
 }
@@ -99,7 +100,7 @@ std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGe
     constexpr double kLimit = 10;
     std::vector<std::span<const std::uint32_t>> corner_lists;
     for (const PrimitiveGeometry& geometry : geometries) corner_lists.emplace_back(geometry.indices);
-    const PositionRounding rounding = roundingOf(vertices.positions, corner_lists);
+    const PositionRounding rounding = roundingOf(vertices.positions, vertices.uvs, corner_lists);
     if (rounding.error == 0) return {};
     for (const PrimitiveGeometry& geometry : geometries) {
         const TurnedTriangles turned = turnedBy(rounding, vertices.positions, geometry.indices, kLimit);
@@ -107,9 +108,14 @@ std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGe
         return std::string(!vertices.normals.empty() ? "tangents"
                            : vertices.makes_tangents ? "normals and tangents"
                                                      : "normals") +
-               " were made over positions that are rounded too coarsely for it: at their distance from the origin "
-               "floats are so far apart that triangles may be turned by over 10 degrees. Store positions relative to a "
-               "point near the mesh, and put that point into the node";
+               " were made over positions that are rounded too coarsely for it: " +
+               (rounding.was_before
+                    ? "their steps are so wide that triangles may be turned by over 10 degrees. Take the model as it "
+                      "was "
+                      "before it was rounded, or keep the tangents and normals that were made then"
+                    : "at their distance from the origin floats are so far apart that triangles may be turned by over "
+                      "10 "
+                      "degrees. Store positions relative to a point near the mesh, and put that point into the node");
     }
     return {};
 }

@@ -26,6 +26,8 @@ std::set<std::string> animatedPointers(const Document& document);
 /// animated transforms. `computed`: also about the transform that the new tangents follow, or do not.
 /// The note on the transform that computed tangents follow begins so.
 inline constexpr const char* kTransformNote = "KHR_texture_transform ";
+/// How the note on tangents that a repair mends begins.
+inline constexpr const char* kWrongNote = "its tangents were wrong: ";
 
 std::vector<std::string> notesOf(const std::vector<TangentUse>& uses, const std::set<std::string>& animated,
                                  TextureTransform reading, bool computed);

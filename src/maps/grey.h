@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Whether an image is grey, whatever its texels are stored as.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace tspace {
+
+/// Correlations of red with green, green with blue, and blue with red; 0 where one of them is constant.
+template <class TexelAt>
+std::array<double, 3> channelCorrelations(std::size_t count, const TexelAt& texelAt) {
+    constexpr double kConstant = 2.5;  // root of the mean square, of 255: compression adds as much
+    std::array<double, 3> sum = {}, squares = {}, products = {};
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::array<double, 3> texel = texelAt(i);
+        for (std::size_t k = 0; k < 3; ++k) {
+            sum[k] += texel[k];
+            squares[k] += texel[k] * texel[k];
+            products[k] += texel[k] * texel[(k + 1) % 3];
+        }
+    }
+    const auto total = static_cast<double>(count);
+    const auto variance = [&](std::size_t k) { return squares[k] / total - sum[k] / total * (sum[k] / total); };
+    std::array<double, 3> correlations = {};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t next = (k + 1) % 3;
+        if (!(variance(k) > kConstant * kConstant) || !(variance(next) > kConstant * kConstant)) continue;
+        correlations[k] =
+            (products[k] / total - sum[k] / total * (sum[next] / total)) / std::sqrt(variance(k) * variance(next));
+    }
+    return correlations;
+}
+
+/// Whether 98 % of the texels have equal channels but for what compressing adds; or a weak tint, where the channels go
+/// together besides. Two channels of a normal map beside a constant one do not. `texelAt(i)`: of 255.
+template <class TexelAt>
+bool isGrey(std::size_t count, const TexelAt& texelAt) {
+    constexpr double kApart = 4.5, kTintApart = 6.5, kMostTint = 0.1, kMost = 0.98, kLeastCorrelation = 0.95;
+    std::size_t grey = 0, tinted = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::array<double, 3> texel = texelAt(i);
+        const double most = std::max({texel[0], texel[1], texel[2]});
+        const double apart = most - std::min({texel[0], texel[1], texel[2]});
+        grey += apart <= kApart;
+        tinted += apart <= kTintApart + kMostTint * most;
+    }
+    const double enough = kMost * static_cast<double>(count);
+    if (static_cast<double>(grey) > enough) return true;
+    if (!(static_cast<double>(tinted) > enough)) return false;
+    const std::array<double, 3> correlations = channelCorrelations(count, texelAt);
+    return *std::min_element(correlations.begin(), correlations.end()) >= kLeastCorrelation;
+}
+
+}  // namespace tspace
