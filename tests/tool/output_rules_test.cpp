@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// What outputs of a run are to each other and to what the models name; names that are too long or no UTF-8; reports that
+// cannot be written; dry runs.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "asset/temporary_name.h"
+#include "tool/run_tool.h"
+
+namespace tspace::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::map<std::string, std::string> contentsOf(const TempFolder& folder) {
+    std::map<std::string, std::string> contents;
+    for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
+        const std::string name = entry.path().lexically_relative(folder.path()).string();
+        contents[name] = entry.is_regular_file() ? folder.read(name) : std::string();
+    }
+    return contents;
+}
+
+/// A triangle whose buffer, and normal map where there is one, are files.
+std::string triangle(const std::string& buffer, const std::string& image = "") {
+    const std::string material =
+        image.empty() ? ""
+                      : R"("images":[{"uri":")" + image +
+                            R"("}],"textures":[{"source":0}],"materials":[{"normalTexture":{"index":0}}],)";
+    return R"({"asset":{"version":"2.0"},)" + material + R"("buffers":[{"byteLength":60,"uri":")" + buffer +
+           R"("}],"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":24}],"accessors":[
+        {"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[3,3,0]},
+        {"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"}],"meshes":[{"primitives":[{"attributes":{
+        "POSITION":0,"TEXCOORD_0":1})" +
+           (image.empty() ? "" : R"(,"material":0)") +
+           R"(}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0})";
+}
+
+/// 0 0 0, x 0 0, 0 x 0 and UVs, with x = 2.5 for '\x40'.
+std::string triangleBytes(char byte = '\x40') {
+    std::string buffer(60, '\0');
+    buffer[15] = buffer[31] = byte;
+    buffer[14] = buffer[30] = '\x20';
+    buffer[47] = buffer[59] = '\x3f';
+    return buffer;
+}
+
+TEST(LongNames, InAModelAreBadInput) {
+    const TempFolder folder;
+    writeBumpMap(folder);
+    folder.write("a.bin", triangleBytes());
+    std::string deep, dots;
+    for (int i = 0; i < 30; ++i) deep += std::string(200, 'b') + "/";
+    for (int i = 0; i < 3000; ++i) dots += "./";
+    for (const auto& [buffer, image, place] :
+         {std::tuple(std::string(300, 'n') + ".bin", std::string("bump.png"), "/buffers/0/uri"),
+          {deep + "a.bin", "bump.png", "/buffers/0/uri"},
+          {dots + "a.bin", "bump.png", "/buffers/0/uri"},
+          {"a.bin", std::string(300, 'n') + ".png", "/images/0/uri"},
+          {"a.bin", deep + "bump.png", "/images/0/uri"}}) {
+        folder.write("a.gltf", triangle(buffer, image));
+        const auto before = contentsOf(folder);
+        for (const char* command :
+             {"check a.gltf", "check a.gltf --html a.html --allow-external", "inspect a.gltf", "identify a.gltf",
+              "diff a.gltf a.gltf", "generate a.gltf -o x.glb", "generate a.gltf -o sub/x.gltf",
+              "generate a.gltf -o x.glb --allow-external", "generate a.gltf -o x.glb --dry-run",
+              "generate --in-place a.gltf", "generate a.gltf -o x.glb --repair", "render a.gltf -o a.png",
+              "bake a.gltf --high a.gltf -o n.png", "convert-map bump.png --mesh a.gltf --to object -o n.png",
+              "height-to-normal bump.png --mesh a.gltf -o n.png"}) {
+            const ToolRun run = runTool(folder, std::string(command) + " -q");
+            EXPECT_EQ(run.exit_code, 3) << command << run.err;
+            EXPECT_EQ(run.errorLines(), 1) << command << run.err;
+            EXPECT_LT(run.err.size(), 500U) << command << run.err;
+            EXPECT_NE(run.err.find(place), std::string::npos) << command << run.err;
+            fs::remove(folder.path("a.html"));
+            EXPECT_TRUE(contentsOf(folder) == before) << command;
+        }
+    }
+}
+
+TEST(LongNames, OnTheCommandLineCannotBeReadOrWritten) {
+    const TempFolder folder;
+    writeBumpMap(folder);
+    folder.write("a.bin", triangleBytes());
+    folder.write("a.gltf", triangle("a.bin", "bump.png"));
+    ASSERT_EQ(runTool(folder, "generate a.gltf -q -o a.glb").exit_code, 0);
+    std::string deep;
+    for (int i = 0; i < 30; ++i) deep += std::string(200, 'b') + "/";
+    for (const std::string& name : {std::string(300, 'n'), deep + "n", std::string(300, 'n') + "/n"}) {
+        const auto before = contentsOf(folder);
+        for (const auto& [begin, end] : {std::pair("check ", ".glb"),
+                                         {"inspect ", ".gltf"},
+                                         {"identify ", ".obj"},
+                                         {"diff a.glb ", ".glb"},
+                                         {"diff a.glb a.glb --html ", ""},
+                                         {"check a.glb --html ", ""},
+                                         {"check a.glb --sarif ", ""},
+                                         {"generate -o x.glb ", ".glb"},
+                                         {"generate a.glb -o ", ".glb"},
+                                         {"generate a.glb -o ", ".gltf"},
+                                         {"generate a.glb -o ", "/"},
+                                         {"generate --in-place ", ".glb"},
+                                         {"generate a.glb -o x.glb --manifest ", ""},
+                                         {"generate a.glb -o x.glb --resume --manifest ", ""},
+                                         {"render a.glb -o ", ".png"},
+                                         {"bake -o n.png a.glb --high ", ".glb"},
+                                         {"bake a.glb --high a.glb --size 4 -o ", ".png"},
+                                         {"bake a.glb --high a.glb --size 4 -o n.png --heat ", ".png"},
+                                         {"bake a.glb --high a.glb --size 4 -o n.png --out-mesh ", ".glb"},
+                                         {"convert-map bump.png --to object --mesh a.glb -o ", ".png"},
+                                         {"convert-map --to object --mesh a.glb -o n.png ", ".png"},
+                                         {"flip-green --in-place ", ".png"},
+                                         {"flip-green bump.png -o ", ".png"},
+                                         {"height-to-normal bump.png -o ", ".png"}}) {
+            const std::string command = begin + name + end;
+            const ToolRun run = runTool(folder, command + " -q");
+            EXPECT_EQ(run.exit_code, 4) << begin << end << run.exit_code << run.err;
+            EXPECT_EQ(run.errorLines(), 1) << begin << end << run.err;
+            EXPECT_TRUE(contentsOf(folder) == before) << begin << end;
+        }
+    }
+}
+
+TEST(FilesThatAModelNames, AreInputsAlsoWhereTheyAreNotRead) {
+    const TempFolder folder;
+    writeBumpMap(folder);
+    folder.write("height.png", folder.read("bump.png"));
+    folder.write("named.png", folder.read("bump.png"));
+    folder.write("a.bin", triangleBytes());
+    folder.write("a.gltf", triangle("a.bin", "named.png"));
+    ASSERT_EQ(runTool(folder, "generate a.gltf -q -o b.glb").exit_code, 0);
+    const auto before = contentsOf(folder);
+    for (const char* command :
+         {"convert-map bump.png --mesh a.gltf --to object -o named.png",
+          "convert-map bump.png --mesh b.glb --to-mesh a.gltf -o named.png",
+          "height-to-normal height.png --mesh a.gltf -o named.png", "bake a.gltf --high b.glb --size 4 -o named.png",
+          "bake b.glb --high a.gltf --size 4 -o named.png",
+          "bake b.glb --high a.gltf --size 4 -o n.png --heat named.png",
+          "bake a.gltf --high b.glb --size 4 -o n.png --misses named.png", "render a.gltf -o named.png",
+          "diff a.gltf b.glb --html named.png", "diff b.glb a.gltf --html a.bin", "check a.gltf --html named.png",
+          "check a.gltf --no-images --sarif named.png", "check a.gltf --sarif a.bin",
+          "map-error bump.png a.gltf --high b.glb --heat named.png"}) {
+        const ToolRun run = runTool(folder, command + std::string(" -q"));
+        EXPECT_EQ(run.exit_code, 4) << command << run.exit_code << run.err;
+        EXPECT_NE(run.err.find("it is an input"), std::string::npos) << command << run.err;
+        EXPECT_TRUE(contentsOf(folder) == before) << command;
+    }
+    // What is not there yet can be made: a model may name the map that is to be baked for it.
+    folder.write("c.gltf", triangle("a.bin", "new.png"));
+    EXPECT_EQ(runTool(folder, "bake c.gltf --high b.glb -q --size 4 -o new.png").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace tspace::test
