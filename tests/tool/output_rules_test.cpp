@@ -125,6 +125,166 @@ TEST(LongNames, OnTheCommandLineCannotBeReadOrWritten) {
     }
 }
 
+TEST(NamesThatAreNoUtf8, AreKnownToTheManifest) {
+    const TempFolder folder;
+    const std::string data = triangleBytes();
+    // Two names that look alike once their bytes are replaced, and one that is written as the first is encoded.
+    for (const char* name : {"b\xff", "b\xfe", "b%FF"}) {
+        folder.write(std::string("in/") + name + ".bin", data);
+        std::string uri = name;
+        if (uri == "b\xff")
+            uri = "b%FF";
+        else if (uri == "b\xfe")
+            uri = "b%FE";
+        else
+            uri = "b%25FF";
+        folder.write(std::string("in/") + name + ".gltf", triangle(uri + ".bin"));
+    }
+    ASSERT_EQ(runTool(folder, "generate in -q --all -o out/ --manifest m.jsonl").exit_code, 0);
+    const std::string first = folder.read("m.jsonl");
+    EXPECT_NE(first.find(R"("inputEncoded":"in/b%FF.gltf")"), std::string::npos) << first;
+    ToolRun again = runTool(folder, "generate in --all -o out/ --manifest m.jsonl --resume");
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(folder.read("m.jsonl"), first) << again.out;
+    // The one that changes is done again, and no other.
+    folder.write("in/b\xfe.bin", triangleBytes('\x41'));
+    again = runTool(folder, "generate in -q --all -o out/ --manifest m.jsonl --resume");
+    EXPECT_EQ(again.exit_code, 4) << again.err;  // out/ has the old one
+    fs::remove_all(folder.path("out"));
+    ASSERT_EQ(runTool(folder, "generate in -q --all -o out/ --manifest m.jsonl --resume").exit_code, 0);
+    const std::string second = folder.read("m.jsonl");
+    folder.write("in/b\xff.bin", triangleBytes('\x41'));
+    fs::remove(folder.path("out/b\xff.bin"));
+    ASSERT_EQ(runTool(folder, "generate in -q --all -o out/ --manifest m.jsonl --resume").exit_code, 0);
+    const std::string added = folder.read("m.jsonl").substr(second.size());
+    EXPECT_EQ(std::count(added.begin(), added.end(), '\n'), 1) << added;
+    EXPECT_NE(added.find(R"("inputEncoded":"in/b%FF.gltf")"), std::string::npos) << added;
+}
+
+TEST(Reports, MakeTheFoldersThatAreMissing) {
+    const TempFolder folder;
+    folder.write("a.bin", triangleBytes());
+    folder.write("a.gltf", triangle("a.bin"));
+    ASSERT_EQ(runTool(folder, "generate a.gltf -q --all -o a.glb").exit_code, 0);
+    for (const auto& [command, file] :
+         {std::pair("check a.glb -q --html r/s/a.html", "r/s/a.html"),
+          {"check a.glb -q --sarif r/s/a.sarif", "r/s/a.sarif"},
+          {"diff a.glb a.glb -q --html r/s/d.html", "r/s/d.html"},
+          {"generate a.glb -q -o x.glb --manifest r/s/m.jsonl", "r/s/m.jsonl"},
+          {"bake a.glb --high a.glb -q --size 4 -o n.png --report r/s/b.json", "r/s/b.json"},
+          {"bake a.glb --high a.glb -q --size 4 -o n.png --heat r/s/h.png", "r/s/h.png"}}) {
+        const ToolRun run = runTool(folder, command);
+        EXPECT_EQ(run.exit_code, 0) << command << run.err;
+        EXPECT_FALSE(folder.read(file).empty()) << command;
+        fs::remove_all(folder.path("r"));
+    }
+}
+
+TEST(Reports, ThatCannotBeWrittenCostNothingElse) {
+    const TempFolder folder;
+    folder.write("a.bin", triangleBytes());
+    folder.write("a.gltf", triangle("a.bin"));
+    folder.write("file", "");
+    ASSERT_EQ(runTool(folder, "generate a.gltf -q --all -o a.glb").exit_code, 0);
+    // A folder that cannot be made stands for all that can go wrong.
+    const std::string bake = "bake a.glb --high a.glb -q --size 4 ";
+    struct Case {
+        std::string command;
+        std::set<std::string> made;
+        bool report_has_failure = false;
+    };
+    for (const Case& one :
+         {Case{bake + "-o n.png --report file/r", {"n.png"}},
+          Case{bake + "-o n.png --out-mesh m.glb --report file/r", {"m.glb", "n.png"}},
+          Case{bake + "-o file/n.png --report r", {"r"}, true},
+          Case{bake + "-o n.png --heat file/h.png --report r", {"r"}, true},
+          Case{bake + "-o n.png --misses file/h.png --report r", {"r"}, true},
+          Case{bake + "-o n.png --out-mesh file/m.glb --report r", {"r"}, true},
+          Case{bake + "-o file/n.png --report file/r", {}}, Case{"check a.glb -q --html file/h --sarif r", {"r"}, true},
+          Case{"check a.glb -q --html h --sarif file/r", {"h"}}, Case{"diff a.glb a.glb -q --html file/h", {}},
+          Case{"generate a.gltf --all -q -o file/x.glb --manifest r", {"r"}, true},
+          Case{"generate a.gltf --all -q -o file/x.gltf --manifest r", {"r"}, true}}) {
+        const auto before = contentsOf(folder);
+        const ToolRun run = runTool(folder, one.command);
+        EXPECT_EQ(run.exit_code, 4) << one.command << run.err;
+        EXPECT_GE(run.errorLines(), 1) << one.command;
+        std::set<std::string> made;
+        for (const auto& [name, bytes] : contentsOf(folder)) {
+            if (!before.contains(name)) made.insert(name);
+        }
+        EXPECT_EQ(made, one.made) << one.command;
+        if (one.report_has_failure) {
+            const std::string report = folder.read("r");
+            const bool says_so = report.find("\"ok\": false") != std::string::npos ||
+                                 report.find("\"ok\":false") != std::string::npos ||
+                                 report.find("\"exitCode\": 4") != std::string::npos;
+            EXPECT_TRUE(says_so) << one.command << report;
+        }
+        for (const std::string& name : made) fs::remove(folder.path(name));
+    }
+}
+
+TEST(OneRun, BringsNoTwoFilesOfOneName) {
+    // a copies shared.bin, c.glb is taken apart into shared.gltf with a shared.bin of its own.
+    for (const char* order : {"p/a.gltf q/shared.glb", "q/shared.glb p/a.gltf"}) {
+        const TempFolder folder;
+        folder.write("p/shared.bin", triangleBytes());
+        folder.write("p/a.gltf", triangle("shared.bin"));
+        folder.write("q/c.bin", triangleBytes('\x41'));
+        folder.write("q/c.gltf", triangle("c.bin"));
+        ASSERT_EQ(runTool(folder, "generate q/c.gltf --all -q -o q/shared.glb").exit_code, 0);
+        for (const bool is_there : {false, true}) {
+            fs::remove_all(folder.path("o"));
+            if (is_there) folder.write("o/shared.bin", triangleBytes());  // as p has it
+            const ToolRun run = runTool(folder, std::string("generate -q -o o/ --container gltf --jobs 1 ") + order);
+            EXPECT_EQ(run.exit_code, 4) << order << is_there << run.err;
+            EXPECT_EQ(run.errorLines(), 1) << run.err;
+            const bool has_a = folder.has("o/a.gltf");
+            ASSERT_NE(has_a, folder.has("o/shared.gltf")) << run.err;
+            if (has_a) {
+                EXPECT_EQ(folder.read("o/shared.bin"), folder.read("p/shared.bin")) << order;
+            } else {
+                EXPECT_NE(folder.read("o/shared.bin"), folder.read("p/shared.bin")) << order;
+            }
+        }
+    }
+}
+
+TEST(OneRun, ChangesInPlaceWhatNoOtherModelNeeds) {
+    for (const char* order : {"a.gltf b.gltf", "b.gltf a.gltf", "a.gltf b.gltf --jobs 2"}) {
+        const TempFolder folder;
+        folder.write("x.bin", triangleBytes());
+        folder.write("x.gltf", triangle("x.bin"));
+        // Both name a.tspace.bin, which is the buffer that a new a.gltf gets.
+        ASSERT_EQ(runTool(folder, "generate x.gltf -q --all -o a.gltf").exit_code, 0);
+        ASSERT_TRUE(folder.has("a.tspace.bin"));
+        folder.write("b.gltf", folder.read("a.gltf"));
+        const auto before = contentsOf(folder);
+        const ToolRun run = runTool(folder, std::string("generate --in-place -q --overwrite --all --method area --pack "
+                                                        "frame32 --bitangents ") +
+                                                order);
+        if (contentsOf(folder).at("a.tspace.bin") != before.at("a.tspace.bin")) {
+            EXPECT_EQ(run.exit_code, 4) << order << run.err;
+        }
+        // Both fit their buffer: the reader finds what the JSON says.
+        for (const char* model : {"a.gltf", "b.gltf"}) {
+            const ToolRun check = runTool(folder, std::string("check -q ") + model);
+            EXPECT_LE(check.exit_code, 1) << order << model << check.err;
+        }
+    }
+}
+
+TEST(OneRun, ChangesAModelThatIsNamedTwiceOnce) {
+    const TempFolder folder;
+    folder.write("x.bin", triangleBytes());
+    folder.write("x.gltf", triangle("x.bin"));
+    ASSERT_EQ(runTool(folder, "generate x.gltf -q --all -o in/a.glb").exit_code, 0);
+    const ToolRun run =
+        runTool(folder, "generate in in/a.glb in/../in/a.glb --in-place --overwrite --method area -q --json");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.out.find("\"input\""), run.out.rfind("\"input\"")) << run.out;
+}
+
 TEST(FilesThatAModelNames, AreInputsAlsoWhereTheyAreNotRead) {
     const TempFolder folder;
     writeBumpMap(folder);
