@@ -314,5 +314,44 @@ TEST(FilesThatAModelNames, AreInputsAlsoWhereTheyAreNotRead) {
     EXPECT_EQ(runTool(folder, "bake c.gltf --high b.glb -q --size 4 -o new.png").exit_code, 0);
 }
 
+/// Writes the file that a run on `target` would have left when it was killed.
+void leaveTemporaryFile(const TempFolder& folder, const std::string& target) {
+    const pid_t child = fork();
+    if (child == 0) {
+        folder.write(target, "half");
+        std::error_code ignored;
+        fs::rename(folder.path(target), besideName(Path(folder.path(target).string()), kTemporaryEnding).string(),
+                   ignored);
+        _exit(0);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+}
+
+TEST(DryRuns, TidyAndMakeNothing) {
+    const TempFolder folder;
+    writeBumpMap(folder);
+    folder.write("a.bin", triangleBytes());
+    folder.write("a.gltf", triangle("a.bin", "bump.png"));
+    ASSERT_EQ(runTool(folder, "generate a.gltf -q -o a.glb").exit_code, 0);
+    fs::create_directory(folder.path("sub"));
+    leaveTemporaryFile(folder, "sub/n.png");
+    leaveTemporaryFile(folder, "n.png");
+    ASSERT_EQ(folder.files("sub").size(), 1U);
+    for (const char* command :
+         {"convert-map bump.png --mesh a.glb --to object -o sub/n.png", "height-to-normal bump.png -o sub/n.png",
+          "flip-green bump.png -o sub/n.png", "render a.glb -o sub/n.png", "generate a.glb -o sub/n.glb",
+          "convert-map bump.png --mesh a.glb --to object -o new/n.png", "height-to-normal bump.png -o new/n.png",
+          "height-to-normal bump.png -o n.png", "flip-green bump.png -o new/n.png", "render a.glb -o new/n.png"}) {
+        const auto before = contentsOf(folder);
+        EXPECT_EQ(runTool(folder, std::string(command) + " -q --dry-run").exit_code, 0) << command;
+        EXPECT_TRUE(contentsOf(folder) == before) << command;
+    }
+    fs::create_symlink("a.glb", folder.path("link.png"));
+    EXPECT_EQ(runTool(folder, "render a.glb -o link.png --dry-run").exit_code, 2) << "what the run would refuse";
+    ASSERT_EQ(runTool(folder, "height-to-normal bump.png -q -o sub/n.png").exit_code, 0);
+    EXPECT_EQ(folder.files("sub").size(), 1U) << "the run tidies";
+}
+
 }  // namespace
 }  // namespace tspace::test
