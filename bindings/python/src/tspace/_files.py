@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Model files: generate, check, identify, diff, inspect, flip green. Each is one function of the C API."""
+"""Model files: generate, check, identify, diff, inspect, flip green, heights to normals. Each is one function of the C API."""
 
 import ctypes
 import json
@@ -31,6 +31,7 @@ _OPTIONS = {
     "identify": f"tolerance threads {_LIMITS}",
     "diff": f"tolerance worst {_LIMITS}",
     "flipGreen": "dry_run memory_limit no_sync",
+    "heightToNormal": f"strength mesh material clamp convention bits method dry_run threads no_sync {_LIMITS}",
 }
 
 
@@ -384,6 +385,19 @@ def flip_green_file(input: PathLike, output: PathLike, **options: Any) -> Report
     call = _Call()
     paths = call.path("input", input), call.path("output", output)
     return Report(call.run("tspace_flipGreenFile", *paths, options=options))
+
+
+def height_to_normal_file(input: PathLike, output: PathLike, **options: Any) -> Report:
+    """Makes a normal map of a height map.
+
+    input:   path of the height map: PNG, JPEG, WebP or EXR; white is high
+    output:  path of the normal map, .png
+    options: those of `tspace height-to-normal` (docs/height-to-normal.md), with underscores:
+             strength=0.02, mesh="wall.glb", convention="directx"
+    """
+    call = _Call()
+    paths = call.path("input", input), call.path("output", output)
+    return Report(call.run("tspace_heightToNormalFile", *paths, options=options))
 
 
 def flip_green_bytes(data: BytesLike, **options: Any) -> Generated:
