@@ -2,7 +2,7 @@
 """What scripts/c_comments cannot know by itself: where the two APIs differ, and why they may."""
 
 C_HEADERS = ("tspace.h", "tspace_normals.h", "tspace_indexed_frames.h", "tspace_frame.h", "tspace_pack.h", "tspace_files.h")
-FILE_HEADERS = ("asset.h", "check.h", "diff.h", "flip_green.h", "identify.h")
+FILE_HEADERS = ("asset.h", "check.h", "diff.h", "flip_green.h", "identify.h", "map_height_file.h")
 # Headers whose first comment is that of a C++ header.
 HEADS = {f"tspace_{name}": name for name in ("frame.h", "indexed_frames.h", "normals.h", "pack.h")}
 
@@ -57,6 +57,8 @@ OTHER_DEFAULTS = {
 # Regular expressions -> how C says it.
 PHRASES = {
     r"`?conventions::(\w+)`?": r'"\1"',
+    r"those of heightToNormal and of convertMapFile": "those of readers of models; CANNOT_READ, CANNOT_WRITE, "
+    "UNSUPPORTED_FILE, INVALID_FILE (an image that cannot be read), INVALID_OPTION, TOO_LARGE, OUT_OF_MEMORY",
     r"mesh\.vertexCount\(\)": "mesh->positions.count",
     r"Returns null for any other name\.": "INVALID_OPTION for any other name.",
 }

@@ -50,7 +50,8 @@ struct FileOptions {
     /// Gives the files that `content` names; only those in the model's own folder (and below), unless `allow_external`.
     /// Without it they are an error (invalidFile) where they are needed.
     FindFile find_file = {};
-    /// Told the path of each file that is read, at once. Perhaps called by several threads at one time.
+    /// Told the path of each file that is read, at once, and of each image on the disk that a glTF names, read or not. Perhaps
+    /// called by several threads at one time.
     std::function<void(const std::string& path)> opened = {};
     /// A written file is on the disk, and not in its cache alone, before it takes its name: after a power cut the old file is
     /// there or the new one, and never half of one. false: for many small files, where that takes most of the time.

@@ -16,16 +16,21 @@
 
 namespace tspace {
 
-/// Files that outputs must not take the place of.
+/// Files that outputs of one call must not take the place of.
 class InputFiles {
   public:
+    InputFiles();
+    /// Fails with cannotRead (FileError) where another call of the same OneRun wrote the file.
     void add(const Path& path);
     /// Makes `options` tell about every file that is opened, also to whom they told it before. Lives longer than they.
     void watch(FileOptions& options);
     /// Whether `path` is one of them, under whatever name.
     [[nodiscard]] bool has(const Path& path) const;
+    /// No other call of this process has it.
+    [[nodiscard]] std::uint64_t call() const { return call_; }
 
   private:
+    std::uint64_t call_;
     mutable std::mutex mutex_ = {};
     std::set<std::string> identities_ = {};
 };
@@ -44,15 +49,25 @@ class KeptFiles {
     std::vector<std::string> identities_ = {};
 };
 
+/// While it lives, calls with InputFiles of their own are one run over several models, perhaps at one time: none of them
+/// changes a file that another one read, or wrote, or left because it needs just that. One at a time.
+class OneRun {
+  public:
+    OneRun();
+    ~OneRun();
+    OneRun(const OneRun&) = delete;
+    OneRun& operator=(const OneRun&) = delete;
+};
+
 /// How outputs are written.
 struct OutputWay {
     /// The one file goes there at once, in place of the disk.
     Sink sink = {};
-    bool is_dry_run = false;    ///< writes nothing
-    bool makes_folders = true;  ///< that are missing
+    bool is_dry_run = false;  ///< writes nothing
     /// Files are on the disk, and not in its cache alone, before they take their places. Costs some milliseconds for each.
     bool sync = true;
-    const InputFiles* inputs = nullptr;  ///< no output may be one of these; null: they may
+    const InputFiles* inputs = nullptr;  ///< of the call: no output may be one of these; null: there are none
+    bool replaces_inputs = false;        ///< outputs may be those all the same: the model is changed in place
 };
 
 /// Collects files, then commit() puts them in place. Without commit() the destructor removes every temporary
@@ -83,6 +98,9 @@ class AtomicOutput {
         add(target, bytes);
         files_.back().is_shared = true;
     }
+
+    /// Whether a file is there and has these bytes. It then stays so until the end of OneRun.
+    bool leave(const Path& target, std::span<const std::uint8_t> bytes);
 
     [[nodiscard]] bool isStream() const { return way_.sink != nullptr; }
 
@@ -115,7 +133,9 @@ class AtomicOutput {
     /// writeTo(sink) returns 0, or errno.
     void addFile(File planned, const std::function<int(const Sink&)>& writeTo);
     void makeFolders(const Path& target);
+    /// Fails where another call of the run needs a file as it is; leaves those that have the same bytes already.
     void leaveSharedFiles();
+    void leave(File& file);
     void renameFiles();
     void removeTemporaryFiles() noexcept;
 

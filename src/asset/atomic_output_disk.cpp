@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Temporary files beside their targets, renamed together at the end.
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <map>
 
 #include "asset/atomic_output.h"
+#include "asset/file_error.h"
 #include "asset/file_io.h"
 #include "asset/system_files.h"
 #include "asset/temporary_files.h"
@@ -46,7 +49,64 @@ bool isKept(const std::string& identity) {
     return kept.identities.contains(identity);
 }
 
+/// What calls of one run did to files, by their paths without links.
+struct RunFile {
+    std::set<std::uint64_t> readers = {};
+    std::uint64_t owner = 0;  ///< the call that wrote or left it
+    bool is_written = false;
+};
+
+struct RunFiles {
+    std::mutex mutex = {};
+    bool is_run = false;
+    std::map<std::string, RunFile> files = {};
+};
+
+RunFiles& runFiles() {
+    static RunFiles files;
+    return files;
+}
+
+std::string runName(const Path& path) {
+    std::error_code error;
+    const fs::path name = fs::weakly_canonical(fs::absolute(fs::path(path), error), error);
+    return name.empty() ? path.string() : Path(name).string();
+}
+
+/// Calls work(file) where there is a run.
+template <class Work>
+void inRun(const Path& path, const Work& work) {
+    RunFiles& run = runFiles();
+    const std::lock_guard lock(run.mutex);
+    if (run.is_run) work(run.files[runName(path)]);
+}
+
+/// A thread that works on another model may bring a file of the same name: looking whether it is there and renaming are
+/// one step.
+std::mutex& renaming() {
+    static std::mutex mutex;
+    return mutex;
+}
+
+bool hasBytes(const Path& path, std::span<const std::uint8_t> bytes) {
+    std::error_code error;
+    if (kindOf(path) != PathKind::file || fs::file_size(fs::path(path), error) != bytes.size()) return false;
+    const Bytes found = readFile(path);
+    return std::equal(found.begin(), found.end(), bytes.begin(), bytes.end());
+}
+
 }  // namespace
+
+OneRun::OneRun() {
+    const std::lock_guard lock(runFiles().mutex);
+    runFiles().is_run = true;
+}
+
+OneRun::~OneRun() {
+    const std::lock_guard lock(runFiles().mutex);
+    runFiles().is_run = false;
+    runFiles().files.clear();
+}
 
 KeptFiles::KeptFiles(const std::vector<std::string>& paths) {
     for (const std::string& path : paths) {
@@ -63,7 +123,18 @@ KeptFiles::~KeptFiles() {
     for (const std::string& identity : identities_) kept.identities.erase(kept.identities.find(identity));
 }
 
+InputFiles::InputFiles() {
+    static std::atomic<std::uint64_t> last = 0;
+    call_ = ++last;
+}
+
 void InputFiles::add(const Path& path) {
+    inRun(path, [&](RunFile& file) {
+        if (file.is_written && file.owner != call_)
+            failFile(ErrorCode::cannotRead,
+                     "cannot read " + pathInQuotes(path) + ": this run has written it for another model");
+        file.readers.insert(call_);
+    });
     std::string identity = identityOf(path);
     const std::lock_guard lock(mutex_);
     identities_.insert(std::move(identity));
@@ -107,7 +178,8 @@ AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
     const Path target = is_link ? canonicalPath(requested) : requested;
     if (is_link && (fs::is_symlink(fs::path(target), error) || !fs::exists(fs::path(target), error)))
         failToWrite(requested, "it is a link to what is not there");
-    if (way_.inputs != nullptr && way_.inputs->has(target)) failToWrite(requested, "it is an input");
+    if (way_.inputs != nullptr && !way_.replaces_inputs && way_.inputs->has(target))
+        failToWrite(requested, "it is an input");
     const std::string identity = identityOf(target);
     if (isKept(identity) || !identities_.insert(identity).second)
         failToWrite(requested, "another output is the same file");
@@ -139,7 +211,7 @@ void AtomicOutput::addFile(File planned, const std::function<int(const Sink&)>& 
         if (failure != 0) failToWrite(added.target, std::strerror(failure));
         return;
     }
-    if (way_.makes_folders) makeFolders(added.target);
+    makeFolders(added.target);
     CFile file;
     {
         TemporaryFilesInWork work;
@@ -162,17 +234,38 @@ void AtomicOutput::addFile(File planned, const std::function<int(const Sink&)>& 
     if (std::fclose(file.release()) != 0) failToWrite(added.target, std::strerror(errno));
 }
 
-/// Those that are there are not written again.
+void AtomicOutput::leave(File& file) {
+    TemporaryFilesInWork work;
+    removePath(file.temporary);
+    work.forget(file.temporary);
+    file.is_made = false;
+}
+
 void AtomicOutput::leaveSharedFiles() {
+    const std::uint64_t call = way_.inputs != nullptr ? way_.inputs->call() : 0;
     for (File& file : files_) {
-        if (!file.is_shared || !file.is_made || kindOf(file.target) == PathKind::nothing) continue;
-        if (readFile(file.temporary) != readFile(file.target))
-            failToWrite(file.target, "a file of that name is there by now, and is another one");
-        TemporaryFilesInWork work;
-        removePath(file.temporary);
-        work.forget(file.temporary);
-        file.is_made = false;
+        if (!file.is_made) continue;
+        bool is_of_other = false, is_read_by_other = false;
+        inRun(file.target, [&](const RunFile& known) {
+            is_of_other = known.owner != 0 && known.owner != call;
+            is_read_by_other = known.readers.size() > known.readers.count(call);
+        });
+        if (kindOf(file.target) == PathKind::nothing || !(file.is_shared || is_of_other || is_read_by_other)) continue;
+        if (!hasBytes(file.target, readFile(file.temporary)))
+            failToWrite(file.target, is_read_by_other ? "it is an input of another model of this run"
+                                     : is_of_other    ? "this run has written another file of that name"
+                                                      : "a file of that name is there by now, and is another one");
+        leave(file);
+        inRun(file.target, [&](RunFile& known) { known.owner = call; });
     }
+}
+
+bool AtomicOutput::leave(const Path& target, std::span<const std::uint8_t> bytes) {
+    const std::lock_guard lock(renaming());
+    if (!hasBytes(target, bytes)) return false;
+    if (!way_.is_dry_run && way_.inputs != nullptr)
+        inRun(target, [&](RunFile& known) { known.owner = way_.inputs->call(); });
+    return true;
 }
 
 void AtomicOutput::renameFiles() {
@@ -180,10 +273,7 @@ void AtomicOutput::renameFiles() {
         const int failure = file.is_stream ? writeStream(file.target, file.held) : 0;
         if (failure != 0) failToWrite(file.target, std::strerror(failure));
     }
-    // A thread that works on another model may bring a file of the same name: looking whether it is there and renaming
-    // are one step.
-    static std::mutex renaming;
-    std::unique_lock lock(renaming);
+    std::unique_lock lock(renaming());
     leaveSharedFiles();
     // Old files are set aside first, so that a failure half-way can be taken back. Nothing takes memory until all is done.
     struct Aside {
@@ -191,6 +281,8 @@ void AtomicOutput::renameFiles() {
         bool is_made = false;
     };
     std::vector<Aside> aside(files_.size());
+    std::vector<std::string> written;
+    written.reserve(files_.size());
     std::vector<Path> folders;
     const auto addFolder = [&](Path folder) {
         const auto isIt = [&](const Path& known) { return known.string() == folder.string(); };
@@ -233,11 +325,18 @@ void AtomicOutput::renameFiles() {
         for (std::size_t i = 0; failure == 0 && i < files_.size(); ++i) {
             if (aside[i].is_made) removePath(aside[i].name);
             work.forget(files_[i].temporary);
+            if (files_[i].is_made) written.push_back(files_[i].target.string());
             files_[i].is_made = false;
         }
     }
     if (failure != 0) failToWrite(files_[failed].target, std::strerror(failure));
     committed_ = true;
+    for (const std::string& name : written) {
+        inRun(name, [&](RunFile& known) {
+            known.owner = way_.inputs != nullptr ? way_.inputs->call() : 0;
+            known.is_written = true;
+        });
+    }
     lock.unlock();
     for (const Path& folder : folders) syncFolder(folder);
 }

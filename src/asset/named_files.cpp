@@ -45,6 +45,10 @@ NamedFiles::Kind NamedFiles::kindOf(const Path& file) const {
     return isThere(file) ? Kind::file : Kind::missing;
 }
 
+void NamedFiles::note(const Path& file) const {
+    if (opened_ && !is_in_memory_ && kindOf(file) == Kind::file) opened_(file.string());
+}
+
 Bytes NamedFiles::read(const Path& file, const std::string& place) const {
     if (!is_in_memory_) {
         if (opened_) opened_(file.string());

@@ -35,6 +35,8 @@ class NamedFiles {
     [[nodiscard]] Path resolve(const Path& folder, std::string_view uri, const std::string& place) const;
 
     [[nodiscard]] Kind kindOf(const Path& file) const;
+    /// Says of a file that is not read, or not yet, that the model names it.
+    void note(const Path& file) const;
     /// Fails as readFile.
     [[nodiscard]] Bytes read(const Path& file, const std::string& place = {}) const;
 

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "asset/disk_paths.h"
+#include "asset/file_error.h"
 #include "asset/folder_rule.h"
 #include "asset/system_files.h"
 #include "asset/uri.h"
@@ -14,9 +15,16 @@ namespace fs = std::filesystem;
 
 Path resolveUri(const Path& in_folder, std::string_view uri, bool allow_external, const std::string& place) {
     const fs::path folder = in_folder, relative{Path(checkedPathOfUri(uri, allow_external, place))};
-    if (allow_external) return folder / relative;
     const fs::path root = canonicalPath(in_folder);
-    if (!isBelow(root, fs::path(canonicalPath(root / relative)))) {
+    fs::path file;
+    try {
+        file = canonicalPath(root / relative);
+    } catch (const fs::filesystem_error& failure) {
+        // A name that is longer than names may be, links in a circle.
+        failFile(ErrorCode::invalidFile,
+                 "the URI " + inQuotes(uri, 200) + " can be no file: " + failure.code().message(), place);
+    }
+    if (!allow_external && !isBelow(root, file)) {
         refuseUri(uri, "leads out of the model's folder by a symbolic link", place);
     }
     return folder / relative;

@@ -45,7 +45,8 @@ std::string checkedPathOfUri(std::string_view uri, bool allow_external, const st
 [[noreturn]] void refuseUri(std::string_view uri, const char* why, const std::string& place);
 
 /// The file that `uri` names in a folder on the disk. Fails as checkedPathOfUri, and with forbiddenPath when a symbolic
-/// link leads out of `folder`, unless `allow_external`.
+/// link leads out of `folder`, unless `allow_external`; with invalidFile where no file can have that name, as one that is
+/// longer than the system takes.
 Path resolveUri(const Path& folder, std::string_view uri, bool allow_external, const std::string& place);
 
 }  // namespace tspace

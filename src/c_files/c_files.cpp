@@ -93,6 +93,12 @@ void diff(const std::string& a, const std::string& b, const options::DiffRequest
     giveReport(report::diffJson(a, b, request.tolerance_deg, result, exit_code), json);
 }
 
+void readHeightToNormalOptions(const char* text, HeightToNormalFileOptions& options) {
+    options::Given given;
+    options.tangents.execution.thread_count = 1;
+    readOptions(options::heightToNormalOptions(options), text, given);
+}
+
 void readFlipGreenOptions(const char* text, FlipGreenOptions& options) {
     options::Given given;
     readOptions(options::flipGreenOptions(options), text, given);
@@ -234,6 +240,19 @@ tspace_ErrorCode tspace_flipGreenFile(const char* input, const char* output, con
         outcome.result = flipGreenFile(from, to, chosen);
         throwError(outcome.result);
         giveReport(report::flipGreenJson(outcome, ExitCode::done), report);
+    });
+}
+
+tspace_ErrorCode tspace_heightToNormalFile(const char* input, const char* output, const char* options,
+                                           tspace_Bytes* report, tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        const std::string from = neededText(input, "input"), to = neededText(output, "output");
+        HeightToNormalFileOptions chosen;
+        readHeightToNormalOptions(options, chosen);
+        report::Outcome<HeightToNormalFileReport> outcome{.input = from, .output = to, .is_dry_run = chosen.dry_run};
+        outcome.result = heightToNormalFile(from, to, chosen);
+        throwError(outcome.result);
+        giveReport(report::heightToNormalJson(outcome, ExitCode::done), report);
     });
 }
 

@@ -11,6 +11,7 @@
 #include "check/check_seams.h"
 #include "check/findings.h"
 #include "check/scene_verdict.h"
+#include "core/sort.h"
 #include "tspace/check.h"
 
 namespace tspace {
@@ -93,8 +94,8 @@ CheckReport check(const std::string& input, const CheckOptions& options) {
     for (Finding& finding : images.findings) report.findings.push_back(std::move(finding));
     for (Finding& finding : checkMapScales(scene)) report.findings.push_back(std::move(finding));
     for (const std::string& warning : scene.warnings) report.findings.push_back(fileRemark(warning));
-    std::stable_sort(report.findings.begin(), report.findings.end(),
-                     [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+    sortStably(report.findings.begin(), report.findings.end(),
+               [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
     for (const Finding& finding : report.findings) {
         report.error_count += finding.severity == Severity::error;
         report.warning_count += finding.severity == Severity::warning;

@@ -11,6 +11,7 @@
 
 #include "check/findings.h"
 #include "core/angle.h"
+#include "core/sort.h"
 #include "core/unit.h"
 #include "surface/equal_vertices.h"
 #include "surface/joined_pieces.h"
@@ -94,7 +95,7 @@ class SmoothPiece {
             const std::array<std::uint32_t, 2> points = {joined.pointOf(piece, a), joined.pointOf(piece, b)};
             if (points[0] != points[1]) edges.push_back({points, {class_of_[a], class_of_[b]}, c / 3});
         }
-        std::stable_sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.points < b.points; });
+        sortStably(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.points < b.points; });
         std::vector<double> smooth;
         for (std::size_t i = 0, past = 0; i < edges.size(); i = past) {
             while (past < edges.size() && edges[past].points == edges[i].points) ++past;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "core/sort.h"
 #include "core/unit.h"
 #include "surface/equal_vertices.h"
 
@@ -170,7 +171,7 @@ double DirectionCone::distanceTo(double angle) const {
 
 DirectionCone coneAround(std::span<double> angles) {
     if (angles.empty()) return {};
-    std::sort(angles.begin(), angles.end());
+    sortList(angles.begin(), angles.end());
     double largest = angles.front() + kTurn - angles.back();
     std::size_t behind = 0;  // the first angle after the largest gap
     for (std::size_t i = 1; i < angles.size(); ++i) {
@@ -221,7 +222,7 @@ std::vector<DirectionCone> conesOfClasses(const TangentView& mesh, const Surface
         add(angle);
         if (face.orientation == 0) add(angle > 0 ? angle - kPi : angle + kPi);
     }
-    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.of_class < b.of_class; });
+    sortList(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.of_class < b.of_class; });
     std::vector<DirectionCone> cones(class_count);
     std::vector<double> angles;
     for (std::size_t i = 0; i < entries.size();) {

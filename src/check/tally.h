@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/sort.h"
+
 namespace tspace {
 
 struct Tally {
@@ -31,7 +33,7 @@ struct Tally {
         surface_share = std::min(1.0, surface_share + other.surface_share);
         worst_deg = std::max(worst_deg, other.worst_deg);
         vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
-        std::sort(vertices.begin(), vertices.end());
+        sortList(vertices.begin(), vertices.end());
         if (vertices.size() > kMostVertices) vertices.resize(kMostVertices);
     }
     [[nodiscard]] double share() const {

@@ -5,6 +5,7 @@
 #include "check/frame_health.h"
 #include "check/vertex_patches.h"
 #include "core/angle.h"
+#include "core/sort.h"
 #include "core/unit.h"
 #include "surface/equal_vertices.h"
 
@@ -39,8 +40,8 @@ class SeamFinder {
             members_.push_back(v);
         }
         cones_ = conesOfClasses(mesh, surface, classes, points_.class_count);
-        std::stable_sort(members_.begin(), members_.end(),
-                         [&](std::uint32_t a, std::uint32_t b) { return points_.class_of[a] < points_.class_of[b]; });
+        sortStably(members_.begin(), members_.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return points_.class_of[a] < points_.class_of[b]; });
     }
 
     [[nodiscard]] Cause causeOf(std::uint32_t vertex) const {

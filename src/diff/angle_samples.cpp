@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "core/sort.h"
 #include "core/unit.h"
 
 namespace tspace {
@@ -42,7 +43,7 @@ AngleStatistics AngleSamples::statistics() const {
     result.unusable_count = unusable_count_;
     if (degrees_.empty()) return result;
     std::vector<float> sorted = degrees_;
-    std::sort(sorted.begin(), sorted.end());
+    sortList(sorted.begin(), sorted.end());
     double sum = 0;
     for (const float value : sorted) {
         sum += value;

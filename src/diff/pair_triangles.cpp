@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "core/hash.h"
+#include "core/sort.h"
 #include "core/vec_math.h"
 
 namespace tspace {
@@ -187,7 +188,7 @@ std::vector<TrianglePair> pairByCorners(const ScenePrimitive& a, const ScenePrim
     pairs.reserve(paired_a.size());
     if (firstUvs(a) != nullptr && firstUvs(b) != nullptr) pairEqualKeys(a, b, true, paired_a, paired_b, pairs);
     if (pairs.size() < paired_a.size()) pairEqualKeys(a, b, false, paired_a, paired_b, pairs);
-    std::sort(pairs.begin(), pairs.end(), [](const TrianglePair& x, const TrianglePair& y) { return x.a < y.a; });
+    sortList(pairs.begin(), pairs.end(), [](const TrianglePair& x, const TrianglePair& y) { return x.a < y.a; });
     return pairs;
 }
 

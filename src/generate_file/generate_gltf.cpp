@@ -144,7 +144,8 @@ GenerateReport generate(const std::string& input, const std::string& output_path
     AtomicOutput files({.sink = options.sink,
                         .is_dry_run = options.dry_run,
                         .sync = options.file.sync,
-                        .inputs = target.in_place ? nullptr : &inputs});
+                        .inputs = &inputs,
+                        .replaces_inputs = target.in_place});
     tell(options, "writing", 0, 1);
     report.changed = editor.changed() || converted || unpacked || packed;
     if (report.changed) {

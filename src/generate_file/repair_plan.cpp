@@ -11,6 +11,7 @@
 #include "check/findings.h"
 #include "check/frame_health.h"
 #include "check/scene_verdict.h"
+#include "core/sort.h"
 
 namespace tspace::gltf {
 
@@ -174,7 +175,7 @@ Pool selected(const Pool& pool, std::span<const Primitive> primitives, const Men
             result.corner_count += std::uint64_t{3} * primitives[number].triangleCount();
         }
     }
-    std::sort(result.primitives.begin(), result.primitives.end());
+    sortList(result.primitives.begin(), result.primitives.end());
     return result;
 }
 

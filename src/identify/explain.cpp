@@ -7,6 +7,7 @@
 
 #include "check/uv_reading.h"
 #include "core/angle.h"
+#include "core/sort.h"
 #include "core/unit.h"
 #include "quads/fit_quads.h"
 #include "surface/uv_votes.h"
@@ -199,7 +200,7 @@ bool isCloser(const Explanation& a, const Explanation& b) {
 
 void sortExplanations(std::vector<Explanation>& explanations) {
     if (explanations.empty()) return;
-    std::stable_sort(explanations.begin(), explanations.end(), [](const Explanation& a, const Explanation& b) {
+    sortStably(explanations.begin(), explanations.end(), [](const Explanation& a, const Explanation& b) {
         const double score_a = scoreOf(a), score_b = scoreOf(b);
         return score_a != score_b ? score_a > score_b : a.near_count > b.near_count;
     });

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "core/hash.h"
+#include "core/sort.h"
 #include "core/vec_math.h"
 
 namespace tspace {
@@ -33,7 +34,7 @@ Buffer<HashedTriangle> sorted(const MapSide& side, bool with_positions, const Al
     for (std::size_t i = 0; i < list.size(); ++i) {
         list[i] = {hashOf(side, i, with_positions), static_cast<std::uint32_t>(i)};
     }
-    std::sort(list.begin(), list.end(), [](const HashedTriangle& a, const HashedTriangle& b) {
+    sortList(list.begin(), list.end(), [](const HashedTriangle& a, const HashedTriangle& b) {
         return a.hash != b.hash ? a.hash < b.hash : a.triangle < b.triangle;
     });
     return list;

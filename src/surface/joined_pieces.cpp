@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/sort.h"
 #include "core/unique_index.h"
 #include "surface/equal_vertices.h"
 
@@ -68,7 +69,7 @@ std::vector<JoinedPieces::EdgeUse> JoinedPieces::sharedEdges() const {
             }
         }
     }
-    std::sort(edges.begin(), edges.end(), [](const EdgeUse& a, const EdgeUse& b) {
+    sortList(edges.begin(), edges.end(), [](const EdgeUse& a, const EdgeUse& b) {
         return std::tie(a.low, a.high, a.at.piece, a.at.triangle) < std::tie(b.low, b.high, b.at.piece, b.at.triangle);
     });
     return edges;
@@ -92,11 +93,11 @@ void JoinedPieces::voteByTriangles(std::map<Pair, Votes>& votes) const {
         for (std::uint32_t t = 0; t < pieces_[piece].corners.size() / 3; ++t) {
             std::array<std::uint32_t, 3> points = {corner({piece, t}, 0), corner({piece, t}, 1), corner({piece, t}, 2)};
             if (!is_shared_[points[0]] || !is_shared_[points[1]] || !is_shared_[points[2]]) continue;
-            std::sort(points.begin(), points.end());
+            sortList(points.begin(), points.end());
             if (points[0] != points[1] && points[1] != points[2]) triangles.emplace_back(points, piece);
         }
     }
-    std::sort(triangles.begin(), triangles.end());
+    sortList(triangles.begin(), triangles.end());
     for (std::size_t i = 1; i < triangles.size(); ++i) {
         if (triangles[i].first == triangles[i - 1].first && triangles[i].second != triangles[i - 1].second)
             ++votes[{triangles[i - 1].second, triangles[i].second}].overlapping;
@@ -149,7 +150,7 @@ std::vector<std::uint32_t> JoinedPieces::sharedPoints(std::uint32_t piece) const
         const std::uint32_t point = pointOf(piece, vertex);
         if (is_shared_[point]) result.push_back(point);
     }
-    std::sort(result.begin(), result.end());
+    sortList(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
     std::erase_if(result, [&](std::uint32_t point) {
         return std::none_of(triangles_.begin() + begins_[point], triangles_.begin() + begins_[point + 1],
@@ -171,7 +172,7 @@ std::vector<PieceTriangle> JoinedPieces::around(std::uint32_t piece, unsigned ri
                 if (at.piece != piece && areJoined(at.piece, piece)) result.push_back(at);
             }
         }
-        std::sort(result.begin(), result.end(), isLess);
+        sortList(result.begin(), result.end(), isLess);
         const auto isSame = [](const PieceTriangle& a, const PieceTriangle& b) {
             return a.piece == b.piece && a.triangle == b.triangle;
         };
@@ -181,7 +182,7 @@ std::vector<PieceTriangle> JoinedPieces::around(std::uint32_t piece, unsigned ri
         for (const PieceTriangle& at : result) {
             for (std::size_t k = 0; k < 3; ++k) points.push_back(corner(at, k));
         }
-        std::sort(points.begin(), points.end());
+        sortList(points.begin(), points.end());
         points.erase(std::unique(points.begin(), points.end()), points.end());
     }
     return result;

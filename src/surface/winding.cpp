@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/sort.h"
 #include "core/unique_index.h"
 #include "core/vec_math.h"
 #include "surface/equal_vertices.h"
@@ -73,8 +74,8 @@ struct Side {
 /// Marks the triangles of those that are there both ways.
 template <std::size_t count>
 void markTwoSided(std::vector<Side<count>>& sides, std::vector<bool>& marked) {
-    std::sort(sides.begin(), sides.end(),
-              [](const Side<count>& a, const Side<count>& b) { return a.points < b.points; });
+    sortList(sides.begin(), sides.end(),
+             [](const Side<count>& a, const Side<count>& b) { return a.points < b.points; });
     for (std::size_t i = 0, past = 0; i < sides.size(); i = past) {
         std::size_t even = 0;
         while (past < sides.size() && sides[past].points == sides[i].points) even += sides[past++].is_even ? 1U : 0U;
@@ -161,7 +162,7 @@ WindingCounts countWinding(std::span<const Vec3> positions, std::span<const std:
             if (a != b) edges.push_back({std::min(a, b), std::max(a, b), t, a < b});
         }
     }
-    std::sort(edges.begin(), edges.end(), [](const EdgeUse& a, const EdgeUse& b) {
+    sortList(edges.begin(), edges.end(), [](const EdgeUse& a, const EdgeUse& b) {
         return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
     });
     WoundSets sets(triangle_count);

@@ -2,7 +2,9 @@
 // The files of a model as blocks of data in the page. A script whose type is no language is never run.
 #include "view/view_page.h"
 
-#include <map>
+#include <filesystem>
+#include <mutex>
+#include <set>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -14,6 +16,9 @@
 #include "asset/uri.h"
 
 namespace tspace {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 constexpr std::string_view kPlaceOfModel = "<!-- model -->";
@@ -30,28 +35,23 @@ std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options,
                  "the page shows .glb, .vrm, .gltf and .obj; make a GLB of it first, by tspace generate IN -o OUT.glb");
     }
     const std::string& path = input.string();
-    std::vector<EmbeddedFile> files;
-    inputs.add(input);
-    files.push_back({path.substr(path.rfind('/') + 1), readFile(input)});
-    const Bytes model = files.front().bytes;
-    std::map<std::string, Bytes> found;
+    const fs::path folder = fs::path(folderOf(input)).lexically_normal();
+    std::mutex mutex;
+    std::set<std::string> named;
     GenerateOptions ask;
     ask.file = options;
-    ask.file.content = model;
-    ask.file.find_file = [&](const std::string& name) {
-        return atFileBorder([&]() -> Result<std::span<const std::uint8_t>> {
-            auto known = found.find(name);
-            if (known == found.end()) {
-                const Path file = folderOf(input) / name;
-                inputs.add(file);
-                known = found.emplace(name, readFile(file)).first;
-            }
-            return std::span<const std::uint8_t>(known->second);
-        });
+    inputs.watch(ask.file);
+    ask.file.opened = [&, told = ask.file.opened](const std::string& file) {
+        told(file);
+        const std::lock_guard lock(mutex);
+        if (file != path)
+            named.insert(Path(fs::path(Path(file)).lexically_normal().lexically_relative(folder)).string());
     };
     ask.sink = [](std::span<const std::uint8_t>) { return true; };
-    valueOrThrow(generateFile(files.front().name, "view.glb", ask));
-    for (auto& [name, bytes] : found) files.push_back({name, std::move(bytes)});
+    valueOrThrow(generateFile(path, "view.glb", ask));
+    std::vector<EmbeddedFile> files;
+    files.push_back({path.substr(path.rfind('/') + 1), readFile(input)});
+    for (const std::string& name : named) files.push_back({name, readFile(folderOf(input) / name)});
     return files;
 }
 

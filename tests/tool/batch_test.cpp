@@ -274,7 +274,8 @@ TEST(Batch, ResumeWithoutAManifestIsWrongUsage) {
 TEST(Batch, AManifestThatCannotBeWrittenStopsTheRunBeforeItBegins) {
     const TempFolder folder;
     writeModels(folder, 1);
-    const ToolRun run = runTool(folder, "generate in -o out --manifest nowhere/m.jsonl");
+    folder.write("file", "");
+    const ToolRun run = runTool(folder, "generate in -o out --manifest file/m.jsonl");
     EXPECT_EQ(run.exit_code, 4);
     EXPECT_EQ(run.errorLines(), 1);
     EXPECT_FALSE(folder.has("out"));

@@ -63,7 +63,7 @@ TEST(CheckPage, SeveralFilesHaveAnOverview) {
 TEST(CheckPage, WhatCannotBeWrittenIsSaid) {
     const TempFolder folder;
     writeInverted(folder, "sheet.glb");
-    const ToolRun run = runTool(folder, "check -q sheet.glb --html none/report.html");
+    const ToolRun run = runTool(folder, "check -q sheet.glb --html sheet.glb/report.html");
     EXPECT_EQ(run.exit_code, 4);
     EXPECT_EQ(folder.files(), (std::set<std::string>{"sheet.glb"}));
 }

@@ -64,7 +64,7 @@ TEST(DiffPage, ThereIsNoneOfWhatCannotBeRead) {
     folder.write("broken.glb", std::string("glTF"));
     for (const auto& [command, code] : {std::pair<const char*, int>{"diff a.glb none.glb --html report.html", 4},
                                         {"diff broken.glb a.glb --html report.html", 3},
-                                        {"diff a.glb a.glb --html none/report.html", 4},
+                                        {"diff a.glb a.glb --html a.glb/report.html", 4},
                                         {"diff a.glb a.glb --html", 2}}) {
         const ToolRun run = runTool(folder, command);
         EXPECT_EQ(run.exit_code, code) << command;

@@ -47,6 +47,27 @@ TEST(ViewCommand, PutsTheModelAndWhatItNamesIntoThePage) {
     EXPECT_TRUE(page.ends_with("<script>1</script></body>"));
 }
 
+TEST(ViewCommand, FollowsTheRulesForFilesThatAModelNames) {
+    const Installed installed(kPage);
+    const auto model = [](const std::string& image) {
+        return R"({"asset":{"version":"2.0"},"images":[{"uri":")" + image + R"("}]})";
+    };
+    installed.folder().write("long.gltf", model(std::string(300, 'n') + ".png"));
+    installed.folder().write("m/out.gltf", model("link.png"));
+    fs::create_symlink("../bump.png", installed.folder().path() / "m" / "link.png");
+    for (const char* name : {"long", "m/out"}) {
+        const ToolRun run = installed.run("view " + std::string(name) + ".gltf -o x.html");
+        EXPECT_EQ(run.exit_code, 3) << run.err;
+        EXPECT_EQ(run.errorLines(), 1) << run.err;
+        EXPECT_NE(run.err.find("/images/0/uri"), std::string::npos) << run.err;
+        EXPECT_FALSE(fs::exists(installed.folder().path() / "x.html"));
+    }
+    installed.folder().write("m/in.gltf", model("./sub/./bump.png"));
+    installed.folder().write("m/sub/bump.png", installed.folder().read("bump.png"));
+    ASSERT_EQ(installed.run("view m/in.gltf -o x.html").exit_code, 0);
+    EXPECT_NE(installed.folder().read("x.html").find("data-name=\"sub/bump.png\""), std::string::npos);
+}
+
 TEST(ViewCommand, NamesAreNoMarkup) {
     const Installed installed(kPage);
     ASSERT_EQ(installed.run("generate a.obj -o '\"><b\t&.glb'").exit_code, 0);

@@ -44,13 +44,13 @@ ExitCode runCheck(const CheckArguments& arguments) {
         if (outcome.result && options::failsBy(arguments.request, *outcome.result))
             exit_code = worse(exit_code, ExitCode::findings);
     }
-    if (!arguments.sarif.empty() && !sarif_to_stdout) {
-        const Result<Done> written = writeTextFile(arguments.sarif, checkSarif(files.outcomes, exit_code), &read);
-        if (!written) exit_code = worse(exit_code, printError(arguments.sarif, written.error()));
-    }
     if (!arguments.html.empty()) {
         const Result<Done> written = writeTextFile(arguments.html, checkPage(files.outcomes, options.file), &read);
         if (!written) exit_code = worse(exit_code, printError(arguments.html, written.error()));
+    }
+    if (!arguments.sarif.empty() && !sarif_to_stdout) {
+        const Result<Done> written = writeTextFile(arguments.sarif, checkSarif(files.outcomes, exit_code), &read);
+        if (!written) exit_code = worse(exit_code, printError(arguments.sarif, written.error()));
     }
     std::string last;
     if (sarif_to_stdout) {

@@ -42,7 +42,8 @@ std::string textOf(const ConvertMapArguments& arguments, const ConvertMapFileRep
 
 ExitCode runConvertMap(const ConvertMapArguments& arguments) {
     const Result<Done> fit =
-        prepareOutputs({arguments.output}, {arguments.input, arguments.options.mesh, arguments.options.to_mesh});
+        prepareOutputs({arguments.output}, {arguments.input, arguments.options.mesh, arguments.options.to_mesh},
+                       arguments.options.dry_run);
     if (!fit) return printUsageError(fit.error().message + "; name another file");
     if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);
     const Result<ConvertMapFileReport> result =

@@ -28,10 +28,8 @@ ExitCode runFlipGreen(const FlipGreenArguments& arguments) {
     if (!arguments.in_place && isOneFile(arguments.input, arguments.output)) {
         return printUsageError("the output " + arguments.output + " is the input; --in-place writes over it");
     }
-    if (!arguments.options.dry_run) {
-        const Result<Done> fit = prepareOutputs({arguments.output}, {});
-        if (!fit) return printUsageError(fit.error().message);
-    }
+    const Result<Done> fit = prepareOutputs({arguments.output}, {}, arguments.options.dry_run);
+    if (!fit) return printUsageError(fit.error().message);
     if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);
     const Result<FlipGreenReport> result = callOnImage(
         arguments.input, arguments.output, arguments.options.memory_limit_bytes, arguments.options,

@@ -180,6 +180,7 @@ class GenerateRun {
     ProgressLine progress_;
     std::optional<ManifestRecord> record_;
     std::optional<KeptFiles> kept_;
+    OneRun one_run_ = {};
     std::mutex mutex_;  ///< for the next two
     std::optional<ManifestWriter> writer_;
     ExitCode exit_code_ = ExitCode::done;

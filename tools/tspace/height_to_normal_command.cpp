@@ -36,8 +36,9 @@ std::string textOf(const HeightToNormalArguments& arguments, const HeightToNorma
 }  // namespace
 
 ExitCode runHeightToNormal(const HeightToNormalArguments& arguments) {
-    if (const Result<Done> fit = prepareOutputs({arguments.output}, {arguments.input, arguments.options.mesh}); !fit)
-        return printUsageError(fit.error().message + "; name another file");
+    const Result<Done> fit =
+        prepareOutputs({arguments.output}, {arguments.input, arguments.options.mesh}, arguments.options.dry_run);
+    if (!fit) return printUsageError(fit.error().message + "; name another file");
     if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);
     const Result<HeightToNormalFileReport> result =
         callOnImage(arguments.input, arguments.output, arguments.options.file.memory_limit_bytes, arguments.options,

@@ -116,6 +116,11 @@ Error usage(std::string message) { return {ErrorCode::invalidOption, std::move(m
 
 Result<std::vector<Job>> jobsInPlace(const GenerateArguments& arguments) {
     std::vector<Job> jobs = inputJobs(arguments.inputs);
+    // A model that is named twice is changed once.
+    std::set<std::string> named;
+    std::erase_if(jobs, [&](const Job& job) {
+        return job.error.code == ErrorCode::ok && job.input != "-" && !named.insert(identityOf(job.input)).second;
+    });
     for (Job& job : jobs) {
         job.output = job.input;
         if (job.input == "-") return usage("--in-place needs files, not standard input");

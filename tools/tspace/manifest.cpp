@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "asset/system_files.h"
+#include "asset/uri.h"
 #include "report.h"
 #include "system.h"
 
@@ -28,10 +29,33 @@ std::string timeNow() {
 
 std::string keyOf(const Job& job) { return job.input + '\n' + job.output; }
 
+bool isUtf8(const std::string& text) try {
+    static_cast<void>(Json(text).dump());
+    return true;
+} catch (const JsonError&) {
+    return false;
+}
+
+/// Adds a text that may be no UTF-8, as names of files on Linux may: JSON cannot hold it, so that it follows as
+/// NAMEEncoded, in the percent encoding of URIs.
+void addText(Json& object, const std::string& name, const std::string& text) {
+    object[name] = text;
+    if (!isUtf8(text)) object[name + "Encoded"] = percentEncode(text);
+}
+
+std::string textOf(const Json& object, const std::string& name) {
+    const Json* encoded = object.find(name + "Encoded");
+    return encoded != nullptr ? percentDecode(encoded->get<std::string>()) : object.at(name).get<std::string>();
+}
+
 Json filesJson(const std::vector<HashedFile>& files) {
     Json list = Json::array();
     for (const HashedFile& file : files) {
-        list.push_back({{"path", file.path}, {"bytes", file.hash.bytes}, {"hash", file.hash.hash}});
+        Json entry = Json::object();
+        addText(entry, "path", file.path);
+        entry["bytes"] = file.hash.bytes;
+        entry["hash"] = file.hash.hash;
+        list.push_back(std::move(entry));
     }
     return list;
 }
@@ -39,8 +63,8 @@ Json filesJson(const std::vector<HashedFile>& files) {
 std::vector<HashedFile> filesFromJson(const Json& list) {
     std::vector<HashedFile> files;
     for (const Json& file : list) {
-        files.push_back({file.at("path").get<std::string>(),
-                         {file.at("bytes").get<std::uint64_t>(), file.at("hash").get<std::string>()}});
+        files.push_back(
+            {textOf(file, "path"), {file.at("bytes").get<std::uint64_t>(), file.at("hash").get<std::string>()}});
     }
     return files;
 }
@@ -49,9 +73,9 @@ std::vector<HashedFile> filesFromJson(const Json& list) {
 ManifestEntry entryFromJson(const Json& line) {
     ManifestEntry entry;
     entry.version = line.at("version").get<std::string>();
-    entry.options = line.at("options").get<std::string>();
-    entry.job.input = line.at("input").get<std::string>();
-    entry.job.output = line.at("output").get<std::string>();
+    entry.options = textOf(line, "options");
+    entry.job.input = textOf(line, "input");
+    entry.job.output = textOf(line, "output");
     entry.job.error.code = line.at("ok").get<bool>() ? ErrorCode::ok : ErrorCode::internal;
     entry.inputs = filesFromJson(line.at("inputs"));
     entry.outputs = filesFromJson(line.at("outputs"));
@@ -132,6 +156,8 @@ Result<ManifestWriter> ManifestWriter::open(const std::string& path) {
     if (kind == PathKind::file && !isManifest(path)) return refuse("there is a file of that name that is no manifest");
     const bool needs_line_end = kind == PathKind::file && endsInsideALine(path);
     writer.path_ = path;
+    std::error_code failed;
+    std::filesystem::create_directories(std::filesystem::path(folderOf(path)), failed);
     writer.file_ = openFile(path, "ab");
     if (!writer.file_) return fileError(ErrorCode::cannotWrite, path);
     std::setvbuf(writer.file_.get(), nullptr, _IOFBF, std::size_t{1} << 20);
@@ -141,20 +167,16 @@ Result<ManifestWriter> ManifestWriter::open(const std::string& path) {
 
 Result<Done> ManifestWriter::append(const ManifestEntry& entry) {
     const bool ok = entry.job.error.code == ErrorCode::ok;
-    const Json line = {
-        {"schema", kSchema},
-        {"version", entry.version},
-        {"time", timeNow()},
-        {"options", entry.options},
-        {"input", entry.job.input},
-        {"output", entry.job.output},
-        {"ok", ok},
-        {"error", report::errorJson(ok ? nullptr : &entry.job.error)},
-        {"changed", entry.changed},
-        {"seconds", entry.seconds},
-        {"inputs", filesJson(entry.inputs)},
-        {"outputs", filesJson(entry.outputs)},
-    };
+    Json line = {{"schema", kSchema}, {"version", entry.version}, {"time", timeNow()}};
+    addText(line, "options", entry.options);
+    addText(line, "input", entry.job.input);
+    addText(line, "output", entry.job.output);
+    line["ok"] = ok;
+    line["error"] = report::errorJson(ok ? nullptr : &entry.job.error);
+    line["changed"] = entry.changed;
+    line["seconds"] = entry.seconds;
+    line["inputs"] = filesJson(entry.inputs);
+    line["outputs"] = filesJson(entry.outputs);
     const std::string text = line.dump(-1, ' ', BadUtf8::replace) + "\n";
     if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size() || std::fflush(file_.get()) != 0) {
         return fileError(ErrorCode::cannotWrite, path_);

@@ -11,7 +11,8 @@
 
 namespace tspace::tool {
 
-Result<Done> prepareOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+Result<Done> prepareOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
+                            bool is_dry_run) {
     const auto isFile = [](const std::string& path) {
         return !path.empty() && path != "-" && kindOf(path) != PathKind::stream;
     };
@@ -26,13 +27,14 @@ Result<Done> prepareOutputs(const std::vector<std::string>& outputs, const std::
         if (!is_new) return Error{ErrorCode::invalidOption, "the output " + output + " is " + other->second};
         folders.insert(folderOf(output).string());
     }
+    if (is_dry_run) return Done{};
     for (const std::string& folder : folders) removeAbandonedFiles(folder, false);
     return Done{};
 }
 
 Result<Done> writeTextFile(const std::string& path, const std::string& text, const InputFiles* inputs) {
     return atFileBorder([&]() -> Result<Done> {
-        AtomicOutput output({.makes_folders = false, .inputs = inputs});
+        AtomicOutput output({.inputs = inputs});
         output.add(path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
         output.commit();
         return Done{};

@@ -49,10 +49,8 @@ ExitCode runRender(const RenderArguments& arguments) {
         return printUsageError("a picture is no text for a terminal; send stdout to a file or a pipe");
     if (!to_stdout && lowerExtension(arguments.output) != ".png")
         return printUsageError("the picture " + arguments.output + " must end in .png");
-    if (!arguments.options.dry_run) {
-        if (const Result<Done> fit = prepareOutputs({arguments.output}, {arguments.input}); !fit)
-            return printUsageError(fit.error().message);
-    }
+    const Result<Done> fit = prepareOutputs({arguments.output}, {arguments.input}, arguments.options.dry_run);
+    if (!fit) return printUsageError(fit.error().message);
     const Result<RenderReport> result = render(arguments);
     return printOutcome(arguments, result, report::renderJson, textOf);
 }

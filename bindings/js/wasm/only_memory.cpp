@@ -29,6 +29,7 @@ bool isGlbOutput(const Path& path) { return isGlbName(path); }
 std::uint64_t fileSize(const Path&) { return 0; }
 std::string pathBelow(const Path&, const Path&) { return {}; }
 
+InputFiles::InputFiles() : call_(0) {}
 void InputFiles::add(const Path&) {}
 void InputFiles::watch(FileOptions&) {}
 bool InputFiles::has(const Path&) const { return false; }
@@ -37,6 +38,7 @@ void AtomicOutput::addFile(File planned, const std::function<int(const Sink&)>&)
     failToWrite(planned.target, "there is no disk");
 }
 void AtomicOutput::renameFiles() {}
+bool AtomicOutput::leave(const Path&, std::span<const std::uint8_t>) { return false; }
 void AtomicOutput::removeTemporaryFiles() noexcept {}
 
 bool isImportedFormat(const Path&) { return false; }

@@ -67,8 +67,12 @@ class Names(unittest.TestCase):
             names.update(name.replace("-", "_") for name in re.findall(r'"--([a-z-]+)"', path.read_text()))
         self.assertGreater(len(names), 40)
         for verb, known in _files._OPTIONS.items():
-            call = {"generate": tspace.generate_bytes, "flipGreen": tspace.flip_green_bytes}.get(verb)
-            models = (b"", b"") if verb == "diff" else (b"",)
+            call = {
+                "generate": tspace.generate_bytes,
+                "flipGreen": tspace.flip_green_bytes,
+                "heightToNormal": tspace.height_to_normal_file,
+            }.get(verb)
+            models = {"diff": (b"", b""), "heightToNormal": ("none.png", "none.png")}.get(verb, (b"",))
             has = {name for name in names if self.knows(call or getattr(tspace, verb), models, name)}
             self.assertEqual(has, set(known.split()), verb)
 

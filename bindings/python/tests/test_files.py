@@ -102,6 +102,17 @@ class Generate(Files):
         self.assertEqual(tspace.flip_green_bytes(twice), once)
 
 
+    def test_heights_become_normals(self):
+        image = next(path for path in sorted(needs_shared("models").rglob("*.png")) if path.stat().st_size < 300000)
+        report = tspace.height_to_normal_file(image, self.folder / "normal.png", strength=2, bits=8, threads=2)
+        self.assertEqual((report.bits, report.dry_run), (8, False))
+        self.assertEqual((self.folder / "normal.png").read_bytes()[1:4], b"PNG")
+        with self.assertRaisesRegex(tspace.UnknownOptionError, "strength"):
+            tspace.height_to_normal_file(image, self.folder / "normal.png", strong=2)
+        with self.assertRaises(tspace.ReadWriteError):
+            tspace.height_to_normal_file(self.folder / "none.png", self.folder / "normal.png")
+
+
 class Look(Files):
     def test_check_finds_nothing_in_what_generate_made(self):
         report = tspace.check(self.framed)

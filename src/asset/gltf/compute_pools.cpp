@@ -13,6 +13,7 @@
 #include "asset/file_error.h"
 #include "asset/gltf/weld_vertices.h"
 #include "core/parallel.h"
+#include "core/sort.h"
 #include "core/unit.h"
 #include "generate/local_mesh.h"
 #include "generate/morph_split.h"
@@ -335,8 +336,8 @@ std::vector<PoolElements> PoolComputer::compute(std::span<const Pool> pools, std
         }
     }
     // The largest first, so that no thread is left alone with one at the end.
-    std::stable_sort(others.begin(), others.end(),
-                     [&](std::size_t a, std::size_t b) { return pools[a].corner_count > pools[b].corner_count; });
+    sortStably(others.begin(), others.end(),
+               [&](std::size_t a, std::size_t b) { return pools[a].corner_count > pools[b].corner_count; });
     parallel.forTasks(others.size(), [&](std::size_t task) { compute(others[task], Execution{.thread_count = 1}); });
     for (const std::exception_ptr& failure : failures) {
         if (failure) std::rethrow_exception(failure);

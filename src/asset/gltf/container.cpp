@@ -182,7 +182,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
     if (std::find(planned.begin(), planned.end(), to.string()) != planned.end()) return;
     if (isThere(to)) {
         if (!document.files.areInMemory() && isSameFile(from, to)) return;
-        if (document.files.read(from, place) == readFile(to, place)) return;
+        if (output.leave(to, document.files.read(from, place))) return;
         failFile(ErrorCode::cannotWrite,
                  "the model needs the file " + inQuotes(uri) + " beside it, but " + pathInQuotes(to) +
                      " exists already and is another one",

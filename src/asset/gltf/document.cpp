@@ -148,7 +148,8 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
     return buffer;
 }
 
-/// Images are not read here, but a URI that leads out is refused for every file that a model names.
+/// Images are not read here, but a URI that leads out is refused for every file that a model names, and each of them is part
+/// of the input.
 void checkImageUris(const Document& document) {
     if (document.files.areNone()) return;  // no URI is followed
     const Json& images = rootArray(document, "images");
@@ -158,7 +159,7 @@ void checkImageUris(const Document& document) {
         if (uri.empty() || uriKind(uri) == UriKind::data) continue;
         // With allow_external a web address is nobody's file: it stays as it is.
         if (uriKind(uri) == UriKind::otherScheme && document.options.allow_external) continue;
-        static_cast<void>(document.files.resolve(uri, join(place, "uri")));
+        document.files.note(document.files.resolve(uri, join(place, "uri")));
     }
 }
 

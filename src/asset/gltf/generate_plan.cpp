@@ -12,6 +12,7 @@
 #include "asset/gltf/primitive_notes.h"
 #include "asset/gltf/read_packed.h"
 #include "asset/gltf/strip_tangents.h"
+#include "core/sort.h"
 #include "core/unit.h"
 
 namespace tspace::gltf {
@@ -165,7 +166,7 @@ std::string noteOnDrawn(const Document& document, const Primitive& primitive, co
 std::string poolKey(const Primitive& primitive, std::int32_t uv_set, const UvMatrix& matrix, bool makes_tangents,
                     bool overwrites_normals) {
     const auto append = [](std::string& key, AttributeList list) {
-        std::sort(list.begin(), list.end());
+        sortList(list.begin(), list.end());
         for (const auto& [name, accessor] : list)
             key += std::to_string(name.size()) + name + ' ' + std::to_string(accessor) + ' ';
         key += '|';

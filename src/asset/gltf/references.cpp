@@ -6,6 +6,7 @@
 
 #include "asset/file_error.h"
 #include "asset/gltf/meshopt_views.h"
+#include "core/sort.h"
 
 namespace tspace::gltf {
 
@@ -69,12 +70,12 @@ std::vector<ByteRange> cutsOf(std::size_t buffer, std::span<const ByteRange> vac
     for (const ByteRange& range : vacated) {
         if (range.buffer == buffer) holes.push_back(range);
     }
-    std::sort(holes.begin(), holes.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
+    sortList(holes.begin(), holes.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
     std::vector<ByteRange> blocks;
     for (const Extent& extent : live) {
         if (extent.buffer == buffer && extent.begin < extent.end) blocks.push_back({buffer, extent.begin, extent.end});
     }
-    std::sort(blocks.begin(), blocks.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
+    sortList(blocks.begin(), blocks.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
     std::size_t done = 0, block = 0, reach = 0;
     const auto addCut = [&](std::size_t begin, std::size_t end) {
         begin = (begin + kCutAlignment - 1) / kCutAlignment * kCutAlignment;

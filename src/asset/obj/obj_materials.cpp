@@ -129,15 +129,13 @@ bool readLibrary(const std::string& name, Model& model, std::vector<Material>& m
 }
 
 /// Whether the whole line is the name of a file.
-bool isOneFile(const std::string& line, const NamedFiles& files) try {
+bool isOneFile(const std::string& line, const NamedFiles& files) {
     bool is_there = false;
     tryFile([&] {
         const Path path = files.resolve(percentEncode(plainPath(line)), "mtllib");
         is_there = files.kindOf(path) != NamedFiles::Kind::missing;
     });
     return is_there;
-} catch (const fs::filesystem_error&) {
-    return false;  // too long for a name
 }
 
 }  // namespace

@@ -50,6 +50,7 @@ Model files (glTF, GLB, OBJ), on disk or in memory
     diff            the angles between the frames of two models
     inspect         what is in a file
     flip_green_file, flip_green_bytes   inverts the green channel of a normal map
+    height_to_normal_file               makes a normal map of a height map
 
 Arrays
     Positions and normals have shape (vertices, 3), UVs (vertices, 2), indices (corners,) or (faces, k); units are yours, angles
@@ -77,6 +78,7 @@ from ._files import (
     DiffReport,
     Finding,
     FlipGreenReport,
+    HeightToNormalReport,
     Generated,
     GenerateReport,
     IdentifyReport,
@@ -88,6 +90,7 @@ from ._files import (
     flip_green_file,
     generate_bytes,
     generate_file,
+    height_to_normal_file,
     identify,
     inspect,
 )
@@ -111,6 +114,7 @@ __all__ = [
     "FileError",
     "Finding",
     "FlipGreenReport",
+    "HeightToNormalReport",
     "GenerateReport",
     "Generated",
     "IdentifyReport",
@@ -139,6 +143,7 @@ __all__ = [
     "flip_green_file",
     "generate_bytes",
     "generate_file",
+    "height_to_normal_file",
     "identify",
     "inspect",
     "make_indexed_frames",

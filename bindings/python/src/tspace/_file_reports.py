@@ -667,3 +667,53 @@ class FlipGreenReport(Report):
     warnings: List[str]
     #: That of the tool: 0, or 1 where something was found.
     exit_code: int
+
+
+class HeightToNormalReport(Report):
+    """A height map that became a normal map."""
+
+    schema: str
+    #: Version of the tool.
+    version: str
+    #: The output was written.
+    ok: bool
+    #: Path of the input.
+    input: str
+    #: Path of the output.
+    output: str
+    #: Nothing was written.
+    dry_run: bool
+    #: Null when ok.
+    error: None
+    width: int
+    height: int
+    #: Of a channel of the input.
+    bits_before: int
+    #: Of the output, 8 or 16.
+    bits: int
+    #: What was taken of the model; null without one.
+    mesh: Optional[MapMesh]
+    #: Texels whose size was taken from the triangle that shows them.
+    texels_on_mesh: int
+    #: The mean width of those, in units of the model; 1 without a model.
+    texel_size: float
+    #: Between the normals and the surface's, over all texels.
+    mean_lean_deg: float
+    max_lean_deg: float
+    #: Sentences for a person.
+    warnings: List[str]
+    #: That of the tool: 0, or 1 where something was found.
+    exit_code: int
+
+
+class MapMesh(Report):
+    #: How many primitives show the map.
+    primitives: int
+    #: Their triangles.
+    triangles: int
+    #: Their names, each once.
+    materials: List[str]
+    #: Some had no tangents, which were made.
+    tangents_made: bool
+    #: What its materials multiply x and y of the map by (glTF's "normalTexture.scale").
+    scale: float

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Model files: generate, check, identify, diff, inspect, flip green. Each is one function of the C API."""
+"""Model files: generate, check, identify, diff, inspect, flip green, heights to normals. Each is one function of the C API."""
 
 import ctypes
 import json
@@ -12,7 +12,7 @@ import numpy
 
 from . import _abi, _file_reports, _files_abi
 from ._errors import InputError, UnknownOptionError, raise_error, shown
-from ._file_reports import DiffReport, Finding, FlipGreenReport, GenerateReport, InspectReport
+from ._file_reports import DiffReport, Finding, FlipGreenReport, GenerateReport, HeightToNormalReport, InspectReport
 from ._report import Report
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -33,6 +33,7 @@ _OPTIONS = {
     "identify": f"tolerance threads {_LIMITS}",
     "diff": f"tolerance worst {_LIMITS}",
     "flipGreen": "dry_run memory_limit no_sync",
+    "heightToNormal": f"strength mesh material clamp convention bits method dry_run threads no_sync {_LIMITS}",
 }
 
 
@@ -315,6 +316,19 @@ def flip_green_file(input: PathLike, output: PathLike, **options: Any) -> FlipGr
     call = _Call()
     paths = call.path("input", input), call.path("output", output)
     return FlipGreenReport(call.run("tspace_flipGreenFile", *paths, options=options))
+
+
+def height_to_normal_file(input: PathLike, output: PathLike, **options: Any) -> HeightToNormalReport:
+    """Makes a normal map of a height map.
+
+    input:   path of the height map: PNG, JPEG, WebP or EXR; white is high
+    output:  path of the normal map, .png
+    options: those of `tspace height-to-normal` (docs/height-to-normal.md), with underscores:
+             strength=0.02, mesh="wall.glb", convention="directx"
+    """
+    call = _Call()
+    paths = call.path("input", input), call.path("output", output)
+    return HeightToNormalReport(call.run("tspace_heightToNormalFile", *paths, options=options))
 
 
 def flip_green_bytes(data: BytesLike, **options: Any) -> Generated[FlipGreenReport]:

@@ -12,6 +12,7 @@
 #include "asset/gltf/gather_elements.h"
 #include "asset/gltf/primitive_reader.h"
 #include "asset/gltf/vertex_numbers.h"
+#include "core/sort.h"
 
 namespace tspace::gltf {
 
@@ -98,7 +99,7 @@ class Packer {
     /// and later splits could make so many where some are without a corner.
     static std::vector<std::uint32_t> chooseVertices(std::vector<std::uint32_t>& corners) {
         std::vector<std::uint32_t> chosen = corners;
-        std::sort(chosen.begin(), chosen.end());
+        sortList(chosen.begin(), chosen.end());
         chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
         for (std::uint32_t& corner : corners) {
             corner =
