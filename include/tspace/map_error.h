@@ -43,8 +43,8 @@ struct HighPoly {
 };
 
 struct MapErrorOptions {
-    MapSpace space = MapSpace::tangent;
-    MapReading reading = {};
+    MapSpace space = MapSpace::tangent;  ///< what the map is taken for; the default is glTF's
+    MapReading reading = {};             ///< how it is taken to be read; the default is glTF's
     /// How far rays go from the surface, both ways; with a cage, how far beyond the surface. 0: chosen from the sizes of
     /// both meshes (chosenReach).
     double reach = 0;
